@@ -1,0 +1,17 @@
+#pragma once
+
+namespace eyrie {
+
+/// Turns physical lengths and speeds into pixels, once, where a stage is built.
+struct SceneScale {
+    double gsd_m_per_px = 0.25;  ///< ground sampling distance, metres per pixel, > 0
+    double frame_rate_hz = 25;   ///< frames per second, > 0
+    bool gsd_known = false;      ///< false: `gsd_m_per_px` is an assumption; do not show metres or km/h
+
+    double px(double metres) const { return metres / gsd_m_per_px; }
+    double metres(double px) const { return px * gsd_m_per_px; }
+    double pxPerFrame(double metres_per_second) const { return metres_per_second / gsd_m_per_px / frame_rate_hz; }
+    double metresPerSecond(double px_per_frame) const { return px_per_frame * gsd_m_per_px * frame_rate_hz; }
+};
+
+}  // namespace eyrie

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+
+#include "core/ids.h"
+#include "core/oriented_box.h"
+
+namespace eyrie {
+
+/// How sure the track management is of a track (Teutsch §6.4).
+enum class TrackStatus {
+    tentative,  ///< too new to be reliable; not part of the result
+    confirmed,  ///< reliable
+    coasting    ///< confirmed earlier, without a detection now
+};
+
+/// Where the box of a track state came from (Teutsch §6.3).
+enum class StateOrigin {
+    detected,       ///< updated by a detection
+    reconstructed,  ///< updated by a box rebuilt from associated motion vectors
+    predicted       ///< the Kalman prediction alone
+};
+
+/// One object in one frame. A track is the sequence of its states with one id.
+struct TrackState {
+    TrackId id = 0;
+    OrientedBox box;
+    cv::Point2d velocity{0, 0};  ///< px/frame relative to the ground, in current image axes
+    TrackStatus status = TrackStatus::tentative;
+    StateOrigin origin = StateOrigin::detected;
+    int age = 0;       ///< frames since the first detection
+    int hits = 0;      ///< frames with a real detection
+    double score = 0;  ///< share of its last frames that were detected, 0 … 1
+};
+
+/// The word used in files and on screen.
+const char* nameOf(StateOrigin origin);
+const char* nameOf(TrackStatus status);
+
+}  // namespace eyrie

@@ -1,0 +1,65 @@
+#include "core/parameter.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace eyrie {
+namespace {
+
+enum class Method { clusters, gradient };
+
+struct ExampleOptions {
+    double quantile = 0.12;
+    int height = 25;
+    bool enabled = true;
+    Method method = Method::gradient;
+
+    void describe(ParameterVisitor& v) {
+        v.real("example.quantile", quantile, 0, 1, {"", "Share of pixels kept.", ""});
+        v.integer("example.height", height, 1, 500, {"layers", "Stack height.", ""});
+        v.flag("example.enabled", enabled, {"", "On or off.", ""});
+        v.choice("example.method", method, {"clusters", "gradient"}, {"", "Which.", ""});
+    }
+};
+
+std::string messageOf(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+}  // namespace
+
+TEST(Parameter, listsValuesThatReadBackIdentically) {
+    ExampleOptions options;
+    options.quantile = 0.1 + 0.2;
+    ExampleOptions copy;
+    for (const auto& p : listParameters(describeOf(options))) setParameter(describeOf(copy), p.name, p.value);
+    EXPECT_EQ(copy.quantile, options.quantile);
+    EXPECT_EQ(copy.method, Method::gradient);
+}
+
+TEST(Parameter, refusesWithNameValueAndRange) {
+    ExampleOptions options;
+    EXPECT_EQ(messageOf([&] { setParameter(describeOf(options), "example.height", "0"); }),
+              "example.height = 0, expected 1..500 layers");
+    EXPECT_EQ(messageOf([&] { setParameter(describeOf(options), "example.method", "magic"); }),
+              "example.method = magic, expected one of: clusters, gradient");
+    for (const char* bad : {"nan", "inf", "-1", "", "0.5x", "1e999"}) {
+        EXPECT_THROW(setParameter(describeOf(options), "example.quantile", bad), Error) << bad;
+    }
+    EXPECT_DOUBLE_EQ(options.quantile, 0.12);
+}
+
+TEST(Parameter, anUnknownNameSuggestsTheNearest) {
+    ExampleOptions options;
+    EXPECT_THAT(messageOf([&] { setParameter(describeOf(options), "example.hight", "3"); }),
+                testing::HasSubstr("\"example.height\""));
+}
+
+}  // namespace eyrie
