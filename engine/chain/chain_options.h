@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/parameter.h"
+#include "core/scene_scale.h"
+#include "detection/detection_options.h"
+#include "motion/independent_motion.h"
+#include "motion/motion_clustering.h"
+#include "registration/registrar.h"
+#include "removal/duplicate_removal.h"
+#include "removal/outlier_removal.h"
+#include "tracking/tracker.h"
+
+namespace eyrie {
+
+/// Every parameter of the chain, in the order of the chain.
+struct ChainOptions {
+    RegistrationOptions registration;
+    IndependentMotionOptions motion;
+    MotionClusteringOptions clustering;
+    DetectionOptions detection;
+    DuplicateRemovalOptions duplicates;
+    OutlierRemovalOptions outliers;
+    TrackerOptions tracking;
+
+    void describe(ParameterVisitor& visitor);
+};
+
+/// Names of the built-in presets: "default" (the best we know) and "thesis" (the text to the letter, its optima).
+std::vector<std::string> builtInPresets();
+/// Throws Error(parameter) for an unknown name.
+ChainOptions builtInPreset(const std::string& name);
+
+/// All parameters as name and value, for presets, the project file and comparison.
+std::vector<std::pair<std::string, std::string>> parameterValues(const ChainOptions& options);
+
+}  // namespace eyrie

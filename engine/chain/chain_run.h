@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "chain/chain_options.h"
+#include "core/frame.h"
+#include "core/frame_result.h"
+#include "io/frame_source.h"
+
+namespace eyrie {
+
+/// How far a run has come.
+struct RunProgress {
+    int frames_done = 0;
+    int frames_total = 0;
+    double frames_per_second = 0;   ///< over the last seconds
+    double seconds_left = 0;
+};
+
+/// Receives the results of a run, frame after frame, on the run's own thread. Must not throw anything but Error; an
+/// Error ends the run as failed.
+class ChainObserver {
+   public:
+    virtual ~ChainObserver() = default;
+    virtual void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) = 0;
+    virtual void onProgress(const RunProgress&) {}
+};
+
+enum class RunOutcome { finished, stopped, failed };
+
+/// How a run ended.
+struct RunSummary {
+    RunOutcome outcome = RunOutcome::failed;
+    std::string message = "the run was never started";   ///< why it failed; empty when finished
+    int frames_done = 0;
+    int frames_total = 0;
+    int unregistered_frames = 0;
+    double seconds = 0;                 ///< wall clock
+    StageTimes median_ms{};             ///< median over the frames
+};
+
+/// Frames to process, inclusive; last < 0: to the end.
+struct FrameRange {
+    FrameIndex first = 0;
+    FrameIndex last = -1;
+};
+
+/// The loop over a video: reads, runs the chain, reports; catches every error. Frame t+1 is registered while frame t is
+/// segmented and tracked; results do not depend on that.
+class ChainRun {
+   public:
+    /// The effective scale: `gsd_m_per_px` ≤ 0 means unknown.
+    ChainRun(const ChainOptions& options, const SceneScale& scale) : options_(options), scale_(scale) {}
+
+    /// Never throws. `with_colour`: frames handed to the observer carry colour.
+    RunSummary run(FrameSource& source, FrameRange range, ChainObserver& observer, std::stop_token stop,
+                   bool with_colour = false) const;
+
+   private:
+    ChainOptions options_;
+    SceneScale scale_;
+};
+
+}  // namespace eyrie

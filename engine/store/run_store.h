@@ -1,0 +1,103 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/box_record.h"
+#include "core/frame_result.h"
+#include "core/scene_scale.h"
+#include "store/project_file.h"
+
+namespace eyrie {
+
+enum class RunState { running, finished, stopped, failed };
+const char* nameOf(RunState state);
+
+/// The video a run worked on.
+struct SequenceRecord {
+    int id = 0;
+    std::string path;        ///< absolute path of the video file or image folder
+    cv::Size size;           ///< px
+    int frame_count = 0;
+    double frame_rate_hz = 25;
+};
+
+/// One run of the chain over a sequence.
+struct RunRecord {
+    int id = 0;
+    SequenceRecord sequence;
+    std::string name;            ///< given by the user; may be empty
+    std::string started_utc;     ///< ISO 8601, e.g. 2026-11-21T08:00:00Z
+    std::string engine_version;
+    std::string preset;          ///< name of the preset it started from
+    SceneScale scale;
+    FrameIndex first_frame = 0;  ///< planned range, inclusive
+    FrameIndex last_frame = 0;
+    int frames_done = 0;         ///< whole frames in the file
+    RunState state = RunState::running;  ///< a killed run is found as `running` and shown as stopped
+    std::string message;         ///< why it failed
+};
+
+/// One frame of a run, for the timeline.
+struct FrameSummary {
+    FrameIndex frame = 0;
+    std::int64_t time_us = 0;
+    RegistrationState state = RegistrationState::first;
+    int inliers = 0;
+    double rms_px = 0;
+    int corners = 0;
+    int motion_vectors = 0;
+    int detections = 0;   ///< kept ones
+    int tracks = 0;       ///< confirmed or coasting ones
+    StageTimes stage_ms{};
+};
+
+/// One track of a run, for lists.
+struct TrackSummary {
+    TrackId id = 0;
+    FrameIndex first_frame = 0;
+    FrameIndex last_frame = 0;
+    int frames = 0;               ///< states
+    bool confirmed = false;       ///< was confirmed at least once; others are not part of the result
+    double mean_speed_px = 0;     ///< px/frame relative to the ground
+    double mean_length_px = 0;
+    double mean_width_px = 0;
+};
+
+/// One state of a track in a frame.
+struct TrackFrame {
+    FrameIndex frame = 0;
+    TrackState state;
+};
+
+/// Reads, and where said changes, the runs of a project.
+class RunStore {
+   public:
+    /// `project` must outlive the store.
+    explicit RunStore(ProjectFile& project) : project_(project) {}
+
+    std::vector<RunRecord> runs() const;                        ///< oldest first
+    std::optional<RunRecord> run(int run_id) const;
+    std::vector<std::pair<std::string, std::string>> parameters(int run_id) const;
+    std::vector<FrameSummary> frameSummaries(int run_id) const; ///< ascending frames
+    /// All a finished run knows of a frame; nothing when the run has no such frame.
+    std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
+    std::vector<TrackSummary> tracks(int run_id) const;         ///< ascending id
+    std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;       ///< ascending frames
+    std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame, int trail) const;  ///< states of frames (frame − trail, frame], for trails
+    /// The run's result as boxes: every state of the confirmed tracks, or the kept detections (id empty).
+    BoxesByFrame trackBoxes(int run_id) const;
+    BoxesByFrame detectionBoxes(int run_id) const;
+
+    /// Replaces all track states of a run in one transaction (used once, when the tracks of a run are finished).
+    void replaceTrackStates(int run_id, const std::vector<TrackFrame>& states);
+    void rename(int run_id, const std::string& name);
+    void remove(int run_id);
+
+   private:
+    ProjectFile& project_;
+};
+
+}  // namespace eyrie
