@@ -12,6 +12,7 @@
 #include "registration/registrar.h"
 #include "removal/duplicate_removal.h"
 #include "removal/outlier_removal.h"
+#include "tracking/track_finishing.h"
 #include "tracking/tracker.h"
 
 namespace eyrie {
@@ -25,6 +26,7 @@ struct ChainOptions {
     DuplicateRemovalOptions duplicates;
     OutlierRemovalOptions outliers;
     TrackerOptions tracking;
+    FinishingOptions finishing;
 
     void describe(ParameterVisitor& visitor);
 };

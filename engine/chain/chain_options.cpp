@@ -1,0 +1,44 @@
+#include "chain/chain_options.h"
+
+#include "core/error.h"
+
+namespace eyrie {
+
+void ChainOptions::describe(ParameterVisitor& visitor) {
+    registration.describe(visitor);
+    motion.describe(visitor);
+    clustering.describe(visitor);
+    detection.describe(visitor);
+    duplicates.describe(visitor);
+    outliers.describe(visitor);
+    tracking.describe(visitor);
+    finishing.describe(visitor);
+}
+
+std::vector<std::string> builtInPresets() { return {"default", "thesis"}; }
+
+ChainOptions builtInPreset(const std::string& name) {
+    ChainOptions options;
+    if (name == "default") return options;
+    if (name == "thesis") {
+        options.registration = RegistrationOptions::thesis();
+        options.motion = IndependentMotionOptions::thesis();
+        options.clustering = MotionClusteringOptions::thesis();
+        options.detection = DetectionOptions::thesis();
+        options.duplicates = DuplicateRemovalOptions::thesis();
+        options.outliers = OutlierRemovalOptions::thesis();
+        options.tracking = TrackerOptions::thesis();
+        options.finishing = FinishingOptions::thesis();
+        return options;
+    }
+    throw Error(ErrorKind::parameter, "there is no preset \"" + name + "\"; built in are: default, thesis");
+}
+
+std::vector<std::pair<std::string, std::string>> parameterValues(const ChainOptions& options) {
+    ChainOptions copy = options;
+    std::vector<std::pair<std::string, std::string>> values;
+    for (const auto& parameter : listParameters(describeOf(copy))) values.emplace_back(parameter.name, parameter.value);
+    return values;
+}
+
+}  // namespace eyrie

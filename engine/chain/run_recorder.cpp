@@ -1,0 +1,67 @@
+#include "chain/run_recorder.h"
+
+#include <utility>
+
+#include "store/project_file.h"
+
+namespace eyrie {
+
+RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
+                         ChainObserver* also)
+    : project_(project),
+      finishing_(options.finishing),
+      scale_(run.scale),
+      writer_(project, std::move(run), parameterValues(options)),
+      also_(also) {}
+
+void RunRecorder::onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
+    writer_.write(*result);
+    for (const auto& state : result->tracks) states_.emplace_back(result->motion.frame, state);
+    motions_.push_back({result->motion.frame, result->motion.registration, result->motion.image_size});
+    if (also_) also_->onFrame(result, frame);
+}
+
+void RunRecorder::onProgress(const RunProgress& progress) {
+    if (also_) also_->onProgress(progress);
+}
+
+RunRecord RunRecorder::finish(const RunSummary& summary) {
+    const RunState state = summary.outcome == RunOutcome::finished  ? RunState::finished
+                           : summary.outcome == RunOutcome::stopped ? RunState::stopped
+                                                                    : RunState::failed;
+    writer_.finish(state, summary.message);
+    ProjectFile project = ProjectFile::open(project_);
+    RunStore store(project);
+    std::vector<TrackFrame> finished;
+    for (auto& [frame, track_state] : finishTracks(std::move(states_), motions_, finishing_, scale_)) {
+        finished.push_back({frame, track_state});
+    }
+    store.replaceTrackStates(writer_.runId(), finished);
+    return store.run(writer_.runId()).value();
+}
+
+std::string engineVersion() { return EYRIE_VERSION; }
+
+RunRecord plannedRun(const VideoInfo& video, const SceneScale& scale, FrameRange range, const std::string& preset) {
+    RunRecord run;
+    run.sequence.path = video.path.string();
+    run.sequence.size = video.size;
+    run.sequence.frame_count = video.frame_count;
+    run.sequence.frame_rate_hz = video.frame_rate_hz;
+    run.engine_version = engineVersion();
+    run.preset = preset;
+    run.scale = scale;
+    run.first_frame = range.first;
+    run.last_frame = range.last < 0 ? video.frame_count - 1 : range.last;
+    return run;
+}
+
+SceneScale sceneScale(const VideoInfo& video, double gsd_m_per_px) {
+    SceneScale scale;
+    scale.frame_rate_hz = video.frame_rate_hz;
+    scale.gsd_known = gsd_m_per_px > 0;
+    if (scale.gsd_known) scale.gsd_m_per_px = gsd_m_per_px;
+    return scale;
+}
+
+}  // namespace eyrie
