@@ -4,12 +4,20 @@ namespace CLI {
 class App;
 }
 
-/// The commands of eyrie-cli, one file each. A command adds its subcommand to `app`; its callback throws eyrie::Error for
-/// everything that goes wrong, which main() turns into a message and an exit code.
+/// The commands of eyrie-cli, one file each. A command adds its subcommand to `app`; its callback throws eyrie::Error
+/// for everything that goes wrong, which main() turns into a message and an exit code.
 namespace eyrie::cli {
 
 /// Exit codes, documented in `eyrie-cli --help` and the README.
-enum ExitCode { exit_ok = 0, exit_internal = 1, exit_usage = 2, exit_input = 3, exit_output = 4, exit_project = 5, exit_stopped = 130 };
+enum ExitCode {
+    exit_ok = 0,
+    exit_internal = 1,
+    exit_usage = 2,
+    exit_input = 3,
+    exit_output = 4,
+    exit_project = 5,
+    exit_stopped = 130
+};
 
 void addRunCommand(CLI::App& app, int& exit_code);
 void addEvaluateCommand(CLI::App& app, int& exit_code);

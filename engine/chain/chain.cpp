@@ -59,8 +59,7 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
     }
     {
         const Stopwatch watch(times, Stage::removal);
-        result.detections =
-            removeDuplicates(std::move(result.detections), result.motion, options_.duplicates, scale_);
+        result.detections = removeDuplicates(std::move(result.detections), result.motion, options_.duplicates, scale_);
         result.detections = removeOutliers(std::move(result.detections), result.motion, options_.outliers, scale_);
     }
     {

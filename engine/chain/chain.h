@@ -13,23 +13,23 @@ namespace eyrie {
 
 /// First half of the chain, pixels → motion vectors (Teutsch chapter 4). Frames must come in ascending order.
 class MotionHalf {
-   public:
+ public:
     MotionHalf(const ChainOptions& options, const SceneScale& scale);
     FrameMotion next(const Frame& frame, StageTimes& times);
 
-   private:
+ private:
     Registrar registrar_;
     IndependentMotion independent_motion_;
 };
 
 /// Second half of the chain, motion vectors → tracks (Teutsch chapters 5 and 6). Frames must come in ascending order.
 class TrackHalf {
-   public:
+ public:
     TrackHalf(const ChainOptions& options, const SceneScale& scale);
     /// `frame` gives the pixels that belong to `motion`.
     FrameResult next(const Frame& frame, FrameMotion motion, StageTimes times);
 
-   private:
+ private:
     std::vector<Detection> detect(const Frame& frame, const FrameMotion& motion,
                                   const std::vector<MotionCluster>& clusters, std::vector<OrientedBox>& rois) const;
 
@@ -42,11 +42,12 @@ class TrackHalf {
 
 /// The whole chain, one frame after the other, in the thesis' order.
 class Chain {
-   public:
-    Chain(const ChainOptions& options, const SceneScale& scale) : motion_half_(options, scale), track_half_(options, scale) {}
+ public:
+    Chain(const ChainOptions& options, const SceneScale& scale)
+        : motion_half_(options, scale), track_half_(options, scale) {}
     FrameResult next(const Frame& frame);
 
-   private:
+ private:
     MotionHalf motion_half_;
     TrackHalf track_half_;
 };

@@ -15,7 +15,9 @@ void ChainOptions::describe(ParameterVisitor& visitor) {
     finishing.describe(visitor);
 }
 
-std::vector<std::string> builtInPresets() { return {"default", "thesis"}; }
+std::vector<std::string> builtInPresets() {
+    return {"default", "thesis"};
+}
 
 ChainOptions builtInPreset(const std::string& name) {
     ChainOptions options;

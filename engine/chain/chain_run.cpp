@@ -19,7 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// What the first half hands to the second.
 struct RegisteredItem {
@@ -30,7 +32,7 @@ struct RegisteredItem {
 
 /// A short queue between the two halves. Either side can close it; the error of the first half travels with it.
 class ItemQueue {
-   public:
+ public:
     /// False when the other side has closed the queue.
     bool push(RegisteredItem item) {
         std::unique_lock lock(mutex_);
@@ -67,7 +69,7 @@ class ItemQueue {
         changed_.notify_all();
     }
 
-   private:
+ private:
     static constexpr std::size_t capacity = 3;
     std::mutex mutex_;
     std::condition_variable changed_;
@@ -76,8 +78,8 @@ class ItemQueue {
     std::exception_ptr error_;
 };
 
-void produce(FrameSource& source, FrameIndex first, FrameIndex last, bool with_colour, MotionHalf& half, ItemQueue& queue,
-             const std::stop_token& stop) {
+void produce(FrameSource& source, FrameIndex first, FrameIndex last, bool with_colour, MotionHalf& half,
+             ItemQueue& queue, const std::stop_token& stop) {
     try {
         for (FrameIndex index = first; index <= last && !stop.stop_requested(); ++index) {
             RegisteredItem item;
@@ -96,7 +98,7 @@ void produce(FrameSource& source, FrameIndex first, FrameIndex last, bool with_c
 
 /// Frames per second over the last seconds, and what is left.
 class ProgressMeter {
-   public:
+ public:
     explicit ProgressMeter(int total) : total_(total) {}
     RunProgress frameDone() {
         const auto now = Clock::now();
@@ -113,7 +115,7 @@ class ProgressMeter {
         return progress;
     }
 
-   private:
+ private:
     int total_;
     int done_ = 0;
     std::deque<Clock::time_point> recent_;
@@ -144,8 +146,8 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
         const FrameIndex last = range.last < 0 ? count - 1 : range.last;
         if (range.first < 0 || last >= count || range.first > last) {
             throw Error(ErrorKind::parameter, "frames " + std::to_string(range.first) + " to " + std::to_string(last) +
-                                                  " are not in " + source.info().path.string() + ", which has frames 0 to " +
-                                                  std::to_string(count - 1));
+                                                  " are not in " + source.info().path.string() +
+                                                  ", which has frames 0 to " + std::to_string(count - 1));
         }
         summary.frames_total = last - range.first + 1;
         MotionHalf motion_half(options_, scale_);
@@ -161,9 +163,10 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
         while (!stop.stop_requested()) {
             std::optional<RegisteredItem> item = queue.pop();
             if (!item) break;
-            const auto result = std::make_shared<const FrameResult>(
-                track_half.next(item->frame, std::move(item->motion), item->times));
-            if (!result->motion.registration.reliable() && result->motion.registration.state != RegistrationState::first) {
+            const auto result =
+                std::make_shared<const FrameResult>(track_half.next(item->frame, std::move(item->motion), item->times));
+            if (!result->motion.registration.reliable() &&
+                result->motion.registration.state != RegistrationState::first) {
                 ++summary.unregistered_frames;
             }
             observer.onFrame(result, item->frame);

@@ -15,14 +15,14 @@ namespace eyrie {
 struct RunProgress {
     int frames_done = 0;
     int frames_total = 0;
-    double frames_per_second = 0;   ///< over the last seconds
+    double frames_per_second = 0;  ///< over the last seconds
     double seconds_left = 0;
 };
 
 /// Receives the results of a run, frame after frame, on the run's own thread. Must not throw anything but Error; an
 /// Error ends the run as failed.
 class ChainObserver {
-   public:
+ public:
     virtual ~ChainObserver() = default;
     virtual void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) = 0;
     virtual void onProgress(const RunProgress&) {}
@@ -33,12 +33,12 @@ enum class RunOutcome { finished, stopped, failed };
 /// How a run ended.
 struct RunSummary {
     RunOutcome outcome = RunOutcome::failed;
-    std::string message = "the run was never started";   ///< why it failed; empty when finished
+    std::string message = "the run was never started";  ///< why it failed; empty when finished
     int frames_done = 0;
     int frames_total = 0;
     int unregistered_frames = 0;
-    double seconds = 0;                 ///< wall clock
-    StageTimes median_ms{};             ///< median over the frames
+    double seconds = 0;      ///< wall clock
+    StageTimes median_ms{};  ///< median over the frames
 };
 
 /// Frames to process, inclusive; last < 0: to the end.
@@ -50,7 +50,7 @@ struct FrameRange {
 /// The loop over a video: reads, runs the chain, reports; catches every error. Frame t+1 is registered while frame t is
 /// segmented and tracked; results do not depend on that.
 class ChainRun {
-   public:
+ public:
     /// The effective scale: `gsd_m_per_px` ≤ 0 means unknown.
     ChainRun(const ChainOptions& options, const SceneScale& scale) : options_(options), scale_(scale) {}
 
@@ -58,7 +58,7 @@ class ChainRun {
     RunSummary run(FrameSource& source, FrameRange range, ChainObserver& observer, std::stop_token stop,
                    bool with_colour = false) const;
 
-   private:
+ private:
     ChainOptions options_;
     SceneScale scale_;
 };

@@ -40,7 +40,9 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     return store.run(writer_.runId()).value();
 }
 
-std::string engineVersion() { return EYRIE_VERSION; }
+std::string engineVersion() {
+    return EYRIE_VERSION;
+}
 
 RunRecord plannedRun(const VideoInfo& video, const SceneScale& scale, FrameRange range, const std::string& preset) {
     RunRecord run;

@@ -13,9 +13,9 @@ namespace eyrie {
 /// Stores a run while it goes on: every frame as it comes, and at the end the finished tracks. Command line and window
 /// record through it, so that a run means the same in both. Used on the run's thread.
 class RunRecorder : public ChainObserver {
-   public:
-    /// Creates the project when it does not exist, and a run in it. `run` needs sequence, scale, preset, name and planned
-    /// frames. `also`, if given, sees every frame after it was stored; it must outlive the recorder.
+ public:
+    /// Creates the project when it does not exist, and a run in it. `run` needs sequence, scale, preset, name and
+    /// planned frames. `also`, if given, sees every frame after it was stored; it must outlive the recorder.
     RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
                 ChainObserver* also = nullptr);
 
@@ -26,7 +26,7 @@ class RunRecorder : public ChainObserver {
     /// Finishes the tracks (see finishTracks), closes the run with the summary's outcome and returns its record.
     RunRecord finish(const RunSummary& summary);
 
-   private:
+ private:
     std::filesystem::path project_;
     FinishingOptions finishing_;
     SceneScale scale_;

@@ -8,8 +8,9 @@ namespace eyrie {
 
 /// Adds the wall-clock time of a scope to one stage.
 class Stopwatch {
-   public:
-    Stopwatch(StageTimes& times, Stage stage) : times_(times), stage_(stage), start_(std::chrono::steady_clock::now()) {}
+ public:
+    Stopwatch(StageTimes& times, Stage stage)
+        : times_(times), stage_(stage), start_(std::chrono::steady_clock::now()) {}
     ~Stopwatch() {
         const std::chrono::duration<float, std::milli> passed = std::chrono::steady_clock::now() - start_;
         times_[static_cast<std::size_t>(stage_)] += passed.count();
@@ -17,7 +18,7 @@ class Stopwatch {
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
-   private:
+ private:
     StageTimes& times_;
     Stage stage_;
     std::chrono::steady_clock::time_point start_;

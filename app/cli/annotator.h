@@ -1,0 +1,29 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <opencv2/core/mat.hpp>
+
+#include "core/frame.h"
+#include "core/frame_result.h"
+
+namespace eyrie::cli {
+
+/// Draws what the chain found into pictures for the annotated video: motion vectors yellow, clusters cyan, detections
+/// red, tracks green with id and trail (the thesis' colours). Small videos are enlarged so that labels can be read.
+class Annotator {
+ public:
+    /// Picture of one frame, CV_8UC3; frames must come in ascending order for the trails.
+    cv::Mat draw(const Frame& frame, const FrameResult& result);
+
+ private:
+    void drawTracks(cv::Mat& picture, const FrameResult& result, double zoom);
+
+    static constexpr std::size_t trail_frames_ = 50;
+    std::map<TrackId, std::deque<cv::Point2d>> trails_;
+};
+
+/// Factor by which frames of this size are enlarged.
+int annotationZoom(cv::Size size);
+
+}  // namespace eyrie::cli

@@ -1,0 +1,78 @@
+#include "cli/input.h"
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "cli/console_progress.h"
+#include "core/error.h"
+#include "scene/scene_source.h"
+
+namespace eyrie::cli {
+namespace {
+
+std::string numberText(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+bool readFrameNumber(const std::string& text, FrameIndex& value) {
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && stop == end && value >= 0;
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop) {
+    const std::string prefix = "scene:";
+    if (input.rfind(prefix, 0) == 0) return openScene(input.substr(prefix.size()));
+    SourceOptions options;
+    options.frame_rate_hz = frame_rate_hz;
+    ConsoleProgress progress("% indexed");
+    const auto start = std::chrono::steady_clock::now();
+    return openSource(
+        input, options,
+        [&](double share) {
+            const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            if (seconds > 1 && share > 0) {
+                progress.show(static_cast<int>(share * 100), 100, share * 100 / seconds, seconds * (1 - share) / share);
+            }
+        },
+        std::move(stop));
+}
+
+void checkGsd(double gsd) {
+    if (!(std::isfinite(gsd) && gsd > 0 && gsd <= 100)) {
+        throw Error(ErrorKind::parameter,
+                    "--gsd " + numberText(gsd) +
+                        ": expected metres per pixel above 0 and up to 100, e.g. 0.3; leave it out when unknown");
+    }
+}
+
+void checkFrameRate(double rate) {
+    if (!(std::isfinite(rate) && rate > 0 && rate <= 10000)) {
+        throw Error(ErrorKind::parameter,
+                    "--fps " + numberText(rate) + ": expected frames per second above 0, e.g. 25");
+    }
+}
+
+ParsedRange parseFrames(const std::string& text) {
+    ParsedRange range;
+    const auto colon = text.find(':');
+    const std::string first = text.substr(0, colon);
+    const std::string last = colon == std::string::npos ? first : text.substr(colon + 1);
+    const bool good = (first.empty() || readFrameNumber(first, range.first)) &&
+                      (last.empty() || readFrameNumber(last, range.last)) && !text.empty() &&
+                      (range.last < 0 || range.first <= range.last);
+    if (!good) {
+        throw Error(ErrorKind::parameter,
+                    "--frames " + text + ": expected FIRST:LAST, both included and from 0, e.g. 100:249, 100: or :249");
+    }
+    return range;
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,58 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "chain/run_recorder.h"
+#include "cli/command.h"
+#include "core/error.h"
+
+namespace {
+
+int exitCodeOf(eyrie::ErrorKind kind) {
+    switch (kind) {
+        case eyrie::ErrorKind::parameter:
+            return eyrie::cli::exit_usage;
+        case eyrie::ErrorKind::input:
+            return eyrie::cli::exit_input;
+        case eyrie::ErrorKind::output:
+            return eyrie::cli::exit_output;
+        case eyrie::ErrorKind::project:
+            return eyrie::cli::exit_project;
+        case eyrie::ErrorKind::internal:
+            break;
+    }
+    return eyrie::cli::exit_internal;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Eyrie finds, outlines and follows every small moving vehicle in video from a moving aircraft.",
+                 "eyrie-cli");
+    app.set_version_flag("--version", eyrie::engineVersion());
+    app.require_subcommand(1);
+    app.footer(
+        "Exit codes: 0 done, 1 a defect of Eyrie, 2 wrong usage or parameter, 3 an input cannot be read,\n"
+        "4 an output cannot be written, 5 the project file cannot be used, 130 stopped by Ctrl-C (results so far are "
+        "kept).");
+    int exit_code = eyrie::cli::exit_ok;
+    eyrie::cli::addRunCommand(app, exit_code);
+    eyrie::cli::addEvaluateCommand(app, exit_code);
+    eyrie::cli::addRenderCommand(app, exit_code);
+    eyrie::cli::addParamsCommand(app, exit_code);
+    eyrie::cli::addBenchCommand(app, exit_code);
+    eyrie::cli::addInfoCommand(app, exit_code);
+    try {
+        app.parse(argc, argv);
+        return exit_code;
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? eyrie::cli::exit_ok : eyrie::cli::exit_usage;
+    } catch (const eyrie::Error& error) {
+        std::fprintf(stderr, "eyrie-cli: %s\n", error.what());
+        return exitCodeOf(error.kind());
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "eyrie-cli: unexpected: %s\n", error.what());
+        return eyrie::cli::exit_internal;
+    }
+}

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "chain/chain_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace eyrie::cli {
+
+/// The arguments --preset and --set, shared by all commands that run the chain.
+struct PresetArguments {
+    std::string preset = "default";     ///< a built-in name or a preset file
+    std::vector<std::string> settings;  ///< "name=value"
+
+    void addTo(CLI::App& command);
+    /// Throws Error(parameter | input).
+    ChainOptions options() const;
+};
+
+}  // namespace eyrie::cli

@@ -1,0 +1,86 @@
+#include "cli/run_report.h"
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/console_progress.h"
+#include "core/error.h"
+
+namespace eyrie::cli {
+namespace {
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+    char text[512];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+const char* nameOf(RunOutcome outcome) {
+    switch (outcome) {
+        case RunOutcome::finished:
+            return "finished";
+        case RunOutcome::stopped:
+            return "stopped";
+        case RunOutcome::failed:
+            return "failed";
+    }
+    return "";
+}
+
+std::string speedText(const SceneScale& scale, double px_per_frame) {
+    return scale.gsd_known ? formatted("%.0f km/h", scale.metresPerSecond(px_per_frame) * 3.6)
+                           : formatted("%.2f px/frame", px_per_frame);
+}
+
+}  // namespace
+
+std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary,
+                        const std::vector<TrackSummary>& tracks, const std::filesystem::path& project) {
+    std::string text = formatted("%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(),
+                                 video.size.width, video.size.height, video.frame_count, video.frame_rate_hz,
+                                 run.scale.gsd_known ? formatted("%.3g m/px", run.scale.gsd_m_per_px).c_str()
+                                                     : "GSD unknown (give --gsd for metres and km/h)");
+    text += formatted("Run %d %s: %d of %d frames in %s (%.1f frames/s)", run.id, nameOf(summary.outcome),
+                      summary.frames_done, summary.frames_total, clockText(summary.seconds).c_str(),
+                      summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0);
+    if (summary.unregistered_frames > 0) text += formatted(", %d not registered", summary.unregistered_frames);
+    text += "\n";
+    int confirmed = 0;
+    double speed = 0;
+    for (const auto& track : tracks) {
+        if (!track.confirmed) continue;
+        ++confirmed;
+        speed += track.mean_speed_px;
+    }
+    text += formatted("Vehicles followed: %d", confirmed);
+    if (confirmed > 0) text += formatted(", mean speed %s", speedText(run.scale, speed / confirmed).c_str());
+    text += "\nMedian per frame:";
+    for (int i = 0; i < kStageCount; ++i) {
+        const float ms = summary.median_ms[static_cast<std::size_t>(i)];
+        if (ms > 0.005F)
+            text += formatted(" %s %.2f ms;", eyrie::nameOf(static_cast<Stage>(i)), static_cast<double>(ms));
+    }
+    if (text.back() == ';') text.pop_back();
+    text += "\nProject: " + project.string() + "\n";
+    return text;
+}
+
+void writeTiming(const std::filesystem::path& path, const RunSummary& summary) {
+    nlohmann::ordered_json json;
+    json["frames"] = summary.frames_done;
+    json["seconds"] = summary.seconds;
+    json["frames_per_second"] = summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0;
+    for (int i = 0; i < kStageCount; ++i) {
+        json["median_ms"][eyrie::nameOf(static_cast<Stage>(i))] = summary.median_ms[static_cast<std::size_t>(i)];
+    }
+    std::ofstream file(path);
+    file << json.dump(2) << '\n';
+    if (!file.flush()) {
+        throw Error(ErrorKind::output,
+                    path.string() + " cannot be written; choose a folder you may write to with space left");
+    }
+}
+
+}  // namespace eyrie::cli
