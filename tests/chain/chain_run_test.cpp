@@ -1,0 +1,128 @@
+#include "chain/chain_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "chain/chain.h"
+#include "core/error.h"
+#include "support/moving_scene.h"
+
+namespace eyrie {
+namespace {
+
+class Collector : public ChainObserver {
+ public:
+    std::vector<std::shared_ptr<const FrameResult>> results;
+    std::stop_source* stop_after_ten = nullptr;
+    void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override {
+        EXPECT_EQ(result->motion.frame, frame.index);
+        results.push_back(result);
+        if (stop_after_ten && results.size() == 10) stop_after_ten->request_stop();
+    }
+};
+
+SceneScale scale() {
+    SceneScale s;
+    s.gsd_m_per_px = 0.2;
+    s.gsd_known = true;
+    return s;
+}
+
+bool isFollowed(const FrameResult& result, cv::Point2d centre) {
+    for (const auto& track : result.tracks) {
+        if (track.status != TrackStatus::tentative && cv::norm(track.box.centre - centre) < 5) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST(ChainRun, followsEveryVehicleUnderAPanningCamera) {
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    Collector collector;
+    const RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, {}, collector, {});
+    ASSERT_EQ(summary.outcome, RunOutcome::finished) << summary.message;
+    EXPECT_EQ(summary.frames_done, scene.frames);
+    EXPECT_EQ(summary.unregistered_frames, 0);
+    int followed = 0;
+    int wanted = 0;
+    for (int frame = 20; frame < scene.frames; ++frame) {
+        for (const auto& vehicle : scene.vehicles) {
+            ++wanted;
+            followed += isFollowed(*collector.results[std::size_t(frame)], scene.vehicleAt(vehicle, frame));
+        }
+    }
+    EXPECT_GE(followed, wanted * 9 / 10);
+}
+
+TEST(ChainRun, runningTheHalvesSideBySideChangesNothing) {
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    Collector collector;
+    ChainRun(ChainOptions{}, scale()).run(source, {}, collector, {});
+    Chain chain(ChainOptions{}, scale());
+    for (int frame = 0; frame < scene.frames; ++frame) {
+        const FrameResult alone = chain.next(source.read(frame, false));
+        const FrameResult& beside = *collector.results.at(std::size_t(frame));
+        ASSERT_EQ(alone.motion.registration.current_from_previous.matrix,
+                  beside.motion.registration.current_from_previous.matrix);
+        ASSERT_EQ(alone.tracks.size(), beside.tracks.size()) << "frame " << frame;
+        for (std::size_t i = 0; i < alone.tracks.size(); ++i) {
+            EXPECT_EQ(alone.tracks[i].box.centre, beside.tracks[i].box.centre);
+        }
+    }
+}
+
+TEST(ChainRun, stopsWhenAskedAndKeepsWhatIsDone) {
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    Collector collector;
+    std::stop_source stop;
+    collector.stop_after_ten = &stop;
+    const RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, {}, collector, stop.get_token());
+    EXPECT_EQ(summary.outcome, RunOutcome::stopped);
+    EXPECT_EQ(summary.frames_done, 10);
+}
+
+TEST(ChainRun, anUnreadableFrameEndsTheRunAsFailedAfterTheFramesBefore) {
+    const test::MovingScene scene;
+    test::MemorySource source(scene.frames, scene.size, [&](int index) {
+        if (index == 12) throw Error(ErrorKind::input, "frame 12 is broken");
+        return scene.draw(index);
+    });
+    Collector collector;
+    const RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, {}, collector, {});
+    EXPECT_EQ(summary.outcome, RunOutcome::failed);
+    EXPECT_EQ(summary.message, "frame 12 is broken");
+    EXPECT_EQ(collector.results.size(), 12U);
+}
+
+TEST(ChainRun, anObserverThatFailsEndsTheRun) {
+    class FullDisk : public ChainObserver {
+        void onFrame(const std::shared_ptr<const FrameResult>&, const Frame&) override {
+            throw Error(ErrorKind::output, "no space left");
+        }
+    } observer;
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    const RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, {}, observer, {});
+    EXPECT_EQ(summary.outcome, RunOutcome::failed);
+    EXPECT_EQ(summary.message, "no space left");
+}
+
+TEST(ChainRun, refusesARangeOutsideTheVideo) {
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    Collector collector;
+    for (const FrameRange range : {FrameRange{-1, 5}, FrameRange{0, 1000}, FrameRange{30, 20}, FrameRange{1000, -1}}) {
+        const RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, range, collector, {});
+        EXPECT_EQ(summary.outcome, RunOutcome::failed);
+        EXPECT_THAT(summary.message, testing::HasSubstr("frames 0 to 39"));
+    }
+    const RunSummary part = ChainRun(ChainOptions{}, scale()).run(source, {5, 14}, collector, {});
+    EXPECT_EQ(part.frames_done, 10);
+    EXPECT_EQ(collector.results.front()->motion.frame, 5);
+}
+
+}  // namespace eyrie

@@ -1,0 +1,62 @@
+#include "chain/run_recorder.h"
+
+#include <gtest/gtest.h>
+
+#include "store/project_file.h"
+#include "support/moving_scene.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+struct StopAfter : ChainObserver {
+    std::stop_source stop;
+    int frames;
+    explicit StopAfter(int count) : frames(count) {}
+    void onFrame(const std::shared_ptr<const FrameResult>&, const Frame&) override {
+        if (--frames == 0) stop.request_stop();
+    }
+};
+
+RunRecord record(const std::filesystem::path& project, int stop_after) {
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    const SceneScale scale = sceneScale(source.info(), 0.2);
+    StopAfter stopper(stop_after);
+    RunRecorder recorder(project, plannedRun(source.info(), scale, {}, "default"), ChainOptions{}, &stopper);
+    return recorder.finish(ChainRun(ChainOptions{}, scale).run(source, {}, recorder, stopper.stop.get_token()));
+}
+
+}  // namespace
+
+TEST(RunRecorder, aFinishedRunIsShownAgainWithoutTheVideo) {
+    const test::TemporaryFolder folder;
+    const RunRecord run = record(folder / "p.eyrie", 1000);
+    EXPECT_EQ(run.state, RunState::finished);
+    EXPECT_EQ(run.frames_done, 40);
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    const RunStore store(project);
+    const auto result = store.frameResult(run.id, 30);
+    ASSERT_TRUE(result);
+    EXPECT_FALSE(result->motion.motion_vectors.empty());
+    EXPECT_FALSE(result->motion.stationary_corners.empty());
+    EXPECT_FALSE(result->clusters.empty());
+    EXPECT_FALSE(result->detections.empty());
+    EXPECT_FALSE(result->tracks.empty());
+    EXPECT_EQ(store.parameters(run.id), parameterValues(ChainOptions{}));
+}
+
+TEST(RunRecorder, aStoppedRunKeepsItsFramesAndASecondRunIsAdded) {
+    const test::TemporaryFolder folder;
+    const RunRecord stopped = record(folder / "p.eyrie", 25);
+    EXPECT_EQ(stopped.state, RunState::stopped);
+    EXPECT_EQ(stopped.frames_done, 25);
+    const RunRecord second = record(folder / "p.eyrie", 1000);
+    EXPECT_NE(second.id, stopped.id);
+    EXPECT_EQ(second.sequence.id, stopped.sequence.id);
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    EXPECT_EQ(RunStore(project).runs().size(), 2U);
+    EXPECT_FALSE(RunStore(project).trackBoxes(stopped.id).empty());
+}
+
+}  // namespace eyrie
