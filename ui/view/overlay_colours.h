@@ -1,0 +1,57 @@
+#pragma once
+
+#include <QColor>
+
+namespace eyrie::ui {
+
+enum class PaletteKind {
+    thesis,       ///< the thesis' colours
+    colour_blind  ///< told apart with any colour vision (after Okabe and Ito's set)
+};
+
+/// The colour of each kind of overlay. One meaning, one colour, in the canvas, the lists and the timeline.
+struct OverlayColours {
+    QColor stationary_corner;
+    QColor motion_vector;
+    QColor cluster;
+    QColor roi;
+    QColor stack;
+    QColor detection;
+    QColor rejected;
+    QColor track;
+    QColor selected_track;
+    QColor ground_truth;
+    QColor non_vehicle;
+    QColor edge;  ///< thin dark rim that keeps lines readable on any ground
+};
+
+inline OverlayColours overlayColours(PaletteKind kind) {
+    const QColor edge(0, 0, 0, 150);
+    if (kind == PaletteKind::colour_blind)
+        return {.stationary_corner = QColor(213, 94, 0),
+                .motion_vector = QColor(240, 228, 66),
+                .cluster = QColor(86, 180, 233),
+                .roi = QColor(86, 180, 233, 150),
+                .stack = QColor(204, 121, 167),
+                .detection = QColor(230, 159, 0),
+                .rejected = QColor(230, 159, 0, 140),
+                .track = QColor(0, 190, 140),
+                .selected_track = QColor(255, 255, 255),
+                .ground_truth = QColor(245, 245, 245),
+                .non_vehicle = QColor(0, 114, 178),
+                .edge = edge};
+    return {.stationary_corner = QColor(255, 50, 50),
+            .motion_vector = QColor(255, 230, 0),
+            .cluster = QColor(0, 229, 255),
+            .roi = QColor(0, 229, 255, 140),
+            .stack = QColor(255, 64, 255),
+            .detection = QColor(255, 60, 50),
+            .rejected = QColor(255, 60, 50, 130),
+            .track = QColor(64, 235, 80),
+            .selected_track = QColor(210, 255, 120),
+            .ground_truth = QColor(255, 255, 255),
+            .non_vehicle = QColor(255, 160, 40),
+            .edge = edge};
+}
+
+}  // namespace eyrie::ui

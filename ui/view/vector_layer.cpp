@@ -1,0 +1,26 @@
+#include "view/vector_layer.h"
+
+#include "view/edged_painter.h"
+
+namespace eyrie::ui {
+
+void VectorLayer::paint(QPainter& painter, const OverlayScene& scene) const {
+    const auto& vectors = scene.result.motion.motion_vectors;
+    const double factor = scene.style.vector_length_factor;
+    QVector<QLineF> lines;
+    QVector<QPointF> heads;
+    lines.reserve(static_cast<qsizetype>(vectors.size()));
+    heads.reserve(static_cast<qsizetype>(vectors.size()));
+    for (const MotionVector& vector : vectors) {
+        const QPointF from = scene.transform.viewFromImage(QPointF(vector.position.x, vector.position.y));
+        const QPointF along = QPointF(vector.velocity.x, vector.velocity.y) * (factor * scene.transform.scale());
+        if (!scene.view.contains(from) && !scene.view.contains(from + along)) continue;
+        lines.append({from, from + along});
+        heads.append(from);
+    }
+    LineLook look{scene.style.colours.motion_vector, scene.style.colours.edge, 1.2};
+    drawEdgedLines(painter, lines, look);
+    if (heads.size() <= kFastLines) drawEdgedDots(painter, heads, 2, look.colour, look.edge);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,275 @@
+#include "view/video_view.h"
+
+#include <QMouseEvent>
+#include <QNativeGestureEvent>
+#include <QPainter>
+#include <QWheelEvent>
+#include <cmath>
+
+#include "view/cluster_layer.h"
+#include "view/corner_layer.h"
+#include "view/detection_layer.h"
+#include "view/roi_layer.h"
+#include "view/track_layer.h"
+#include "view/truth_layer.h"
+#include "view/vector_layer.h"
+
+namespace eyrie::ui {
+
+namespace {
+const QColor kGround(34, 36, 40);          ///< around the picture, in both themes: overlays keep their contrast
+const QColor kMissingPicture(58, 61, 66);  ///< where a picture should be and is not
+constexpr double kWheelStep = 1.25;
+constexpr double kDragThreshold = 4;
+constexpr double kHitMargin = 4;  ///< logical px around a track's box that still count as hit
+}  // namespace
+
+VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(parent), settings_(settings) {
+    layers_.push_back(std::make_unique<RoiLayer>());
+    layers_.push_back(std::make_unique<CornerLayer>());
+    layers_.push_back(std::make_unique<VectorLayer>());
+    layers_.push_back(std::make_unique<ClusterLayer>());
+    layers_.push_back(std::make_unique<TruthLayer>());
+    layers_.push_back(std::make_unique<DetectionLayer>());
+    layers_.push_back(std::make_unique<TrackLayer>());
+    setMouseTracking(true);
+    setFocusPolicy(Qt::StrongFocus);
+    setAttribute(Qt::WA_OpaquePaintEvent);
+    setAccessibleName(tr("Video"));
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    connect(&settings_, &OverlaySettings::changed, this, qOverload<>(&QWidget::update));
+}
+
+VideoView::~VideoView() = default;
+
+void VideoView::setFrame(ViewFrame frame) {
+    frame_ = std::move(frame);
+    adoptSize();
+    update();
+}
+
+void VideoView::clear(QSize image_size) {
+    frame_ = {};
+    transform_.setImageSize(image_size);
+    transformWasChanged();
+}
+
+void VideoView::adoptSize() {
+    QSize size = frame_.image.size();
+    if (size.isEmpty() && frame_.result)
+        size = QSize(frame_.result->motion.image_size.width, frame_.result->motion.image_size.height);
+    if (size.isEmpty() || size == transform_.imageSize()) return;
+    transform_.setImageSize(size);
+    transformWasChanged();
+}
+
+void VideoView::setSelectedTrack(std::optional<TrackId> track) {
+    if (selected_track_ == track) return;
+    selected_track_ = track;
+    update();
+}
+
+void VideoView::fit() {
+    transform_.fit();
+    transformWasChanged();
+}
+
+void VideoView::showOneToOne() {
+    transform_.setZoomAround(anchor(), 1);
+    transformWasChanged();
+}
+
+void VideoView::zoomBy(double factor) {
+    transform_.zoomAround(anchor(), factor);
+    transformWasChanged();
+}
+
+void VideoView::restore(double zoom, QPointF centre) {
+    transform_.setZoomAround(QPointF(width() / 2.0, height() / 2.0), zoom);
+    transform_.centreOn(centre);
+    transformWasChanged();
+}
+
+void VideoView::centreOn(QPointF image_point) {
+    transform_.centreOn(image_point);
+    transformWasChanged();
+}
+
+QPointF VideoView::anchor() const {
+    const QPointF cursor = mapFromGlobal(QPointF(QCursor::pos()));
+    if (underMouse() && rect().contains(cursor.toPoint())) return cursor;
+    return {width() / 2.0, height() / 2.0};
+}
+
+void VideoView::transformWasChanged() {
+    update();
+    emit transformChanged();
+}
+
+QImage VideoView::picture() const {
+    QImage image(size() * devicePixelRatioF(), QImage::Format_RGB32);
+    image.setDevicePixelRatio(devicePixelRatioF());
+    QPainter painter(&image);
+    painter.setFont(font());
+    paint(painter);
+    return image;
+}
+
+void VideoView::paintEvent(QPaintEvent*) {
+    // A window moved to a screen of another density repaints without being resized.
+    if (transform_.devicePixelRatio() != devicePixelRatioF()) transform_.setView(size(), devicePixelRatioF());
+    QPainter painter(this);
+    paint(painter);
+}
+
+void VideoView::paint(QPainter& painter) const {
+    painter.fillRect(rect(), kGround);
+    paintImage(painter);
+    if (!frame_.result) return;
+    painter.setRenderHint(QPainter::Antialiasing);
+    QFont label_font = font();
+    label_font.setPointSizeF(std::max(7.0, font().pointSizeF() * 0.85));
+    label_font.setBold(true);
+    painter.setFont(label_font);
+    const OverlayScene scene{
+        frame_, *frame_.result, transform_, settings_.style(), selected_track_, QRectF(rect()).adjusted(-8, -8, 8, 8)};
+    for (const auto& layer : layers_)
+        if (settings_.isVisible(layer->kind())) layer->paint(painter, scene);
+}
+
+void VideoView::paintImage(QPainter& painter) const {
+    if (frame_.image.isNull()) {
+        if (!transform_.imageSize().isEmpty()) painter.fillRect(transform_.imageRect(), kMissingPicture);
+        return;
+    }
+    const QRectF visible = transform_.visibleImage();
+    if (visible.isEmpty()) return;
+    // Whole pixels around what is seen, so that the edges of the view show parts of pixels, not shifted ones.
+    const int left = static_cast<int>(std::floor(visible.left() + 0.5));
+    const int top = static_cast<int>(std::floor(visible.top() + 0.5));
+    const int right = std::min(frame_.image.width(), static_cast<int>(std::ceil(visible.right() + 0.5)));
+    const int bottom = std::min(frame_.image.height(), static_cast<int>(std::ceil(visible.bottom() + 0.5)));
+    const QRectF source(left, top, right - left, bottom - top);
+    const QRectF target(transform_.viewFromImage(source.topLeft() - QPointF(0.5, 0.5)),
+                        source.size() * transform_.scale());
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, !transform_.sharp());
+    painter.drawImage(target, frame_.image, source);
+}
+
+void VideoView::resizeEvent(QResizeEvent*) {
+    transform_.setView(size(), devicePixelRatioF());
+    transformWasChanged();
+}
+
+void VideoView::wheelEvent(QWheelEvent* event) {
+    const double steps = event->angleDelta().y() / 120.0;
+    if (steps == 0) return;
+    transform_.zoomAround(event->position(), std::pow(kWheelStep, steps));
+    transformWasChanged();
+    reportCursor(event->position());
+    event->accept();
+}
+
+bool VideoView::event(QEvent* event) {
+    if (event->type() == QEvent::NativeGesture) {
+        const auto* gesture = static_cast<QNativeGestureEvent*>(event);
+        if (gesture->gestureType() == Qt::ZoomNativeGesture) {
+            transform_.zoomAround(gesture->position(), 1 + gesture->value());
+            transformWasChanged();
+            return true;
+        }
+    }
+    if (event->type() == QEvent::ShortcutOverride) {
+        // The space bar both plays (tapped) and pans (held while dragging), so the canvas decides on its release.
+        const auto* key = static_cast<QKeyEvent*>(event);
+        if (key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier) {
+            event->accept();
+            return true;
+        }
+    }
+    return QWidget::event(event);
+}
+
+void VideoView::mousePressEvent(QMouseEvent* event) {
+    if (event->button() != Qt::LeftButton && event->button() != Qt::MiddleButton) return;
+    drag_from_ = event->position();
+    pressed_at_ = event->position();
+    dragged_ = false;
+}
+
+void VideoView::mouseMoveEvent(QMouseEvent* event) {
+    reportCursor(event->position());
+    if (!drag_from_) return;
+    if (!dragged_ && QLineF(pressed_at_, event->position()).length() < kDragThreshold) return;
+    dragged_ = true;
+    space_panned_ = space_held_;
+    updateCursorShape();
+    transform_.panBy(event->position() - *drag_from_);
+    drag_from_ = event->position();
+    transformWasChanged();
+}
+
+void VideoView::mouseReleaseEvent(QMouseEvent* event) {
+    const bool was_click = drag_from_.has_value() && !dragged_ && event->button() == Qt::LeftButton;
+    drag_from_.reset();
+    dragged_ = false;
+    updateCursorShape();
+    if (!was_click || !frame_.result) return;
+    const double margin = kHitMargin / transform_.scale();
+    const QPointF point = transform_.imageFromView(event->position());
+    emit trackClicked(settings_.isVisible(OverlayKind::tracks)
+                          ? trackAt(*frame_.result, settings_.style(), point, margin)
+                          : std::nullopt);
+}
+
+void VideoView::mouseDoubleClickEvent(QMouseEvent* event) {
+    if (event->button() != Qt::LeftButton) return;
+    if (transform_.fitted())
+        transform_.setZoomAround(event->position(), 2);
+    else
+        transform_.fit();
+    transformWasChanged();
+}
+
+void VideoView::keyPressEvent(QKeyEvent* event) {
+    if (event->key() != Qt::Key_Space) {
+        QWidget::keyPressEvent(event);
+        return;
+    }
+    if (event->isAutoRepeat()) return;
+    space_held_ = true;
+    space_panned_ = false;
+    updateCursorShape();
+}
+
+void VideoView::keyReleaseEvent(QKeyEvent* event) {
+    if (event->key() != Qt::Key_Space || event->isAutoRepeat()) {
+        QWidget::keyReleaseEvent(event);
+        return;
+    }
+    const bool tapped = space_held_ && !space_panned_;
+    space_held_ = false;
+    updateCursorShape();
+    if (tapped) emit playToggled();
+}
+
+void VideoView::leaveEvent(QEvent*) {
+    emit cursorMoved(std::nullopt);
+}
+
+void VideoView::reportCursor(QPointF view_point) {
+    const QPointF point = transform_.imageFromView(view_point);
+    const QRectF image(-0.5, -0.5, transform_.imageSize().width(), transform_.imageSize().height());
+    emit cursorMoved(image.contains(point) ? std::optional(point) : std::nullopt);
+}
+
+void VideoView::updateCursorShape() {
+    if (drag_from_ && dragged_)
+        setCursor(Qt::ClosedHandCursor);
+    else if (space_held_)
+        setCursor(Qt::OpenHandCursor);
+    else
+        unsetCursor();
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <QImage>
+#include <memory>
+#include <vector>
+
+#include "core/box_record.h"
+#include "core/frame_result.h"
+#include "view/trail.h"
+
+namespace eyrie::ui {
+
+/// Everything the canvas shows of one frame: the picture and what belongs on it. Live runs and stored runs make the
+/// same. A value; picture and result are shared, never changed.
+struct ViewFrame {
+    FrameIndex index = 0;
+    std::int64_t time_us = 0;
+    QImage image;                               ///< null when the picture could not be read
+    std::shared_ptr<const FrameResult> result;  ///< null when the run has no such frame
+    std::vector<Trail> trails;                  ///< ascending track id
+    std::vector<BoxRecord> ground_truth;
+};
+
+}  // namespace eyrie::ui

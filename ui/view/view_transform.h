@@ -1,0 +1,65 @@
+#pragma once
+
+#include <QPointF>
+#include <QRectF>
+#include <QSize>
+#include <QSizeF>
+
+namespace eyrie::ui {
+
+/// The map between an image and the widget that shows it. Arithmetic only: no widget, no screen.
+/// Image coordinates: px, pixel centres at integers, so the image covers [−0.5, size − 0.5]. View coordinates: the
+/// widget's logical pixels, origin at its top left.
+class ViewTransform {
+ public:
+    static constexpr double kMaxZoom = 64;  ///< screen pixels per image pixel
+    /// From this zoom on, pixels are drawn as sharp squares.
+    static constexpr double kSharpZoom = 4;
+
+    /// Adopts a new image size; fits it when the size changed.
+    void setImageSize(QSize image);
+    /// Adopts a new widget size (logical px) and screen density. Keeps the image fitted if it was, else the view's
+    /// centre.
+    void setView(QSizeF view, double device_pixel_ratio);
+
+    QSize imageSize() const { return image_; }
+    QSizeF viewSize() const { return view_; }
+    /// Logical view px per image px.
+    double scale() const { return scale_; }
+    /// Screen (device) pixels per image pixel: 1 is "100 %".
+    double zoom() const { return scale_ * device_pixel_ratio_; }
+    double devicePixelRatio() const { return device_pixel_ratio_; }
+    bool fitted() const { return fitted_; }
+    bool sharp() const { return zoom() >= kSharpZoom - 1e-9; }
+
+    QPointF viewFromImage(QPointF image_point) const;
+    QPointF imageFromView(QPointF view_point) const;
+    /// The whole image in view coordinates.
+    QRectF imageRect() const;
+    /// The part of the image (image coordinates) that can be seen.
+    QRectF visibleImage() const;
+
+    /// The whole image, as large as fits; stays fitted when the widget is resized.
+    void fit();
+    /// Multiplies the zoom; the image point under `view_point` stays there.
+    void zoomAround(QPointF view_point, double factor);
+    /// Sets the zoom (screen px per image px); the image point under `view_point` stays there.
+    void setZoomAround(QPointF view_point, double zoom);
+    /// Moves the image by a distance in view px; a part of it always stays in view.
+    void panBy(QPointF view_delta);
+    /// Brings an image point to the middle of the view.
+    void centreOn(QPointF image_point);
+
+ private:
+    double fitScale() const;
+    void keepReachable();
+
+    QSize image_;
+    QSizeF view_{1, 1};
+    double device_pixel_ratio_ = 1;
+    double scale_ = 1;
+    QPointF origin_{0, 0};  ///< view position of the image's top left edge (image −0.5, −0.5)
+    bool fitted_ = true;
+};
+
+}  // namespace eyrie::ui
