@@ -1,0 +1,155 @@
+#include "motion/independent_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyrie {
+namespace {
+
+bool finite(cv::Point2d p) {
+    return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+bool finite(const Homography& homography) {
+    return std::all_of(std::begin(homography.matrix.val), std::end(homography.matrix.val),
+                       [](double value) { return std::isfinite(value); });
+}
+
+double length(cv::Point2d v) {
+    return std::hypot(v.x, v.y);
+}
+
+}  // namespace
+
+IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, const SceneScale& scale)
+    : options_(options),
+      min_speed_(std::max(scale.pxPerFrame(options.min_speed_m_s), options.min_speed_px)),
+      slow_min_speed_(std::max(scale.pxPerFrame(options.slow_min_speed_m_s), options.min_speed_px)),
+      max_speed_(scale.gsd_known ? scale.pxPerFrame(options.max_speed_m_s) : 0),
+      shadow_test_(options.shadow, scale),
+      local_background_(options.local_background, scale),
+      history_(std::max(options.baseline, options.find_slow ? options.slow_baseline : 0)) {
+    options_.baseline = std::max(options_.baseline, options_.min_age);
+    if (options_.baseline > history_.depth()) history_ = CornerHistory(options_.baseline);
+}
+
+void IndependentMotion::reset() {
+    history_.clear();
+    current_from_past_.clear();
+    last_frame_.reset();
+    last_motion_ = {};
+}
+
+void IndependentMotion::restart(const RegisteredFrame& registered) {
+    history_.clear();
+    current_from_past_.clear();
+    history_.append(registered.corners);
+}
+
+bool IndependentMotion::extendPaths(const Registration& registration) {
+    const Homography& step = registration.current_from_previous;
+    if (!last_frame_ || step.from_frame != *last_frame_ || !finite(step)) return false;
+    for (Homography& path : current_from_past_) path = step * path;
+    return true;
+}
+
+IndependentMotion::Measured IndependentMotion::measure(std::size_t corner, cv::Point2d now, int longest) const {
+    const int frames = std::min(history_.steps(corner), longest);
+    if (frames < options_.min_age) return {};
+    const Homography& path = current_from_past_[static_cast<std::size_t>(frames - 1)];
+    const cv::Point2d velocity = (now - path.apply(history_.past(corner, frames))) / frames;
+    if (!finite(velocity)) return {};
+    return {frames, velocity};
+}
+
+void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion) {
+    const std::vector<Corner>& corners = registered.corners;
+    std::vector<Measured> measured(corners.size());
+    std::vector<Measured> slow(options_.find_slow ? corners.size() : 0);
+    const int depth = history_.depth();
+    BackgroundNoise noise(depth);
+    const auto background = static_cast<std::size_t>(
+        std::count_if(corners.begin(), corners.end(), [](const Corner& corner) { return corner.on_background; }));
+    const bool trust_background = background * 4 >= corners.size();
+
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const cv::Point2d now = corners[i].current;
+        measured[i] = measure(i, now, options_.baseline);
+        if (options_.find_slow && history_.steps(i) >= options_.slow_min_age) {
+            slow[i] = measure(i, now, options_.slow_baseline);
+        }
+    }
+    if (options_.local_background.enabled) {
+        local_background_.prepare(frame.gray.empty() ? motion.image_size : frame.gray.size());
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            if (measured[i].baseline > 0 && corners[i].on_background)
+                local_background_.add(corners[i].current, measured[i].velocity);
+        }
+        local_background_.finish();
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const cv::Point2d drift = local_background_.at(corners[i].current);
+            measured[i].velocity -= drift;
+            if (options_.find_slow) slow[i].velocity -= drift;
+        }
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (trust_background && !corners[i].on_background) continue;
+        if (measured[i].baseline > 0) noise.add(measured[i].baseline, length(measured[i].velocity));
+        if (options_.find_slow && slow[i].baseline > measured[i].baseline)
+            noise.add(slow[i].baseline, length(slow[i].velocity));
+    }
+    noise.finish();
+    motion.background_speed_sigma = noise.sigma(options_.baseline);
+
+    if (options_.shadow.enabled) shadow_test_.prepare(frame.gray);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Corner& corner = corners[i];
+        const auto moves = [&](const Measured& m, double min_speed) {
+            if (m.baseline == 0 || corner.age < options_.min_age) return false;
+            const double speed = length(m.velocity);
+            if (max_speed_ > 0 && speed > max_speed_) return false;
+            return speed >= std::max(min_speed, options_.sigma_factor * noise.sigma(m.baseline));
+        };
+        const Measured* found = nullptr;
+        if (moves(measured[i], min_speed_)) {
+            found = &measured[i];
+        } else if (options_.find_slow && moves(slow[i], slow_min_speed_)) {
+            found = &slow[i];
+        }
+        if (found == nullptr) {
+            if (corner.on_background) motion.stationary_corners.push_back(corner.current);
+        } else if (!options_.shadow.enabled || !shadow_test_.isShadow(corner.current)) {
+            motion.motion_vectors.push_back({corner.id, corner.current, found->velocity, corner.age});
+        }
+    }
+}
+
+FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Frame& frame) {
+    FrameMotion motion;
+    motion.frame = registered.frame;
+    motion.time_us = frame.time_us;
+    motion.image_size = frame.gray.size();
+    motion.registration = registered.registration;
+    motion.corner_count = static_cast<int>(registered.corners.size());
+
+    const RegistrationState state = registered.registration.state;
+    const bool follows = (state == RegistrationState::registered || state == RegistrationState::frozen) &&
+                         extendPaths(registered.registration);
+    if (!follows) {
+        restart(registered);
+    } else if (state == RegistrationState::frozen) {
+        motion.motion_vectors = last_motion_.motion_vectors;
+        motion.stationary_corners = last_motion_.stationary_corners;
+        motion.background_speed_sigma = last_motion_.background_speed_sigma;
+    } else {
+        current_from_past_.push_front(registered.registration.current_from_previous);
+        if (static_cast<int>(current_from_past_.size()) > history_.depth()) current_from_past_.pop_back();
+        history_.append(registered.corners);
+        sortCorners(registered, frame, motion);
+    }
+    last_frame_ = registered.frame;
+    last_motion_ = motion;
+    return motion;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "core/corner.h"
+#include "core/frame.h"
+#include "core/motion_vector.h"
+#include "core/scene_scale.h"
+#include "motion/background_noise.h"
+#include "motion/corner_history.h"
+#include "motion/independent_motion_options.h"
+
+namespace eyrie {
+
+/// Decides which corners move independently of the camera (Teutsch §4.2): velocity relative to the ground from a
+/// corner's position now and n frames ago, compared with what the background's corners show in the same frame.
+///
+/// A frozen picture repeats the last answer: no time passes in it. A frame that could not be registered, or one that
+/// does not follow the last, drops all histories, and vectors appear again after `min_age` frames.
+class IndependentMotion {
+ public:
+    IndependentMotion(const IndependentMotionOptions& options, const SceneScale& scale);
+
+    /// The motion of the next frame. `registered.corners` must ascend by id, else Error(internal). `frame.gray` is only
+    /// read by the shadow test and may be empty, which switches that test off for the frame.
+    FrameMotion next(const RegisteredFrame& registered, const Frame& frame);
+    void reset();
+
+ private:
+    struct Measured {
+        int baseline = 0;  ///< frames; 0: too young
+        cv::Point2d velocity{0, 0};
+    };
+    void restart(const RegisteredFrame& registered);
+    bool extendPaths(const Registration& registration);
+    Measured measure(std::size_t corner, cv::Point2d now, int longest) const;
+    void sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion);
+
+    IndependentMotionOptions options_;
+    double min_speed_;
+    double slow_min_speed_;
+    double max_speed_;  ///< px/frame, 0: none
+    ShadowTest shadow_test_;
+    LocalBackground local_background_;
+    CornerHistory history_;
+    std::deque<Homography> current_from_past_;  ///< [n − 1]: from n pictures ago
+    std::optional<FrameIndex> last_frame_;
+    FrameMotion last_motion_;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,76 @@
+#include "motion/motion_clustering.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyrie {
+namespace {
+
+constexpr double kCarArea = 4.5 * 1.8;  ///< m², what a car covers seen from above
+
+MotionCluster summarise(const FrameMotion& motion, std::vector<int> members, double margin) {
+    MotionCluster cluster;
+    std::vector<cv::Point2f> positions;
+    positions.reserve(members.size());
+    for (const int member : members) {
+        const MotionVector& vector = motion.motion_vectors[static_cast<std::size_t>(member)];
+        cluster.velocity += cv::Point2d(vector.velocity);
+        positions.push_back(vector.position);
+    }
+    cluster.velocity /= static_cast<double>(members.size());
+    cluster.box = boxAround(positions, std::atan2(cluster.velocity.y, cluster.velocity.x));
+    cluster.box.length += 2 * margin;
+    cluster.box.width += 2 * margin;
+    cluster.members = std::move(members);
+    return cluster;
+}
+
+}  // namespace
+
+MotionClustering::MotionClustering(const MotionClusteringOptions& options, const SceneScale& scale)
+    : options_(options), scale_(scale) {}
+
+Linkage MotionClustering::linkageFor(double background_speed_sigma) const {
+    Linkage linkage;
+    linkage.along = std::max({scale_.px(options_.along_m), options_.min_distance_px, 1e-3});
+    linkage.across = std::max({scale_.px(options_.across_m), options_.min_distance_px, 1e-3});
+    const double noise =
+        std::min(options_.velocity_noise_factor * background_speed_sigma, options_.velocity_noise_limit_px);
+    linkage.velocity_floor = std::max(options_.velocity_floor_px, noise);
+    linkage.velocity_share = options_.velocity_share;
+    return linkage;
+}
+
+int MotionClustering::minMembersFor(const FrameMotion& motion) const {
+    const double image_area = static_cast<double>(motion.image_size.area());
+    if (image_area <= 0 || options_.min_density_share <= 0) return options_.min_members;
+    const double car_area = kCarArea / (scale_.gsd_m_per_px * scale_.gsd_m_per_px);
+    const double expected = motion.corner_count / image_area * car_area;
+    const double wanted =
+        std::min(std::round(options_.min_density_share * expected), static_cast<double>(options_.max_min_members));
+    return std::max(options_.min_members, static_cast<int>(wanted));
+}
+
+std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion) const {
+    const std::vector<int> numbers = singleLinkage(motion.motion_vectors, linkageFor(motion.background_speed_sigma));
+    const int count = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + 1;
+    std::vector<std::vector<int>> members(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        members[static_cast<std::size_t>(numbers[i])].push_back(static_cast<int>(i));
+    }
+    const auto min_members = static_cast<std::size_t>(minMembersFor(motion));
+    const double max_length = scale_.px(options_.max_length_m);
+    const double max_width = scale_.px(options_.max_width_m);
+    std::vector<MotionCluster> clusters;
+    for (std::vector<int>& group : members) {
+        if (group.size() < min_members) continue;
+        MotionCluster cluster = summarise(motion, std::move(group), options_.margin_px);
+        if (!std::isfinite(cluster.box.length + cluster.box.heading)) continue;
+        if (max_length > 0 && cluster.box.length > max_length) continue;
+        if (max_width > 0 && cluster.box.width > max_width) continue;
+        clusters.push_back(std::move(cluster));
+    }
+    return clusters;
+}
+
+}  // namespace eyrie

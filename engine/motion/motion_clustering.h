@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "core/motion_cluster.h"
+#include "core/motion_vector.h"
+#include "core/parameter.h"
+#include "core/scene_scale.h"
+#include "motion/single_linkage.h"
+
+namespace eyrie {
+
+/// Parameters of motion clustering (Teutsch §4.2).
+struct MotionClusteringOptions {
+    double along_m = 3.5;                   ///< linkage distance along the motion
+    double across_m = 1.4;                  ///< linkage distance across the motion
+    double min_distance_px = 4;             ///< lowest linkage distance: corners are at least 2 px apart at any scale
+    double velocity_share = 0.05;           ///< velocities may differ by this share of the speed …
+    double velocity_floor_px = 0.03;        ///< … or by this, px/frame …
+    double velocity_noise_factor = 1.0;     ///< … or by this many deviations of the background's speed …
+    double velocity_noise_limit_px = 0.06;  ///< … which are not trusted beyond this, px/frame
+    int min_members = 3;                    ///< a cluster has at least this many motion vectors
+    double min_density_share = 0.33;        ///< … and this share of those expected on a car at the measured density
+    int max_min_members = 12;               ///< however dense the corners are, that many are enough
+    double margin_px = 0.5;                 ///< the box around the members is grown by this on every side
+    double max_length_m = 60;               ///< longer clusters are no vehicles, nor a queue of them; 0: no limit
+    double max_width_m = 30;                ///< 0: no limit
+
+    /// The text to the letter, which names neither direction nor density: one distance, a fixed count, a bare box.
+    static MotionClusteringOptions thesis();
+    void describe(ParameterVisitor& visitor);
+};
+
+/// Groups motion vectors that lie close and move alike. Stateless.
+class MotionClustering {
+ public:
+    MotionClustering(const MotionClusteringOptions& options, const SceneScale& scale);
+
+    /// Clusters in the order of their first member; members ascend.
+    std::vector<MotionCluster> cluster(const FrameMotion& motion) const;
+
+    /// The linkage used for a frame with this background noise (px/frame).
+    Linkage linkageFor(double background_speed_sigma) const;
+    /// Smallest cluster accepted in a frame.
+    int minMembersFor(const FrameMotion& motion) const;
+
+ private:
+    MotionClusteringOptions options_;
+    SceneScale scale_;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "core/parameter.h"
+#include "core/scene_scale.h"
+
+namespace eyrie {
+
+/// Parameters of the shadow test.
+struct ShadowTestOptions {
+    bool enabled = true;
+    double darkest = 0.3;        ///< share of the ground's brightness; darker is no cast shadow
+    double brightest = 0.75;     ///< a shadow is darker than this share of the ground's brightness
+    double bright_near = 1.2;    ///< anything brighter than this near the corner belongs to a vehicle
+    double radius_m = 0.7;       ///< what counts as near
+    double ground_m = 12;        ///< side of the window whose median is the ground's brightness
+    double min_brightness = 60;  ///< grey values; on darker ground (night) the test is not used
+
+    void describe(ParameterVisitor& visitor);
+};
+
+/// Tells corners on the outline of a moving shadow from those on vehicles: ground on one side, an even half-dark on the
+/// other, nothing bright and nothing very dark near.
+class ShadowTest {
+ public:
+    ShadowTest(const ShadowTestOptions& options, const SceneScale& scale);
+
+    /// Measures the ground's brightness of a CV_8UC1 image, which must live until the last `isShadow`.
+    void prepare(const cv::Mat& gray);
+    /// Whether a corner (px) belongs to a shadow; false without an image.
+    bool isShadow(cv::Point2f corner) const;
+
+ private:
+    ShadowTestOptions options_;
+    int radius_;  ///< px
+    int block_;   ///< px, side of a cell of `ground_`
+    int window_;  ///< cells, odd
+    cv::Mat gray_;
+    cv::Mat ground_;  ///< CV_8UC1, median brightness by cell
+};
+
+}  // namespace eyrie
