@@ -12,13 +12,13 @@ namespace eyrie {
 /// A project: one SQLite file. Opened here and nowhere else; knows its application id, its schema number and how to
 /// migrate older files. Not thread-safe: every thread opens its own.
 class ProjectFile {
-   public:
+ public:
     enum class Mode { read_write, read_only };
 
     /// Makes a new project. Throws Error(output) when the file exists or its folder cannot be written.
     static ProjectFile create(const std::filesystem::path& path);
-    /// Opens an existing project and migrates it if it is older (read_write only). Throws Error(project) when it is not a
-    /// project, is damaged, or was written by a newer version; Error(input) when it is missing or cannot be read.
+    /// Opens an existing project and migrates it if it is older (read_write only). Throws Error(project) when it is not
+    /// a project, is damaged, or was written by a newer version; Error(input) when it is missing or cannot be read.
     static ProjectFile open(const std::filesystem::path& path, Mode mode = Mode::read_write);
     static ProjectFile openOrCreate(const std::filesystem::path& path);
 
@@ -29,7 +29,7 @@ class ProjectFile {
     const std::filesystem::path& path() const { return path_; }
     SQLite::Database& database() { return *database_; }
 
-   private:
+ private:
     ProjectFile(std::filesystem::path path, std::unique_ptr<SQLite::Database> database);
     std::filesystem::path path_;
     std::unique_ptr<SQLite::Database> database_;

@@ -10,26 +10,28 @@
 
 namespace eyrie {
 
-/// Writes the frames of one run as they come. A killed process leaves every frame up to the last commit whole; commits
-/// follow at least every `commit_interval_ms`. Used by one thread; opens its own connection.
+/// Writes the frames of one run as they come, each committed when write() returns: a killed process leaves all of them,
+/// and each is there whole or not at all. Holds no lock between the calls, so that others may write to the project
+/// while a run works. Used by one thread; opens its own connection.
 class ResultWriter {
-   public:
+ public:
     /// Adds sequence (unless a row of the same path and size exists), run and parameters, committed at once. `run.id`,
     /// `run.sequence.id`, `run.started_utc` (when empty) are filled in. Throws Error(project | output).
     ResultWriter(const std::filesystem::path& project, RunRecord run,
-                 const std::vector<std::pair<std::string, std::string>>& parameters, int commit_interval_ms = 500);
-    /// Commits what was written; leaves the state `running` unless finish() was called.
+                 const std::vector<std::pair<std::string, std::string>>& parameters);
+    /// Leaves the state `running` unless finish() was called.
     ~ResultWriter();
     ResultWriter(const ResultWriter&) = delete;
     ResultWriter& operator=(const ResultWriter&) = delete;
 
     int runId() const;
-    /// Throws Error(output) when the disk is full; frames written before stay.
+    /// Every frame once. Throws Error(output) when the disk is full, Error(project) when the run was removed meanwhile;
+    /// frames written before stay.
     void write(const FrameResult& result);
-    /// Commits and records how the run ended.
+    /// Records how the run ended.
     void finish(RunState state, const std::string& message);
 
-   private:
+ private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
 };

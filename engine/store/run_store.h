@@ -18,8 +18,8 @@ const char* nameOf(RunState state);
 /// The video a run worked on.
 struct SequenceRecord {
     int id = 0;
-    std::string path;        ///< absolute path of the video file or image folder
-    cv::Size size;           ///< px
+    std::string path;  ///< absolute path of the video file or image folder
+    cv::Size size;     ///< px
     int frame_count = 0;
     double frame_rate_hz = 25;
 };
@@ -28,16 +28,16 @@ struct SequenceRecord {
 struct RunRecord {
     int id = 0;
     SequenceRecord sequence;
-    std::string name;            ///< given by the user; may be empty
-    std::string started_utc;     ///< ISO 8601, e.g. 2026-11-21T08:00:00Z
+    std::string name;         ///< given by the user; may be empty
+    std::string started_utc;  ///< ISO 8601, e.g. 2026-11-21T08:00:00Z
     std::string engine_version;
-    std::string preset;          ///< name of the preset it started from
+    std::string preset;  ///< name of the preset it started from
     SceneScale scale;
     FrameIndex first_frame = 0;  ///< planned range, inclusive
     FrameIndex last_frame = 0;
-    int frames_done = 0;         ///< whole frames in the file
+    int frames_done = 0;                 ///< whole frames in the file
     RunState state = RunState::running;  ///< a killed run is found as `running` and shown as stopped
-    std::string message;         ///< why it failed
+    std::string message;                 ///< why it failed
 };
 
 /// One frame of a run, for the timeline.
@@ -49,19 +49,22 @@ struct FrameSummary {
     double rms_px = 0;
     int corners = 0;
     int motion_vectors = 0;
-    int detections = 0;   ///< kept ones
-    int tracks = 0;       ///< confirmed or coasting ones
+    int detections = 0;  ///< kept ones
+    int tracks = 0;      ///< confirmed or coasting ones
     StageTimes stage_ms{};
 };
+
+/// The same of a frame that was not stored yet, for live views.
+FrameSummary summaryOf(const FrameResult& result);
 
 /// One track of a run, for lists.
 struct TrackSummary {
     TrackId id = 0;
     FrameIndex first_frame = 0;
     FrameIndex last_frame = 0;
-    int frames = 0;               ///< states
-    bool confirmed = false;       ///< was confirmed at least once; others are not part of the result
-    double mean_speed_px = 0;     ///< px/frame relative to the ground
+    int frames = 0;            ///< states
+    bool confirmed = false;    ///< was confirmed at least once; others are not part of the result
+    double mean_speed_px = 0;  ///< px/frame relative to the ground
     double mean_length_px = 0;
     double mean_width_px = 0;
 };
@@ -72,21 +75,23 @@ struct TrackFrame {
     TrackState state;
 };
 
-/// Reads, and where said changes, the runs of a project.
+/// Reads, and where said changes, the runs of a project. Throws Error(project) for contents that no writer wrote, a run
+/// to change that does not exist, or a project locked for seconds by another program.
 class RunStore {
-   public:
+ public:
     /// `project` must outlive the store.
     explicit RunStore(ProjectFile& project) : project_(project) {}
 
-    std::vector<RunRecord> runs() const;                        ///< oldest first
+    std::vector<RunRecord> runs() const;  ///< oldest first
     std::optional<RunRecord> run(int run_id) const;
     std::vector<std::pair<std::string, std::string>> parameters(int run_id) const;
-    std::vector<FrameSummary> frameSummaries(int run_id) const; ///< ascending frames
+    std::vector<FrameSummary> frameSummaries(int run_id) const;  ///< ascending frames
     /// All a finished run knows of a frame; nothing when the run has no such frame.
     std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
-    std::vector<TrackSummary> tracks(int run_id) const;         ///< ascending id
-    std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;       ///< ascending frames
-    std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame, int trail) const;  ///< states of frames (frame − trail, frame], for trails
+    std::vector<TrackSummary> tracks(int run_id) const;                    ///< ascending id
+    std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;  ///< ascending frames
+    std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame,
+                                            int trail) const;  ///< states of frames (frame − trail, frame], for trails
     /// The run's result as boxes: every state of the confirmed tracks, or the kept detections (id empty).
     BoxesByFrame trackBoxes(int run_id) const;
     BoxesByFrame detectionBoxes(int run_id) const;
@@ -96,7 +101,8 @@ class RunStore {
     void rename(int run_id, const std::string& name);
     void remove(int run_id);
 
-   private:
+ private:
+    void refuseUnchanged(int run_id) const;
     ProjectFile& project_;
 };
 

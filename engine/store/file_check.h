@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+namespace eyrie {
+
+/// Looks at the bytes of a project file before SQLite does, for messages that help: Error(input) when it is missing or
+/// cannot be read; Error(project) when it is empty, no database, or shorter than its header says.
+void checkFile(const std::filesystem::path& path);
+
+/// Whether committed pages wait in a log beside the project to be moved into it (a process was killed, or works now).
+bool hasLog(const std::filesystem::path& project);
+
+}  // namespace eyrie

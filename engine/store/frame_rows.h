@@ -1,0 +1,44 @@
+#pragma once
+
+#include <SQLiteCpp/Statement.h>
+
+#include <vector>
+
+#include "core/frame_result.h"
+#include "store/run_store.h"
+
+namespace SQLite {
+class Database;
+}
+
+namespace eyrie {
+
+/// Adds the states of one frame to a run's tracks, and keeps the sums in table `track` that summaries are read from.
+class TrackRows {
+ public:
+    explicit TrackRows(SQLite::Database& database);
+    void insert(int run_id, FrameIndex frame, const TrackState& state);
+
+ private:
+    SQLite::Statement track_;
+    SQLite::Statement state_;
+};
+
+/// The prepared statements that add a frame to a run. The caller owns the transaction. `database` must outlive it.
+class FrameRows {
+ public:
+    explicit FrameRows(SQLite::Database& database);
+    /// Throws SQLite::Exception; then the caller's transaction must be rolled back.
+    void insert(int run_id, const FrameResult& result);
+
+ private:
+    SQLite::Statement frame_;
+    SQLite::Statement vectors_;
+    SQLite::Statement corners_;
+    SQLite::Statement cluster_;
+    SQLite::Statement roi_;
+    SQLite::Statement detection_;
+    TrackRows tracks_;
+};
+
+}  // namespace eyrie

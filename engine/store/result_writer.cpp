@@ -1,0 +1,119 @@
+#include "store/result_writer.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "store/frame_rows.h"
+#include "store/rows.h"
+
+namespace eyrie {
+namespace {
+
+std::string nowUtc() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return text;
+}
+
+/// The row of the video, new or reused; a reused row takes over what is known of the video now.
+int storeSequence(SQLite::Database& database, const SequenceRecord& sequence) {
+    SQLite::Statement statement(database,
+                                "INSERT INTO sequence (path, width, height, frame_count, frame_rate_hz) "
+                                "VALUES (?, ?, ?, ?, ?) ON CONFLICT (path, width, height) DO UPDATE SET "
+                                "frame_count = excluded.frame_count, frame_rate_hz = excluded.frame_rate_hz "
+                                "RETURNING id");
+    statement.bind(1, sequence.path);
+    statement.bind(2, sequence.size.width);
+    statement.bind(3, sequence.size.height);
+    statement.bind(4, sequence.frame_count);
+    statement.bind(5, sequence.frame_rate_hz);
+    statement.executeStep();
+    return statement.getColumn(0).getInt();
+}
+
+int storeRun(SQLite::Database& database, const RunRecord& run) {
+    SQLite::Statement statement(
+        database,
+        "INSERT INTO run (sequence_id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, "
+        "frame_rate_hz, first_frame, last_frame, state, message) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    RowWriter(statement)
+        .integer(run.sequence.id)
+        .text(run.name)
+        .text(run.started_utc)
+        .text(run.engine_version)
+        .text(run.preset)
+        .real(run.scale.gsd_m_per_px)
+        .integer(run.scale.gsd_known)
+        .real(run.scale.frame_rate_hz)
+        .integer(run.first_frame)
+        .integer(run.last_frame)
+        .word(stored::kRunStates, run.state)
+        .text(run.message)
+        .run();
+    return static_cast<int>(database.getLastInsertRowid());
+}
+
+void storeParameters(SQLite::Database& database, int run_id,
+                     const std::vector<std::pair<std::string, std::string>>& parameters) {
+    SQLite::Statement statement(database,
+                                "INSERT INTO run_parameter (run_id, position, name, value) VALUES (?, ?, ?, ?)");
+    int position = 0;
+    for (const auto& [name, value] : parameters) {
+        RowWriter(statement).integer(run_id).integer(position++).text(name).text(value).run();
+    }
+}
+
+}  // namespace
+
+struct ResultWriter::Implementation {
+    explicit Implementation(const std::filesystem::path& path)
+        : project(ProjectFile::open(path)), rows(project.database()) {}
+
+    ProjectFile project;
+    FrameRows rows;
+    int run_id = 0;
+};
+
+ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
+                           const std::vector<std::pair<std::string, std::string>>& parameters)
+    : implementation_(std::make_unique<Implementation>(project)) {
+    SQLite::Database& database = implementation_->project.database();
+    guarded(implementation_->project.path(), "adding a run", [&] {
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        run.sequence.id = storeSequence(database, run.sequence);
+        if (run.started_utc.empty()) run.started_utc = nowUtc();
+        implementation_->run_id = storeRun(database, run);
+        storeParameters(database, implementation_->run_id, parameters);
+        transaction.commit();
+    });
+}
+
+ResultWriter::~ResultWriter() = default;
+
+int ResultWriter::runId() const {
+    return implementation_->run_id;
+}
+
+void ResultWriter::write(const FrameResult& result) {
+    const std::string doing = "storing frame " + std::to_string(result.motion.frame);
+    guarded(implementation_->project.path(), doing, [&] {
+        SQLite::Transaction transaction(implementation_->project.database(), SQLite::TransactionBehavior::IMMEDIATE);
+        implementation_->rows.insert(implementation_->run_id, result);
+        transaction.commit();
+    });
+}
+
+void ResultWriter::finish(RunState state, const std::string& message) {
+    guarded(implementation_->project.path(), "recording how the run ended", [&] {
+        SQLite::Statement statement(implementation_->project.database(),
+                                    "UPDATE run SET state = ?, message = ? WHERE id = ?");
+        RowWriter(statement).word(stored::kRunStates, state).text(message).integer(implementation_->run_id).run();
+    });
+}
+
+}  // namespace eyrie

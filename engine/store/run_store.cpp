@@ -1,0 +1,188 @@
+#include "store/run_store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <algorithm>
+
+#include "store/frame_rows.h"
+#include "store/rows.h"
+
+namespace eyrie {
+namespace {
+
+std::string ofRun(int run_id) {
+    return " of run " + std::to_string(run_id);
+}
+
+RunRecord readRun(SQLite::Statement& statement) {
+    RowReader row(statement);
+    RunRecord run;
+    run.id = row.integer();
+    run.name = row.text();
+    run.started_utc = row.text();
+    run.engine_version = row.text();
+    run.preset = row.text();
+    run.scale.gsd_m_per_px = row.real();
+    run.scale.gsd_known = row.integer() != 0;
+    run.scale.frame_rate_hz = row.real();
+    run.first_frame = row.integer();
+    run.last_frame = row.integer();
+    run.state = row.word(stored::kRunStates);
+    run.message = row.text();
+    run.sequence.id = row.integer();
+    run.sequence.path = row.text();
+    run.sequence.size.width = row.integer();
+    run.sequence.size.height = row.integer();
+    run.sequence.frame_count = row.integer();
+    run.sequence.frame_rate_hz = row.real();
+    run.frames_done = row.integer();
+    return run;
+}
+
+/// Reads all runs, or the one with `run_id` if it is above 0.
+std::vector<RunRecord> readRuns(SQLite::Database& database, int run_id) {
+    SQLite::Statement statement(
+        database,
+        "SELECT run.id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, run.frame_rate_hz, "
+        "first_frame, last_frame, state, message, sequence.id, path, width, height, frame_count, "
+        "sequence.frame_rate_hz, (SELECT count(*) FROM frame WHERE frame.run_id = run.id) "
+        "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE ?1 = 0 OR run.id = ?1 ORDER BY run.id");
+    statement.bind(1, run_id);
+    std::vector<RunRecord> runs;
+    while (statement.executeStep()) runs.push_back(readRun(statement));
+    return runs;
+}
+
+}  // namespace
+
+const char* nameOf(RunState state) {
+    switch (state) {
+        case RunState::running:
+            return "running";
+        case RunState::finished:
+            return "finished";
+        case RunState::stopped:
+            return "stopped";
+        case RunState::failed:
+            return "failed";
+    }
+    return "";
+}
+
+FrameSummary summaryOf(const FrameResult& result) {
+    FrameSummary summary;
+    summary.frame = result.motion.frame;
+    summary.time_us = result.motion.time_us;
+    summary.state = result.motion.registration.state;
+    summary.inliers = result.motion.registration.current_from_previous.inliers;
+    summary.rms_px = result.motion.registration.current_from_previous.rms_px;
+    summary.corners = result.motion.corner_count;
+    summary.motion_vectors = static_cast<int>(result.motion.motion_vectors.size());
+    summary.detections = static_cast<int>(
+        std::count_if(result.detections.begin(), result.detections.end(),
+                      [](const Detection& detection) { return detection.rejection == Rejection::none; }));
+    summary.tracks =
+        static_cast<int>(std::count_if(result.tracks.begin(), result.tracks.end(),
+                                       [](const TrackState& state) { return state.status != TrackStatus::tentative; }));
+    summary.stage_ms = result.stage_ms;
+    return summary;
+}
+
+std::vector<RunRecord> RunStore::runs() const {
+    return guarded(project_.path(), "listing the runs", [&] { return readRuns(project_.database(), 0); });
+}
+
+std::optional<RunRecord> RunStore::run(int run_id) const {
+    if (run_id <= 0) return std::nullopt;
+    return guarded(project_.path(), "reading run " + std::to_string(run_id), [&]() -> std::optional<RunRecord> {
+        auto found = readRuns(project_.database(), run_id);
+        if (found.empty()) return std::nullopt;
+        return std::move(found.front());
+    });
+}
+
+std::vector<std::pair<std::string, std::string>> RunStore::parameters(int run_id) const {
+    return guarded(project_.path(), "reading the parameters" + ofRun(run_id), [&] {
+        SQLite::Statement statement(project_.database(),
+                                    "SELECT name, value FROM run_parameter WHERE run_id = ? ORDER BY position");
+        statement.bind(1, run_id);
+        std::vector<std::pair<std::string, std::string>> parameters;
+        while (statement.executeStep()) {
+            RowReader row(statement);
+            std::string name = row.text();
+            parameters.emplace_back(std::move(name), row.text());
+        }
+        return parameters;
+    });
+}
+
+std::vector<FrameSummary> RunStore::frameSummaries(int run_id) const {
+    return guarded(project_.path(), "reading the frames" + ofRun(run_id), [&] {
+        std::string query =
+            "SELECT frame, time_us, registration_state, inliers, rms_px, corner_count, motion_vector_count, "
+            "detection_count, track_count";
+        for (const char* stage : stored::kStageColumns) query += std::string(", ") + stage;
+        SQLite::Statement statement(project_.database(), query + " FROM frame WHERE run_id = ? ORDER BY frame");
+        statement.bind(1, run_id);
+        std::vector<FrameSummary> summaries;
+        while (statement.executeStep()) {
+            RowReader row(statement);
+            FrameSummary summary;
+            summary.frame = row.integer();
+            summary.time_us = row.wide();
+            summary.state = row.word(stored::kRegistrationStates);
+            summary.inliers = row.integer();
+            summary.rms_px = row.real();
+            summary.corners = row.integer();
+            summary.motion_vectors = row.integer();
+            summary.detections = row.integer();
+            summary.tracks = row.integer();
+            for (float& ms : summary.stage_ms) ms = static_cast<float>(row.real());
+            summaries.push_back(summary);
+        }
+        return summaries;
+    });
+}
+
+void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& states) {
+    guarded(project_.path(), "replacing the tracks" + ofRun(run_id), [&] {
+        SQLite::Database& database = project_.database();
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        for (const char* command : {"DELETE FROM track_state WHERE run_id = ?", "DELETE FROM track WHERE run_id = ?"}) {
+            SQLite::Statement statement(database, command);
+            RowWriter(statement).integer(run_id).run();
+        }
+        TrackRows rows(database);
+        for (const TrackFrame& state : states) rows.insert(run_id, state.frame, state.state);
+        SQLite::Statement counts(database,
+                                 "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE "
+                                 "track_state.run_id = frame.run_id AND track_state.frame = frame.frame AND "
+                                 "status <> 'tentative') WHERE run_id = ?");
+        RowWriter(counts).integer(run_id).run();
+        transaction.commit();
+    });
+}
+
+void RunStore::rename(int run_id, const std::string& name) {
+    guarded(project_.path(), "renaming run " + std::to_string(run_id), [&] {
+        SQLite::Statement statement(project_.database(), "UPDATE run SET name = ? WHERE id = ?");
+        RowWriter(statement).text(name).integer(run_id).run();
+        refuseUnchanged(run_id);
+    });
+}
+
+void RunStore::remove(int run_id) {
+    guarded(project_.path(), "removing run " + std::to_string(run_id), [&] {
+        SQLite::Statement statement(project_.database(), "DELETE FROM run WHERE id = ?");
+        RowWriter(statement).integer(run_id).run();
+        refuseUnchanged(run_id);
+    });
+}
+
+void RunStore::refuseUnchanged(int run_id) const {
+    if (project_.database().getChanges() > 0) return;
+    throw Error(ErrorKind::project, "the project " + project_.path().string() + " has no run " +
+                                        std::to_string(run_id) + "; eyrie-cli info lists its runs");
+}
+
+}  // namespace eyrie

@@ -1,0 +1,165 @@
+#include "store/schema.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <array>
+#include <string>
+
+namespace eyrie::schema {
+namespace {
+
+// Headings are radians, as in the engine, so that a frame reads back to the bit. Packed arrays: packed_arrays.h.
+// Words (state, status, …): stored_words.h. A real that was not a number is NULL.
+void addRuns(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE sequence (
+    id INTEGER PRIMARY KEY,
+    path TEXT NOT NULL,
+    width INTEGER NOT NULL,
+    height INTEGER NOT NULL,
+    frame_count INTEGER NOT NULL,
+    frame_rate_hz REAL NOT NULL,
+    UNIQUE (path, width, height)
+);
+CREATE TABLE run (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    name TEXT NOT NULL,
+    started_utc TEXT NOT NULL,
+    engine_version TEXT NOT NULL,
+    preset TEXT NOT NULL,
+    gsd_m_per_px REAL NOT NULL,
+    gsd_known INTEGER NOT NULL,
+    frame_rate_hz REAL NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    state TEXT NOT NULL,
+    message TEXT NOT NULL
+);
+CREATE INDEX run_of_sequence ON run (sequence_id);
+CREATE TABLE run_parameter (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    value TEXT NOT NULL,
+    PRIMARY KEY (run_id, position)
+) WITHOUT ROWID;
+CREATE TABLE frame (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    time_us INTEGER NOT NULL,
+    width INTEGER NOT NULL,
+    height INTEGER NOT NULL,
+    registration_state TEXT NOT NULL,
+    reason TEXT NOT NULL,
+    from_frame INTEGER NOT NULL,
+    to_frame INTEGER NOT NULL,
+    h00 REAL, h01 REAL, h02 REAL, h10 REAL, h11 REAL, h12 REAL, h20 REAL, h21 REAL, h22 REAL,
+    inliers INTEGER NOT NULL,
+    rms_px REAL,
+    corner_count INTEGER NOT NULL,
+    motion_vector_count INTEGER NOT NULL,
+    detection_count INTEGER NOT NULL,
+    track_count INTEGER NOT NULL,
+    background_speed_sigma REAL,
+    read_ms REAL, corners_ms REAL, corner_tracking_ms REAL, homography_ms REAL, motion_ms REAL, clustering_ms REAL,
+    stacking_ms REAL, detection_ms REAL, removal_ms REAL, tracking_ms REAL, store_ms REAL,
+    PRIMARY KEY (run_id, frame)
+) WITHOUT ROWID;
+CREATE TABLE motion_vectors (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    data BLOB,
+    UNIQUE (run_id, frame)
+);
+CREATE TABLE stationary_corners (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    data BLOB,
+    UNIQUE (run_id, frame)
+);
+CREATE TABLE motion_cluster (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    members BLOB,
+    PRIMARY KEY (run_id, frame, number)
+) WITHOUT ROWID;
+CREATE TABLE roi (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    PRIMARY KEY (run_id, frame, number)
+) WITHOUT ROWID;
+CREATE TABLE detection (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    score REAL,
+    cluster INTEGER NOT NULL,
+    rejection TEXT NOT NULL,
+    vectors BLOB,
+    PRIMARY KEY (run_id, frame, number)
+) WITHOUT ROWID;
+CREATE TABLE track (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    id INTEGER NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    frames INTEGER NOT NULL,
+    confirmed INTEGER NOT NULL,
+    speed_sum REAL, length_sum REAL, width_sum REAL,
+    PRIMARY KEY (run_id, id)
+) WITHOUT ROWID;
+CREATE TABLE track_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    status TEXT NOT NULL,
+    origin TEXT NOT NULL,
+    age INTEGER NOT NULL,
+    hits INTEGER NOT NULL,
+    score REAL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame);
+)sql");
+}
+
+constexpr std::array<Migration, 1> kMigrations{addRuns};
+
+}  // namespace
+
+std::span<const Migration> migrations() {
+    return kMigrations;
+}
+
+int currentNumber() {
+    return static_cast<int>(kMigrations.size());
+}
+
+int numberOf(SQLite::Database& database) {
+    return database.execAndGet("PRAGMA user_version").getInt();
+}
+
+void migrate(SQLite::Database& database, std::span<const Migration> steps) {
+    const int newest = static_cast<int>(steps.size());
+    while (numberOf(database) < newest) {
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        // Read again under the lock: another program may have been quicker.
+        const int number = numberOf(database);
+        if (number >= newest) break;
+        steps[static_cast<std::size_t>(number)](database);
+        database.exec("PRAGMA user_version = " + std::to_string(number + 1));
+        transaction.commit();
+    }
+}
+
+}  // namespace eyrie::schema

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace SQLite {
+class Database;
+}
+
+/// The tables of a project file and how they grew.
+namespace eyrie::schema {
+
+/// "EYRI", in the header of every project file.
+inline constexpr std::int32_t kApplicationId = 0x45595249;
+
+/// One step of the schema, run inside a transaction of its own. Steps are never changed once released, only added.
+using Migration = void (*)(SQLite::Database& database);
+
+/// All steps in order. The schema number of a file is how many of them it has seen.
+std::span<const Migration> migrations();
+
+/// The schema number this version writes.
+int currentNumber();
+
+/// The schema number of an open file (`user_version`).
+int numberOf(SQLite::Database& database);
+
+/// Runs the steps the file has not seen, each with its new number in one transaction: a step that fails or is killed
+/// leaves the file at the number before. Two programs may migrate the same file at once.
+void migrate(SQLite::Database& database, std::span<const Migration> steps);
+
+}  // namespace eyrie::schema

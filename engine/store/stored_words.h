@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/corner.h"
+#include "core/detection.h"
+#include "core/frame_result.h"
+#include "core/track_state.h"
+#include "store/run_store.h"
+
+/// Enumerators as words in the file, apart from the words on screen: they may not change when those do.
+namespace eyrie::stored {
+
+template <class Enum>
+struct Word {
+    Enum value;
+    std::string_view word;
+};
+
+inline constexpr std::array<Word<RunState>, 4> kRunStates{{{RunState::running, "running"},
+                                                           {RunState::finished, "finished"},
+                                                           {RunState::stopped, "stopped"},
+                                                           {RunState::failed, "failed"}}};
+inline constexpr std::array<Word<RegistrationState>, 4> kRegistrationStates{
+    {{RegistrationState::first, "first"},
+     {RegistrationState::registered, "registered"},
+     {RegistrationState::frozen, "frozen"},
+     {RegistrationState::failed, "failed"}}};
+inline constexpr std::array<Word<Rejection>, 4> kRejections{{{Rejection::none, "none"},
+                                                             {Rejection::duplicate, "duplicate"},
+                                                             {Rejection::outlier, "outlier"},
+                                                             {Rejection::size, "size"}}};
+inline constexpr std::array<Word<TrackStatus>, 3> kTrackStatuses{{{TrackStatus::tentative, "tentative"},
+                                                                  {TrackStatus::confirmed, "confirmed"},
+                                                                  {TrackStatus::coasting, "coasting"}}};
+inline constexpr std::array<Word<StateOrigin>, 3> kStateOrigins{{{StateOrigin::detected, "detected"},
+                                                                 {StateOrigin::reconstructed, "reconstructed"},
+                                                                 {StateOrigin::predicted, "predicted"}}};
+
+/// Columns of table `frame`, in the order of `Stage`.
+inline constexpr std::array<const char*, kStageCount> kStageColumns{
+    "read_ms",     "corners_ms",   "corner_tracking_ms", "homography_ms", "motion_ms", "clustering_ms",
+    "stacking_ms", "detection_ms", "removal_ms",         "tracking_ms",   "store_ms"};
+
+}  // namespace eyrie::stored

@@ -1,0 +1,119 @@
+// The part of RunStore that reads tracks and whole results.
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "store/rows.h"
+#include "store/run_store.h"
+
+namespace eyrie {
+namespace {
+
+std::string ofRun(int run_id) {
+    return " of run " + std::to_string(run_id);
+}
+
+std::vector<TrackFrame> readStates(SQLite::Statement& statement) {
+    std::vector<TrackFrame> states;
+    while (statement.executeStep()) {
+        RowReader row(statement);
+        TrackFrame state;
+        state.frame = row.integer();
+        state.state = readTrackState(row);
+        states.push_back(state);
+    }
+    return states;
+}
+
+}  // namespace
+
+std::vector<TrackSummary> RunStore::tracks(int run_id) const {
+    return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
+        SQLite::Statement statement(project_.database(),
+                                    "SELECT id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
+                                    "width_sum FROM track WHERE run_id = ? ORDER BY id");
+        statement.bind(1, run_id);
+        std::vector<TrackSummary> tracks;
+        while (statement.executeStep()) {
+            RowReader row(statement);
+            TrackSummary track;
+            track.id = row.integer();
+            track.first_frame = row.integer();
+            track.last_frame = row.integer();
+            track.frames = row.integer();
+            if (track.frames < 1) throw MalformedRow{"track " + std::to_string(track.id) + " without frames"};
+            track.confirmed = row.integer() != 0;
+            track.mean_speed_px = row.real() / track.frames;
+            track.mean_length_px = row.real() / track.frames;
+            track.mean_width_px = row.real() / track.frames;
+            tracks.push_back(track);
+        }
+        return tracks;
+    });
+}
+
+std::vector<TrackFrame> RunStore::trackStates(int run_id, TrackId track) const {
+    return guarded(project_.path(), "reading track " + std::to_string(track) + ofRun(run_id), [&] {
+        SQLite::Statement statement(project_.database(), std::string("SELECT frame, ") + kTrackStateColumns +
+                                                             " FROM track_state WHERE run_id = ? AND track_id = ? "
+                                                             "ORDER BY frame");
+        statement.bind(1, run_id);
+        statement.bind(2, track);
+        return readStates(statement);
+    });
+}
+
+std::vector<TrackFrame> RunStore::trackStatesUpTo(int run_id, FrameIndex frame, int trail) const {
+    return guarded(project_.path(), "reading the trails" + ofRun(run_id), [&] {
+        SQLite::Statement statement(project_.database(), std::string("SELECT frame, ") + kTrackStateColumns +
+                                                             " FROM track_state WHERE run_id = ? AND frame > ? AND "
+                                                             "frame <= ? ORDER BY frame, track_id");
+        statement.bind(1, run_id);
+        statement.bind(2, static_cast<std::int64_t>(frame) - trail);
+        statement.bind(3, frame);
+        return readStates(statement);
+    });
+}
+
+BoxesByFrame RunStore::trackBoxes(int run_id) const {
+    return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
+        SQLite::Statement statement(project_.database(), std::string("SELECT frame, ") + kTrackStateColumns +
+                                                             " FROM track_state WHERE run_id = ?1 AND track_id IN "
+                                                             "(SELECT id FROM track WHERE run_id = ?1 AND confirmed) "
+                                                             "ORDER BY frame, track_id");
+        statement.bind(1, run_id);
+        BoxesByFrame boxes;
+        for (const TrackFrame& track : readStates(statement)) {
+            BoxRecord record;
+            record.frame = track.frame;
+            record.id = track.state.id;
+            record.box = track.state.box;
+            record.score = track.state.score;
+            record.velocity = track.state.velocity;
+            record.origin = nameOf(track.state.origin);
+            boxes[track.frame].push_back(std::move(record));
+        }
+        return boxes;
+    });
+}
+
+BoxesByFrame RunStore::detectionBoxes(int run_id) const {
+    return guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
+        SQLite::Statement statement(project_.database(),
+                                    "SELECT frame, x, y, length, width, heading_rad, vx, vy, score FROM detection "
+                                    "WHERE run_id = ? AND rejection = 'none' ORDER BY frame, number");
+        statement.bind(1, run_id);
+        BoxesByFrame boxes;
+        while (statement.executeStep()) {
+            RowReader row(statement);
+            BoxRecord record;
+            record.frame = row.integer();
+            record.box = row.box();
+            record.velocity = row.point();
+            record.score = row.real();
+            record.origin = nameOf(StateOrigin::detected);
+            boxes[record.frame].push_back(std::move(record));
+        }
+        return boxes;
+    });
+}
+
+}  // namespace eyrie

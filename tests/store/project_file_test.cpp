@@ -1,0 +1,214 @@
+#include "store/project_file.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <functional>
+
+#include "core/error.h"
+#include "store/result_writer.h"
+#include "store/samples.h"
+#include "store/schema.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using testing::HasSubstr;
+
+class ProjectFileTest : public testing::Test {
+ protected:
+    void write(const std::string& bytes) { std::ofstream(path_, std::ios::binary) << bytes; }
+
+    /// Makes a database that is not (quite) a project.
+    void makeDatabase(const std::vector<std::string>& commands) {
+        SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+        for (const std::string& command : commands) database.exec(command);
+    }
+
+    static void expectError(ErrorKind kind, const std::string& words, const std::function<void()>& action) {
+        try {
+            action();
+            FAIL() << "expected an error with: " << words;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), kind) << error.what();
+            EXPECT_THAT(error.what(), HasSubstr(words));
+        }
+    }
+
+    test::TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_ / "clip.eyrie";
+};
+
+TEST_F(ProjectFileTest, ANewProjectIsOneFileOfOurKind) {
+    {
+        ProjectFile project = ProjectFile::create(path_);
+        EXPECT_EQ(project.database().execAndGet("PRAGMA application_id").getInt(), schema::kApplicationId);
+        EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
+        EXPECT_EQ(project.database().execAndGet("PRAGMA journal_mode").getString(), "wal");
+        EXPECT_EQ(project.database().execAndGet("PRAGMA foreign_keys").getInt(), 1);
+        EXPECT_EQ(project.database().execAndGet("PRAGMA synchronous").getInt(), 1);
+    }
+    int entries = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+        EXPECT_EQ(entry.path(), path_) << "nothing else may stay behind";
+        ++entries;
+    }
+    EXPECT_EQ(entries, 1);
+}
+
+TEST_F(ProjectFileTest, AnExistingFileIsNeverOverwritten) {
+    write("my notes");
+    expectError(ErrorKind::output, path_.string(), [&] { ProjectFile::create(path_); });
+    EXPECT_EQ(std::filesystem::file_size(path_), 8U);
+}
+
+TEST_F(ProjectFileTest, OpenOrCreateDoesBoth) {
+    ProjectFile::openOrCreate(path_);
+    const int run = test::writeSampleProject(path_, 1);
+    ProjectFile again = ProjectFile::openOrCreate(path_);
+    EXPECT_TRUE(RunStore(again).run(run).has_value());
+}
+
+TEST_F(ProjectFileTest, AMissingFileIsNamed) {
+    expectError(ErrorKind::input, path_.string(), [&] { ProjectFile::open(path_); });
+    expectError(ErrorKind::input, "is not a file", [&] { ProjectFile::open(folder_.path()); });
+}
+
+TEST_F(ProjectFileTest, AFolderThatCannotBeWrittenIsNamed) {
+    expectError(ErrorKind::output, "does not exist", [&] { ProjectFile::create(folder_ / "nowhere" / "a.eyrie"); });
+    // No one can make files here, not even the administrator.
+    if (std::filesystem::is_directory("/proc")) {
+        expectError(ErrorKind::output, "/proc/a.eyrie", [] { ProjectFile::create("/proc/a.eyrie"); });
+    }
+    expectError(ErrorKind::output, "does not exist", [&] {
+        write("a file, not a folder");
+        ProjectFile::create(path_ / "a.eyrie");
+    });
+}
+
+TEST_F(ProjectFileTest, WhatIsNoDatabaseIsRefused) {
+    for (const std::string& bytes : {std::string("hello"), std::string(5000, 'x'), std::string(5000, '\0')}) {
+        write(bytes);
+        expectError(ErrorKind::project, "is not an Eyrie project", [&] { ProjectFile::open(path_); });
+    }
+    write("");
+    expectError(ErrorKind::project, "is empty", [&] { ProjectFile::open(path_); });
+}
+
+TEST_F(ProjectFileTest, TheDatabaseOfAnotherProgramIsRefusedAndLeftAlone) {
+    makeDatabase({"CREATE TABLE contacts (name TEXT)"});
+    const auto time = std::filesystem::last_write_time(path_);
+    expectError(ErrorKind::project, "another program", [&] { ProjectFile::open(path_); });
+    expectError(ErrorKind::project, "another program", [&] { ProjectFile::openOrCreate(path_); });
+    EXPECT_EQ(std::filesystem::last_write_time(path_), time);
+}
+
+TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
+    test::writeSampleProject(path_, 1);
+    makeDatabase({"PRAGMA user_version = 99"});
+    for (const auto mode : {ProjectFile::Mode::read_write, ProjectFile::Mode::read_only}) {
+        expectError(ErrorKind::project, "newer version", [&] { ProjectFile::open(path_, mode); });
+    }
+    makeDatabase({"PRAGMA user_version = " + std::to_string(schema::currentNumber())});
+    EXPECT_NO_THROW(test::readEverything(path_));
+}
+
+TEST_F(ProjectFileTest, AProjectWithoutItsTablesIsDamaged) {
+    makeDatabase({"CREATE TABLE x (y)", "PRAGMA application_id = " + std::to_string(schema::kApplicationId),
+                  "PRAGMA user_version = " + std::to_string(schema::currentNumber())});
+    expectError(ErrorKind::project, "damaged", [&] { ProjectFile::open(path_); });
+    std::filesystem::remove(path_);
+    test::writeSampleProject(path_, 1);
+    makeDatabase({"DROP TABLE motion_cluster"});
+    ProjectFile project = ProjectFile::open(path_);
+    expectError(ErrorKind::project, "motion_cluster", [&] { RunStore(project).frameResult(1, 0); });
+}
+
+TEST_F(ProjectFileTest, ReadOnlyReadsAndRefusesToWrite) {
+    test::writeSampleProject(path_, 2);
+    ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);
+    RunStore store(project);
+    test::expectSame(*store.frameResult(1, 1), test::sampleFrame(1));
+    expectError(ErrorKind::output, "cannot be written", [&] { store.rename(1, "other"); });
+}
+
+TEST_F(ProjectFileTest, ARowThatNoWriterWroteIsAnErrorThatSaysWhere) {
+    test::writeSampleProject(path_, 1);
+    for (const char* command :
+         {"UPDATE frame SET registration_state = 'perhaps'", "UPDATE motion_vectors SET data = x'0102'",
+          "UPDATE motion_cluster SET members = x'ffffff7f'", "DELETE FROM stationary_corners"}) {
+        std::filesystem::remove(path_);
+        test::writeSampleProject(path_, 1);
+        makeDatabase({command});
+        ProjectFile project = ProjectFile::open(path_);
+        expectError(ErrorKind::project, "frame 0 of run 1", [&] { RunStore(project).frameResult(1, 0); });
+    }
+}
+
+TEST_F(ProjectFileTest, ALockedProjectIsAnErrorAndNotAHang) {
+    test::writeSampleProject(path_, 1);
+    SQLite::Database other(path_.string(), SQLite::OPEN_READWRITE);
+    const SQLite::Transaction lock(other, SQLite::TransactionBehavior::EXCLUSIVE);
+    ProjectFile project = ProjectFile::open(path_);
+    project.database().setBusyTimeout(10);
+    expectError(ErrorKind::project, "in use by another program", [&] { RunStore(project).rename(1, "other"); });
+    EXPECT_TRUE(RunStore(project).frameResult(1, 0).has_value()) << "reading goes on";
+}
+
+// --- migrations -------------------------------------------------------------------------------------------------
+
+TEST_F(ProjectFileTest, StepsRunOnceInOrderAndTakeTheirNumbers) {
+    const schema::Migration steps[] = {[](SQLite::Database& database) { database.exec("CREATE TABLE a (x)"); },
+                                       [](SQLite::Database& database) { database.exec("INSERT INTO a VALUES (2)"); },
+                                       [](SQLite::Database& database) { database.exec("INSERT INTO a VALUES (3)"); }};
+    SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    schema::migrate(database, std::span(steps).first(1));
+    EXPECT_EQ(schema::numberOf(database), 1);
+    schema::migrate(database, steps);
+    schema::migrate(database, steps);
+    EXPECT_EQ(schema::numberOf(database), 3);
+    EXPECT_EQ(database.execAndGet("SELECT group_concat(x) FROM a").getString(), "2,3");
+}
+
+TEST_F(ProjectFileTest, AStepThatFailsLeavesTheFileBeforeIt) {
+    const schema::Migration steps[] = {[](SQLite::Database& database) { database.exec("CREATE TABLE a (x)"); },
+                                       [](SQLite::Database& database) {
+                                           database.exec("INSERT INTO a VALUES (1)");
+                                           database.exec("this is no SQL");
+                                       }};
+    SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    EXPECT_THROW(schema::migrate(database, steps), SQLite::Exception);
+    EXPECT_EQ(schema::numberOf(database), 1);
+    EXPECT_EQ(database.execAndGet("SELECT count(*) FROM a").getInt(), 0);
+}
+
+TEST_F(ProjectFileTest, AProjectOfSchemaOneOpensToday) {
+    std::ifstream file(std::filesystem::path(EYRIE_SOURCE_DIR) / "tests/data/schema_1.sql");
+    ASSERT_TRUE(file.good());
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    makeDatabase({text});
+    ProjectFile project = ProjectFile::open(path_);
+    EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
+    const RunStore store(project);
+    ASSERT_EQ(store.runs().size(), 1U);
+    EXPECT_EQ(store.runs()[0].sequence.path, "/videos/old.mp4");
+    EXPECT_EQ(store.parameters(1).size(), 2U);
+    const auto frame = store.frameResult(1, 7);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->motion.registration.current_from_previous.matrix(0, 2), 1.5);
+    ASSERT_EQ(frame->motion.motion_vectors.size(), 1U);
+    EXPECT_EQ(frame->motion.motion_vectors[0].position, cv::Point2f(100.5F, 50.25F));
+    ASSERT_EQ(frame->motion.stationary_corners.size(), 2U);
+    EXPECT_EQ(frame->motion.stationary_corners[1], cv::Point2f(3, 4.0625F));
+    ASSERT_EQ(frame->detections.size(), 1U);
+    EXPECT_EQ(frame->detections[0].rejection, Rejection::outlier);
+    ASSERT_EQ(frame->tracks.size(), 1U);
+    EXPECT_EQ(frame->tracks[0].origin, StateOrigin::reconstructed);
+    ASSERT_EQ(store.tracks(1).size(), 1U);
+    EXPECT_DOUBLE_EQ(store.tracks(1)[0].mean_speed_px, 5);
+}
+
+}  // namespace
+}  // namespace eyrie

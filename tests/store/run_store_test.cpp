@@ -1,0 +1,279 @@
+#include "store/run_store.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "store/result_writer.h"
+#include "store/samples.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using test::sampleFrame;
+using test::sampleRun;
+
+class RunStoreTest : public testing::Test {
+ protected:
+    test::TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_ / "clip.eyrie";
+};
+
+TEST_F(RunStoreTest, FramesReadBackAsTheyWereWritten) {
+    const int run = test::writeSampleProject(path_, 9);
+    ProjectFile project = ProjectFile::open(path_);
+    const RunStore store(project);
+    for (int frame = 0; frame < 9; ++frame) {
+        const auto read = store.frameResult(run, frame);
+        ASSERT_TRUE(read.has_value());
+        test::expectSame(*read, sampleFrame(frame));
+    }
+    EXPECT_FALSE(store.frameResult(run, 9).has_value());
+    EXPECT_FALSE(store.frameResult(run, -1).has_value());
+    EXPECT_FALSE(store.frameResult(run + 1, 0).has_value());
+}
+
+TEST_F(RunStoreTest, AFrameWithNothingInItReadsBackEmpty) {
+    ProjectFile project = ProjectFile::create(path_);
+    ResultWriter writer(path_, sampleRun(), {});
+    writer.write(FrameResult{});
+    const auto read = RunStore(project).frameResult(writer.runId(), 0);
+    ASSERT_TRUE(read.has_value());
+    test::expectSame(*read, FrameResult{});
+}
+
+TEST_F(RunStoreTest, KeepsWhatIsNoNumberAndAllOfA64BitTime) {
+    FrameResult odd = sampleFrame(1);
+    odd.motion.time_us = std::numeric_limits<std::int64_t>::max() - 1;
+    odd.motion.background_speed_sigma = std::numeric_limits<double>::quiet_NaN();
+    odd.tracks[0].box.length = std::numeric_limits<double>::infinity();
+    ProjectFile project = ProjectFile::create(path_);
+    ResultWriter writer(path_, sampleRun(), {});
+    writer.write(odd);
+    const auto read = RunStore(project).frameResult(writer.runId(), 1);
+    ASSERT_TRUE(read.has_value());
+    EXPECT_EQ(read->motion.time_us, odd.motion.time_us);
+    EXPECT_TRUE(std::isnan(read->motion.background_speed_sigma));
+    EXPECT_TRUE(std::isinf(read->tracks[0].box.length));
+}
+
+TEST_F(RunStoreTest, RunsKeepWhatTheyWereStartedWith) {
+    const int id = test::writeSampleProject(path_, 3);
+    ProjectFile project = ProjectFile::open(path_);
+    const RunStore store(project);
+    const auto run = store.run(id);
+    ASSERT_TRUE(run.has_value());
+    EXPECT_EQ(run->sequence.path, "/videos/street.mp4");
+    EXPECT_EQ(run->sequence.size, cv::Size(768, 576));
+    EXPECT_EQ(run->sequence.frame_count, 100);
+    EXPECT_EQ(run->sequence.frame_rate_hz, 29.97);
+    EXPECT_EQ(run->name, "first try");
+    EXPECT_EQ(run->engine_version, "0.1.0");
+    EXPECT_EQ(run->preset, "thesis");
+    EXPECT_EQ(run->scale.gsd_m_per_px, 0.345);
+    EXPECT_EQ(run->scale.frame_rate_hz, 29.97);
+    EXPECT_TRUE(run->scale.gsd_known);
+    EXPECT_EQ(run->first_frame, 0);
+    EXPECT_EQ(run->last_frame, 99);
+    EXPECT_EQ(run->frames_done, 3);
+    EXPECT_EQ(run->state, RunState::finished);
+    EXPECT_THAT(run->started_utc, testing::MatchesRegex("20[0-9]{2}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z"));
+    EXPECT_THAT(store.parameters(id), testing::ElementsAre(testing::Pair("motion.min_speed", "0.5"),
+                                                           testing::Pair("detection.method", "gradient")));
+    EXPECT_FALSE(store.run(id + 1).has_value());
+    EXPECT_FALSE(store.run(0).has_value());
+    EXPECT_FALSE(store.run(-3).has_value());
+}
+
+TEST_F(RunStoreTest, SummariesAgreeWithTheFrames) {
+    const int run = test::writeSampleProject(path_, 5);
+    ProjectFile project = ProjectFile::open(path_);
+    const auto summaries = RunStore(project).frameSummaries(run);
+    ASSERT_EQ(summaries.size(), 5U);
+    for (int frame = 0; frame < 5; ++frame) {
+        const FrameSummary& read = summaries[static_cast<std::size_t>(frame)];
+        const FrameSummary expected = summaryOf(sampleFrame(frame));
+        EXPECT_EQ(read.frame, frame);
+        EXPECT_EQ(read.time_us, expected.time_us);
+        EXPECT_EQ(read.state, expected.state);
+        EXPECT_EQ(read.inliers, expected.inliers);
+        EXPECT_EQ(read.rms_px, expected.rms_px);
+        EXPECT_EQ(read.corners, 103);
+        EXPECT_EQ(read.motion_vectors, 40);
+        EXPECT_EQ(read.detections, 2) << "of seven, those at 0 and 4 were kept";
+        EXPECT_EQ(read.tracks, 3) << "of five, those at 0 and 3 are tentative";
+        EXPECT_EQ(read.stage_ms, expected.stage_ms);
+    }
+}
+
+/// A track of id 1 that moves 3 px right and 4 px down per frame in frames 4 … 6, confirmed in the last; and a
+/// tentative track 2 in frame 5.
+std::vector<FrameResult> twoTracks() {
+    std::vector<FrameResult> frames(3);
+    for (int i = 0; i < 3; ++i) {
+        frames[static_cast<std::size_t>(i)].motion.frame = 4 + i;
+        TrackState state;
+        state.id = 1;
+        state.velocity = {3, 4};
+        state.box = {{10.0 + 3 * i, 20.0 + 4 * i}, 12.0 + i, 6, 0.5};
+        state.status = i == 2 ? TrackStatus::confirmed : TrackStatus::tentative;
+        state.score = 0.25 * i;
+        frames[static_cast<std::size_t>(i)].tracks.push_back(state);
+    }
+    TrackState second;
+    second.id = 2;
+    frames[1].tracks.push_back(second);
+    return frames;
+}
+
+TEST_F(RunStoreTest, TracksAreSummed) {
+    ProjectFile project = ProjectFile::create(path_);
+    ResultWriter writer(path_, sampleRun(), {});
+    for (const FrameResult& frame : twoTracks()) writer.write(frame);
+    const RunStore store(project);
+    const auto tracks = store.tracks(writer.runId());
+    ASSERT_EQ(tracks.size(), 2U);
+    EXPECT_EQ(tracks[0].id, 1);
+    EXPECT_EQ(tracks[0].first_frame, 4);
+    EXPECT_EQ(tracks[0].last_frame, 6);
+    EXPECT_EQ(tracks[0].frames, 3);
+    EXPECT_TRUE(tracks[0].confirmed);
+    EXPECT_DOUBLE_EQ(tracks[0].mean_speed_px, 5);
+    EXPECT_DOUBLE_EQ(tracks[0].mean_length_px, 13);
+    EXPECT_DOUBLE_EQ(tracks[0].mean_width_px, 6);
+    EXPECT_FALSE(tracks[1].confirmed);
+
+    const auto states = store.trackStates(writer.runId(), 1);
+    ASSERT_EQ(states.size(), 3U);
+    EXPECT_EQ(states[0].frame, 4);
+    EXPECT_EQ(states[2].state.box.centre, cv::Point2d(16, 28));
+
+    const auto trail = store.trackStatesUpTo(writer.runId(), 5, 1);
+    ASSERT_EQ(trail.size(), 2U) << "frame 5 alone, both tracks";
+    EXPECT_EQ(trail[1].state.id, 2);
+    EXPECT_EQ(store.trackStatesUpTo(writer.runId(), 6, 100).size(), 4U);
+}
+
+TEST_F(RunStoreTest, ResultsAsBoxesHoldConfirmedTracksAndKeptDetections) {
+    ProjectFile project = ProjectFile::create(path_);
+    ResultWriter writer(path_, sampleRun(), {});
+    auto frames = twoTracks();
+    Detection kept;
+    kept.box = {{50, 60}, 20, 10, 1.5};
+    kept.score = 0.7;
+    kept.velocity = {1, 2};
+    Detection rejected = kept;
+    rejected.rejection = Rejection::outlier;
+    frames[1].detections = {rejected, kept};
+    for (const FrameResult& frame : frames) writer.write(frame);
+
+    const RunStore store(project);
+    const BoxesByFrame tracks = store.trackBoxes(writer.runId());
+    ASSERT_EQ(tracks.size(), 3U);
+    ASSERT_EQ(tracks.at(5).size(), 1U) << "the tentative track is no part of the result";
+    const BoxRecord& track = tracks.at(5).front();
+    EXPECT_EQ(track.frame, 5);
+    EXPECT_EQ(track.id, 1);
+    EXPECT_EQ(track.score, 0.25);
+    EXPECT_EQ(track.velocity, cv::Point2d(3, 4));
+    EXPECT_EQ(track.origin, "detected");
+    EXPECT_EQ(track.box.heading, 0.5);
+
+    const BoxesByFrame detections = store.detectionBoxes(writer.runId());
+    ASSERT_EQ(detections.size(), 1U);
+    ASSERT_EQ(detections.at(5).size(), 1U);
+    EXPECT_EQ(detections.at(5).front().id, std::nullopt);
+    EXPECT_EQ(detections.at(5).front().score, 0.7);
+    EXPECT_EQ(detections.at(5).front().box.centre, cv::Point2d(50, 60));
+}
+
+TEST_F(RunStoreTest, ReplacedTracksShowEverywhere) {
+    ProjectFile project = ProjectFile::create(path_);
+    ResultWriter writer(path_, sampleRun(), {});
+    for (const FrameResult& frame : twoTracks()) writer.write(frame);
+    RunStore store(project);
+    auto states = store.trackStates(writer.runId(), 1);
+    states.pop_back();
+    for (TrackFrame& state : states) state.state.status = TrackStatus::confirmed;
+    store.replaceTrackStates(writer.runId(), states);
+
+    ASSERT_EQ(store.tracks(writer.runId()).size(), 1U);
+    EXPECT_EQ(store.tracks(writer.runId())[0].last_frame, 5);
+    EXPECT_TRUE(store.frameResult(writer.runId(), 6)->tracks.empty());
+    EXPECT_EQ(store.frameResult(writer.runId(), 5)->tracks.size(), 1U);
+    const auto summaries = store.frameSummaries(writer.runId());
+    EXPECT_EQ(summaries[0].tracks, 1);
+    EXPECT_EQ(summaries[2].tracks, 0);
+}
+
+TEST_F(RunStoreTest, ARemovedRunTakesEverythingOfItAndNothingElse) {
+    const int first = test::writeSampleProject(path_, 4);
+    const int second = test::writeSampleProject(path_, 3);
+    ProjectFile project = ProjectFile::open(path_);
+    RunStore store(project);
+    store.remove(first);
+    EXPECT_FALSE(store.run(first).has_value());
+    EXPECT_TRUE(store.parameters(first).empty());
+    EXPECT_TRUE(store.frameSummaries(first).empty());
+    EXPECT_FALSE(store.frameResult(first, 0).has_value());
+    EXPECT_TRUE(store.tracks(first).empty());
+    EXPECT_TRUE(store.trackStatesUpTo(first, 3, 10).empty());
+    EXPECT_TRUE(store.detectionBoxes(first).empty());
+    test::expectSame(*store.frameResult(second, 2), sampleFrame(2));
+    EXPECT_GT(test::writeSampleProject(path_, 1), second) << "numbers of runs are never used again";
+}
+
+TEST_F(RunStoreTest, RunsOverTheSameVideoShareItsSequence) {
+    const int first = test::writeSampleProject(path_, 1);
+    const int second = test::writeSampleProject(path_, 1);
+    RunRecord other = sampleRun();
+    other.sequence.path = "/videos/other.mp4";
+    const int third = ResultWriter(path_, other, {}).runId();
+    ProjectFile project = ProjectFile::open(path_);
+    const RunStore store(project);
+    EXPECT_EQ(store.run(first)->sequence.id, store.run(second)->sequence.id);
+    EXPECT_NE(store.run(first)->sequence.id, store.run(third)->sequence.id);
+    EXPECT_THAT(store.runs(), testing::SizeIs(3));
+}
+
+TEST_F(RunStoreTest, RenamesAndRefusesToChangeWhatIsNotThere) {
+    const int run = test::writeSampleProject(path_, 1);
+    ProjectFile project = ProjectFile::open(path_);
+    RunStore store(project);
+    store.rename(run, "it's “good”");
+    EXPECT_EQ(store.run(run)->name, "it's “good”");
+    for (const auto& change :
+         {std::function<void()>([&] { store.rename(99, "x"); }), std::function<void()>([&] { store.remove(99); })}) {
+        try {
+            change();
+            FAIL() << "expected an error";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::project);
+            EXPECT_THAT(error.what(), testing::HasSubstr("no run 99"));
+        }
+    }
+}
+
+TEST_F(RunStoreTest, HowARunEndedIsKept) {
+    ProjectFile project = ProjectFile::create(path_);
+    const RunStore store(project);
+    ResultWriter failed(path_, sampleRun(), {});
+    EXPECT_EQ(store.run(failed.runId())->state, RunState::running);
+    failed.finish(RunState::failed, "the video ends at frame 12");
+    EXPECT_EQ(store.run(failed.runId())->state, RunState::failed);
+    EXPECT_EQ(store.run(failed.runId())->message, "the video ends at frame 12");
+    int unfinished = 0;
+    {
+        ResultWriter writer(path_, sampleRun(), {});
+        writer.write(sampleFrame(0));
+        unfinished = writer.runId();
+    }
+    EXPECT_EQ(store.run(unfinished)->state, RunState::running);
+    EXPECT_EQ(store.run(unfinished)->frames_done, 1);
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/frame_result.h"
+#include "store/run_store.h"
+
+/// Made-up results for the tests of the store.
+namespace eyrie::test {
+
+/// How much there is in a made-up frame.
+struct SampleSize {
+    int stationary_corners = 60;
+    int motion_vectors = 40;
+    int clusters = 6;
+    int detections = 7;
+    int tracks = 5;
+    cv::Size image{768, 576};
+};
+
+/// A frame in which every field differs from its default; the same for the same frame, whoever asks.
+FrameResult sampleFrame(FrameIndex frame, const SampleSize& size = {});
+
+/// A run over "/videos/street.mp4", frames 0 … 99.
+RunRecord sampleRun();
+
+/// Checks that two results are the same to the bit, and stationary corners to 1/32 px.
+void expectSame(const FrameResult& read, const FrameResult& written);
+
+/// A project with one finished run of `frames` frames; answers the run's id.
+int writeSampleProject(const std::filesystem::path& path, int frames, const SampleSize& size = {});
+
+/// Reads everything the project holds, throwing Error where it cannot be read.
+void readEverything(const std::filesystem::path& path);
+
+}  // namespace eyrie::test
