@@ -1,0 +1,175 @@
+#include "stacking/image_stacker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/angle.h"
+
+namespace eyrie {
+namespace {
+
+SceneScale scale() {
+    SceneScale s;
+    s.gsd_m_per_px = 0.345;
+    s.gsd_known = true;
+    return s;
+}
+
+/// A bright, turning vehicle over striped ground, with exact motion vectors.
+struct World {
+    cv::Size size{640, 480};
+    double turn_per_frame = 0;
+
+    double headingAt(int t) const { return 0.3 + turn_per_frame * t; }
+    cv::Point2d centreAt(int t) const { return cv::Point2d(120, 150) + cv::Point2d(1.6, 0.5) * t; }
+    OrientedBox boxAt(int t) const { return {centreAt(t), 18, 9, headingAt(t)}; }
+
+    Frame frameAt(int t) const {
+        Frame frame;
+        frame.index = t;
+        frame.gray = cv::Mat(size, CV_8UC1);
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) frame.gray.at<std::uint8_t>(y, x) = (x / 7 + y / 5) % 2 ? 130 : 70;
+        }
+        std::vector<cv::Point> corners;
+        for (const auto& c : boxAt(t).corners()) corners.emplace_back(cvRound(c.x * 16), cvRound(c.y * 16));
+        cv::fillConvexPoly(frame.gray, corners, cv::Scalar(240), cv::LINE_AA, 4);
+        return frame;
+    }
+    FrameMotion motionAt(int t, int first_id = 1) const {
+        FrameMotion motion;
+        motion.frame = t;
+        motion.image_size = size;
+        motion.registration.state = t ? RegistrationState::registered : RegistrationState::first;
+        for (int i = 0; i < 12; ++i) {
+            MotionVector vector;
+            vector.id = first_id + i;
+            const cv::Point2d p = boxAt(t).toImage({(i % 4 - 1.5) * 4, (i / 4 - 1.0) * 3});
+            vector.position = {float(p.x), float(p.y)};
+            vector.velocity = {float(1.6 * std::cos(headingAt(t))), float(1.6 * std::sin(headingAt(t)))};
+            vector.age = 10;
+            motion.motion_vectors.push_back(vector);
+        }
+        return motion;
+    }
+    std::vector<MotionCluster> clustersAt(int t) const {
+        MotionCluster cluster;
+        cluster.box = boxAt(t);
+        cluster.velocity = {1.6 * std::cos(headingAt(t)), 1.6 * std::sin(headingAt(t))};
+        for (int i = 0; i < 12; ++i) cluster.members.push_back(i);
+        return {cluster};
+    }
+    std::vector<Detection> detectionsAt(int t) const {
+        Detection detection;
+        detection.box = boxAt(t);
+        for (int i = 0; i < 12; ++i) detection.vectors.push_back(i);
+        return {detection};
+    }
+};
+
+}  // namespace
+
+TEST(MasterVector, staysAtItsPlaceOnATurningObjectWhateverVectorsRemain) {
+    World world;
+    world.turn_per_frame = 0.02;
+    FrameMotion motion = world.motionAt(0);
+    MasterVector master(1, {world.centreAt(0), world.headingAt(0), {}});
+    for (const auto& vector : motion.motion_vectors) master.relate(vector, world.headingAt(0));
+    for (int t = 1; t < 60; ++t) {
+        motion = world.motionAt(t);
+        std::vector<MasterVector::Suggestion> present;
+        for (const auto& vector : motion.motion_vectors) {
+            if (vector.id > 3 + t / 10) present.push_back({&vector, world.headingAt(t)});
+        }
+        ASSERT_TRUE(master.update(present));
+        EXPECT_NEAR(cv::norm(master.pose().position - world.centreAt(t)), 0, 1e-3);
+        EXPECT_NEAR(turnBetween(master.pose().heading, world.headingAt(t)), 0, 1e-6);
+    }
+    EXPECT_FALSE(master.update({})) << "a master vector dies with its last related vector";
+}
+
+TEST(MasterVector, aFewWrongVectorsDoNotMoveIt) {
+    const World world;
+    FrameMotion motion = world.motionAt(0);
+    MasterVector master(1, {world.centreAt(0), world.headingAt(0), {}});
+    for (const auto& vector : motion.motion_vectors) master.relate(vector, world.headingAt(0));
+    motion = world.motionAt(1);
+    for (int i = 0; i < 4; ++i) motion.motion_vectors[std::size_t(i)].position += cv::Point2f(15, -8);
+    std::vector<MasterVector::Suggestion> present;
+    for (const auto& vector : motion.motion_vectors) present.push_back({&vector, world.headingAt(1)});
+    master.update(present);
+    EXPECT_NEAR(cv::norm(master.pose().position - world.centreAt(1)), 0, 1e-3);
+}
+
+TEST(ImageStacker, keepsTheObjectSharpAndBlursTheGround) {
+    for (const auto initialisation : {StackInitialisation::detections, StackInitialisation::k_means}) {
+        const World world;
+        StackingOptions options = StackingOptions::thesis();
+        options.initialisation = initialisation;
+        ImageStacker stacker(options, scale());
+        for (int t = 0; t < 60; ++t) {
+            stacker.update(world.frameAt(t), world.motionAt(t), world.clustersAt(t));
+            const auto rois =
+                stacker.replace(world.clustersAt(t)[0], 0, world.boxAt(t).scaled(2, 1.25), world.motionAt(t));
+            EXPECT_LE(rois.size(), 1U);
+            if (t < 25) {
+                EXPECT_TRUE(rois.empty()) << "the stack is too low in frame " << t;
+            }
+            if (t == 59) {
+                ASSERT_EQ(rois.size(), 1U);
+                const cv::Mat& image = rois[0].image;
+                const cv::Point centre(image.cols / 2, image.rows / 2);
+                EXPECT_GT(image.at<std::uint8_t>(centre), 230);
+                cv::Scalar mean, deviation;
+                cv::meanStdDev(image.rowRange(0, 4), mean, deviation);
+                EXPECT_LT(deviation[0], 15) << "the striped ground (30 grey values) is blurred";
+                const cv::Point2d in_image =
+                    rois[0].image_from_roi * cv::Vec3d((image.cols - 1) / 2.0, (image.rows - 1) / 2.0, 1);
+                EXPECT_LT(cv::norm(in_image - world.centreAt(t)), 1.5);
+            }
+            stacker.remember(world.motionAt(t), world.detectionsAt(t));
+        }
+        ASSERT_EQ(stacker.views(world.frameAt(59)).size(), 1U);
+        EXPECT_EQ(stacker.views(world.frameAt(59))[0].height, 50);
+    }
+}
+
+TEST(ImageStacker, newVectorsJoinTheStackOfTheirNeighbours) {
+    const World world;
+    ImageStacker stacker(StackingOptions::thesis(), scale());
+    stacker.update(world.frameAt(0), world.motionAt(0), world.clustersAt(0));
+    stacker.remember(world.motionAt(0), world.detectionsAt(0));
+    stacker.update(world.frameAt(1), world.motionAt(1), world.clustersAt(1));
+    FrameMotion motion = world.motionAt(2);
+    for (std::size_t i = 6; i < 12; ++i) motion.motion_vectors[i].id += 100;  // half of the corners were lost
+    stacker.update(world.frameAt(2), motion, world.clustersAt(2));
+    const auto views = stacker.views(world.frameAt(2));
+    ASSERT_EQ(views.size(), 1U);
+    EXPECT_EQ(views[0].related.size(), 12U);
+}
+
+TEST(ImageStacker, refusesAStackThatMovesOtherwise) {
+    const World world;
+    StackingOptions options = StackingOptions::thesis();
+    options.min_height = 3;
+    ImageStacker stacker(options, scale());
+    for (int t = 0; t < 8; ++t) {
+        stacker.update(world.frameAt(t), world.motionAt(t), world.clustersAt(t));
+        stacker.remember(world.motionAt(t), world.detectionsAt(t));
+    }
+    MotionCluster cluster = world.clustersAt(7)[0];
+    const OrientedBox extended = cluster.box.scaled(2, 1.25);
+    EXPECT_EQ(stacker.replace(cluster, 0, extended, world.motionAt(7)).size(), 1U);
+    MotionCluster faster = cluster;
+    faster.velocity *= 2;
+    EXPECT_TRUE(stacker.replace(faster, 0, extended, world.motionAt(7)).empty());
+    MotionCluster elsewhere = cluster;
+    elsewhere.box.centre += cv::Point2d(0, 40);
+    EXPECT_TRUE(stacker.replace(elsewhere, 0, extended, world.motionAt(7)).empty());
+    EXPECT_TRUE(stacker.replace(cluster, 0, cluster.box.scaled(40, 2), world.motionAt(7)).empty())
+        << "not fully inside";
+}
+
+}  // namespace eyrie
