@@ -1,0 +1,41 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <optional>
+
+#include "core/ids.h"
+
+namespace eyrie {
+
+/// Whose definitions are followed where evaluations differ.
+///
+/// | | thesis | trackeval |
+/// | --- | --- | --- |
+/// | frames | those the ground truth names | all from 0 to the last; results in empty ones are false |
+/// | match | pairs of the frame before first, then one to one at maximum overlap | one assignment, pairs of the frame
+/// before weigh 1000 |
+/// | ignored objects | forgive every unmatched result that touches them | are removed, forgive nothing |
+/// | mostly tracked | at least 80 % | more than 80 % |
+/// | fragments | each change from tracked to not tracked | tracked runs − 1 |
+enum class Convention {
+    thesis,    ///< Teutsch §7.1
+    trackeval  ///< TrackEval, CLEAR with DO_PREPROC False
+};
+const char* nameOf(Convention convention);
+
+/// What counts in an evaluation, and how.
+struct EvaluationOptions {
+    double overlap = 0.1;         ///< T_ov of eq. 7.1, in (0, 1]
+    bool vehicles_only = false;   ///< objects of the ground truth that are no vehicles count as ignored
+    bool upright = false;         ///< compare enclosing upright boxes, for ground truth without headings
+    std::optional<double> border; /**< px; results whose upright box comes closer to the image's edge are left out, for
+                                     ground truth that leaves cut objects out. Needs `image_size`. */
+    cv::Size image_size;          ///< px
+    Convention convention = Convention::thesis;
+    std::optional<int> frame_count;  ///< trackeval only: length of the sequence; default: up to the last true frame
+};
+
+/// Throws Error(parameter) naming the option, its value and what is expected.
+void check(const EvaluationOptions& options);
+
+}  // namespace eyrie

@@ -1,0 +1,120 @@
+#include <charconv>
+#include <map>
+#include <utility>
+
+#include "core/error.h"
+#include "formats/mot_classes.h"
+#include "formats/motchallenge.h"
+#include "formats/text_fields.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::size_t kFrame = 0;
+constexpr std::size_t kId = 1;
+constexpr std::size_t kLeft = 2;
+constexpr std::size_t kTop = 3;
+constexpr std::size_t kWidth = 4;
+constexpr std::size_t kHeight = 5;
+constexpr std::size_t kFlag = 6;
+constexpr std::size_t kClass = 7;
+
+/// The columns that ground truth and results share.
+BoxRecord readBox(const TextLine& line, const MotOptions& options) {
+    if (line.size() < 6 || line.size() > 10) {
+        line.fail(0, std::to_string(line.size()) +
+                         " columns, expected 6 to 10: frame,id,left,top,width,height,…; is this MOTChallenge text?");
+    }
+    BoxRecord record;
+    const int frame = line.integer(kFrame, "frame");
+    if (frame < 1) line.fail(kFrame, "frame " + std::to_string(frame) + "; MOTChallenge counts frames from 1");
+    record.frame = frame - 1;
+    const int id = line.integer(kId, "id");
+    if (id >= 0) record.id = id;
+    const double left = line.number(kLeft, "left edge");
+    const double top = line.number(kTop, "top edge");
+    const double width = line.number(kWidth, "width");
+    const double height = line.number(kHeight, "height");
+    if (width < 0) line.fail(kWidth, "the width is negative");
+    if (height < 0) line.fail(kHeight, "the height is negative");
+    const double to_ours = -0.5 - options.first_pixel_edge;
+    record.box = {{left + width / 2 + to_ours, top + height / 2 + to_ours}, width, height, 0};
+    return record;
+}
+
+/// Reads all lines; `complete` fills in the columns from the seventh on.
+template <class Complete>
+BoxesByFrame readLines(const std::filesystem::path& file, const MotOptions& options, const Complete& complete) {
+    BoxesByFrame boxes;
+    std::map<std::pair<FrameIndex, int>, int> line_of_id;
+    int number = 0;
+    for (const std::string& text : readTextLines(file)) {
+        const TextLine line(file, ++number, text);
+        if (line.blank()) continue;
+        BoxRecord record = readBox(line, options);
+        complete(line, record);
+        if (record.id && !record.ignore) {
+            const auto [earlier, is_new] = line_of_id.insert({{record.frame, *record.id}, number});
+            if (!is_new) {
+                line.fail(kId, "id " + std::to_string(*record.id) + " has a box in this frame already, in line " +
+                                   std::to_string(earlier->second));
+            }
+        }
+        boxes[record.frame].push_back(std::move(record));
+    }
+    return boxes;
+}
+
+template <class Number>
+Number iniNumber(const std::filesystem::path& file, int line, const std::string& key, const std::string& value) {
+    Number number{};
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error != std::errc() || end != value.data() + value.size() || !(number > 0)) {
+        throw Error(ErrorKind::input, file.string() + ":" + std::to_string(line) + ": " + key + " = \"" + value +
+                                          "\", expected a number above 0");
+    }
+    return number;
+}
+
+std::string trimmed(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r");
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+}  // namespace
+
+BoxesByFrame readMotTruth(const std::filesystem::path& file, const MotOptions& options) {
+    return readLines(file, options, [](const TextLine& line, BoxRecord& record) {
+        if (line.size() > kFlag) record.ignore = line.number(kFlag, "flag (0: ignored)") == 0;
+        if (line.size() > kClass) record.object_class = classFromMot(line.integer(kClass, "class"));
+    });
+}
+
+BoxesByFrame readMotResult(const std::filesystem::path& file, const MotOptions& options) {
+    return readLines(file, options, [](const TextLine& line, BoxRecord& record) {
+        if (line.size() > kFlag) record.score = line.number(kFlag, "confidence");
+    });
+}
+
+MotSequence readMotSequence(const std::filesystem::path& file) {
+    MotSequence sequence;
+    std::optional<int> width;
+    std::optional<int> height;
+    int number = 0;
+    for (const std::string& line : readTextLines(file)) {
+        ++number;
+        const std::size_t equals = line.find('=');
+        if (equals == std::string::npos) continue;
+        const std::string key = trimmed(line.substr(0, equals));
+        const std::string value = trimmed(line.substr(equals + 1));
+        if (key == "imWidth") width = iniNumber<int>(file, number, key, value);
+        if (key == "imHeight") height = iniNumber<int>(file, number, key, value);
+        if (key == "seqLength") sequence.frame_count = iniNumber<int>(file, number, key, value);
+        if (key == "frameRate") sequence.frame_rate_hz = iniNumber<double>(file, number, key, value);
+    }
+    if (width && height) sequence.image_size = cv::Size(*width, *height);
+    return sequence;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,79 @@
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "core/error.h"
+#include "formats/mot_classes.h"
+#include "formats/motchallenge.h"
+
+namespace eyrie {
+namespace {
+
+/// The shortest text that reads back identically after rounding to 1/1000 px.
+std::string pixels(double value) {
+    const double rounded = std::round(value * 1000) / 1000;
+    char text[40];
+    const auto end = std::to_chars(text, text + sizeof text, rounded == 0 ? 0.0 : rounded).ptr;
+    return {text, end};
+}
+
+std::string boxColumns(const BoxRecord& record, const MotOptions& options, MotLosses& losses) {
+    const OrientedBox box = record.box.upright();
+    ++losses.boxes;
+    if (std::abs(std::sin(record.box.heading)) > 1e-9) ++losses.turned;
+    if (record.velocity != cv::Point2d(0, 0)) ++losses.velocities;
+    const double to_theirs = options.first_pixel_edge + 0.5;
+    return pixels(box.centre.x - box.length / 2 + to_theirs) + "," + pixels(box.centre.y - box.width / 2 + to_theirs) +
+           "," + pixels(box.length) + "," + pixels(box.width);
+}
+
+/// Writes the lines that `columns` makes of the boxes; the file appears whole or not at all.
+template <class Columns>
+void writeLines(const std::filesystem::path& file, const BoxesByFrame& boxes, const Columns& columns) {
+    std::filesystem::path unfinished = file;
+    unfinished += ".part";
+    std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
+    for (const auto& [frame, records] : boxes) {
+        for (const BoxRecord& record : records) stream << frame + 1 << ',' << columns(record) << '\n';
+    }
+    stream.close();
+    std::error_code error;
+    if (stream) std::filesystem::rename(unfinished, file, error);
+    if (stream && !error) return;
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw Error(ErrorKind::output, file.string() + ": cannot be written; check the folder and the space left");
+}
+
+}  // namespace
+
+MotLosses writeMotTruth(const std::filesystem::path& file, const BoxesByFrame& boxes, const MotWriteOptions& options) {
+    for (const auto& [frame, records] : boxes) {
+        for (const BoxRecord& record : records) {
+            if (record.id) continue;
+            throw Error(ErrorKind::input, file.string() + ": a box of frame " + std::to_string(frame) +
+                                              " has no id, which MOTChallenge ground truth needs");
+        }
+    }
+    MotLosses losses;
+    writeLines(file, boxes, [&](const BoxRecord& record) {
+        MotClass known = motFromClass(record.object_class);
+        if (options.every_class_one && !record.ignore) known = {1, record.object_class == "person"};
+        if (!known.exact) ++losses.classes;
+        return std::to_string(*record.id) + "," + boxColumns(record, options.pixels, losses) + "," +
+               (record.ignore ? "0" : "1") + "," + std::to_string(known.number) + ",1";
+    });
+    return losses;
+}
+
+MotLosses writeMotResult(const std::filesystem::path& file, const BoxesByFrame& boxes, const MotWriteOptions& options) {
+    MotLosses losses;
+    writeLines(file, boxes, [&](const BoxRecord& record) {
+        if (!record.object_class.empty()) ++losses.classes;
+        return std::to_string(record.id.value_or(-1)) + "," + boxColumns(record, options.pixels, losses) + "," +
+               pixels(record.score) + ",-1,-1,-1";
+    });
+    return losses;
+}
+
+}  // namespace eyrie
