@@ -86,6 +86,8 @@ class RunStore {
     std::optional<RunRecord> run(int run_id) const;
     std::vector<std::pair<std::string, std::string>> parameters(int run_id) const;
     std::vector<FrameSummary> frameSummaries(int run_id) const;  ///< ascending frames
+    /// How each frame from `from` on was registered onto the one before it, ascending frames; for trails.
+    std::vector<Homography> homographies(int run_id, FrameIndex from = 0) const;
     /// All a finished run knows of a frame; nothing when the run has no such frame.
     std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
     std::vector<TrackSummary> tracks(int run_id) const;                    ///< ascending id
