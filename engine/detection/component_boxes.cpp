@@ -1,0 +1,143 @@
+#include "detection/component_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace eyrie {
+namespace {
+
+constexpr double kSupportMargin = 1.0;  ///< px; corners lie on the outline, gradients half a pixel beside it
+
+cv::Rect2d edgesOf(const cv::Rect& pixels) {
+    return {pixels.x - 0.5, pixels.y - 0.5, static_cast<double>(pixels.width), static_cast<double>(pixels.height)};
+}
+
+cv::Rect pixelsTouching(const cv::Rect2d& edges) {
+    const int left = cvRound(edges.x);
+    const int top = cvRound(edges.y);
+    return {left, top, std::max(1, cvRound(edges.x + edges.width) - left + 1),
+            std::max(1, cvRound(edges.y + edges.height) - top + 1)};
+}
+
+cv::Rect2d shrunk(const cv::Rect2d& box, double less) {
+    const double width = std::max(box.width - less, std::min(box.width, 1.0));
+    const double height = std::max(box.height - less, std::min(box.height, 1.0));
+    return {box.x + (box.width - width) / 2, box.y + (box.height - height) / 2, width, height};
+}
+
+}  // namespace
+
+cv::Rect2d boundsOf(const std::vector<cv::Point2f>& points) {
+    if (points.empty()) return {};
+    double left = std::numeric_limits<double>::max();
+    double top = left;
+    double right = std::numeric_limits<double>::lowest();
+    double bottom = right;
+    for (const cv::Point2f& p : points) {
+        left = std::min<double>(left, p.x);
+        right = std::max<double>(right, p.x);
+        top = std::min<double>(top, p.y);
+        bottom = std::max<double>(bottom, p.y);
+    }
+    return {left, top, right - left, bottom - top};
+}
+
+cv::Rect2d grown(const cv::Rect2d& box, double along, double across) {
+    const double dy = std::max(along, -box.height / 2);
+    const double dx = std::max(across, -box.width / 2);
+    return {box.x - dx, box.y - dy, box.width + 2 * dx, box.height + 2 * dy};
+}
+
+std::vector<cv::Point2f> pointsWithin(const cv::Rect2d& box, const std::vector<cv::Point2f>& points, double margin) {
+    std::vector<cv::Point2f> found;
+    for (const cv::Point2f& p : points) {
+        if (p.x >= box.x - margin && p.x <= box.x + box.width + margin && p.y >= box.y - margin &&
+            p.y <= box.y + box.height + margin)
+            found.push_back(p);
+    }
+    return found;
+}
+
+ComponentBoxes::ComponentBoxes(const GradientOptions& options, const SceneScale& scale)
+    : options_(options),
+      core_margin_(std::max(1.0, scale.px(options.core_margin_m))),
+      vehicle_length_(scale.px(options.vehicle_length_m)),
+      vehicle_width_(std::max(scale.px(options.vehicle_width_m), 4.0)),
+      growth_along_(options.growth_along_m > 0 ? std::max(1.0, scale.px(options.growth_along_m)) : 0),
+      growth_across_(options.growth_across_m > 0 ? std::max(1.0, scale.px(options.growth_across_m)) : 0),
+      widening_(options.method == GradientMethod::lbp
+                    ? options.widening_correction * std::max(options.lbp_radius_min, options.lbp_radius_max)
+                    : 0) {}
+
+cv::Rect2d ComponentBoxes::boxOf(const Region& region, const cv::Mat& labels, const cv::Rect2d& core) const {
+    if (!options_.handle_cut || !region.cut) return edgesOf(region.box);
+    return edgesOf(boxWithin(labels, region, pixelsTouching(core)));
+}
+
+bool ComponentBoxes::supported(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors) const {
+    const auto inside = static_cast<double>(pointsWithin(box, vectors, kSupportMargin).size());
+    return inside >= std::max(1.0, options_.support_share * static_cast<double>(vectors.size()));
+}
+
+void ComponentBoxes::join(std::vector<cv::Rect2d>& boxes) const {
+    // The pair with the smallest union first, until none fits into one vehicle.
+    while (boxes.size() > 1) {
+        double smallest = std::numeric_limits<double>::max();
+        std::size_t first = 0;
+        std::size_t second = 0;
+        for (std::size_t a = 0; a < boxes.size(); ++a) {
+            for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+                const cv::Rect2d both = boxes[a] | boxes[b];
+                if (both.height > vehicle_length_ || both.width > vehicle_width_) continue;
+                if (both.area() >= smallest) continue;
+                smallest = both.area();
+                first = a;
+                second = b;
+            }
+        }
+        if (second == 0) return;
+        boxes[first] |= boxes[second];
+        boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(second));
+    }
+}
+
+cv::Rect2d ComponentBoxes::limited(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors) const {
+    if (growth_along_ <= 0 && growth_across_ <= 0) return box;
+    const auto own = pointsWithin(box, vectors, kSupportMargin);
+    if (own.empty()) return box;
+    const double unlimited = 2 * (std::abs(box.x) + std::abs(box.y) + box.width + box.height) + 1e4;
+    return box & grown(boundsOf(own), growth_along_ > 0 ? growth_along_ : unlimited,
+                       growth_across_ > 0 ? growth_across_ : unlimited);
+}
+
+std::vector<cv::Rect2d> ComponentBoxes::select(const std::vector<Region>& regions, const cv::Mat& labels,
+                                               const std::vector<cv::Point2f>& vectors) const {
+    const cv::Rect2d core = grown(boundsOf(vectors), core_margin_, core_margin_);
+    std::vector<cv::Rect2d> boxes;
+    for (const Region& region : regions) {
+        const cv::Rect2d box = boxOf(region, labels, core);
+        if (box.width < 1 || box.height < 1) continue;
+        if (options_.need_support && !supported(box, vectors)) continue;
+        boxes.push_back(box);
+    }
+    if (options_.join_components) join(boxes);
+    std::vector<cv::Rect2d> selected;
+    for (const cv::Rect2d& box : boxes) {
+        const cv::Rect2d final_box = shrunk(limited(box, vectors), widening_);
+        if (final_box.area() >= options_.min_box_area_px) selected.push_back(final_box);
+    }
+    return selected;
+}
+
+bool ComponentBoxes::explain(const std::vector<cv::Rect2d>& boxes, const std::vector<cv::Point2f>& vectors) const {
+    if (boxes.empty()) return false;
+    std::size_t held = 0;
+    for (const cv::Point2f& p : vectors) {
+        held += std::any_of(boxes.begin(), boxes.end(),
+                            [&](const cv::Rect2d& box) { return !pointsWithin(box, {p}, kSupportMargin).empty(); });
+    }
+    return static_cast<double>(held) >= options_.fall_back_share * static_cast<double>(vectors.size());
+}
+
+}  // namespace eyrie

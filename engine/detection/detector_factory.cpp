@@ -1,0 +1,22 @@
+#include "detection/detector_factory.h"
+
+#include <string>
+
+#include "core/error.h"
+#include "detection/gradient_segmenter.h"
+#include "detection/motion_cluster_detector.h"
+
+namespace eyrie {
+
+std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const SceneScale& scale) {
+    switch (options.method) {
+        case DetectionMethod::clusters:
+            return std::make_unique<MotionClusterDetector>(options.cluster_margin_px);
+        case DetectionMethod::gradient:
+            return std::make_unique<GradientSegmenter>(options.gradient, scale, options.cluster_margin_px);
+    }
+    throw Error(ErrorKind::internal,
+                "there is no detector with number " + std::to_string(static_cast<int>(options.method)));
+}
+
+}  // namespace eyrie

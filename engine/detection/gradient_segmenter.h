@@ -1,0 +1,35 @@
+#pragma once
+
+#include "core/scene_scale.h"
+#include "detection/component_boxes.h"
+#include "detection/detector.h"
+#include "detection/gradient_options.h"
+#include "imaging/lbp_gradient.h"
+
+namespace eyrie {
+
+/// Gradient based object segmentation (Teutsch §5.4.1, fig. 5.10): gradient magnitude, quantile threshold, closing,
+/// connected components, upright boxes in the ROI.
+class GradientSegmenter : public Detector {
+ public:
+    /// `cluster_margin_px`: margin of the cluster's box where that is delivered instead.
+    GradientSegmenter(const GradientOptions& options, const SceneScale& scale, double cluster_margin_px);
+
+    /// Trace layers: raw, gradient, lbp mask (LBP only), binary, closed, components.
+    std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;
+
+    /// Gradient magnitude of a CV_8UC1 image by the chosen method, CV_32FC1.
+    cv::Mat gradientOf(const cv::Mat& gray) const;
+
+ private:
+    cv::Mat quantileMask(const MotionRoi& roi) const;
+    std::vector<cv::Rect2d> segment(const MotionRoi& roi, DetectionTrace* trace) const;
+
+    GradientOptions options_;
+    LbpGradientOptions lbp_;
+    ComponentBoxes component_boxes_;
+    double quantile_margin_;  ///< px
+    double cluster_margin_px_;
+};
+
+}  // namespace eyrie

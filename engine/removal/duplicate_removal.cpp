@@ -1,0 +1,107 @@
+#include "removal/duplicate_removal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+#include "removal/vector_support.h"
+
+namespace eyrie {
+namespace {
+
+double strengthOf(const Detection& a, const Detection& b, const DuplicateRemovalOptions& options) {
+    if (std::abs(turnBetween(a.box.heading, b.box.heading)) > radiansFromDegrees(options.max_turn_deg)) return 0;
+    if (options.compare_speed &&
+        !similarVelocity(a.velocity, b.velocity, options.velocity_floor_px, options.velocity_share))
+        return 0;
+    return options.measure == DuplicateMeasure::containment ? containment(a.box, b.box) : overlap(a.box, b.box);
+}
+
+/// Fuses b into a, or gives up b where the union would grow beyond the limit. `b` is the smaller one.
+void fuse(Detection& a, Detection& b, const FrameMotion& motion, const DuplicateRemovalOptions& options) {
+    const OrientedBox both = unionBox(a.box, b.box);
+    const bool fits = options.growth_limit <= 0 || both.area() <= options.growth_limit * a.box.area();
+    b.rejection = Rejection::duplicate;
+    if (!fits) return;
+    a.box = both;
+    a.score = std::max(a.score, b.score);
+    SupportRule rule;
+    rule.compare_velocity = options.compare_speed;
+    measureSupport(a, motion, rule);
+}
+
+}  // namespace
+
+DuplicateRemovalOptions DuplicateRemovalOptions::thesis() {
+    DuplicateRemovalOptions options;
+    options.measure = DuplicateMeasure::overlap;
+    options.threshold = 0.2;
+    options.compare_speed = false;
+    options.growth_limit = 0;
+    options.parts.enabled = false;
+    return options;
+}
+
+void DuplicateRemovalOptions::describe(ParameterVisitor& visitor) {
+    visitor.choice(
+        "duplicates.strategy", strategy, {"fuse", "suppress"},
+        {"", "Duplicates are fused into their union, or the one with the higher score stays.", "Teutsch §5.5.1"});
+    visitor.choice("duplicates.measure", measure, {"containment", "overlap"},
+                   {"",
+                    "How strong two boxes overlap: share of the smaller one inside the other, or intersection over "
+                    "union.",
+                    "Teutsch §5.5.1"});
+    visitor.real(
+        "duplicates.threshold", threshold, 0.001, 1,
+        {"", "Boxes that overlap at least this much are duplicates. Smaller: neighbours merge.", "Teutsch §5.5.1"});
+    visitor.real("duplicates.max_turn", max_turn_deg, 0, 180,
+                 {"°", "Largest difference of the headings of duplicates.", "Teutsch §5.5.1"});
+    visitor.flag("duplicates.compare_speed", compare_speed,
+                 {"", "Only detections that move alike are duplicates.", ""});
+    visitor.real("duplicates.velocity_floor", velocity_floor_px, 0, 10,
+                 {"px/frame", "Velocities of duplicates may always differ by this.", ""});
+    visitor.real("duplicates.velocity_share", velocity_share, 0, 1,
+                 {"", "Velocities of duplicates may differ by this share of the speed.", ""});
+    visitor.real("duplicates.growth_limit", growth_limit, 0, 100,
+                 {"",
+                  "Where the union would be larger than this many times the larger box, that box stays as it is. 0: no "
+                  "limit.",
+                  ""});
+    parts.describe(visitor);
+}
+
+std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const FrameMotion& motion,
+                                        const DuplicateRemovalOptions& options, const SceneScale& scale) {
+    detections = joinParts(std::move(detections), options.parts, scale);
+    SupportRule rule;
+    rule.compare_velocity = options.compare_speed;
+    for (Detection& detection : detections) {
+        if (detection.rejection == Rejection::none) measureSupport(detection, motion, rule);
+    }
+    for (;;) {
+        double strongest = 0;
+        Detection* first = nullptr;
+        Detection* second = nullptr;
+        for (std::size_t i = 0; i < detections.size(); ++i) {
+            if (detections[i].rejection != Rejection::none) continue;
+            for (std::size_t k = i + 1; k < detections.size(); ++k) {
+                if (detections[k].rejection != Rejection::none) continue;
+                const double strength = strengthOf(detections[i], detections[k], options);
+                if (strength < options.threshold || strength <= strongest) continue;
+                strongest = strength;
+                first = &detections[i];
+                second = &detections[k];
+            }
+        }
+        if (first == nullptr) return detections;
+        if (options.strategy == DuplicateStrategy::suppress) {
+            (first->score >= second->score ? second : first)->rejection = Rejection::duplicate;
+        } else if (first->box.area() >= second->box.area()) {
+            fuse(*first, *second, motion, options);
+        } else {
+            fuse(*second, *first, motion, options);
+        }
+    }
+}
+
+}  // namespace eyrie

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "core/detection.h"
+#include "core/motion_vector.h"
+#include "core/parameter.h"
+#include "core/scene_scale.h"
+#include "removal/part_joining.h"
+
+namespace eyrie {
+
+/// What becomes of duplicates (Teutsch §5.5.1).
+enum class DuplicateStrategy {
+    fuse,     ///< union of the boxes, for segmentation
+    suppress  ///< the higher score stays (non-maximum suppression), for classifiers
+};
+
+/// How strong two boxes overlap.
+enum class DuplicateMeasure {
+    containment,  ///< share of the smaller box inside the other
+    overlap       ///< intersection over union
+};
+
+/// Parameters of duplicate removal (Teutsch §5.5.1).
+struct DuplicateRemovalOptions {
+    DuplicateStrategy strategy = DuplicateStrategy::fuse;
+    DuplicateMeasure measure = DuplicateMeasure::containment;
+    double threshold = 0.7;
+    double max_turn_deg = 30;         ///< duplicates have similar headings
+    bool compare_speed = true;        ///< … and similar velocities
+    double velocity_floor_px = 0.08;  ///< px/frame
+    double velocity_share = 0.1;
+    double growth_limit = 1.5;  ///< a union larger than this many times the larger box is not formed; 0: no limit
+    PartJoiningOptions parts;
+
+    /// The text to the letter: everything of similar orientation that overlaps is fused.
+    static DuplicateRemovalOptions thesis();
+    void describe(ParameterVisitor& visitor);
+};
+
+/// Removes duplicates, after joining the parts of vehicles; the strongest overlap first. Fused or suppressed detections
+/// stay in the list with Rejection::duplicate. Vectors and velocity of every detection that is kept are measured anew
+/// from the motion vectors inside its box.
+std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const FrameMotion& motion,
+                                        const DuplicateRemovalOptions& options, const SceneScale& scale);
+
+}  // namespace eyrie

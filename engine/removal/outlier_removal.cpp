@@ -1,0 +1,76 @@
+#include "removal/outlier_removal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "removal/vector_support.h"
+
+namespace eyrie {
+namespace {
+
+bool impossibleSize(const OrientedBox& box, const OutlierRemovalOptions& options, const SceneScale& scale) {
+    if (!std::isfinite(box.area()) || box.area() < options.min_area_px) return true;
+    if (box.length < scale.px(options.min_length_m)) return true;
+    if (options.max_length_m > 0 && box.length > scale.px(options.max_length_m)) return true;
+    return options.max_width_m > 0 && box.width > scale.px(options.max_width_m);
+}
+
+}  // namespace
+
+OutlierRemovalOptions OutlierRemovalOptions::thesis() {
+    OutlierRemovalOptions options;
+    options.min_vectors = 4;
+    options.min_density_share = 0;
+    options.compare_velocity = false;
+    options.min_length_m = 0;
+    options.max_length_m = 0;
+    options.max_width_m = 0;
+    return options;
+}
+
+void OutlierRemovalOptions::describe(ParameterVisitor& visitor) {
+    visitor.integer("outliers.min_vectors", min_vectors, 0, 1000,
+                    {"vectors", "T_out: detections with fewer motion vectors inside are rejected.", "Teutsch §5.5.2"});
+    visitor.real("outliers.min_density_share", min_density_share, 0, 2,
+                 {"",
+                  "T_out is at least this share of the vectors expected on a car at the corner density of the frame. 0 "
+                  "switches it off.",
+                  ""});
+    visitor.integer("outliers.max_min_vectors", max_min_vectors, 0, 1000,
+                    {"vectors", "However dense the corners are, that many vectors are enough.", ""});
+    visitor.flag("outliers.compare_velocity", compare_velocity,
+                 {"", "Only vectors that move like the detection count as inside.", ""});
+    visitor.real("outliers.min_area", min_area_px, 0, 10000, {"px²", "Smaller boxes are rejected.", "Teutsch §5.4.1"});
+    visitor.real("outliers.min_length", min_length_m, 0, 100, {"m", "Shorter boxes are rejected; 0: no limit.", ""});
+    visitor.real("outliers.max_length", max_length_m, 0, 500, {"m", "Longer boxes are rejected; 0: no limit.", ""});
+    visitor.real("outliers.max_width", max_width_m, 0, 500, {"m", "Wider boxes are rejected; 0: no limit.", ""});
+}
+
+std::vector<Detection> removeOutliers(std::vector<Detection> detections, const FrameMotion& motion,
+                                      const OutlierRemovalOptions& options, const SceneScale& scale) {
+    const double density = cornerDensity(motion);
+    const double car = carArea(scale);
+    const auto by_density = static_cast<int>(
+        std::min(std::round(options.min_density_share * density * car), static_cast<double>(options.max_min_vectors)));
+    const auto needed = static_cast<std::size_t>(std::max(options.min_vectors, by_density));
+    SupportRule rule;
+    rule.compare_velocity = options.compare_velocity;
+    for (Detection& detection : detections) {
+        if (detection.rejection != Rejection::none) continue;
+        measureSupport(detection, motion, rule);
+        if (!(detection.score > 0)) {
+            // Boxes much smaller or larger than a car must not look surer or less sure for that alone.
+            const double area = std::clamp(detection.box.area(), car / 2, car * 2);
+            const double expected = std::max(1.0, density * area);
+            detection.score = static_cast<double>(detection.vectors.size()) / expected;
+        }
+        if (detection.vectors.size() < needed) {
+            detection.rejection = Rejection::outlier;
+        } else if (impossibleSize(detection.box, options, scale)) {
+            detection.rejection = Rejection::size;
+        }
+    }
+    return detections;
+}
+
+}  // namespace eyrie

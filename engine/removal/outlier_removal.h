@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "core/detection.h"
+#include "core/motion_vector.h"
+#include "core/parameter.h"
+#include "core/scene_scale.h"
+
+namespace eyrie {
+
+/// Parameters of outlier removal (Teutsch §5.5.2).
+struct OutlierRemovalOptions {
+    int min_vectors = 3;              ///< T_out: detections with fewer motion vectors inside are rejected
+    double min_density_share = 0.25;  ///< T_out is also this share of the vectors expected on a car
+    int max_min_vectors = 12;         ///< however dense the corners are, that many are enough
+    bool compare_velocity = true;     ///< only vectors that move like the detection count
+    double min_area_px = 10;          ///< px², smaller boxes are rejected
+    double min_length_m = 1.2;        ///< shorter boxes are rejected; 0: no limit
+    double max_length_m = 30;         ///< longer boxes are rejected; 0: no limit
+    double max_width_m = 10;          ///< wider boxes are rejected; 0: no limit
+
+    /// The text to the letter: T_out = 4 whatever the density, boxes of at least 10 px².
+    static OutlierRemovalOptions thesis();
+    void describe(ParameterVisitor& visitor);
+};
+
+/// Rejects detections without enough motion vectors inside, or of an impossible size; they stay in the list with
+/// Rejection::outlier or Rejection::size. Sets vectors and velocity from the vectors inside, and the score of
+/// detections that have none: vectors inside per vector expected there at the corner density of the frame.
+std::vector<Detection> removeOutliers(std::vector<Detection> detections, const FrameMotion& motion,
+                                      const OutlierRemovalOptions& options, const SceneScale& scale);
+
+}  // namespace eyrie

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "core/detection.h"
+#include "core/parameter.h"
+#include "core/scene_scale.h"
+
+namespace eyrie {
+
+/// Parameters of joining the parts of one vehicle. Plain roofs carry no corners, so front and rear of a vehicle may
+/// come as two detections that move alike.
+struct PartJoiningOptions {
+    bool enabled = true;
+    double car_length_m = 5.5;        ///< parts whose union is no longer than a car are joined
+    double part_length_m = 2.5;       ///< two parts shorter than this …
+    double vehicle_length_m = 13;     ///< … are joined up to the length of a bus
+    double vehicle_width_m = 3.2;     ///< largest width of the union
+    double velocity_floor_px = 0.04;  ///< px/frame the parts' velocities may differ by …
+    double velocity_share = 0.05;     ///< … or this share of the speed
+    double max_turn_deg = 20;         ///< largest difference of headings
+
+    void describe(ParameterVisitor& visitor);
+};
+
+/// Fuses parts of one vehicle into their union, the closest pair first. The second of a pair stays in the list with
+/// Rejection::duplicate. Velocities become the mean weighted by area; vectors are not touched.
+std::vector<Detection> joinParts(std::vector<Detection> detections, const PartJoiningOptions& options,
+                                 const SceneScale& scale);
+
+}  // namespace eyrie
