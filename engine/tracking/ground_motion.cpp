@@ -1,0 +1,91 @@
+#include "tracking/ground_motion.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "core/homography.h"
+
+namespace eyrie {
+namespace {
+
+bool isFinite(const cv::Matx33d& matrix) {
+    for (const double value : matrix.val) {
+        if (!std::isfinite(value)) return false;
+    }
+    return true;
+}
+
+bool isFinite(const MovingState& state) {
+    return std::isfinite(state.box.centre.x) && std::isfinite(state.box.centre.y) && std::isfinite(state.box.length) &&
+           std::isfinite(state.box.width) && std::isfinite(state.box.heading) && std::isfinite(state.velocity.x) &&
+           std::isfinite(state.velocity.y);
+}
+
+MovingState mapped(const MovingState& state, const cv::Matx33d& matrix) {
+    Homography map;
+    map.matrix = matrix;
+    const cv::Point2d at = state.box.centre;
+    const double scale = map.scaleAt(at);
+    MovingState result;
+    result.box = {map.apply(at), state.box.length * scale, state.box.width * scale, map.turned(at, state.box.heading)};
+    result.velocity = map.applyToVector(at, state.velocity);
+    return result;
+}
+
+}  // namespace
+
+double localScale(const cv::Matx33d& map, cv::Point2d point) {
+    Homography homography;
+    homography.matrix = map;
+    return homography.scaleAt(point);
+}
+
+GroundMotion::GroundMotion(const std::vector<FrameMotionSummary>& motion) {
+    for (const FrameMotionSummary& summary : motion) {
+        Step step;
+        step.image_size = summary.image_size;
+        step.frozen = summary.registration.state == RegistrationState::frozen;
+        step.reliable = summary.registration.reliable();
+        step.forward = summary.registration.current_from_previous.matrix;
+        bool invertible = false;
+        if (isFinite(step.forward)) step.backward = step.forward.inv(cv::DECOMP_LU, &invertible);
+        step.usable = invertible && isFinite(step.backward) && summary.registration.state != RegistrationState::first;
+        steps_[summary.frame] = step;
+    }
+}
+
+const cv::Matx33d* GroundMotion::step(FrameIndex from, FrameIndex to, bool guesses) const {
+    const auto found = steps_.find(std::max(from, to));
+    if (std::abs(from - to) != 1 || found == steps_.end()) return nullptr;
+    const Step& step = found->second;
+    if (!step.usable || !(step.reliable || guesses)) return nullptr;
+    return to > from ? &step.forward : &step.backward;
+}
+
+std::optional<MovingState> GroundMotion::carried(MovingState state, FrameIndex from, FrameIndex to,
+                                                 bool guesses) const {
+    const int direction = to > from ? 1 : -1;
+    for (FrameIndex frame = from; frame != to; frame += direction) {
+        const cv::Matx33d* map = step(frame, frame + direction, guesses);
+        if (!map) return std::nullopt;
+        const bool frozen = steps_.at(std::max(frame, frame + direction)).frozen;
+        // Forward: move, then map. Backward undoes that in the opposite order.
+        if (direction > 0 && !frozen) state.box.centre += state.velocity;
+        state = mapped(state, *map);
+        if (direction < 0 && !frozen) state.box.centre -= state.velocity;
+        if (!isFinite(state)) return std::nullopt;
+    }
+    return state;
+}
+
+cv::Size GroundMotion::imageSize(FrameIndex frame) const {
+    const auto found = steps_.find(frame);
+    return found == steps_.end() ? cv::Size() : found->second.image_size;
+}
+
+bool GroundMotion::cutByBorder(const OrientedBox& box, FrameIndex frame) const {
+    const cv::Size image = imageSize(frame);
+    return image.area() > 0 && areaInImage(box, image) < 0.99 * box.area();
+}
+
+}  // namespace eyrie

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "core/oriented_box.h"
+#include "tracking/track_finishing.h"
+
+namespace eyrie {
+
+/// A box with its velocity relative to the ground, in some frame.
+struct MovingState {
+    OrientedBox box;
+    cv::Point2d velocity{0, 0};  ///< px/frame
+};
+
+/// The camera's motion over a whole run: carries points and boxes from frame to frame over the ground.
+class GroundMotion {
+ public:
+    explicit GroundMotion(const std::vector<FrameMotionSummary>& motion);
+
+    /// The map into an adjacent frame, null when the frame is unknown or its registration degenerate or, unless
+    /// `guesses` are allowed, not reliable.
+    const cv::Matx33d* step(FrameIndex from, FrameIndex to, bool guesses) const;
+    /// Carries a box by its own velocity to another frame; nothing when a step is missing. Nothing moves by itself in
+    /// frozen frames.
+    std::optional<MovingState> carried(MovingState state, FrameIndex from, FrameIndex to, bool guesses) const;
+    /// Empty when the frame is unknown.
+    cv::Size imageSize(FrameIndex frame) const;
+    /// Whether less than the whole box lies in the image.
+    bool cutByBorder(const OrientedBox& box, FrameIndex frame) const;
+
+ private:
+    struct Step {
+        cv::Matx33d forward;   ///< from the frame before
+        cv::Matx33d backward;  ///< to the frame before
+        bool usable = false;
+        bool reliable = false;
+        bool frozen = false;
+        cv::Size image_size;
+    };
+    std::unordered_map<FrameIndex, Step> steps_;
+};
+
+/// Enlargement of the ground at a point by a map.
+double localScale(const cv::Matx33d& map, cv::Point2d point);
+
+}  // namespace eyrie

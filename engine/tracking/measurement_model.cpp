@@ -1,0 +1,153 @@
+#include "tracking/measurement_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kSmallestSigma = 0.01;  ///< px/frame; no registration is better
+constexpr double kBorderMargin = 4;      ///< px; corners cannot be tracked up to the very edge
+
+bool nearBorder(cv::Point2d point, cv::Size image, double margin) {
+    return point.x < margin || point.y < margin || point.x > image.width - 1 - margin ||
+           point.y > image.height - 1 - margin;
+}
+
+/// Length of one axis after completion; `shift` moves the centre along the axis so that the visible end stays.
+double completedSide(double seen, double known, bool low_cut, bool high_cut, double& shift) {
+    if (seen >= known || low_cut == high_cut) return std::max(seen, low_cut || high_cut ? known : seen);
+    shift = (known - seen) / 2 * (high_cut ? 1 : -1);
+    return known;
+}
+
+/// The box of equal second moments with its axes along another heading.
+OrientedBox inHeading(const OrientedBox& box, double heading) {
+    const double turn = turnBetween(heading, box.heading);
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    return {box.centre, std::hypot(box.length * c, box.width * s), std::hypot(box.length * s, box.width * c), heading};
+}
+
+}  // namespace
+
+bool velocityKnown(const Detection& detection) {
+    return !detection.vectors.empty() || detection.velocity.x != 0 || detection.velocity.y != 0;
+}
+
+CompletedBox completeAtBorder(const OrientedBox& detection, double length, double width, cv::Size image,
+                              double margin) {
+    CompletedBox result;
+    result.box = detection;
+    if (image.area() == 0) return result;
+    const auto cut = [&](cv::Point2d in_box) { return nearBorder(detection.toImage(in_box), image, margin); };
+    const bool rear = cut({-detection.length / 2, 0});
+    const bool front = cut({detection.length / 2, 0});
+    const bool left = cut({0, -detection.width / 2});
+    const bool right = cut({0, detection.width / 2});
+    cv::Point2d shift(0, 0);
+    result.length_cut = rear || front;
+    result.width_cut = left || right;
+    result.box.length = completedSide(detection.length, length, rear, front, shift.x);
+    result.box.width = completedSide(detection.width, width, left, right, shift.y);
+    result.box.centre = detection.toImage(shift);
+    return result;
+}
+
+MeasurementModel::MeasurementModel(const TrackerOptions& options, const SceneScale& scale)
+    : position_(std::hypot(options.position_noise_px, scale.px(options.position_noise_m))),
+      position_floor_(options.position_noise_px),
+      size_(std::hypot(options.size_noise_px, scale.px(options.size_noise_m))),
+      heading_(radiansFromDegrees(options.heading_noise_deg)),
+      velocity_(scale.pxPerFrame(options.velocity_noise)),
+      velocity_floor_(options.velocity_noise_px),
+      size_gate_(options.size_gate),
+      slow_speed_sigmas_(options.slow_speed_sigmas) {
+    process_.acceleration = std::max(0.004, scale.pxPerFrame(options.acceleration) / scale.frame_rate_hz);
+    process_.position = 0.05;
+    process_.size = std::max(0.01, scale.px(options.size_rate));
+    process_.heading = radiansFromDegrees(options.turn_rate_deg) / scale.frame_rate_hz;
+}
+
+void MeasurementModel::startFrame(cv::Size image, double background_speed_sigma) {
+    image_ = image;
+    sigma_ = std::isfinite(background_speed_sigma) ? std::max(background_speed_sigma, kSmallestSigma) : kSmallestSigma;
+    slow_speed_ = slow_speed_sigmas_ * sigma_;
+}
+
+double MeasurementModel::headingDeviation(double speed) const {
+    return std::hypot(heading_, std::atan2(sigma_, speed));
+}
+
+double MeasurementModel::velocityDeviation() const {
+    return std::hypot(std::max(velocity_floor_, sigma_), velocity_);
+}
+
+BoxMeasurement MeasurementModel::first(const Detection& detection) const {
+    BoxMeasurement m;
+    m.box = detection.box;
+    m.along = m.across = position_;
+    // The first box is often a part of the object only.
+    m.length = std::hypot(size_, detection.box.length / 3);
+    m.width = std::hypot(size_, detection.box.width / 3);
+    m.heading = headingDeviation(std::hypot(detection.velocity.x, detection.velocity.y));
+    if (velocityKnown(detection)) {
+        m.velocity = detection.velocity;
+        m.speed = velocityDeviation();
+    }
+    return m;
+}
+
+MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, cv::Point2d velocity, bool velocity_known,
+                                                  const OrientedBox& predicted, bool size_known) const {
+    Update result;
+    BoxMeasurement& m = result.measurement;
+    const double speed = std::hypot(velocity.x, velocity.y);
+    const bool heading_known = !velocity_known || speed >= slow_speed_;
+    const OrientedBox seen = heading_known ? box : inHeading(box, predicted.heading);
+    const CompletedBox completed = completeAtBorder(seen, predicted.length, predicted.width, image_, kBorderMargin);
+    m.box = completed.box;
+    if (heading_known) m.heading = velocity_known ? headingDeviation(speed) : 2 * heading_;
+    if (velocity_known) {
+        m.velocity = velocity;
+        m.speed = velocityDeviation();
+    }
+
+    const double longer = m.box.length - predicted.length;
+    const double wider = m.box.width - predicted.width;
+    if (completed.length_cut || completed.width_cut) {
+        // What lies outside cannot be measured; but a box that comes in grows.
+        m.along = m.across = position_;
+        m.length = completed.length_cut && longer <= 0 ? BoxMeasurement::kUnknown : size_;
+        m.width = completed.width_cut && wider <= 0 ? BoxMeasurement::kUnknown : size_;
+        if (completed.length_cut) result.size_growth = std::max(result.size_growth, longer);
+        if (completed.width_cut) result.size_growth = std::max(result.size_growth, wider);
+        return result;
+    }
+    // A box too short by d misses either end: its centre is off by up to d / 2.
+    m.along = std::hypot(position_, longer / 2);
+    m.across = std::hypot(position_, wider / 2);
+    const double ratio = seen.area() / predicted.area();
+    result.size_differs = size_gate_ > 1 && (ratio > size_gate_ || ratio * size_gate_ < 1);
+    if (!(size_known && result.size_differs)) {
+        m.length = size_;
+        m.width = size_;
+    }
+    return result;
+}
+
+BoxMeasurement MeasurementModel::reconstructed(const Reconstruction& reconstruction) const {
+    BoxMeasurement m;
+    m.box = reconstruction.box;
+    m.along = m.across = position_floor_;
+    m.velocity = reconstruction.velocity;
+    m.speed = velocityDeviation();
+    if (reconstruction.heading_known) {
+        m.heading = 2 * headingDeviation(std::hypot(reconstruction.velocity.x, reconstruction.velocity.y));
+    }
+    return m;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+
+#include "core/detection.h"
+#include "core/scene_scale.h"
+#include "tracking/box_kalman_filter.h"
+#include "tracking/split_merge.h"
+#include "tracking/tracker_options.h"
+
+namespace eyrie {
+
+/// A detection at the image border whose hidden part was completed with a known size.
+struct CompletedBox {
+    OrientedBox box;
+    bool length_cut = false;  ///< an end of the box lies at the border
+    bool width_cut = false;   ///< a side of the box lies at the border
+};
+
+/// Completes a detection whose end or side lies within `margin` px of the image border to at least the given length and
+/// width; the ends that are visible stay where they are.
+CompletedBox completeAtBorder(const OrientedBox& detection, double length, double width, cv::Size image, double margin);
+
+/// Turns detections and reconstructed boxes into measurements with noise, in pixels of this scene.
+class MeasurementModel {
+ public:
+    MeasurementModel(const TrackerOptions& options, const SceneScale& scale);
+
+    /// Sets what depends on the frame: the image's size and the deviation of the background's speed, px/frame.
+    void startFrame(cv::Size image, double background_speed_sigma);
+
+    /// A detection that starts a track.
+    BoxMeasurement first(const Detection& detection) const;
+
+    /// A measurement of a track, and what it says about the size.
+    struct Update {
+        BoxMeasurement measurement;
+        double size_growth = 0;     ///< px by which a box at the border is larger than it was ever seen
+        bool size_differs = false;  ///< beyond the size gate
+    };
+    /// `size_known`: the size gate applies.
+    Update update(const OrientedBox& box, cv::Point2d velocity, bool velocity_known, const OrientedBox& predicted,
+                  bool size_known) const;
+    BoxMeasurement reconstructed(const Reconstruction& reconstruction) const;
+    BoxProcessNoise processNoise() const { return process_; }
+
+    /// Speed below which a velocity tells no direction in this frame, px/frame.
+    double slowSpeed() const { return slow_speed_; }
+    double backgroundSpeedSigma() const { return sigma_; }
+
+ private:
+    double headingDeviation(double speed) const;
+    double velocityDeviation() const;
+
+    BoxProcessNoise process_;
+    double position_ = 1;
+    double position_floor_ = 1;
+    double size_ = 1;
+    double heading_ = 0.1;
+    double velocity_ = 0.1;
+    double velocity_floor_ = 0.05;
+    double size_gate_ = 0;
+    double slow_speed_sigmas_ = 5;
+    cv::Size image_;
+    double sigma_ = 0.02;
+    double slow_speed_ = 0.1;
+};
+
+/// Whether a detection carries a velocity at all.
+bool velocityKnown(const Detection& detection);
+
+}  // namespace eyrie

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/track_state.h"
+#include "tracking/box_kalman_filter.h"
+#include "tracking/vector_association.h"
+
+namespace eyrie {
+
+/// A living track inside the tracker.
+struct Track {
+    TrackId id = 0;
+    BoxKalmanFilter filter;
+    TrackStatus status = TrackStatus::tentative;
+    StateOrigin origin = StateOrigin::detected;
+    std::vector<AssociatedVector> vectors;
+    std::uint64_t history = 1;     ///< one bit a frame, the newest lowest: detected
+    int age = 0;                   ///< frames since the first detection
+    int hits = 1;                  ///< frames with a real detection
+    int missing = 0;               ///< frames since the last real detection
+    int reconstructed_streak = 0;  ///< rebuilt boxes since the last real detection
+    int predicted_streak = 0;      ///< frames without any evidence
+    int size_streak = 0;           ///< detections in a row beyond the size gate
+    int whole_hits = 0;            ///< detections in one piece
+    int parts_streak = 0;          ///< frames in separate parts, less those in one piece
+    bool merged = false;           ///< its detection covers other tracks, too
+    bool stopped = false;          ///< lost while slow
+
+    explicit Track(const BoxMeasurement& first) : filter(first) {}
+    /// As the rest of the chain sees it.
+    TrackState state() const;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,131 @@
+#include "tracking/track_finishing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tracking/ground_motion.h"
+#include "tracking/track_paths.h"
+
+namespace eyrie {
+namespace {
+
+bool usable(const TrackState& state) {
+    const OrientedBox& box = state.box;
+    return std::isfinite(box.centre.x) && std::isfinite(box.centre.y) && std::isfinite(box.heading) &&
+           std::isfinite(box.area()) && box.length > 0 && box.width > 0 && std::isfinite(state.velocity.x) &&
+           std::isfinite(state.velocity.y);
+}
+
+std::vector<TrackPath> groupedById(std::vector<TimedState> states) {
+    std::map<TrackId, TrackPath> by_id;
+    for (TimedState& state : states) {
+        if (!usable(state.second)) continue;
+        TrackPath& path = by_id[state.second.id];
+        path.id = state.second.id;
+        path.states.push_back(state);
+    }
+    std::vector<TrackPath> paths;
+    for (auto& [id, path] : by_id) {
+        auto& all = path.states;
+        std::stable_sort(all.begin(), all.end(),
+                         [](const TimedState& a, const TimedState& b) { return a.first < b.first; });
+        all.erase(std::unique(all.begin(), all.end(),
+                              [](const TimedState& a, const TimedState& b) { return a.first == b.first; }),
+                  all.end());
+        paths.push_back(std::move(path));
+    }
+    return paths;
+}
+
+bool everConfirmed(const TrackPath& path) {
+    return std::any_of(path.states.begin(), path.states.end(),
+                       [](const TimedState& state) { return state.second.status != TrackStatus::tentative; });
+}
+
+/// An object that is on its way out of the image is not lost but gone.
+bool leftTheImage(const TrackPath& path, const GroundMotion& ground) {
+    return ground.cutByBorder(path.states.back().second.box, path.lastFrame());
+}
+
+void trimPredictedEnd(TrackPath& path, const GroundMotion& ground) {
+    if (leftTheImage(path, ground)) return;
+    while (!path.states.empty() && path.states.back().second.origin == StateOrigin::predicted) path.states.pop_back();
+}
+
+int framesOf(double seconds, const SceneScale& scale) {
+    return static_cast<int>(std::lround(std::min(seconds * scale.frame_rate_hz, 1e6)));
+}
+
+}  // namespace
+
+void FinishingOptions::describe(ParameterVisitor& v) {
+    v.flag("finishing.keep_tentative", keep_tentative,
+           {"", "A confirmed track's states from before its confirmation belong to the result.", "Teutsch §7.1.2"});
+    v.flag("finishing.trim_predicted", trim_predicted,
+           {"", "Cut the end of a track that was predicted only, unless it left the image.", ""});
+    v.real("finishing.join_gap", join_gap_s, 0, 60,
+           {"s", "Longest gap over which two fragments become one track. 0: never joined.", ""});
+    v.real("finishing.join_distance_m", join_distance_m, 0, 100,
+           {"m",
+            "Largest distance between where a fragment is expected and where the next one starts; grows with the "
+            "gap.",
+            ""});
+    v.real("finishing.join_distance_px", join_distance_px, 0, 500, {"px", "Pixel floor of join_distance_m.", ""});
+    v.flag("finishing.constant_size", constant_size,
+           {"", "Vehicles keep their size on the ground: replace it by its median over size_window.", ""});
+    v.real("finishing.size_window", size_window_s, 0, 3600,
+           {"s", "Window of that median. Short windows follow changes of the view, long ones are steadier.", ""});
+    v.flag("finishing.smooth_path", smooth_path,
+           {"", "Smooth centres and headings by fits over frames before and after.", ""});
+    v.real("finishing.smooth_window", smooth_window_s, 0, 60, {"s", "Width of those fits. Wide ones cut corners.", ""});
+    v.integer(
+        "finishing.extend_back", extend_back, 0, 100,
+        {"frames", "Extend a track back to where its motion vectors began, before they were old enough to count.", ""});
+}
+
+FinishingOptions FinishingOptions::thesis() {
+    FinishingOptions options;
+    options.trim_predicted = false;
+    options.join_gap_s = 0;
+    options.constant_size = false;
+    options.smooth_path = false;
+    options.extend_back = 0;
+    return options;
+}
+
+std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::vector<FrameMotionSummary>& motion,
+                                     const FinishingOptions& options, const SceneScale& scale) {
+    const GroundMotion ground(motion);
+    std::vector<TrackPath> paths = groupedById(std::move(states));
+    std::erase_if(paths, [](const TrackPath& path) { return !everConfirmed(path); });
+    for (TrackPath& path : paths) {
+        if (!options.keep_tentative) {
+            std::erase_if(path.states, [](const TimedState& s) { return s.second.status == TrackStatus::tentative; });
+        }
+        if (options.trim_predicted) trimPredictedEnd(path, ground);
+    }
+    std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
+    paths = joinFragments(std::move(paths), ground, options, scale);
+    for (TrackPath& path : paths) {
+        if (options.constant_size) steadySize(path, ground, framesOf(options.size_window_s / 2, scale));
+        if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));
+    }
+    extendBack(paths, ground, options.extend_back);
+
+    std::vector<TimedState> result;
+    for (const TrackPath& path : paths) {
+        for (auto [frame, state] : path.states) {
+            state.id = path.id;
+            state.age = frame - path.firstFrame();
+            if (state.status == TrackStatus::tentative) state.status = TrackStatus::confirmed;
+            result.emplace_back(frame, state);
+        }
+    }
+    std::sort(result.begin(), result.end(), [](const TimedState& a, const TimedState& b) {
+        return a.first != b.first ? a.first < b.first : a.second.id < b.second.id;
+    });
+    return result;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/corner.h"
+#include "core/ids.h"
+#include "core/parameter.h"
+#include "core/scene_scale.h"
+#include "core/track_state.h"
+
+namespace eyrie {
+
+/// What finishing needs to know about the camera in one frame.
+struct FrameMotionSummary {
+    FrameIndex frame = 0;
+    Registration registration;  ///< maps the frame before into this one
+    cv::Size image_size;
+};
+
+/// Parameters of the finishing of tracks once a run is over.
+struct FinishingOptions {
+    bool keep_tentative = true;
+    bool trim_predicted = true;
+    double join_gap_s = 1.0;
+    double join_distance_m = 1.5;
+    double join_distance_px = 3;
+    bool constant_size = true;
+    double size_window_s = 3;
+    bool smooth_path = true;
+    double smooth_window_s = 0.4;
+    int extend_back = 5;
+
+    void describe(ParameterVisitor& visitor);
+    /// Confirmed tracks from their first detection on, otherwise unchanged (Teutsch §7.1.2).
+    static FinishingOptions thesis();
+};
+
+/// A state of a track and the frame it belongs to.
+using TimedState = std::pair<FrameIndex, TrackState>;
+
+/// Turns all states of a finished run into its result. Keeps the tracks that were ever confirmed, with their tentative
+/// beginning; trims predicted ends; joins the fragments of one vehicle under the older id; gives every track a steady
+/// size on the ground and a smooth path; extends tracks back to where their motion vectors began. States come in any
+/// order and leave ordered by frame, then id, one per frame and id. `motion` may lack frames; nothing is carried across
+/// those. Clean tracks come out as they went in, so finishing twice is finishing once.
+std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::vector<FrameMotionSummary>& motion,
+                                     const FinishingOptions& options, const SceneScale& scale);
+
+}  // namespace eyrie

@@ -1,0 +1,197 @@
+#include "tracking/track_manager.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace eyrie {
+namespace {
+
+constexpr int kScoreFrames = 32;       ///< window of TrackState::score
+constexpr double kLeavingSeconds = 3;  ///< longest way out of the image without evidence
+constexpr double kStopping = 0.7;      ///< what is left of a stopping track's velocity after a frame
+constexpr double kAlikeSpeeds = 0.3;   ///< difference of velocities that move alike, as a share
+
+int hitsWithin(std::uint64_t history, int frames) {
+    const std::uint64_t mask = frames >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << frames) - 1;
+    return std::popcount(history & mask);
+}
+
+int framesOf(double seconds, const SceneScale& scale) {
+    return static_cast<int>(std::lround(std::min(seconds * scale.frame_rate_hz, 1e6)));
+}
+
+/// How far in front a track is when one of two must go.
+bool outranks(const Track& a, const Track& b) {
+    const bool a_known = a.status != TrackStatus::tentative;
+    const bool b_known = b.status != TrackStatus::tentative;
+    if (a_known != b_known) return a_known;
+    if (a.hits != b.hits) return a.hits > b.hits;
+    return a.id < b.id;
+}
+
+}  // namespace
+
+TrackState Track::state() const {
+    TrackState state;
+    state.id = id;
+    state.box = filter.box();
+    state.velocity = filter.velocity();
+    state.status = status;
+    state.origin = origin;
+    state.age = age;
+    state.hits = hits;
+    const int frames = std::min(age + 1, kScoreFrames);
+    state.score = static_cast<double>(hitsWithin(history, frames)) / frames;
+    return state;
+}
+
+TrackManager::TrackManager(const TrackerOptions& o, const SceneScale& scale)
+    : confirm_hits_(o.confirm_hits),
+      confirm_window_(std::max(o.confirm_hits, o.confirm_window)),
+      max_missing_tentative_(o.max_missing_tentative),
+      max_missing_(std::max(2, framesOf(o.max_missing_s, scale))),
+      max_stopped_(framesOf(o.max_stopped_s, scale)),
+      max_leaving_(framesOf(kLeavingSeconds, scale)),
+      max_failed_(std::max(3, framesOf(o.max_failed_s, scale))),
+      max_reconstructed_(o.max_reconstructed),
+      max_supported_(framesOf(o.max_supported_s, scale)),
+      supported_hits_(o.supported_hits),
+      split_patience_(o.split_patience),
+      stop_speed_(scale.pxPerFrame(o.stop_speed)),
+      min_visible_(o.min_visible),
+      suppress_duplicates_(o.suppress_duplicates),
+      duplicate_overlap_(o.duplicate_overlap),
+      duplicate_containment_(o.duplicate_containment) {}
+
+void TrackManager::count(Track& track, double slow_speed) const {
+    const bool detected = track.origin == StateOrigin::detected;
+    track.history = track.history << 1 | (detected ? 1U : 0U);
+    track.hits += detected;
+    track.missing = detected ? 0 : track.missing + 1;
+    if (detected) track.reconstructed_streak = 0;
+    if (track.origin == StateOrigin::reconstructed) ++track.reconstructed_streak;
+    track.predicted_streak = track.origin == StateOrigin::predicted ? track.predicted_streak + 1 : 0;
+
+    if (track.status == TrackStatus::tentative) {
+        if (hitsWithin(track.history, confirm_window_) >= confirm_hits_) track.status = TrackStatus::confirmed;
+    } else {
+        track.status = detected ? TrackStatus::confirmed : TrackStatus::coasting;
+    }
+
+    if (track.predicted_streak == 0) {
+        track.stopped = false;
+    } else if (established(track) && stop_speed_ > 0) {
+        track.stopped = track.stopped || track.filter.speed() < std::max(stop_speed_, slow_speed);
+        if (track.stopped) track.filter.slowDown(kStopping);
+    }
+}
+
+bool TrackManager::mayBeReconstructed(const Track& track) const {
+    const int limit = track.hits >= supported_hits_ ? std::max(max_reconstructed_, max_supported_) : max_reconstructed_;
+    return track.reconstructed_streak < limit;
+}
+
+bool TrackManager::givesUpParts(const Track& track) const {
+    return track.parts_streak >= split_patience_ && track.whole_hits < 3 * track.parts_streak;
+}
+
+bool TrackManager::leaving(const Track& track, cv::Size image) const {
+    const OrientedBox box = track.filter.box();
+    const double visible = areaInImage(box, image);
+    if (visible > 0.98 * box.area()) return false;
+    OrientedBox later = box;
+    later.centre += 3 * track.filter.velocity();
+    return areaInImage(later, image) < visible;
+}
+
+bool TrackManager::ended(const Track& track, cv::Size image) const {
+    const OrientedBox box = track.filter.box();
+    if (!std::isfinite(box.centre.x) || !std::isfinite(box.centre.y) || !std::isfinite(box.area())) return true;
+    if (image.area() > 0 && !(areaInImage(box, image) > min_visible_ * box.area())) return true;
+    if (track.status == TrackStatus::tentative) return track.missing > max_missing_tentative_;
+    int limit = max_missing_;
+    if (track.stopped) limit = std::max(limit, max_stopped_);
+    if (image.area() > 0 && track.predicted_streak > limit && leaving(track, image)) {
+        limit = std::max(limit, max_leaving_);
+    }
+    return track.predicted_streak > limit;
+}
+
+bool TrackManager::alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b, cv::Point2d velocity_b,
+                         double slow_speed) const {
+    const double reach = (std::hypot(a.length, a.width) + std::hypot(b.length, b.width)) / 2;
+    if (std::abs(a.centre.x - b.centre.x) > reach || std::abs(a.centre.y - b.centre.y) > reach) return false;
+    const double speed = std::max(std::hypot(velocity_a.x, velocity_a.y), std::hypot(velocity_b.x, velocity_b.y));
+    const cv::Point2d difference = velocity_a - velocity_b;
+    if (std::hypot(difference.x, difference.y) > std::max(slow_speed, kAlikeSpeeds * speed)) return false;
+    const double smaller = std::min(a.area(), b.area());
+    const double shared = intersectionArea(a, b);
+    return shared >= duplicate_overlap_ * (a.area() + b.area() - shared) || shared >= duplicate_containment_ * smaller;
+}
+
+std::vector<char> TrackManager::mergeBeliefs(const std::vector<Track>& tracks, double slow_speed) const {
+    std::vector<char> beliefs(tracks.size(), 0);
+    for (std::size_t big = 0; big < tracks.size(); ++big) {
+        const OrientedBox box = tracks[big].filter.box();
+        std::vector<OrientedBox> held;
+        for (std::size_t small = 0; small < tracks.size(); ++small) {
+            const Track& other = tracks[small];
+            if (small == big || other.status != TrackStatus::confirmed) continue;
+            const OrientedBox other_box = other.filter.box();
+            if (1.5 * other_box.area() > box.area()) continue;
+            if (!alike(box, tracks[big].filter.velocity(), other_box, other.filter.velocity(), slow_speed)) continue;
+            const bool apart = std::all_of(held.begin(), held.end(), [&](const OrientedBox& known) {
+                return containment(known, other_box) < 0.3;
+            });
+            if (apart) held.push_back(other_box);
+        }
+        beliefs[big] = held.size() >= 2;
+    }
+    return beliefs;
+}
+
+void TrackManager::suppressDuplicates(std::vector<Track>& tracks, double slow_speed) const {
+    if (!suppress_duplicates_) return;
+    std::vector<char> gone = mergeBeliefs(tracks, slow_speed);
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        for (std::size_t j = i + 1; j < tracks.size() && !gone[i]; ++j) {
+            if (gone[j]) continue;
+            const OrientedBox a = tracks[i].filter.box();
+            const OrientedBox b = tracks[j].filter.box();
+            if (!alike(a, tracks[i].filter.velocity(), b, tracks[j].filter.velocity(), slow_speed)) continue;
+            const bool first_stays = outranks(tracks[i], tracks[j]);
+            Track& stays = first_stays ? tracks[i] : tracks[j];
+            Track& goes = first_stays ? tracks[j] : tracks[i];
+            gone[first_stays ? j : i] = 1;
+            // The older one lost its object and the younger one found it: one life, the younger one's evidence.
+            if (stays.predicted_streak >= 2 && goes.origin == StateOrigin::detected) {
+                stays.filter = goes.filter;
+                stays.vectors = std::move(goes.vectors);
+                stays.origin = StateOrigin::detected;
+                stays.history |= 1U;
+                ++stays.hits;
+                stays.missing = stays.predicted_streak = stays.reconstructed_streak = 0;
+                stays.stopped = false;
+                if (stays.status == TrackStatus::coasting) stays.status = TrackStatus::confirmed;
+            }
+        }
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        if (gone[i]) continue;
+        if (kept != i) tracks[kept] = std::move(tracks[i]);
+        ++kept;
+    }
+    tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(kept), tracks.end());
+}
+
+bool TrackManager::wouldDuplicate(const OrientedBox& box, cv::Point2d velocity, const std::vector<Track>& tracks,
+                                  double slow_speed) const {
+    return suppress_duplicates_ && std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
+               return track.predicted_streak < 2 &&
+                      alike(box, velocity, track.filter.box(), track.filter.velocity(), slow_speed);
+           });
+}
+
+}  // namespace eyrie

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+#include "core/scene_scale.h"
+#include "tracking/track.h"
+#include "tracking/tracker_options.h"
+
+namespace eyrie {
+
+/// Life and death of tracks (Teutsch §6.4): tentative, confirmed, coasting, deleted.
+class TrackManager {
+ public:
+    TrackManager(const TrackerOptions& options, const SceneScale& scale);
+
+    /// Counts the evidence of a frame (`track.origin`) and moves the track's status on.
+    void count(Track& track, double slow_speed) const;
+    /// Whether the track may be rebuilt from motion vectors once more.
+    bool mayBeReconstructed(const Track& track) const;
+    /// Whether the track's size is known well enough to judge detections by it.
+    bool established(const Track& track) const { return track.hits >= confirm_hits_; }
+    /// Whether the track was in separate parts for so long that it must be several objects.
+    bool givesUpParts(const Track& track) const;
+    /// Whether the track's life is over.
+    bool ended(const Track& track, cv::Size image) const;
+    /// Deletes the younger of two tracks that lie on each other and move alike, and tracks that hold several reliable
+    /// ones. `slow_speed`: px/frame below which speeds do not differ.
+    void suppressDuplicates(std::vector<Track>& tracks, double slow_speed) const;
+    /// Whether a new box would be a duplicate of a track that has evidence in this frame.
+    bool wouldDuplicate(const OrientedBox& box, cv::Point2d velocity, const std::vector<Track>& tracks,
+                        double slow_speed) const;
+    /// Frames with failed registration after which all tracks end.
+    int maxFailedFrames() const { return max_failed_; }
+
+ private:
+    bool alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b, cv::Point2d velocity_b,
+               double slow_speed) const;
+    bool leaving(const Track& track, cv::Size image) const;
+    std::vector<char> mergeBeliefs(const std::vector<Track>& tracks, double slow_speed) const;
+
+    int confirm_hits_;
+    int confirm_window_;
+    int max_missing_tentative_;
+    int max_missing_;
+    int max_stopped_;
+    int max_leaving_;
+    int max_failed_;
+    int max_reconstructed_;
+    int max_supported_;
+    int supported_hits_;
+    int split_patience_;
+    double stop_speed_;
+    double min_visible_;
+    bool suppress_duplicates_;
+    double duplicate_overlap_;
+    double duplicate_containment_;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "tracking/ground_motion.h"
+#include "tracking/track_finishing.h"
+
+namespace eyrie {
+
+/// One track of a finished run: its states in ascending frames, never empty.
+struct TrackPath {
+    TrackId id = 0;
+    std::vector<TimedState> states;
+
+    FrameIndex firstFrame() const { return states.front().first; }
+    FrameIndex lastFrame() const { return states.back().first; }
+};
+
+/// Joins the fragments of one vehicle: where a track ends and another starts soon after at the predicted place with
+/// similar velocity and size, the later one continues the earlier one. Gaps are filled by interpolation.
+std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundMotion& ground,
+                                     const FinishingOptions& options, const SceneScale& scale);
+
+/// Replaces lengths and widths by their weighted median over a window, on the ground: enlargement by the camera is
+/// taken into account, detections count most.
+void steadySize(TrackPath& path, const GroundMotion& ground, int half_window);
+
+/// Replaces centres, velocities and headings by a local polynomial fit on the ground over `half_window` frames to
+/// either side.
+void smoothPath(TrackPath& path, const GroundMotion& ground, int half_window);
+
+/// Extends paths back over frames in which the motion vectors were too young, by constant velocity over the ground,
+/// while the box stays in the image and off other tracks.
+void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames);
+
+}  // namespace eyrie

@@ -1,0 +1,267 @@
+#include "tracking/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/angle.h"
+#include "core/error.h"
+#include "tracking/overlap_matrix.h"
+#include "tracking/split_merge.h"
+#include "tracking/vector_association.h"
+
+namespace eyrie {
+namespace {
+
+const SceneScale& checked(const SceneScale& scale) {
+    const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+    if (!positive(scale.gsd_m_per_px) || !positive(scale.frame_rate_hz)) {
+        throw Error(ErrorKind::parameter,
+                    "the tracker needs a ground sampling distance and a frame rate above 0, got " +
+                        std::to_string(scale.gsd_m_per_px) + " m/px and " + std::to_string(scale.frame_rate_hz) +
+                        " Hz");
+    }
+    return scale;
+}
+
+bool usable(const Detection& detection) {
+    const OrientedBox& box = detection.box;
+    return detection.rejection == Rejection::none && std::isfinite(box.centre.x) && std::isfinite(box.centre.y) &&
+           std::isfinite(box.length) && std::isfinite(box.width) && std::isfinite(box.heading) && box.length > 0 &&
+           box.width > 0 && std::isfinite(detection.velocity.x) && std::isfinite(detection.velocity.y);
+}
+
+/// Whether the picture changed to another scene, as far as registration can tell.
+bool isCut(const Registration& registration) {
+    return registration.state == RegistrationState::first ||
+           (registration.state == RegistrationState::failed && registration.reason.find("cut") != std::string::npos);
+}
+
+}  // namespace
+
+Tracker::Tracker(const TrackerOptions& options, const SceneScale& scale)
+    : options_(options),
+      model_(options, checked(scale)),
+      manager_(options, scale),
+      gate_(std::max(options.distance_gate_px, scale.px(options.distance_gate_m))) {}
+
+void Tracker::reset() {
+    tracks_.clear();
+    next_id_ = 1;
+    frozen_frames_ = 0;
+    failed_frames_ = 0;
+}
+
+std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vector<Detection>& detections) {
+    model_.startFrame(motion.image_size, motion.background_speed_sigma);
+    if (isCut(motion.registration)) tracks_.clear();
+    switch (motion.registration.state) {
+        case RegistrationState::frozen:
+            coastThroughFrozen();
+            break;
+        case RegistrationState::failed:
+            coastThroughFailed(motion);
+            break;
+        case RegistrationState::first:
+        case RegistrationState::registered:
+            follow(motion, detections);
+            break;
+    }
+    std::vector<TrackState> states;
+    states.reserve(tracks_.size());
+    for (const Track& track : tracks_) states.push_back(track.state());
+    return states;
+}
+
+void Tracker::coastThroughFrozen() {
+    ++frozen_frames_;
+    for (Track& track : tracks_) {
+        ++track.age;
+        track.origin = StateOrigin::predicted;
+        if (track.status == TrackStatus::confirmed) track.status = TrackStatus::coasting;
+    }
+}
+
+void Tracker::coastThroughFailed(const FrameMotion& motion) {
+    ++failed_frames_;
+    predict(motion);
+    for (Track& track : tracks_) {
+        // A guessed registration may be off by pixels.
+        track.filter.smear({1, 0});
+        track.filter.smear({0, 1});
+        track.origin = StateOrigin::predicted;
+        if (track.status == TrackStatus::confirmed) track.status = TrackStatus::coasting;
+    }
+    const bool lost = failed_frames_ > manager_.maxFailedFrames();
+    std::erase_if(tracks_, [&](const Track& track) { return lost || manager_.ended(track, motion.image_size); });
+}
+
+void Tracker::predict(const FrameMotion& motion) {
+    for (Track& track : tracks_) {
+        const Homography& map = motion.registration.current_from_previous;
+        const double area_before = track.filter.box().area();
+        // After dropped frames that were filled by repeats the objects have moved on meanwhile.
+        if (frozen_frames_ > 0) track.filter.smear(frozen_frames_ * track.filter.velocity());
+        track.filter.predict(map, model_.processNoise());
+        const double scale = std::sqrt(track.filter.box().area() / area_before);
+        for (AssociatedVector& vector : track.vectors) vector.in_box *= scale;
+        ++track.age;
+    }
+    frozen_frames_ = 0;
+}
+
+void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& detections) {
+    failed_frames_ = 0;
+    predict(motion);
+    std::vector<const Detection*> found;
+    std::vector<MovingBox> detected;
+    for (const Detection& detection : detections) {
+        if (!usable(detection)) continue;
+        found.push_back(&detection);
+        detected.push_back({detection.box, detection.velocity, 0, 0});
+    }
+    const FrameAssociation association = associate(detected, predictedBoxes(), motion.image_size);
+
+    const FrameVectors vectors(motion.motion_vectors);
+    for (std::size_t j = 0; j < tracks_.size(); ++j) {
+        keepSeenVectors(tracks_[j].vectors, vectors);
+        updateTrack(tracks_[j], association.tracks[j], found, vectors);
+        manager_.count(tracks_[j], model_.slowSpeed());
+    }
+    std::erase_if(tracks_, [&](const Track& track) { return manager_.ended(track, motion.image_size); });
+    manager_.suppressDuplicates(tracks_, model_.slowSpeed());
+    startTracks(found, association.used);
+    if (options_.use_vectors) associateMotionVectors(vectors);
+}
+
+std::vector<MovingBox> Tracker::predictedBoxes() const {
+    std::vector<MovingBox> boxes;
+    for (const Track& track : tracks_) {
+        MovingBox moving{track.filter.box(), track.filter.velocity(), 0, 0};
+        if (gate_ > 0) {
+            const cv::Point2d along = moving.box.direction();
+            moving.gate_along = gate_ + 2 * track.filter.positionDeviation(along);
+            moving.gate_across = gate_ + 2 * track.filter.positionDeviation({-along.y, along.x});
+        }
+        boxes.push_back(moving);
+    }
+    return boxes;
+}
+
+FrameAssociation Tracker::associate(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
+                                    cv::Size image) const {
+    OverlapGate gate;
+    gate.min_overlap = options_.min_overlap;
+    gate.max_turn = options_.max_turn_deg >= 180 ? 2 * kPi : radiansFromDegrees(options_.max_turn_deg);
+    gate.slow_speed = model_.slowSpeed();
+    gate.image = image;
+    std::vector<TrackAuthority> authority;
+    for (const Track& track : tracks_) {
+        authority.push_back(
+            {track.status != TrackStatus::tentative, manager_.established(track), manager_.givesUpParts(track)});
+    }
+    return associateDetections(OverlapMatrix(detected, predicted, gate), detected, predicted, authority,
+                               options_.split_merge, options_.part_containment);
+}
+
+void Tracker::updateTrack(Track& track, const TrackAssociation& association,
+                          const std::vector<const Detection*>& detections, const FrameVectors& vectors) {
+    const auto detectionAt = [&](int index) -> const Detection& {
+        return *detections[static_cast<std::size_t>(index)];
+    };
+    track.merged = association.kind == AssociationKind::merged;
+    track.origin = StateOrigin::predicted;
+    if (association.in_parts) {
+        if (manager_.givesUpParts(track)) {
+            // Not one object after all: become the best fitting part, the others start tracks.
+            track.filter.forgetSize(track.filter.box().length / 2);
+            track.size_streak = options_.size_patience;
+            track.parts_streak = 0;
+            track.vectors.clear();
+        } else {
+            ++track.parts_streak;
+        }
+    }
+    bool updated = false;
+    if (association.kind == AssociationKind::matched) {
+        const Detection& detection = detectionAt(association.detection);
+        if (!association.in_parts) {
+            ++track.whole_hits;
+            track.parts_streak = std::max(0, track.parts_streak - 1);
+        }
+        updated = updateByDetection(track, detection.box, detection);
+    } else if (association.kind == AssociationKind::split && !association.parts.empty()) {
+        OrientedBox fused{detectionAt(association.parts.front()).box.centre, 0, 0, track.filter.box().heading};
+        const Detection* largest = nullptr;
+        for (const int part : association.parts) {
+            const Detection& detection = detectionAt(part);
+            fused = unionBox(fused, detection.box);
+            if (!largest || detection.box.area() > largest->box.area()) largest = &detection;
+        }
+        updated = updateByDetection(track, fused, *largest);
+    }
+    if (updated) {
+        track.origin = StateOrigin::detected;
+    } else if (options_.use_vectors && updateByVectors(track, vectors)) {
+        track.origin = StateOrigin::reconstructed;
+    }
+    track.filter.pointForward(model_.slowSpeed());
+}
+
+bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Detection& detection) {
+    const bool size_known = manager_.established(track) && track.size_streak < options_.size_patience;
+    const MeasurementModel::Update update =
+        model_.update(box, detection.velocity, velocityKnown(detection), track.filter.box(), size_known);
+    if (update.size_differs) {
+        ++track.size_streak;
+        if (!size_known && manager_.established(track)) track.filter.forgetSize(track.filter.box().width / 2);
+    } else {
+        track.size_streak = 0;
+    }
+    if (update.size_growth > 0) track.filter.forgetSize(update.size_growth);
+    return track.filter.update(update.measurement);
+}
+
+bool Tracker::updateByVectors(Track& track, const FrameVectors& vectors) {
+    if (!manager_.mayBeReconstructed(track)) return false;
+    const auto rebuilt =
+        reconstructBox(track.vectors, vectors, track.filter.box(), options_.min_vectors, model_.slowSpeed());
+    return rebuilt && track.filter.update(model_.reconstructed(*rebuilt));
+}
+
+void Tracker::startTracks(const std::vector<const Detection*>& detections, const std::vector<char>& used) {
+    const std::size_t known = tracks_.size();
+    std::vector<Track> born;
+    for (std::size_t i = 0; i < detections.size(); ++i) {
+        const Detection& detection = *detections[i];
+        if (used[i]) continue;
+        if (manager_.wouldDuplicate(detection.box, detection.velocity, tracks_, model_.slowSpeed())) continue;
+        Track track(model_.first(detection));
+        track.id = next_id_++;
+        track.whole_hits = 1;
+        track.filter.pointForward(model_.slowSpeed());
+        if (options_.confirm_hits <= 1) track.status = TrackStatus::confirmed;
+        born.push_back(std::move(track));
+    }
+    tracks_.reserve(known + born.size());
+    for (Track& track : born) tracks_.push_back(std::move(track));
+}
+
+void Tracker::associateMotionVectors(const FrameVectors& vectors) {
+    VectorLimits limits;
+    limits.max_vectors = options_.max_vectors;
+    limits.speed_difference = options_.vector_speed_difference;
+    limits.speed_floor = 5 * model_.backgroundSpeedSigma();
+    limits.slow_speed = model_.slowSpeed();
+    limits.relative_position_gain = options_.relative_position_gain;
+    std::vector<VectorClaim> claims;
+    for (Track& track : tracks_) {
+        VectorClaim claim{track.filter.box(), track.filter.velocity(), true, true, &track.vectors};
+        claim.may_gain = track.origin != StateOrigin::predicted && !track.merged;
+        claim.learns = track.origin == StateOrigin::detected;
+        claims.push_back(claim);
+    }
+    associateVectors(claims, vectors, limits);
+}
+
+}  // namespace eyrie

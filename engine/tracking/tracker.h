@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "core/detection.h"
+#include "core/motion_vector.h"
+#include "core/scene_scale.h"
+#include "core/track_state.h"
+#include "tracking/measurement_model.h"
+#include "tracking/track.h"
+#include "tracking/track_manager.h"
+#include "tracking/tracker_options.h"
+
+namespace eyrie {
+
+/// Follows objects from frame to frame by their detections and motion vectors (Teutsch ch. 6, fig. 6.6).
+class Tracker {
+ public:
+    /// Throws Error(parameter) when the scale is not positive and finite.
+    Tracker(const TrackerOptions& options, const SceneScale& scale);
+
+    /// The states of all living tracks in this frame, tentative ones too, in ascending id. Detections that were
+    /// rejected or are not finite are ignored. Frames must come in order; in a frame whose registration failed all
+    /// tracks are predicted, in a frozen one nothing moves, and after a cut all tracks end.
+    std::vector<TrackState> next(const FrameMotion& motion, const std::vector<Detection>& detections);
+
+    /// Forgets all tracks; ids start from 1 again.
+    void reset();
+
+ private:
+    void coastThroughFrozen();
+    void coastThroughFailed(const FrameMotion& motion);
+    void follow(const FrameMotion& motion, const std::vector<Detection>& detections);
+    void predict(const FrameMotion& motion);
+    std::vector<MovingBox> predictedBoxes() const;
+    FrameAssociation associate(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
+                               cv::Size image) const;
+    void updateTrack(Track& track, const TrackAssociation& association, const std::vector<const Detection*>& detections,
+                     const FrameVectors& vectors);
+    bool updateByDetection(Track& track, const OrientedBox& box, const Detection& detection);
+    bool updateByVectors(Track& track, const FrameVectors& vectors);
+    void startTracks(const std::vector<const Detection*>& detections, const std::vector<char>& used);
+    void associateMotionVectors(const FrameVectors& vectors);
+
+    TrackerOptions options_;
+    MeasurementModel model_;
+    TrackManager manager_;
+    double gate_ = 0;  ///< px
+    std::vector<Track> tracks_;
+    TrackId next_id_ = 1;
+    int frozen_frames_ = 0;  ///< in a row, up to now
+    int failed_frames_ = 0;  ///< in a row, up to now
+};
+
+}  // namespace eyrie
