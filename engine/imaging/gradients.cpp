@@ -7,13 +7,19 @@
 namespace eyrie {
 namespace {
 
+/// Filters of flat ground leave this much; a quantile threshold must not take it for a gradient.
+constexpr float kRounding = 1e-6F;
+
 void magnitudeOf(const cv::Mat& dx, const cv::Mat& dy, cv::Mat& gradient) {
     gradient.create(dx.size(), CV_32FC1);
     for (int y = 0; y < dx.rows; ++y) {
         const float* x_row = dx.ptr<float>(y);
         const float* y_row = dy.ptr<float>(y);
         float* out = gradient.ptr<float>(y);
-        for (int x = 0; x < dx.cols; ++x) out[x] = std::sqrt(x_row[x] * x_row[x] + y_row[x] * y_row[x]);
+        for (int x = 0; x < dx.cols; ++x) {
+            const float squared = x_row[x] * x_row[x] + y_row[x] * y_row[x];
+            out[x] = squared > kRounding ? std::sqrt(squared) : 0.0F;
+        }
     }
 }
 

@@ -1,0 +1,77 @@
+#include "imaging/gradients.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+namespace eyrie {
+namespace {
+
+cv::Mat ramp(int slope_x, int slope_y) {
+    cv::Mat gray(15, 15, CV_8UC1);
+    for (int y = 0; y < gray.rows; ++y) {
+        for (int x = 0; x < gray.cols; ++x) gray.at<uchar>(y, x) = static_cast<uchar>(10 + slope_x * x + slope_y * y);
+    }
+    return gray;
+}
+
+TEST(SimpleGradient, IsTheDifferenceToTheRightAndBelow) {
+    cv::Mat gradient;
+    simpleGradient((cv::Mat_<uchar>(2, 3) << 10, 13, 13, 14, 10, 200), gradient);
+    EXPECT_FLOAT_EQ(gradient.at<float>(0, 0), 5);    // 3 right, 4 below
+    EXPECT_FLOAT_EQ(gradient.at<float>(0, 1), 3);    // 0 right, −3 below
+    EXPECT_FLOAT_EQ(gradient.at<float>(0, 2), 187);  // border repeated: below only
+    EXPECT_FLOAT_EQ(gradient.at<float>(1, 1), 190);
+    EXPECT_FLOAT_EQ(gradient.at<float>(1, 2), 0);
+}
+
+TEST(CannyGradient, OfARampIsItsSlope) {
+    cv::Mat gradient;
+    cannyGradient(ramp(3, 4), 0.5, gradient);
+    EXPECT_NEAR(gradient.at<float>(7, 7), 5, 1e-3);
+    cannyGradient(ramp(6, 8), 2.0, gradient);
+    EXPECT_NEAR(gradient.at<float>(7, 7), 10, 1e-3);
+}
+
+TEST(CannyGradient, SmoothsNoise) {
+    cv::RNG random(1);
+    cv::Mat gray(100, 100, CV_8UC1);
+    random.fill(gray, cv::RNG::NORMAL, 100, 5);
+    cv::Mat plain;
+    cv::Mat smooth;
+    simpleGradient(gray, plain);
+    cannyGradient(gray, 2.0, smooth);
+    EXPECT_LT(cv::mean(smooth)[0], 0.5 * cv::mean(plain)[0]);
+}
+
+TEST(MorphologicalGradient, IsMaximumMinusMinimumOfTheNeighbourhood) {
+    cv::Mat gray(7, 7, CV_8UC1, cv::Scalar(50));
+    gray.at<uchar>(3, 3) = 90;
+    cv::Mat gradient;
+    morphologicalGradient(gray, gradient);
+    for (int y = 0; y < 7; ++y) {
+        for (int x = 0; x < 7; ++x) {
+            const bool near = std::abs(x - 3) <= 1 && std::abs(y - 3) <= 1;
+            EXPECT_FLOAT_EQ(gradient.at<float>(y, x), near ? 40.0F : 0.0F);
+        }
+    }
+}
+
+TEST(Gradients, TakeOnePixelAndNone) {
+    for (const cv::Mat& gray : {cv::Mat(1, 1, CV_8UC1, cv::Scalar(5)), cv::Mat()}) {
+        cv::Mat a;
+        cv::Mat b;
+        cv::Mat c;
+        simpleGradient(gray, a);
+        cannyGradient(gray, 0.5, b);
+        morphologicalGradient(gray, c);
+        for (const cv::Mat& gradient : {a, b, c}) {
+            EXPECT_EQ(gradient.size(), gray.size());
+            EXPECT_EQ(gradient.empty() ? 0 : cv::countNonZero(gradient), 0);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace eyrie
