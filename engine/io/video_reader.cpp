@@ -1,0 +1,157 @@
+#include "io/video_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "core/error.h"
+#include "io/index_cache.h"
+
+namespace eyrie {
+
+namespace {
+
+/// Key frames to go back for a frame that does not come out of the nearest one: streams that refresh gradually, or
+/// refer across key frames.
+constexpr std::size_t kStartsToTry = 4;
+/// Decoding on is cheaper than seeking when the key frame is this few packets ahead.
+constexpr int kPacketsWorthDecoding = 8;
+
+std::string sizeText(cv::Size size) {
+    return std::to_string(size.width) + "×" + std::to_string(size.height);
+}
+
+void turn(cv::Mat& image, int quarter_turns) {
+    if (image.empty() || quarter_turns == 0) return;
+    static constexpr cv::RotateFlags turns[] = {cv::ROTATE_90_CLOCKWISE, cv::ROTATE_180,
+                                                cv::ROTATE_90_COUNTERCLOCKWISE};
+    cv::Mat turned;
+    cv::rotate(image, turned, turns[quarter_turns - 1]);
+    image = turned;
+}
+
+}  // namespace
+
+VideoReader::VideoReader(const std::filesystem::path& path, const SourceOptions& options, const IndexProgress& progress,
+                         std::stop_token stop) {
+    info_.path = std::filesystem::absolute(path).lexically_normal();
+    const IndexCache cache(options.index_folder);
+    if (auto known = cache.load(info_.path)) {
+        index_ = std::move(*known);
+    } else {
+        index_ = buildVideoIndex(info_.path, progress, std::move(stop));
+        cache.save(info_.path, index_);
+    }
+    frame_of_packet_ = index_.framesOfPackets();
+    for (std::size_t number = 0; number < index_.packets.size(); ++number)
+        if (index_.packets[number].key && frame_of_packet_[number] >= 0)
+            key_packets_.push_back(static_cast<int>(number));
+    decoder_ = std::make_unique<VideoDecoder>(info_.path, index_);
+    describe(options);
+}
+
+void VideoReader::describe(const SourceOptions& options) {
+    const auto& ticks = index_.shown_ticks;
+    const double tick_s = static_cast<double>(index_.tick_numerator) / static_cast<double>(index_.tick_denominator);
+    info_.size = index_.coded_size;
+    if (index_.quarter_turns % 2 != 0) std::swap(info_.size.width, info_.size.height);
+    info_.frame_count = static_cast<int>(index_.shown.size());
+    info_.codec = index_.codec;
+    info_.container = index_.container;
+    info_.frame_rate_hz = index_.nominal_rate_hz > 0 ? index_.nominal_rate_hz : 25.0;
+    if (ticks.size() > 1 && ticks.back() > 0)
+        info_.frame_rate_hz = static_cast<double>(ticks.size() - 1) / (static_cast<double>(ticks.back()) * tick_s);
+
+    const double usual_s = 1 / info_.frame_rate_hz;
+    for (std::size_t i = 1; i < ticks.size(); ++i) {
+        // Containers round stamps to as little as a millisecond.
+        const double step_s = static_cast<double>(ticks[i] - ticks[i - 1]) * tick_s;
+        if (std::abs(step_s - usual_s) > std::max(0.0015, 0.05 * usual_s)) info_.variable_frame_rate = true;
+    }
+    if (options.frame_rate_hz > 0) {
+        info_.frame_rate_hz = options.frame_rate_hz;
+        info_.variable_frame_rate = false;
+        index_.tick_numerator = 1000;
+        index_.tick_denominator = std::max<std::int64_t>(1, std::llround(options.frame_rate_hz * 1000));
+        for (std::size_t i = 0; i < ticks.size(); ++i) index_.shown_ticks[i] = static_cast<std::int64_t>(i);
+    }
+}
+
+void VideoReader::checkIndex(FrameIndex index) const {
+    if (index < 0 || index >= info_.frame_count)
+        throw Error(ErrorKind::input, info_.path.string() + ": there is no frame " + std::to_string(index) +
+                                          "; the video has frames 0 to " + std::to_string(info_.frame_count - 1));
+}
+
+std::int64_t VideoReader::timeOf(FrameIndex index) const {
+    checkIndex(index);
+    return av_rescale(index_.shown_ticks[static_cast<std::size_t>(index)], index_.tick_numerator * 1'000'000,
+                      index_.tick_denominator);
+}
+
+/// Packets to start from, nearest first. A key frame that is shown later than the wanted one does not do: what it
+/// follows in the file and precedes on screen refers to frames before it.
+std::vector<int> VideoReader::startsFor(FrameIndex index) const {
+    const int packet = index_.shown[static_cast<std::size_t>(index)];
+    std::vector<int> starts;
+    auto key = std::upper_bound(key_packets_.begin(), key_packets_.end(), packet);
+    while (key != key_packets_.begin() && starts.size() < kStartsToTry) {
+        --key;
+        if (frame_of_packet_[static_cast<std::size_t>(*key)] <= index) starts.push_back(*key);
+    }
+    if (starts.empty() || (starts.size() < kStartsToTry && starts.back() != 0)) starts.push_back(0);
+    return starts;
+}
+
+const AVFrame* VideoReader::decodeUpTo(FrameIndex index) {
+    while ((picture_ = decoder_->next()) != nullptr) {
+        const FrameIndex frame = frame_of_packet_[static_cast<std::size_t>(decoder_->packetOf(*picture_))];
+        if (frame < 0) continue;
+        picture_frame_ = frame;
+        if (frame >= index) return frame == index ? picture_ : nullptr;
+    }
+    picture_frame_ = -1;
+    return nullptr;
+}
+
+const AVFrame& VideoReader::pictureOf(FrameIndex index) {
+    if (picture_ != nullptr && picture_frame_ == index) return *picture_;
+    const std::vector<int> starts = startsFor(index);
+    const bool ahead = picture_ != nullptr && picture_frame_ < index;
+    if (ahead && starts.front() <= decoder_->nextPacket() + kPacketsWorthDecoding)
+        if (const AVFrame* picture = decodeUpTo(index)) return *picture;
+    for (const int start : starts) {
+        picture_ = nullptr;
+        decoder_->startAt(start);
+        const AVFrame* picture = decodeUpTo(index);
+        // A picture that misses its references is flagged; an earlier start may have them.
+        const bool doubtful = picture != nullptr && (picture->flags & AV_FRAME_FLAG_CORRUPT) && start != starts.back();
+        if (picture != nullptr && !doubtful) return *picture;
+    }
+    throw Error(ErrorKind::input,
+                info_.path.string() + ": frame " + std::to_string(index) +
+                    " cannot be decoded; the file is damaged there. Leave the frame out of the range");
+}
+
+Frame VideoReader::read(FrameIndex index, bool with_colour) {
+    checkIndex(index);
+    const AVFrame& picture = pictureOf(index);
+    const std::string place = info_.path.string() + ": frame " + std::to_string(index);
+    if (const cv::Size size(picture.width, picture.height); size != index_.coded_size)
+        throw Error(ErrorKind::input, place + " is " + sizeText(size) + " px, the video began with " +
+                                          sizeText(index_.coded_size) + " px; cut the video where its size changes");
+    Frame frame;
+    frame.index = index;
+    frame.time_us = timeOf(index);
+    try {
+        frame.gray = conversion_.gray(picture);
+        if (with_colour) frame.colour = conversion_.colour(picture);
+    } catch (const Error& error) {
+        throw Error(error.kind(), place + ": " + error.what());
+    }
+    turn(frame.gray, index_.quarter_turns);
+    turn(frame.colour, index_.quarter_turns);
+    return frame;
+}
+
+}  // namespace eyrie
