@@ -1,8 +1,7 @@
 #pragma once
 
 #include <map>
-#include <opencv2/core/matx.hpp>
-#include <opencv2/core/types.hpp>
+#include <opencv2/core.hpp>
 #include <vector>
 
 #include "core/corner.h"
