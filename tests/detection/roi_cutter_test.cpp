@@ -1,0 +1,57 @@
+#include "detection/roi_cutter.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/driven_scene.h"
+
+namespace eyrie {
+namespace {
+
+using test::drivenScene;
+using test::kContractScale;
+
+TEST(RoiCutter, ExtendsTheClusterAlongAndAcross) {
+    MotionCluster cluster;
+    cluster.box = {{100, 80}, 70, 40, 0.4};
+    const OrientedBox area = extendedCluster(cluster, {320, 240}, {}, kContractScale);
+    EXPECT_DOUBLE_EQ(area.length, 140);
+    EXPECT_DOUBLE_EQ(area.width, 50);
+    EXPECT_DOUBLE_EQ(area.heading, 0.4);
+    cluster.box = {{100, 80}, 3, 1, 0.4};
+    const OrientedBox smallest = extendedCluster(cluster, {320, 240}, {}, kContractScale);
+    EXPECT_DOUBLE_EQ(smallest.length, 7 / 0.11);
+    EXPECT_DOUBLE_EQ(smallest.width, 3.2 / 0.11);
+    EXPECT_DOUBLE_EQ(extendedCluster(cluster, {320, 240}, DetectionOptions::thesis(), kContractScale).length, 6);
+}
+
+TEST(RoiCutter, PlacesTheVectorsInTheRoi) {
+    const auto scene = drivenScene(0.8);
+    const MotionRoi roi = test::roiOf(scene, 2);
+    EXPECT_EQ(roi.cluster, 2);
+    ASSERT_EQ(roi.vectors.size(), scene.cluster.members.size());
+    for (std::size_t i = 0; i < roi.vectors.size(); ++i) {
+        const cv::Vec2d back = roi.image_from_roi * cv::Vec3d(roi.vectors[i].x, roi.vectors[i].y, 1);
+        EXPECT_NEAR(back[0], scene.motion.motion_vectors[i].position.x, 1e-3);
+        EXPECT_NEAR(back[1], scene.motion.motion_vectors[i].position.y, 1e-3);
+    }
+    // The front of the vehicle is above its rear.
+    EXPECT_LT(roi.vectors.back().y, roi.vectors.front().y);
+    EXPECT_EQ(roi.stack_layers, 0);
+}
+
+TEST(RoiCutter, HasASizeLimit) {
+    MotionCluster cluster;
+    cluster.box = {{100, 80}, 1e7, 1e7, 0};
+    const OrientedBox area = extendedCluster(cluster, {300, 400}, {}, kContractScale);
+    EXPECT_DOUBLE_EQ(area.length, 1000);
+    EXPECT_DOUBLE_EQ(area.width, 1000);
+}
+
+TEST(RoiCutter, RefusesAFrameWithoutAnImage) {
+    const auto scene = drivenScene(0.8);
+    EXPECT_THROW(cutMotionRoi(Frame{}, scene.cluster, 0, scene.motion, {}, kContractScale), Error);
+}
+
+}  // namespace
+}  // namespace eyrie

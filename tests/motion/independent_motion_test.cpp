@@ -1,0 +1,193 @@
+#include "motion/independent_motion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/error.h"
+#include "motion/motion_clustering.h"
+#include "motion/moving_corners.h"
+
+namespace eyrie {
+namespace {
+
+using test::flatFrame;
+using test::MovingCorners;
+using test::MovingPatch;
+
+const SceneScale kScale{0.3, 25, true};
+
+IndependentMotionOptions plain() {
+    IndependentMotionOptions options;
+    options.shadow.enabled = false;  // flat frames are nothing but shadow or nothing but ground
+    return options;
+}
+
+FrameMotion after(IndependentMotion& motion, MovingCorners& scene, int frames) {
+    FrameMotion last;
+    for (int i = 0; i < frames; ++i) {
+        const RegisteredFrame registered = scene.next();
+        last = motion.next(registered, flatFrame(registered.frame));
+    }
+    return last;
+}
+
+TEST(IndependentMotion, FindsAVehicleUnderATurningCamera) {
+    const cv::Point2d velocity(0.9, 0.5);
+    MovingCorners scene({{{300, 200}, velocity}}, 0.05);
+    IndependentMotion motion(plain(), kScale);
+    const FrameMotion found = after(motion, scene, 12);
+
+    std::set<CornerId> ids;
+    int true_vectors = 0;
+    for (const MotionVector& v : found.motion_vectors) {
+        ids.insert(v.id);
+        if (v.id <= scene.backgroundCount()) continue;
+        ++true_vectors;
+        // Relative to the ground, in the axes of frame 11: turned and zoomed like the camera since frame 0.
+        const cv::Point2d p = v.position;
+        const cv::Matx33d image_from_ground = MovingCorners::camera(11);
+        const cv::Point2d ground = MovingCorners::mapped(image_from_ground.inv(), p);
+        const cv::Point2d expected = p - MovingCorners::mapped(image_from_ground, ground - velocity);
+        // End points over 8 frames with 0.05 px each: deviation 0.05·√2/8 ≈ 0.009.
+        EXPECT_NEAR(v.velocity.x, expected.x, 0.045);
+        EXPECT_NEAR(v.velocity.y, expected.y, 0.045);
+    }
+    EXPECT_EQ(true_vectors, 24);
+    EXPECT_LE(found.motion_vectors.size(), 24U + 2U);
+    EXPECT_EQ(ids.size(), found.motion_vectors.size());
+    EXPECT_EQ(found.corner_count, 1524);
+    EXPECT_GT(found.stationary_corners.size(), 1490U);
+    EXPECT_NEAR(found.background_speed_sigma, 0.05 * std::sqrt(2.0) / 8, 0.002);
+}
+
+TEST(IndependentMotion, WaitsForTheMinimumAge) {
+    MovingCorners scene({{{300, 200}, {2, 0}}}, 0);
+    IndependentMotion motion(plain(), kScale);
+    EXPECT_TRUE(after(motion, scene, 5).motion_vectors.empty());
+    EXPECT_EQ(after(motion, scene, 1).motion_vectors.size(), 24U);
+}
+
+TEST(IndependentMotion, ThresholdFollowsTheNoise) {
+    // 0.12 px/frame is 0.9 m/s: below 1 m/s, above the slow limit of 0.7 m/s.
+    IndependentMotionOptions options = plain();
+    options.find_slow = true;
+    for (const auto& [noise, expected] : {std::pair{0.02, 24U}, std::pair{1.0, 0U}}) {
+        MovingCorners scene({{{300, 200}, {0.12, 0}}}, noise);
+        IndependentMotion motion(options, kScale);
+        const FrameMotion found = after(motion, scene, 20);
+        std::size_t moving = 0;
+        for (const MotionVector& v : found.motion_vectors) moving += v.id > scene.backgroundCount();
+        EXPECT_LE(found.motion_vectors.size() - moving, 6U) << noise;
+        EXPECT_EQ(moving, expected) << noise;
+    }
+}
+
+TEST(IndependentMotion, FindsSlowVehiclesOverTheLongBaselineOnly) {
+    for (const bool find_slow : {true, false}) {
+        IndependentMotionOptions options = plain();
+        options.find_slow = find_slow;
+        MovingCorners scene({{{300, 200}, {0.11, 0}}}, 0.01);
+        IndependentMotion motion(options, kScale);
+        EXPECT_EQ(after(motion, scene, 9).motion_vectors.size(), 0U);
+        EXPECT_EQ(after(motion, scene, 9).motion_vectors.size(), find_slow ? 24U : 0U);
+    }
+}
+
+TEST(IndependentMotion, BridgesAFrozenPicture) {
+    MovingCorners scene({{{300, 200}, {1.5, 0}}}, 0);
+    IndependentMotion motion(plain(), kScale);
+    const FrameMotion before = after(motion, scene, 10);
+
+    RegisteredFrame frozen;
+    frozen.frame = 10;
+    frozen.registration.state = RegistrationState::frozen;
+    frozen.registration.current_from_previous.from_frame = 9;
+    frozen.registration.current_from_previous.to_frame = 10;
+    const FrameMotion during = motion.next(frozen, flatFrame(10));
+    EXPECT_EQ(during.frame, 10);
+    ASSERT_EQ(during.motion_vectors.size(), before.motion_vectors.size());
+
+    RegisteredFrame next = scene.next();  // the scene's frame 10 is shown as frame 11
+    next.frame = 11;
+    next.registration.current_from_previous.from_frame = 10;
+    next.registration.current_from_previous.to_frame = 11;
+    const FrameMotion after_it = motion.next(next, flatFrame(11));
+    ASSERT_EQ(after_it.motion_vectors.size(), 24U);
+    EXPECT_NEAR(cv::norm(after_it.motion_vectors[0].velocity), 1.5, 0.03);
+}
+
+TEST(IndependentMotion, StartsAnewAfterAFailure) {
+    MovingCorners scene({{{300, 200}, {1.5, 0}}}, 0);
+    IndependentMotion motion(plain(), kScale);
+    after(motion, scene, 10);
+    RegisteredFrame failed = scene.next();
+    failed.registration.state = RegistrationState::failed;
+    failed.registration.current_from_previous.matrix = cv::Matx33d::all(std::nan(""));
+    EXPECT_TRUE(motion.next(failed, flatFrame(10)).motion_vectors.empty());
+    EXPECT_TRUE(after(motion, scene, 4).motion_vectors.empty());
+    EXPECT_EQ(after(motion, scene, 1).motion_vectors.size(), 24U);
+}
+
+TEST(IndependentMotion, TreatsAJumpInTheVideoAsAStart) {
+    MovingCorners scene({{{300, 200}, {1.5, 0}}}, 0);
+    IndependentMotion motion(plain(), kScale);
+    after(motion, scene, 10);
+    scene.next();
+    EXPECT_TRUE(after(motion, scene, 1).motion_vectors.empty());
+    EXPECT_EQ(after(motion, scene, 5).motion_vectors.size(), 24U);
+}
+
+TEST(IndependentMotion, ForgetsOnReset) {
+    MovingCorners scene({{{300, 200}, {1.5, 0}}}, 0);
+    IndependentMotion motion(plain(), kScale);
+    after(motion, scene, 10);
+    motion.reset();
+    EXPECT_TRUE(after(motion, scene, 1).motion_vectors.empty());
+}
+
+TEST(IndependentMotion, TakesFramesWithoutAnything) {
+    IndependentMotion motion({}, kScale);
+    RegisteredFrame nothing;
+    const FrameMotion found = motion.next(nothing, Frame{});
+    EXPECT_TRUE(found.motion_vectors.empty());
+    EXPECT_EQ(found.background_speed_sigma, 0);
+    nothing.frame = 1;
+    nothing.registration.state = RegistrationState::registered;
+    nothing.registration.current_from_previous.to_frame = 1;
+    EXPECT_TRUE(motion.next(nothing, Frame{}).motion_vectors.empty());
+}
+
+TEST(IndependentMotion, LocalBackgroundTakesOutParallax) {
+    // The upper left corner of the scene drifts: a roof that one homography cannot follow.
+    IndependentMotionOptions options = plain();
+    options.find_slow = false;
+    std::size_t found[2] = {0, 0};
+    for (const bool correct : {false, true}) {
+        options.local_background.enabled = correct;
+        MovingPatch roof{{60, 60}, {0.3, 0}, 100, 100, 200};
+        MovingCorners scene({roof}, 0.01, 1, 1500);
+        IndependentMotion motion(options, kScale);
+        for (int t = 0; t < 10; ++t) {
+            RegisteredFrame registered = scene.next();
+            for (Corner& corner : registered.corners) corner.on_background = true;
+            found[correct] = motion.next(registered, flatFrame(t)).motion_vectors.size();
+        }
+    }
+    EXPECT_GT(found[0], 150U);
+    EXPECT_LT(found[1], 100U);
+}
+
+TEST(IndependentMotionOptions, ThesisUsesOneThresholdAfterFiveFrames) {
+    const IndependentMotionOptions options = IndependentMotionOptions::thesis();
+    EXPECT_EQ(options.min_age, 5);
+    EXPECT_FALSE(options.find_slow);
+    EXPECT_FALSE(options.shadow.enabled);
+    MovingCorners scene({{{300, 200}, {0.9, 0.5}}}, 0.02);
+    IndependentMotion motion(options, kScale);
+    EXPECT_EQ(after(motion, scene, 12).motion_vectors.size(), 24U);
+}
+
+}  // namespace
+}  // namespace eyrie

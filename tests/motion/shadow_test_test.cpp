@@ -1,0 +1,56 @@
+#include "motion/shadow_test.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+namespace eyrie {
+namespace {
+
+const SceneScale kScale{0.3, 25, true};
+
+/// Road of brightness 140 with a dark patch and a bright one.
+cv::Mat road(int ground, int patch) {
+    cv::Mat gray(240, 320, CV_8UC1, cv::Scalar(ground));
+    gray(cv::Rect(100, 100, 16, 8)).setTo(patch);
+    return gray;
+}
+
+bool shadowAtCorner(const cv::Mat& gray, cv::Point2f corner = {100, 100}) {
+    ShadowTest test({}, kScale);
+    test.prepare(gray);
+    return test.isShadow(corner);
+}
+
+TEST(ShadowTest, TellsHalfDarkFromBrightAndBlack) {
+    EXPECT_TRUE(shadowAtCorner(road(140, 80)));    // 0.57 of the ground
+    EXPECT_FALSE(shadowAtCorner(road(140, 25)));   // black paint
+    EXPECT_FALSE(shadowAtCorner(road(140, 200)));  // bright paint
+    EXPECT_FALSE(shadowAtCorner(road(140, 130)));  // hardly darker than the road
+}
+
+TEST(ShadowTest, ABrightRoofBesideTheShadowSavesTheCorner) {
+    cv::Mat gray = road(140, 80);
+    gray(cv::Rect(96, 96, 4, 16)).setTo(220);
+    EXPECT_FALSE(shadowAtCorner(gray));
+}
+
+TEST(ShadowTest, IsNotUsedAtNight) {
+    EXPECT_FALSE(shadowAtCorner(road(40, 22)));
+}
+
+TEST(ShadowTest, DoesNotDependOnExposure) {
+    EXPECT_TRUE(shadowAtCorner(road(100, 57)));
+    EXPECT_TRUE(shadowAtCorner(road(220, 125)));
+}
+
+TEST(ShadowTest, TakesImageEdgesTinyAndMissingImages) {
+    EXPECT_FALSE(shadowAtCorner(road(140, 140), {0, 0}));
+    EXPECT_FALSE(shadowAtCorner(road(140, 140), {319, 239}));
+    EXPECT_FALSE(shadowAtCorner(road(140, 140), {-50, 900}));
+    EXPECT_FALSE(shadowAtCorner(cv::Mat(), {5, 5}));
+    EXPECT_FALSE(shadowAtCorner(cv::Mat(2, 2, CV_8UC1, cv::Scalar(100)), {0, 0}));
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,115 @@
+#include "removal/duplicate_removal.h"
+
+#include <gtest/gtest.h>
+
+#include "removal/vectors_in_boxes.h"
+
+namespace eyrie {
+namespace {
+
+using namespace test;
+
+DuplicateRemovalOptions withoutParts() {
+    DuplicateRemovalOptions options;
+    options.parts.enabled = false;
+    return options;
+}
+
+int kept(const std::vector<Detection>& detections) {
+    int count = 0;
+    for (const Detection& d : detections) count += d.rejection == Rejection::none;
+    return count;
+}
+
+TEST(DuplicateRemoval, FusesAPartIntoTheWhole) {
+    FrameMotion motion = sparseMotion();
+    fill(motion, {{100, 100}, 18, 7, 0}, 10, {1.02, 0});
+    // 8 × 6 around (94, 100): from 90 to 98, the whole from 91 to 109: 7 of 8 px inside.
+    const auto found =
+        removeDuplicates({detection(100, 100, 18, 7), detection(94, 100, 8, 6)}, motion, withoutParts(), kScale);
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].rejection, Rejection::none);
+    EXPECT_EQ(found[1].rejection, Rejection::duplicate);
+    EXPECT_NEAR(found[0].box.length, 19, 1e-9);  // 90 … 109
+    EXPECT_EQ(found[0].vectors.size(), 10U);
+    EXPECT_NEAR(found[0].velocity.x, 1.02, 1e-6) << "from exactly the vectors inside";
+}
+
+TEST(DuplicateRemoval, KeepsNeighboursThatOverlapALittle) {
+    const FrameMotion motion = sparseMotion();
+    const std::vector<Detection> queue = {detection(100, 100, 18, 7), detection(114, 100, 18, 7)};  // 22 % inside
+    EXPECT_EQ(kept(removeDuplicates(queue, motion, withoutParts(), kScale)), 2);
+    DuplicateRemovalOptions loose = DuplicateRemovalOptions::thesis();
+    loose.threshold = 0.1;  // 4 / (18 + 18 − 4) = 0.125
+    EXPECT_EQ(kept(removeDuplicates(queue, motion, loose, kScale)), 1);
+}
+
+TEST(DuplicateRemoval, ComparesVelocityAndHeading) {
+    const FrameMotion motion = sparseMotion();
+    const Detection whole = detection(100, 100, 18, 7, {1, 0});
+    Detection other = detection(100, 100, 17, 6, {1.3, 0});
+    EXPECT_EQ(kept(removeDuplicates({whole, other}, motion, withoutParts(), kScale)), 2);
+    EXPECT_EQ(kept(removeDuplicates({whole, other}, motion, DuplicateRemovalOptions::thesis(), kScale)), 1);
+    other = detection(100, 100, 6, 6, {1, 0});
+    other.box.heading = 1.2;
+    EXPECT_EQ(kept(removeDuplicates({whole, other}, motion, DuplicateRemovalOptions::thesis(), kScale)), 2);
+}
+
+TEST(DuplicateRemoval, TheUnionMayNotGrowWithoutEnd) {
+    const FrameMotion motion = sparseMotion();
+    DuplicateRemovalOptions options = withoutParts();
+    options.threshold = 0.1;
+    options.growth_limit = 1.2;
+    const auto found =
+        removeDuplicates({detection(100, 100, 18, 7), detection(112, 100, 18, 7)}, motion, options, kScale);
+    EXPECT_EQ(kept(found), 1);
+    EXPECT_DOUBLE_EQ(found[0].box.length, 18);
+}
+
+TEST(DuplicateRemoval, SuppressionKeepsTheSurer) {
+    const FrameMotion motion = sparseMotion();
+    DuplicateRemovalOptions options = withoutParts();
+    options.strategy = DuplicateStrategy::suppress;
+    Detection a = detection(100, 100, 18, 7);
+    Detection b = detection(101, 100, 17, 7);
+    a.score = 0.4;
+    b.score = 0.9;
+    const auto found = removeDuplicates({a, b}, motion, options, kScale);
+    EXPECT_EQ(found[0].rejection, Rejection::duplicate);
+    EXPECT_EQ(found[1].rejection, Rejection::none);
+    EXPECT_DOUBLE_EQ(found[1].box.length, 17);
+}
+
+TEST(DuplicateRemoval, CountsOnlyVectorsThatMoveAlike) {
+    FrameMotion motion = sparseMotion();
+    fill(motion, {{100, 100}, 18, 7, 0}, 6, {1, 0});
+    fill(motion, {{100, 101}, 18, 7, 0}, 5, {-2, 0});  // oncoming traffic in the same box
+    const auto found = removeDuplicates({detection(100, 100, 18, 7)}, motion, withoutParts(), kScale);
+    EXPECT_EQ(found[0].vectors, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(found[0].velocity, cv::Point2d(1, 0));
+}
+
+TEST(DuplicateRemoval, LeavesRejectedAloneAndTakesNothing) {
+    EXPECT_TRUE(removeDuplicates({}, {}, {}, kScale).empty());
+    Detection gone = detection(100, 100, 18, 7);
+    gone.rejection = Rejection::size;
+    const auto found = removeDuplicates({detection(100, 100, 18, 7), gone}, sparseMotion(), {}, kScale);
+    EXPECT_EQ(found[0].rejection, Rejection::none);
+    EXPECT_EQ(found[1].rejection, Rejection::size);
+}
+
+TEST(DuplicateRemoval, DoesNotDependOnTheOrder) {
+    const FrameMotion motion = sparseMotion();
+    const std::vector<Detection> forward = {detection(100, 100, 18, 7), detection(94, 100, 8, 6),
+                                            detection(106, 100, 8, 6), detection(200, 100, 18, 7)};
+    const std::vector<Detection> backward(forward.rbegin(), forward.rend());
+    const auto a = removeDuplicates(forward, motion, withoutParts(), kScale);
+    const auto b = removeDuplicates(backward, motion, withoutParts(), kScale);
+    EXPECT_EQ(kept(a), 2);
+    EXPECT_EQ(kept(b), 2);
+    EXPECT_DOUBLE_EQ(a[0].box.length, 20);
+    EXPECT_DOUBLE_EQ(b[3].box.length, 20);
+}
+
+}  // namespace
+}  // namespace eyrie
