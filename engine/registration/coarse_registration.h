@@ -1,0 +1,28 @@
+#pragma once
+
+#include <opencv2/core/matx.hpp>
+#include <optional>
+#include <vector>
+
+#include "registration/corner_set.h"
+#include "registration/homography_estimator.h"
+#include "registration/image_pyramid.h"
+
+namespace eyrie {
+
+/// The camera's motion between two pictures to a fraction of a pixel, from a few hundred corners spread over the
+/// picture: tracked on a pyramid from a prediction; where that fails, from coarser levels, and at last from an
+/// exhaustive search on thumbnails. Copes with shake of tens of pixels, turns of several degrees and dropped frames.
+class CoarseRegistration {
+ public:
+    explicit CoarseRegistration(const HomographyEstimator& estimator) : estimator_(estimator) {}
+
+    /// `predictions` are tried in turn. Empty when the pictures do not fit together.
+    std::optional<HomographyFit> find(const CornerSet& corners, const ImagePyramid& from, const ImagePyramid& to,
+                                      const std::vector<cv::Matx33d>& predictions, double noise) const;
+
+ private:
+    const HomographyEstimator& estimator_;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+#include "core/ids.h"
+#include "registration/patch_alignment.h"
+
+namespace eyrie {
+
+/// A corner that is being tracked.
+struct TrackedCorner {
+    CornerId id = 0;
+    cv::Point2f position{0, 0};  ///< px
+    cv::Point2f offset{0, 0};    ///< from the centre of its patch to the corner, px in the present picture
+    cv::Point2f velocity{0, 0};  ///< px/frame relative to the ground, in the axes of the present picture
+    cv::Point2f drift{0, 0};     ///< slow mean of it, to tell movers from the background
+    float turn_xx = 1, turn_xy = 0, turn_yx = 0, turn_yy = 1;  ///< present picture from the picture of the patch
+    float position_variance = 0;                               ///< px² per grey level² of noise, as last tracked
+    float residual = 0;                                        ///< mean square, grey levels, as last tracked
+    int age = 0;                                               ///< frames since detection
+    int patch_age = 0;                                         ///< frames since its patch was stored
+    int slot = 0;                                              ///< where its patch is stored
+    bool on_background = false;
+};
+
+/// The tracked corners of one picture, ascending in id, with their patches. A value: copies are independent.
+class CornerSet {
+ public:
+    explicit CornerSet(int window = kSmallestWindow) : window_(window) {}
+
+    int window() const { return window_; }
+    int size() const { return static_cast<int>(corners.size()); }
+
+    const std::int16_t* patch(const TrackedCorner& corner) const {
+        return patches_.data() + std::ptrdiff_t(corner.slot) * patchSamples(window_);
+    }
+    std::int16_t* patch(const TrackedCorner& corner) {
+        return patches_.data() + std::ptrdiff_t(corner.slot) * patchSamples(window_);
+    }
+
+    /// Room for one more patch.
+    int takeSlot() {
+        if (!free_slots_.empty()) {
+            const int slot = free_slots_.back();
+            free_slots_.pop_back();
+            return slot;
+        }
+        const int slot = slots_++;
+        patches_.resize(std::size_t(slots_) * std::size_t(patchSamples(window_)));
+        return slot;
+    }
+    void giveBack(int slot) { free_slots_.push_back(slot); }
+
+    std::vector<TrackedCorner> corners;
+
+ private:
+    int window_;
+    int slots_ = 0;
+    std::vector<std::int16_t> patches_;
+    std::vector<int> free_slots_;
+};
+
+}  // namespace eyrie

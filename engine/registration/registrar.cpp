@@ -1,0 +1,318 @@
+#include "registration/registrar.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <utility>
+
+#include "core/error.h"
+#include "registration/local_map.h"
+#include "registration/noise_level.h"
+
+namespace eyrie {
+namespace {
+
+/// Adds the time it lives to one stage.
+class StageTimer {
+ public:
+    StageTimer(StageTimes& times, Stage stage) : times_(times), stage_(stage), start_(Clock::now()) {}
+    ~StageTimer() {
+        const std::chrono::duration<float, std::milli> passed = Clock::now() - start_;
+        times_[static_cast<std::size_t>(stage_)] += passed.count();
+    }
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+    using Clock = std::chrono::steady_clock;
+    StageTimes& times_;
+    Stage stage_;
+    Clock::time_point start_;
+};
+
+cv::Matx33d scaledToOne(const cv::Matx33d& m) {
+    return m * (1.0 / m(2, 2));
+}
+
+cv::Matx33d powerOf(const cv::Matx33d& m, int exponent) {
+    cv::Matx33d result = cv::Matx33d::eye();
+    for (int i = 0; i < exponent; ++i) result = m * result;
+    return scaledToOne(result);
+}
+
+std::vector<cv::Point2f> positionsOf(const CornerSet& set) {
+    std::vector<cv::Point2f> positions;
+    positions.reserve(set.corners.size());
+    for (const TrackedCorner& corner : set.corners) positions.push_back(corner.position);
+    return positions;
+}
+
+std::string countedReason(const std::string& what, int have, int of) {
+    return what + " (" + std::to_string(have) + " of " + std::to_string(of) + ")";
+}
+
+}  // namespace
+
+Registrar::Registrar(const RegistrationOptions& options, const SceneScale& scale)
+    : options_(options), detector_(options.corners, scale), tracker_(options.tracking, scale) {}
+
+void Registrar::reset() {
+    anchor_.reset();
+    older_.reset();
+    estimator_.reset();
+    repetition_.reset();
+    motion_ = cv::Matx33d::eye();
+    repeated_ = 0;
+    usual_corners_ = 0;
+}
+
+void Registrar::checkFrame(const Frame& frame) const {
+    const std::string name = "frame " + std::to_string(frame.index);
+    if (frame.gray.empty()) throw Error(ErrorKind::input, name + " is empty; remove it or cut the video before it");
+    if (frame.gray.type() != CV_8UC1) throw Error(ErrorKind::input, name + " is not an 8-bit grey picture");
+    const cv::Size before = anchor_ ? anchor_->pyramid.size() : frame.gray.size();
+    if (frame.gray.size() == before) return;
+    throw Error(ErrorKind::input, name + " measures " + std::to_string(frame.gray.cols) + "×" +
+                                      std::to_string(frame.gray.rows) + " px, the frames before it " +
+                                      std::to_string(before.width) + "×" + std::to_string(before.height) +
+                                      "; process the parts of the video one by one");
+}
+
+RegisteredFrame Registrar::next(const Frame& frame, StageTimes* times) {
+    checkFrame(frame);
+    StageTimes own{};
+    StageTimes& spent = times != nullptr ? *times : own;
+    if (times != nullptr) {
+        for (const Stage stage : {Stage::corners, Stage::tracking_corners, Stage::homography}) {
+            spent[static_cast<std::size_t>(stage)] = 0;
+        }
+    }
+    RegisteredFrame result;
+    bool repeats = false;
+    {
+        const StageTimer timer(spent, Stage::tracking_corners);
+        current_.build(frame.gray);
+        current_noise_ = noiseLevel(current_.level(0));
+        repeats = anchor_ && repetition_.repeats(difference(anchor_->pyramid.level(0), current_.level(0)));
+    }
+    if (!anchor_) {
+        result = firstFrame(frame, spent);
+    } else if (repeats) {
+        result = repeatedFrame(frame);
+    } else {
+        std::string reason;
+        std::optional<Match> match;
+        bool on_older = false;
+        if (older_) {
+            match = registerOnto(*older_, reason, spent);
+            on_older = match.has_value();
+        }
+        if (!match) match = registerOnto(*anchor_, reason, spent);
+        if (match) {
+            Anchor anchor = std::move(on_older ? *older_ : *anchor_);
+            older_.reset();
+            result = registeredFrame(frame, std::move(anchor), *match, spent);
+        } else {
+            result = failedFrame(frame, reason, spent);
+        }
+        repeated_ = 0;
+    }
+    last_frame_ = frame.index;
+    return result;
+}
+
+RegisteredFrame Registrar::firstFrame(const Frame& frame, StageTimes& times) {
+    estimator_.emplace(options_.homography, frame.gray.size());
+    Anchor anchor{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0};
+    replenish(anchor, times);
+    usual_corners_ = anchor.corners.size();
+    RegisteredFrame result;
+    result.frame = frame.index;
+    result.registration.state = RegistrationState::first;
+    result.registration.current_from_previous.from_frame = frame.index;
+    result.registration.current_from_previous.to_frame = frame.index;
+    for (const TrackedCorner& corner : anchor.corners.corners) {
+        result.corners.push_back({corner.id, corner.position, corner.position, 0, false});
+    }
+    anchor_ = std::move(anchor);
+    return result;
+}
+
+RegisteredFrame Registrar::repeatedFrame(const Frame& frame) {
+    ++repeated_;
+    RegisteredFrame result;
+    result.frame = frame.index;
+    result.registration.state = RegistrationState::frozen;
+    result.registration.current_from_previous.from_frame = last_frame_;
+    result.registration.current_from_previous.to_frame = frame.index;
+    result.registration.reason = "the picture repeats the one before";
+    for (TrackedCorner& corner : anchor_->corners.corners) {
+        ++corner.age;
+        result.corners.push_back({corner.id, corner.position, corner.position, corner.age, corner.on_background});
+    }
+    return result;
+}
+
+std::vector<cv::Matx33d> Registrar::predictionsFor(const Anchor& anchor) const {
+    // After frozen frames the camera either went on meanwhile or stood still with them.
+    std::vector<cv::Matx33d> predictions{scaledToOne(motion_ * anchor.latest_from_anchor)};
+    if (repeated_ > 0) {
+        predictions.push_back(scaledToOne(powerOf(motion_, std::min(repeated_, 20) + 1) * anchor.latest_from_anchor));
+    }
+    predictions.push_back(anchor.latest_from_anchor);
+    if (anchor.frames_ago > 0) predictions.push_back(cv::Matx33d::eye());
+    predictions.erase(std::remove_if(predictions.begin(), predictions.end(),
+                                     [&](const cv::Matx33d& m) { return !plausibleMotion(m, anchor.pyramid.size()); }),
+                      predictions.end());
+    if (predictions.empty()) predictions.push_back(cv::Matx33d::eye());
+    return predictions;
+}
+
+std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, std::string& reason,
+                                                        StageTimes& times) const {
+    const int corners = anchor.corners.size();
+    if (corners < options_.homography.min_inliers) {
+        reason = countedReason("too few corners", corners, options_.homography.min_inliers);
+        return std::nullopt;
+    }
+    const double noise = std::max(anchor.noise, current_noise_);
+    Match match;
+    cv::Matx33d start;
+    {
+        const StageTimer timer(times, Stage::tracking_corners);
+        const auto coarse = CoarseRegistration(*estimator_)
+                                .find(anchor.corners, anchor.pyramid, current_, predictionsFor(anchor), noise);
+        if (!coarse) {
+            reason = "the picture does not fit to the one before";
+            return std::nullopt;
+        }
+        start = coarse->matrix;
+        match.positions = tracker_.track(anchor.corners, anchor.pyramid, current_, start, noise, anchor.frames_ago + 1);
+    }
+    const StageTimer timer(times, Stage::homography);
+    const Correspondences points =
+        tracker_.correspondences(anchor.corners, match.positions, anchor.pyramid.size(), noise);
+    const int tracked = static_cast<int>(
+        std::count_if(match.positions.begin(), match.positions.end(), [](const auto& p) { return p.found; }));
+    if (tracked < options_.homography.min_inliers || tracked * 8 < corners) {
+        reason = countedReason("too few corners found again", tracked, corners);
+        return std::nullopt;
+    }
+    auto fit = estimator_->refine(points, start);
+    if (!fit || !estimator_->trustworthy(*fit)) {
+        const auto sampled =
+            estimator_->search(points, MotionModel::homography, options_.homography.inlier_distance_px);
+        if (sampled) {
+            const auto second = estimator_->refine(points, *sampled);
+            if (second && (!fit || second->inliers > fit->inliers)) fit = second;
+        }
+    }
+    if (!fit || !estimator_->trustworthy(*fit)) {
+        reason = countedReason("too few corners agree", fit ? fit->inliers : 0, tracked);
+        return std::nullopt;
+    }
+    if (!plausibleMotion(fit->matrix, anchor.pyramid.size())) {
+        reason = "the motion found is not one a camera makes";
+        return std::nullopt;
+    }
+    match.fit = *fit;
+    return match;
+}
+
+RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, const Match& match, StageTimes& times) {
+    RegisteredFrame result;
+    result.frame = frame.index;
+    result.registration.state = RegistrationState::registered;
+    Homography& homography = result.registration.current_from_previous;
+    homography.from_frame = last_frame_;
+    homography.to_frame = frame.index;
+    homography.inliers = match.fit.inliers;
+    homography.rms_px = match.fit.rms_px;
+    // Across failed frames, whose homographies were guesses, the product of guesses and this one is right again.
+    homography.matrix =
+        anchor.frames_ago == 0 ? match.fit.matrix : scaledToOne(match.fit.matrix * anchor.latest_from_anchor.inv());
+
+    std::vector<std::pair<CornerId, cv::Point2f>> before;
+    before.reserve(anchor.corners.corners.size());
+    for (const TrackedCorner& corner : anchor.corners.corners) {
+        const cv::Point2f position =
+            anchor.frames_ago == 0 ? corner.position : LocalMap(anchor.latest_from_anchor, corner.position).point;
+        before.emplace_back(corner.id, position);
+    }
+    {
+        const StageTimer timer(times, Stage::tracking_corners);
+        tracker_.advance(anchor.corners, match.positions, match.fit, current_.level(0), anchor.frames_ago + 1,
+                         std::max(1.0, 0.4 * detector_.spacing()));
+    }
+    if (anchor.frames_ago == 0 && repeated_ == 0) motion_ = match.fit.matrix;
+    std::swap(anchor.pyramid, current_);
+    anchor.noise = current_noise_;
+    anchor.latest_from_anchor = cv::Matx33d::eye();
+    anchor.frames_ago = 0;
+    replenish(anchor, times);
+    usual_corners_ = 0.9 * usual_corners_ + 0.1 * anchor.corners.size();
+
+    result.corners.reserve(anchor.corners.corners.size());
+    std::size_t at = 0;
+    for (const TrackedCorner& corner : anchor.corners.corners) {
+        while (at < before.size() && before[at].first < corner.id) ++at;
+        const bool known = at < before.size() && before[at].first == corner.id;
+        result.corners.push_back({corner.id, known ? before[at].second : corner.position, corner.position, corner.age,
+                                  corner.on_background});
+    }
+    anchor_ = std::move(anchor);
+    return result;
+}
+
+RegisteredFrame Registrar::failedFrame(const Frame& frame, const std::string& reason, StageTimes& times) {
+    Anchor fresh{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0};
+    replenish(fresh, times);
+    RegisteredFrame result;
+    result.frame = frame.index;
+    result.registration.state = RegistrationState::failed;
+    const int seen = fresh.corners.size();
+    const bool blank = seen < options_.homography.min_inliers;
+    const bool blurred = !blank && seen < 0.35 * usual_corners_;
+    result.registration.reason = (blank ? "blank picture: " : blurred ? "blurred picture: " : "") + reason;
+    if (!blank && !blurred && reason == "the picture does not fit to the one before") {
+        result.registration.reason = "cut: " + reason;
+    }
+    // Through a blank or blurred picture the camera goes on as before; after a cut nothing is known.
+    const cv::Matx33d guess = blank || blurred ? motion_ : cv::Matx33d::eye();
+    Homography& homography = result.registration.current_from_previous;
+    homography.matrix = guess;
+    homography.from_frame = last_frame_;
+    homography.to_frame = frame.index;
+
+    if (!older_ && anchor_->corners.size() >= options_.homography.min_inliers) older_ = std::move(anchor_);
+    if (older_) {
+        older_->latest_from_anchor = scaledToOne(guess * older_->latest_from_anchor);
+        ++older_->frames_ago;
+        if (older_->frames_ago > options_.recovery_frames ||
+            !plausibleMotion(older_->latest_from_anchor, older_->pyramid.size())) {
+            older_.reset();
+        }
+    }
+    if (!blank && !blurred) motion_ = cv::Matx33d::eye();
+    for (const TrackedCorner& corner : fresh.corners.corners) {
+        result.corners.push_back({corner.id, corner.position, corner.position, 0, false});
+    }
+    anchor_ = std::move(fresh);
+    return result;
+}
+
+void Registrar::replenish(Anchor& anchor, StageTimes& times) {
+    const StageTimer timer(times, Stage::corners);
+    CornerSurroundings surroundings;
+    surroundings.living = positionsOf(anchor.corners);
+    for (const TrackedCorner& corner : anchor.corners.corners) {
+        if (corner.age > 3 && !corner.on_background) surroundings.movers.push_back(corner.position);
+    }
+    surroundings.noise = anchor.noise;
+    surroundings.margin = tracker_.margin();
+    tracker_.add(anchor.corners, detector_.detect(anchor.pyramid.level(0), surroundings), anchor.pyramid.level(0),
+                 next_id_);
+}
+
+}  // namespace eyrie

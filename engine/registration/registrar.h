@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/corner.h"
+#include "core/frame.h"
+#include "core/frame_result.h"
+#include "core/scene_scale.h"
+#include "registration/coarse_registration.h"
+#include "registration/corner_detector.h"
+#include "registration/corner_tracker.h"
+#include "registration/homography_estimator.h"
+#include "registration/image_pyramid.h"
+#include "registration/picture_difference.h"
+#include "registration/registration_options.h"
+
+namespace eyrie {
+
+/// Registers each frame of a video onto the one before it (Teutsch §4.2): tracks corners, estimates the homography of
+/// the ground plane, and replaces corners that were lost. Says so when a frame cannot be registered, and recovers by
+/// itself: corner tracks outlive a black, blurred or spoiled frame (they are absent from that frame's result and come
+/// back, with the same ids, in the next that fits); after a cut it starts anew. Ids are never reused.
+class Registrar {
+ public:
+    Registrar(const RegistrationOptions& options, const SceneScale& scale);
+
+    /// The next frame in order of time. Fills the times of corners, tracking_corners and homography when asked. Throws
+    /// Error(input) for a frame that is empty, not CV_8UC1 or of another size than the one before; the registrar then
+    /// stays as it was.
+    RegisteredFrame next(const Frame& frame, StageTimes* times = nullptr);
+
+    /// Forgets the video; the next frame is a first one. Ids go on.
+    void reset();
+
+ private:
+    /// A picture with its corners, onto which later ones are registered.
+    struct Anchor {
+        ImagePyramid pyramid;
+        CornerSet corners;
+        double noise = 1;
+        cv::Matx33d latest_from_anchor = cv::Matx33d::eye();  ///< to the newest frame handed out; a guess if not that
+        int frames_ago = 0;                                   ///< how long that is after the anchor
+    };
+    /// A successful registration of the new picture onto an anchor.
+    struct Match {
+        HomographyFit fit;
+        std::vector<TrackedPosition> positions;
+    };
+
+    RegisteredFrame firstFrame(const Frame& frame, StageTimes& times);
+    RegisteredFrame repeatedFrame(const Frame& frame);
+    RegisteredFrame registeredFrame(const Frame& frame, Anchor anchor, const Match& match, StageTimes& times);
+    RegisteredFrame failedFrame(const Frame& frame, const std::string& reason, StageTimes& times);
+
+    std::optional<Match> registerOnto(const Anchor& anchor, std::string& reason, StageTimes& times) const;
+    std::vector<cv::Matx33d> predictionsFor(const Anchor& anchor) const;
+    void replenish(Anchor& anchor, StageTimes& times);
+    void checkFrame(const Frame& frame) const;
+
+    RegistrationOptions options_;
+    CornerDetector detector_;
+    CornerTracker tracker_;
+    std::optional<HomographyEstimator> estimator_;  ///< made for the size of the first frame
+    RepetitionDetector repetition_;
+
+    std::optional<Anchor> anchor_;  ///< the newest usable picture
+    std::optional<Anchor> older_;   ///< the last good picture before frames that failed
+    ImagePyramid current_;          ///< of the frame in hand
+    double current_noise_ = 1;
+    cv::Matx33d motion_ = cv::Matx33d::eye();  ///< last measured motion per frame
+    int repeated_ = 0;                         ///< frozen frames since the last real one
+    double usual_corners_ = 0;                 ///< how many corners the video's pictures carry
+    FrameIndex last_frame_ = 0;
+    CornerId next_id_ = 0;
+};
+
+}  // namespace eyrie

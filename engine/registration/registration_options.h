@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/parameter.h"
+#include "registration/corner_detector.h"
+#include "registration/corner_tracker.h"
+#include "registration/homography_estimator.h"
+
+namespace eyrie {
+
+/// Parameters of image registration (Teutsch §4.2).
+struct RegistrationOptions {
+    CornerOptions corners;
+    TrackingOptions tracking;
+    HomographyOptions homography;
+    int recovery_frames = 8;
+
+    void describe(ParameterVisitor& visitor);
+};
+
+}  // namespace eyrie
