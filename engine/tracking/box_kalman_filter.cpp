@@ -1,6 +1,7 @@
 #include "tracking/box_kalman_filter.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <opencv2/core.hpp>
 
 #include "core/homography.h"
 

@@ -46,6 +46,8 @@ class MeasurementModel {
 
     /// Speed below which a velocity tells no direction in this frame, px/frame.
     double slowSpeed() const { return slow_speed_; }
+    /// Deviation of a detection's length and width, px.
+    double sizeDeviation() const { return size_; }
     double backgroundSpeedSigma() const { return sigma_; }
 
  private:

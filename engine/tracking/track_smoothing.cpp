@@ -37,11 +37,11 @@ double weightedMedian(std::vector<std::pair<double, double>>& values_and_weights
 /// A polynomial of degree ≤ 2 fitted to weighted values; `value` and `slope` at time 0.
 class LocalFit {
  public:
-    void add(double time, double value, double weight) {
+    void add(double time, double measured, double weight) {
         const double t2 = time * time;
         const Eigen::Vector3d powers(1, time, t2);
         normal_ += weight * powers * powers.transpose();
-        right_ += weight * value * powers;
+        right_ += weight * measured * powers;
     }
     bool solve(int degree) {
         const int size = degree + 1;

@@ -218,6 +218,8 @@ bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Dete
     } else {
         track.size_streak = 0;
     }
+    // The first boxes are often parts of the object: what was seen last counts half.
+    if (!manager_.established(track)) track.filter.forgetSize(model_.sizeDeviation());
     if (update.size_growth > 0) track.filter.forgetSize(update.size_growth);
     return track.filter.update(update.measurement);
 }
