@@ -34,32 +34,47 @@ IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, co
 }
 
 void IndependentMotion::reset() {
-    history_.clear();
-    current_from_past_.clear();
+    restart();
     last_frame_.reset();
     last_motion_ = {};
 }
 
-void IndependentMotion::restart(const RegisteredFrame& registered) {
+void IndependentMotion::restart() {
     history_.clear();
-    current_from_past_.clear();
-    history_.append(registered.corners);
+    paths_.clear();
+    newest_ = {};
+    any_picture_ = false;
 }
 
 bool IndependentMotion::extendPaths(const Registration& registration) {
     const Homography& step = registration.current_from_previous;
     if (!last_frame_ || step.from_frame != *last_frame_ || !finite(step)) return false;
-    for (Homography& path : current_from_past_) path = step * path;
+    if (!any_picture_) return true;
+    const int frames = registration.state == RegistrationState::frozen ? 0 : 1;
+    for (Path& path : paths_) path = {step * path.current_from_past, path.frames + frames};
+    newest_ = {step * newest_.current_from_past, newest_.frames + frames};
     return true;
 }
 
+void IndependentMotion::takePicture(const RegisteredFrame& registered) {
+    if (any_picture_) paths_.push_front(newest_);
+    if (static_cast<int>(paths_.size()) > history_.depth()) paths_.pop_back();
+    newest_ = {};
+    newest_.current_from_past.from_frame = registered.frame;
+    newest_.current_from_past.to_frame = registered.frame;
+    any_picture_ = true;
+    history_.append(registered.corners);
+}
+
 IndependentMotion::Measured IndependentMotion::measure(std::size_t corner, cv::Point2d now, int longest) const {
-    const int frames = std::min(history_.steps(corner), longest);
-    if (frames < options_.min_age) return {};
-    const Homography& path = current_from_past_[static_cast<std::size_t>(frames - 1)];
-    const cv::Point2d velocity = (now - path.apply(history_.past(corner, frames))) / frames;
-    if (!finite(velocity)) return {};
-    return {frames, velocity};
+    int back = std::min(history_.steps(corner), longest);
+    while (back > 0 && paths_[static_cast<std::size_t>(back - 1)].frames > longest) --back;
+    if (back == 0) return {};
+    const Path& path = paths_[static_cast<std::size_t>(back - 1)];
+    if (path.frames < options_.min_age) return {};
+    const cv::Point2d displacement = now - path.current_from_past.apply(history_.past(corner, back));
+    if (!finite(displacement)) return {};
+    return {path.frames, displacement / path.frames};
 }
 
 void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion) {
@@ -133,19 +148,15 @@ FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Fra
     motion.corner_count = static_cast<int>(registered.corners.size());
 
     const RegistrationState state = registered.registration.state;
-    const bool follows = (state == RegistrationState::registered || state == RegistrationState::frozen) &&
-                         extendPaths(registered.registration);
-    if (!follows) {
-        restart(registered);
-    } else if (state == RegistrationState::frozen) {
+    const bool follows = state != RegistrationState::first && extendPaths(registered.registration);
+    if (!follows) restart();
+    if (state == RegistrationState::frozen && follows) {
         motion.motion_vectors = last_motion_.motion_vectors;
         motion.stationary_corners = last_motion_.stationary_corners;
         motion.background_speed_sigma = last_motion_.background_speed_sigma;
-    } else {
-        current_from_past_.push_front(registered.registration.current_from_previous);
-        if (static_cast<int>(current_from_past_.size()) > history_.depth()) current_from_past_.pop_back();
-        history_.append(registered.corners);
-        sortCorners(registered, frame, motion);
+    } else if (state != RegistrationState::failed) {
+        takePicture(registered);
+        if (follows) sortCorners(registered, frame, motion);
     }
     last_frame_ = registered.frame;
     last_motion_ = motion;

@@ -17,8 +17,9 @@ namespace eyrie {
 /// Decides which corners move independently of the camera (Teutsch §4.2): velocity relative to the ground from a
 /// corner's position now and n frames ago, compared with what the background's corners show in the same frame.
 ///
-/// A frozen picture repeats the last answer: no time passes in it. A frame that could not be registered, or one that
-/// does not follow the last, drops all histories, and vectors appear again after `min_age` frames.
+/// A frozen picture repeats the last answer: no time passes in it. A frame that could not be registered has no vectors;
+/// corners that come back after it with their ids go on, since the product of the guessed homography and the next one
+/// is true again (see Registrar). A frame that does not follow the last drops all histories.
 class IndependentMotion {
  public:
     IndependentMotion(const IndependentMotionOptions& options, const SceneScale& scale);
@@ -29,12 +30,18 @@ class IndependentMotion {
     void reset();
 
  private:
+    /// The way from an earlier picture to the newest.
+    struct Path {
+        Homography current_from_past;
+        int frames = 0;  ///< how long ago, not counting frozen ones
+    };
     struct Measured {
         int baseline = 0;  ///< frames; 0: too young
         cv::Point2d velocity{0, 0};
     };
-    void restart(const RegisteredFrame& registered);
+    void restart();
     bool extendPaths(const Registration& registration);
+    void takePicture(const RegisteredFrame& registered);
     Measured measure(std::size_t corner, cv::Point2d now, int longest) const;
     void sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion);
 
@@ -45,7 +52,9 @@ class IndependentMotion {
     ShadowTest shadow_test_;
     LocalBackground local_background_;
     CornerHistory history_;
-    std::deque<Homography> current_from_past_;  ///< [n − 1]: from n pictures ago
+    std::deque<Path> paths_;  ///< [n − 1]: from n usable pictures before the newest
+    Path newest_;             ///< from the newest usable picture to the last frame
+    bool any_picture_ = false;
     std::optional<FrameIndex> last_frame_;
     FrameMotion last_motion_;
 };
