@@ -9,6 +9,7 @@ namespace eyrie {
 BoxErrors boxErrors(const BoxesByFrame& truth, const BoxesByFrame& result, const std::vector<FrameMatch>& matches,
                     bool upright) {
     BoxErrors errors;
+    errors.has_headings = !upright;
     for (const FrameMatch& match : matches) {
         if (match.pairs.empty()) continue;
         const auto& objects = truth.at(match.frame);

@@ -39,6 +39,7 @@ std::vector<Measures> evaluateAt(const std::vector<double>& overlaps, const Boxe
 
 /// A measure as data, for tables, files and lists.
 struct NamedMeasure {
+    std::string group;            ///< "detection", "tracking", "identity" or "boxes"
     std::string key;              ///< in files: "f_score"
     std::string label;            ///< for people: "f-score"
     std::string help;             ///< one line

@@ -6,15 +6,17 @@ namespace {
 /// Gathers measures; those of an absent group have no value.
 class List {
  public:
+    void begin(const char* group) { group_ = group; }
     void count(const char* key, const char* label, const char* help, std::optional<double> value) {
-        measures_.push_back({key, label, help, value, 0});
+        measures_.push_back({group_, key, label, help, value, 0});
     }
     void real(const char* key, const char* label, const char* help, std::optional<double> value, int decimals = 4) {
-        measures_.push_back({key, label, help, value, decimals});
+        measures_.push_back({group_, key, label, help, value, decimals});
     }
     std::vector<NamedMeasure> take() { return std::move(measures_); }
 
  private:
+    std::string group_;
     std::vector<NamedMeasure> measures_;
 };
 
@@ -30,6 +32,7 @@ std::optional<double> meanIfKnown(const std::optional<HotaMeasures>& hota, HotaC
 }
 
 void listDetection(List& list, const DetectionMeasures& d) {
+    list.begin("detection");
     list.count("ground_truth", "objects", "boxes of the ground truth that count", d.ground_truth);
     list.count("tp", "TP", "true positives", d.true_positives);
     list.count("fp", "FP", "false positives", d.false_positives);
@@ -44,6 +47,7 @@ void listDetection(List& list, const DetectionMeasures& d) {
 
 void listTracking(List& list, const Measures& m) {
     const auto& t = m.tracking;
+    list.begin("tracking");
     list.real("mota", "MOTA", "1 - (FN + FP + ID switches) / objects", of(t, &TrackingMeasures::mota));
     list.real("motp", "MOTP", "mean overlap of the matched pairs", of(t, &TrackingMeasures::motp));
     list.count("id_switches", "ID switches", "times an object's id changes", of(t, &TrackingMeasures::id_switches));
@@ -58,6 +62,7 @@ void listTracking(List& list, const Measures& m) {
                of(t, &TrackingMeasures::fragments));
     list.count("gt_tracks", "true tracks", "tracks of the ground truth", of(t, &TrackingMeasures::truth_tracks));
     list.count("result_tracks", "result tracks", "tracks of the result", of(t, &TrackingMeasures::result_tracks));
+    list.begin("identity");
     list.real("idf1", "IDF1", "boxes under the right identity", of(m.identity, &IdentityMeasures::idf1));
     list.count("idtp", "IDTP", "identity true positives", of(m.identity, &IdentityMeasures::idtp));
     list.count("idfp", "IDFP", "identity false positives", of(m.identity, &IdentityMeasures::idfp));
@@ -70,14 +75,16 @@ void listTracking(List& list, const Measures& m) {
 
 void listBoxErrors(List& list, const BoxErrors& e) {
     const auto known = [&](double value) { return e.pairs > 0 ? std::optional<double>(value) : std::nullopt; };
+    const auto heading = [&](double value) { return e.has_headings ? known(value) : std::nullopt; };
+    list.begin("boxes");
     list.real("centre_error_px", "centre error, px", "mean distance of the centres", known(e.centre_px), 2);
     list.real("length_error_px", "length error, px", "mean absolute", known(e.length_px), 2);
     list.real("length_bias_px", "length bias, px", "mean of result - truth", known(e.length_bias_px), 2);
     list.real("width_error_px", "width error, px", "mean absolute", known(e.width_px), 2);
     list.real("width_bias_px", "width bias, px", "mean of result - truth", known(e.width_bias_px), 2);
     list.real("heading_error_deg", "heading error, deg", "mean absolute, front and rear told apart",
-              known(e.heading_degrees), 2);
-    list.real("axis_error_deg", "axis error, deg", "mean absolute, modulo 180", known(e.heading_axis_degrees), 2);
+              heading(e.heading_degrees), 2);
+    list.real("axis_error_deg", "axis error, deg", "mean absolute, modulo 180", heading(e.heading_axis_degrees), 2);
 }
 
 }  // namespace

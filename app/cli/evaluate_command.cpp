@@ -1,0 +1,201 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/evaluation_files.h"
+#include "cli/evaluation_report.h"
+#include "core/error.h"
+#include "io/homography_csv.h"
+#include "store/run_store.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct Arguments {
+    std::string ground_truth;
+    std::string result;
+    std::string project;
+    std::optional<int> run;
+    bool detections = false;
+    std::vector<double> overlaps{0.1, 0.2, 0.3};
+    EvaluationOptions options;
+    std::string size;
+    std::string homographies;
+    std::string convention = "thesis";
+    double mot_origin = MotOptions().first_pixel_edge;
+    bool json = false;
+};
+
+/// The result to be measured and what is known of its video.
+struct Result {
+    BoxesByFrame boxes;
+    std::string name;
+    std::optional<RunRecord> run;
+    std::vector<Registration> registrations;
+};
+
+RunRecord chosenRun(const RunStore& store, const Arguments& arguments) {
+    const std::vector<RunRecord> runs = store.runs();
+    if (runs.empty())
+        throw Error(ErrorKind::project, arguments.project + ": holds no run; make one with eyrie-cli run");
+    if (!arguments.run) return runs.back();
+    std::string known;
+    for (const RunRecord& run : runs) {
+        if (run.id == *arguments.run) return run;
+        known += (known.empty() ? "" : ", ") + std::to_string(run.id);
+    }
+    throw Error(ErrorKind::parameter,
+                "--run " + std::to_string(*arguments.run) + ": " + arguments.project + " holds the runs " + known);
+}
+
+/// Joins how each frame was registered with how that ended.
+std::vector<Registration> registrationsOf(const RunStore& store, int run_id) {
+    std::map<FrameIndex, RegistrationState> states;
+    for (const FrameSummary& frame : store.frameSummaries(run_id)) states[frame.frame] = frame.state;
+    std::vector<Registration> registrations;
+    for (const Homography& homography : store.homographies(run_id)) {
+        const auto state = states.find(homography.to_frame);
+        if (state == states.end()) continue;
+        registrations.push_back({state->second, homography, {}});
+    }
+    return registrations;
+}
+
+Result readResult(const Arguments& arguments, const MotOptions& mot) {
+    Result result;
+    if (arguments.project.empty()) {
+        result.boxes = readResultBoxes(arguments.result, mot).boxes;
+        result.name = arguments.result;
+        return result;
+    }
+    ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+    const RunStore store(project);
+    result.run = chosenRun(store, arguments);
+    const int id = result.run->id;
+    result.boxes = arguments.detections ? store.detectionBoxes(id) : store.trackBoxes(id);
+    result.name =
+        arguments.project + ", run " + std::to_string(id) + (arguments.detections ? ", detections" : ", tracks");
+    if (!arguments.homographies.empty()) result.registrations = registrationsOf(store, id);
+    return result;
+}
+
+/// Drops true objects of frames that the run never reached; says so.
+void keepFramesOfRun(BoxesByFrame& truth, const RunRecord& run, std::vector<std::string>& remarks) {
+    const FrameIndex end = run.first_frame + run.frames_done;
+    const std::size_t all = truth.size();
+    std::erase_if(truth, [&](const auto& entry) { return entry.first < run.first_frame || entry.first >= end; });
+    if (truth.size() == all) return;
+    remarks.push_back("the run covers frames " + std::to_string(run.first_frame) + " to " + std::to_string(end - 1) +
+                      ", so " + std::to_string(all - truth.size()) + " of " + std::to_string(all) +
+                      " frames of the ground truth were left out");
+}
+
+bool allUpright(const BoxesByFrame& boxes) {
+    for (const auto& entry : boxes) {
+        for (const BoxRecord& record : entry.second) {
+            if (std::abs(std::sin(2 * record.box.heading)) > 1e-6) return false;
+        }
+    }
+    return true;
+}
+
+cv::Size imageSize(const Arguments& arguments, const Result& result) {
+    if (!arguments.size.empty()) return parseSize(arguments.size);
+    if (result.run) return result.run->sequence.size;
+    if (const auto described = describedBeside(arguments.ground_truth).image_size) return *described;
+    throw Error(ErrorKind::parameter,
+                "--border needs the size of the image, which neither a project nor a file beside " +
+                    arguments.ground_truth + " tells; add --size WIDTHxHEIGHT");
+}
+
+RegistrationError registrationErrorOf(const Arguments& arguments, const Result& result) {
+    TrueHomographies truth;
+    for (const Homography& homography : readHomographyCsv(arguments.homographies)) {
+        truth[homography.from_frame] = homography.matrix;
+    }
+    return registrationError(result.registrations, truth, result.run->sequence.size);
+}
+
+void evaluateAndPrint(const Arguments& arguments) {
+    const MotOptions mot{arguments.mot_origin};
+    EvaluationReport report;
+    report.options = arguments.options;
+    EvaluationOptions& options = report.options;
+    options.convention = arguments.convention == "trackeval" ? Convention::trackeval : Convention::thesis;
+
+    BoxFile truth = readTruthBoxes(arguments.ground_truth, mot);
+    if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
+    const Result result = readResult(arguments, mot);
+    if (result.run) keepFramesOfRun(truth.boxes, *result.run, report.remarks);
+    report.ground_truth = arguments.ground_truth;
+    report.result = result.name;
+
+    if (options.border) options.image_size = imageSize(arguments, result);
+    if (options.convention == Convention::trackeval) {
+        options.frame_count = describedBeside(arguments.ground_truth).frame_count;
+    }
+    if (!options.upright && allUpright(truth.boxes) && !allUpright(result.boxes)) {
+        if (truth.format == BoxFormat::mot) {
+            options.upright = true;
+            report.remarks.push_back(
+                "MOTChallenge boxes are upright, so the enclosing boxes of the result are compared");
+        } else {
+            report.remarks.push_back("the ground truth has upright boxes only; if it has no headings, add --upright");
+        }
+    }
+    report.measures = evaluateAt(arguments.overlaps, truth.boxes, result.boxes, options);
+    if (!arguments.homographies.empty()) report.registration = registrationErrorOf(arguments, result);
+    if (!report.measures.empty()) {
+        for (std::string& remark : remarksOn(report.measures.front())) report.remarks.push_back(std::move(remark));
+    }
+    std::fputs((arguments.json ? jsonText(report) : tableText(report)).c_str(), stdout);
+}
+
+}  // namespace
+
+void addEvaluateCommand(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("evaluate", "Measure tracks or detections against ground truth");
+    command->add_option("--ground-truth", arguments->ground_truth, "True boxes: our CSV, or gt.txt of MOTChallenge")
+        ->required();
+    CLI::Option* result =
+        command->add_option("--result", arguments->result, "Boxes to measure: our CSV, or MOTChallenge text");
+    CLI::Option* project =
+        command->add_option("--project", arguments->project, "Measure a run of this project instead")->excludes(result);
+    command->add_option("--run", arguments->run, "Number of the run (default: the last)")->needs(project);
+    command->add_flag("--detections", arguments->detections, "Measure the run's detections instead of its tracks")
+        ->needs(project);
+    command->add_option("--overlap", arguments->overlaps, "Overlaps T_ov from which on a box counts as found")
+        ->capture_default_str();
+    command->add_flag("--vehicles", arguments->options.vehicles_only,
+                      "Only vehicles count; other objects of the ground truth count neither way");
+    command->add_flag("--upright", arguments->options.upright,
+                      "Compare enclosing upright boxes, for ground truth without headings");
+    command->add_option("--border", arguments->options.border,
+                        "Leave out results that come this close to the image's edge, px");
+    command->add_option("--size", arguments->size, "Size of the image for --border, WIDTHxHEIGHT");
+    command
+        ->add_option("--homographies", arguments->homographies,
+                     "True homographies (frame,h00,…,h22 into a common frame) to measure the registration")
+        ->needs(project);
+    command->add_option("--convention", arguments->convention, "Whose definitions to follow where they differ")
+        ->check(CLI::IsMember({"thesis", "trackeval"}))
+        ->capture_default_str();
+    command
+        ->add_option("--mot-origin", arguments->mot_origin,
+                     "Where the first pixel begins in MOTChallenge text: 1 by its rules, 0 in UAVDT and VisDrone")
+        ->capture_default_str();
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->callback([arguments, &exit_code] {
+        if (arguments->result.empty() == arguments->project.empty()) {
+            throw Error(ErrorKind::parameter, "evaluate needs what to measure: either --result FILE or --project FILE");
+        }
+        evaluateAndPrint(*arguments);
+        exit_code = exit_ok;
+    });
+}
+
+}  // namespace eyrie::cli

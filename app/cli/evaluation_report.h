@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluation/evaluate.h"
+#include "evaluation/registration_error.h"
+
+namespace eyrie::cli {
+
+/// All that `evaluate` has to say.
+struct EvaluationReport {
+    std::string ground_truth;  ///< where the truth came from
+    std::string result;        ///< where the result came from
+    EvaluationOptions options;
+    std::vector<Measures> measures;  ///< one for each T_ov
+    std::optional<RegistrationError> registration;
+    std::vector<std::string> remarks;
+};
+
+/// A table for people, one column for each T_ov.
+std::string tableText(const EvaluationReport& report);
+/// The same as JSON; measures that are not defined are null.
+std::string jsonText(const EvaluationReport& report);
+
+}  // namespace eyrie::cli
