@@ -1,0 +1,31 @@
+#pragma once
+
+#include <QString>
+#include <string>
+
+#include "core/scene_scale.h"
+
+/// Numbers as people read them: with units, in metres and km/h when the GSD is known, in pixels otherwise.
+namespace eyrie::ui {
+
+/// "m" or "px".
+QString lengthUnit(const SceneScale& scale);
+/// px in the unit of lengthUnit().
+double shownLength(double px, const SceneScale& scale);
+/// "km/h" or "px/frame".
+QString speedUnit(const SceneScale& scale);
+/// px/frame in the unit of speedUnit().
+double shownSpeed(double px_per_frame, const SceneScale& scale);
+
+/// A number in the user's locale; a dash for what is none.
+QString numberText(double value, int decimals);
+/// "41.2 km/h" or "1.73 px/frame".
+QString speedText(double px_per_frame, const SceneScale& scale);
+/// "4.4 m" or "12.7 px".
+QString lengthText(double px, const SceneScale& scale);
+/// "4.9 s", "2:04.9", "1:02:04".
+QString durationText(double seconds);
+/// "2026-11-21T08:00:00Z" as a short local date and time; the text itself if it is no time.
+QString localTimeText(const std::string& utc);
+
+}  // namespace eyrie::ui

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "models/runs_model.h"
+#include "panels/table_panel.h"
+
+namespace eyrie::ui {
+
+/// The runs of the project: choosing one shows its results.
+class RunsPanel : public TablePanel {
+    Q_OBJECT
+ public:
+    /// `model` must outlive the panel.
+    explicit RunsPanel(RunsModel* model, QWidget* parent = nullptr);
+
+ signals:
+    /// The user chose a run to be shown.
+    void runActivated(int run_id);
+    /// From the empty state: run with the present parameters.
+    void runRequested();
+    void removeRequested(int run_id);
+    /// Take the run's parameters over into the form.
+    void parametersRequested(int run_id);
+
+ protected:
+    void fillMenu(QMenu& menu, int run_id) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+    void editName();
+};
+
+}  // namespace eyrie::ui

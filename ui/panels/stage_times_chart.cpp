@@ -1,0 +1,254 @@
+#include "panels/stage_times_chart.h"
+
+#include <qcustomplot.h>
+
+#include <QApplication>
+#include <QClipboard>
+#include <QLabel>
+#include <QMenu>
+#include <QStackedLayout>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "panels/empty_state.h"
+#include "panels/theme_colours.h"
+
+namespace eyrie::ui {
+namespace {
+
+constexpr int kRefreshMs = 100;
+constexpr int kClickPx = 4;
+// The marker follows the canvas at 25 Hz; on a layer of its own the bands need not be drawn again for it.
+const QString kMarkerLayer = QStringLiteral("marker");
+
+}  // namespace
+
+StageTimesChart::StageTimesChart(QWidget* parent)
+    : QWidget(parent),
+      stack_(new QStackedLayout(this)),
+      empty_(new EmptyState(this)),
+      readout_(new QLabel(this)),
+      plot_(new QCustomPlot(this)) {
+    empty_->setTexts(
+        tr("No times yet. While a run works, or when a run is chosen, this shows where the time of each "
+           "frame goes."));
+    readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    readout_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    auto* chart = new QWidget(this);
+    auto* layout = new QVBoxLayout(chart);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(readout_);
+    layout->addWidget(plot_, 1);
+    stack_->addWidget(empty_);
+    stack_->addWidget(chart);
+    setFocusPolicy(Qt::StrongFocus);
+    plot_->setFocusPolicy(Qt::NoFocus);
+    makePlot();
+    connectPlot();
+    applyColours();
+}
+
+StageTimesChart::~StageTimesChart() = default;
+
+void StageTimesChart::makePlot() {
+    for (int i = 0; i < kStageCount; ++i) {
+        QCPGraph* graph = plot_->addGraph();
+        graph->setName(shownName(static_cast<Stage>(i)));
+        graph->setAdaptiveSampling(true);
+        if (i > 0) graph->setChannelFillGraph(graphs_[static_cast<std::size_t>(i) - 1]);
+        graphs_[static_cast<std::size_t>(i)] = graph;
+    }
+    plot_->xAxis->setLabel(tr("frame"));
+    plot_->yAxis->setLabel(tr("time (ms)"));
+    plot_->xAxis->setNumberFormat(QStringLiteral("f"));
+    plot_->xAxis->setNumberPrecision(0);
+    plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+    plot_->axisRect()->setRangeDrag(Qt::Horizontal);
+    plot_->axisRect()->setRangeZoom(Qt::Horizontal);
+
+    plot_->addLayer(kMarkerLayer, plot_->layer(QStringLiteral("main")), QCustomPlot::limAbove);
+    plot_->layer(kMarkerLayer)->setMode(QCPLayer::lmBuffered);
+    marker_ = new QCPItemStraightLine(plot_);
+    marker_->setLayer(kMarkerLayer);
+    budget_ = new QCPItemStraightLine(plot_);
+    budget_->setLayer(kMarkerLayer);
+    budget_->setVisible(false);
+
+    // Beside the bands, where it covers nothing.
+    plot_->plotLayout()->addElement(0, 1, plot_->legend);
+    plot_->plotLayout()->setColumnStretchFactor(1, 0.001);
+    plot_->legend->setVisible(true);
+    plot_->legend->setFillOrder(QCPLegend::foRowsFirst);
+}
+
+void StageTimesChart::connectPlot() {
+    connect(plot_, &QCustomPlot::mouseMove, this, [this](QMouseEvent* event) {
+        describeFrame(static_cast<FrameIndex>(std::lround(plot_->xAxis->pixelToCoord(event->position().x()))));
+    });
+    // Dragging moves the range; only what stays in place is a click.
+    connect(plot_, &QCustomPlot::mouseRelease, this, [this](QMouseEvent* event) {
+        const QPoint way = event->globalPosition().toPoint() - property("pressed").toPoint();
+        if (event->button() != Qt::LeftButton || way.manhattanLength() > kClickPx || data_.size() == 0) return;
+        const auto frame = static_cast<FrameIndex>(std::lround(plot_->xAxis->pixelToCoord(event->position().x())));
+        const auto position = data_.positionOf(frame);
+        if (position) emit frameActivated(data_.frameAt(*position));
+    });
+    connect(plot_, &QCustomPlot::mousePress, this,
+            [this](QMouseEvent* event) { setProperty("pressed", event->globalPosition().toPoint()); });
+    connect(plot_, &QCustomPlot::mouseDoubleClick, this, &StageTimesChart::showAll);
+    connect(plot_, &QCustomPlot::mouseWheel, this, [this] { follows_ = false; });
+}
+
+void StageTimesChart::setFrames(const std::vector<FrameSummary>& frames) {
+    const bool continues = data_.size() <= frames.size() && data_.size() > 0 &&
+                           data_.frameAt(0) == frames.front().frame &&
+                           data_.frameAt(data_.size() - 1) == frames[data_.size() - 1].frame;
+    if (!continues) clear();
+    for (std::size_t i = data_.size(); i < frames.size(); ++i) append(frames[i]);
+}
+
+void StageTimesChart::append(const FrameSummary& frame) {
+    const std::size_t before = data_.size();
+    data_.append(frame);
+    if (data_.size() == before) return;
+    addToGraphs(before);
+    refreshLater();
+}
+
+void StageTimesChart::addToGraphs(std::size_t position) {
+    const double frame = data_.frameAt(position);
+    const StageTimesData::Tops& tops = data_.topsAt(position);
+    for (std::size_t i = 0; i < graphs_.size(); ++i) graphs_[i]->data()->add(QCPGraphData(frame, tops[i]));
+}
+
+void StageTimesChart::clear() {
+    data_.clear();
+    for (QCPGraph* graph : graphs_) graph->data()->clear();
+    follows_ = true;
+    readout_->clear();
+    refreshLater();
+}
+
+void StageTimesChart::refreshLater() {
+    if (refresh_scheduled_) return;
+    refresh_scheduled_ = true;
+    QTimer::singleShot(kRefreshMs, this, &StageTimesChart::refresh);
+}
+
+void StageTimesChart::refresh() {
+    refresh_scheduled_ = false;
+    stack_->setCurrentIndex(data_.size() == 0 ? 0 : 1);
+    if (data_.size() == 0) return;
+    for (int i = 0; i < kStageCount; ++i) {
+        QCPGraph* graph = graphs_[static_cast<std::size_t>(i)];
+        const bool used = data_.isUsed(static_cast<Stage>(i));
+        if (used == graph->visible() && used == plot_->legend->hasItemWithPlottable(graph)) continue;
+        graph->setVisible(used);
+        if (!used) graph->removeFromLegend();
+    }
+    // Removed and added again in the order from top to bottom of the bands.
+    plot_->legend->clearItems();
+    for (int i = kStageCount - 1; i >= 0; --i) {
+        QCPGraph* graph = graphs_[static_cast<std::size_t>(i)];
+        if (graph->visible()) graph->addToLegend();
+    }
+    if (follows_)
+        plot_->xAxis->setRange(data_.frameAt(0), std::max(data_.frameAt(data_.size() - 1), data_.frameAt(0) + 1));
+    plot_->yAxis->setRange(0, data_.axisMaximum());
+    if (readout_->text().isEmpty()) describeFrame(current_frame_);
+    plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void StageTimesChart::showAll() {
+    follows_ = true;
+    refresh();
+}
+
+void StageTimesChart::setCurrentFrame(FrameIndex frame) {
+    current_frame_ = frame;
+    marker_->point1->setCoords(frame, 0);
+    marker_->point2->setCoords(frame, 1);
+    describeFrame(frame);
+    if (data_.size() > 0 && isVisible()) plot_->layer(kMarkerLayer)->replot();
+}
+
+void StageTimesChart::setBudgetMs(double ms) {
+    budget_->setVisible(ms > 0);
+    budget_->point1->setCoords(0, ms);
+    budget_->point2->setCoords(1, ms);
+    refreshLater();
+}
+
+void StageTimesChart::describeFrame(FrameIndex frame) {
+    const auto position = data_.positionOf(frame);
+    readout_->setText(position ? data_.describe(*position) : QString());
+}
+
+void StageTimesChart::applyColours() {
+    const QColor text = palette().color(QPalette::WindowText);
+    const QColor quiet = quietText(palette());
+    const QColor ground = palette().color(QPalette::Base);
+    plot_->setBackground(palette().color(QPalette::Window));
+    plot_->axisRect()->setBackground(ground);
+    for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
+        axis->setLabelColor(text);
+        axis->setTickLabelColor(text);
+        axis->setLabelFont(font());
+        axis->setTickLabelFont(font());
+        axis->setBasePen(QPen(quiet));
+        axis->setTickPen(QPen(quiet));
+        axis->setSubTickPen(QPen(quiet));
+        axis->grid()->setPen(QPen(blend(ground, text, 0.15)));
+        axis->grid()->setZeroLinePen(Qt::NoPen);
+    }
+    plot_->legend->setFont(font());
+    plot_->legend->setTextColor(text);
+    plot_->legend->setBrush(Qt::NoBrush);
+    plot_->legend->setBorderPen(Qt::NoPen);
+    for (int i = 0; i < kStageCount; ++i) {
+        const QColor colour = stageColour(static_cast<Stage>(i), palette());
+        graphs_[static_cast<std::size_t>(i)]->setPen(QPen(colour, 1));
+        graphs_[static_cast<std::size_t>(i)]->setBrush(blend(ground, colour, 0.75));
+    }
+    marker_->setPen(QPen(text, 1));
+    budget_->setPen(QPen(text, 1, Qt::DashLine));
+    plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void StageTimesChart::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) applyColours();
+    QWidget::changeEvent(event);
+}
+
+QPixmap StageTimesChart::picture() const {
+    return plot_->toPixmap(plot_->width(), plot_->height(), 2);
+}
+
+void StageTimesChart::copyPicture() const {
+    QApplication::clipboard()->setPixmap(picture());
+}
+
+void StageTimesChart::copyText() const {
+    QApplication::clipboard()->setText(text());
+}
+
+void StageTimesChart::contextMenuEvent(QContextMenuEvent* event) {
+    if (data_.size() == 0) return;
+    QMenu menu;
+    menu.addAction(tr("Show all frames"), this, &StageTimesChart::showAll);
+    menu.addAction(tr("Copy as text"), QKeySequence::Copy, this, &StageTimesChart::copyText);
+    menu.addAction(tr("Copy as picture"), this, &StageTimesChart::copyPicture);
+    menu.exec(event->globalPos());
+}
+
+void StageTimesChart::keyPressEvent(QKeyEvent* event) {
+    if (event->matches(QKeySequence::Copy) && data_.size() > 0) {
+        copyText();
+        return;
+    }
+    QWidget::keyPressEvent(event);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "core/scene_scale.h"
+#include "store/run_store.h"
+
+class QFormLayout;
+class QLabel;
+class QStackedLayout;
+class QToolButton;
+
+namespace eyrie::ui {
+
+class EmptyState;
+class OriginBar;
+
+/// What is known of the selected track: its life, speed and size as a whole, and its state in the frame shown.
+class TrackInspector : public QWidget {
+    Q_OBJECT
+ public:
+    explicit TrackInspector(QWidget* parent = nullptr);
+
+    /// `states` ascend by frame. A track without states shows as nothing.
+    void showTrack(TrackId track, std::vector<TrackFrame> states, const SceneScale& scale);
+    void setCurrentFrame(FrameIndex frame);
+    void clear();
+    TrackId track() const { return track_; }
+    /// All lines as "name<tab>value".
+    QString text() const;
+
+ signals:
+    /// The user wants to see this frame.
+    void frameActivated(int frame);
+
+ private:
+    QLabel* addLine(const QString& name);
+    void showWhole();
+    void showNow();
+    void activate(bool last);
+
+    TrackId track_ = 0;
+    std::vector<TrackFrame> states_;
+    SceneScale scale_;
+    FrameIndex frame_ = 0;
+    QStackedLayout* stack_;
+    EmptyState* empty_;
+    QFormLayout* form_;
+    OriginBar* origins_;
+    QLabel* title_;
+    QLabel* life_;
+    QLabel* speed_;
+    QLabel* size_;
+    QLabel* origin_counts_;
+    QLabel* now_;
+    QLabel* position_;
+    QLabel* heading_;
+    QLabel* speed_now_;
+    QLabel* size_now_;
+};
+
+}  // namespace eyrie::ui
