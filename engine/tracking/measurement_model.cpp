@@ -77,6 +77,11 @@ void MeasurementModel::startFrame(cv::Size image, double background_speed_sigma)
     slow_speed_ = slow_speed_sigmas_ * sigma_;
 }
 
+bool MeasurementModel::atBorder(const OrientedBox& box) const {
+    const CompletedBox completed = completeAtBorder(box, box.length, box.width, image_, 2 * kBorderMargin);
+    return completed.length_cut || completed.width_cut;
+}
+
 double MeasurementModel::headingDeviation(double speed) const {
     return std::hypot(heading_, std::atan2(sigma_, speed));
 }
@@ -117,23 +122,28 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, cv::Po
 
     const double longer = m.box.length - predicted.length;
     const double wider = m.box.width - predicted.width;
-    if (completed.length_cut || completed.width_cut) {
-        // What lies outside cannot be measured; but a box that comes in grows.
-        m.along = m.across = position_;
-        m.length = completed.length_cut && longer <= 0 ? BoxMeasurement::kUnknown : size_;
-        m.width = completed.width_cut && wider <= 0 ? BoxMeasurement::kUnknown : size_;
-        if (completed.length_cut) result.size_growth = std::max(result.size_growth, longer);
-        if (completed.width_cut) result.size_growth = std::max(result.size_growth, wider);
-        return result;
-    }
-    // A box too short by d misses either end: its centre is off by up to d / 2.
-    m.along = std::hypot(position_, longer / 2);
-    m.across = std::hypot(position_, wider / 2);
     const double ratio = seen.area() / predicted.area();
-    result.size_differs = size_gate_ > 1 && (ratio > size_gate_ || ratio * size_gate_ < 1);
-    if (!(size_known && result.size_differs)) {
-        m.length = size_;
-        m.width = size_;
+    const bool at_border = completed.length_cut || completed.width_cut;
+    // A box that comes in over the border grows; any other one that grows is merged with something.
+    const bool comes_in = at_border && atBorder(predicted);
+    const bool larger = ratio > size_gate_ && !comes_in;
+    const bool smaller = ratio * size_gate_ < 1 && !at_border;
+    result.size_differs = size_gate_ > 1 && (larger || smaller);
+    const bool size_measured = !(size_known && result.size_differs);
+    // What lies outside the image cannot be measured.
+    if (size_measured && !(completed.length_cut && longer <= 0)) m.length = size_;
+    if (size_measured && !(completed.width_cut && wider <= 0)) m.width = size_;
+    // A box too short by d misses either end: its centre is off by up to d / 2.
+    m.along = comes_in ? position_ : std::hypot(position_, longer / 2);
+    m.across = comes_in ? position_ : std::hypot(position_, wider / 2);
+    const cv::Point2d along = m.box.direction();
+    if (comes_in && completed.length_cut && longer > 0) {
+        result.size_growth = longer;
+        result.shift += along * longer;
+    }
+    if (comes_in && completed.width_cut && wider > 0) {
+        result.size_growth = std::max(result.size_growth, wider);
+        result.shift += cv::Point2d(-along.y, along.x) * wider;
     }
     return result;
 }

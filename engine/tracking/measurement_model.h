@@ -35,7 +35,8 @@ class MeasurementModel {
     /// A measurement of a track, and what it says about the size.
     struct Update {
         BoxMeasurement measurement;
-        double size_growth = 0;     ///< px by which a box at the border is larger than it was ever seen
+        double size_growth = 0;     ///< px by which a box that comes in over the border is larger than before
+        cv::Point2d shift{0, 0};    ///< px by which such a box's centre may lag behind the prediction
         bool size_differs = false;  ///< beyond the size gate
     };
     /// `size_known`: the size gate applies.
@@ -51,6 +52,7 @@ class MeasurementModel {
     double backgroundSpeedSigma() const { return sigma_; }
 
  private:
+    bool atBorder(const OrientedBox& box) const;
     double headingDeviation(double speed) const;
     double velocityDeviation() const;
 

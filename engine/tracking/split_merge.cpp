@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMergedIsLarger = 1.2;   ///< a merged box has at least this many times the area of each of its tracks
 constexpr double kDuplicateTracks = 0.5;  ///< tracks inside each other by this share are not a merge
-constexpr double kFairPart = 0.2;         ///< area of a part, as a share of the track's, that counts as separate
+constexpr double kFairPart = 0.08;        ///< area of a part, as a share of the track's, that counts as separate
 
 std::size_t at(int index) {
     return static_cast<std::size_t>(index);
@@ -74,12 +74,14 @@ class Associator {
             std::vector<int> covered;
             for (const int r : matrix_.ofDetection(i)) {
                 const BoxRelation& here = relation(r);
-                if (here.track_share < part_containment_ || !authority_[at(here.track)].established) continue;
+                if (here.track_share < part_containment_ || !authority_[at(here.track)].mergeable) continue;
                 if (detections_[at(i)].box.area() < kMergedIsLarger * tracks_[at(here.track)].box.area()) continue;
                 if (hasBetterDetection(here) || liesInOneOf(covered, here.track)) continue;
                 covered.push_back(here.track);
             }
-            if (covered.size() < 2) continue;
+            const bool known = std::any_of(covered.begin(), covered.end(),
+                                           [&](int track) { return authority_[at(track)].established; });
+            if (covered.size() < 2 || !known) continue;
             result_.used[at(i)] = 1;
             for (const int track : covered) result_.tracks[at(track)].kind = AssociationKind::merged;
         }
@@ -142,7 +144,7 @@ class Associator {
         TrackAssociation& track = result_.tracks[j];
         const OrientedBox& predicted = tracks_[j].box;
         if (track.detection >= 0) parts.insert(parts.begin(), track.detection);
-        track.in_parts = areSeparate(parts, predicted);
+        judgeParts(parts, predicted, track);
         if (authority_[j].gives_up_parts && track.in_parts) return;
         for (const int part : parts) result_.used[at(part)] = 1;
         if (parts.size() == 1) {
@@ -158,17 +160,28 @@ class Associator {
         track.parts = std::move(parts);
     }
 
-    bool areSeparate(const std::vector<int>& parts, const OrientedBox& predicted) const {
-        std::vector<int> fair;
+    /// Tells fair parts that lie apart from fragments, and those of neighbours from those of one long vehicle.
+    void judgeParts(const std::vector<int>& parts, const OrientedBox& predicted, TrackAssociation& track) const {
+        std::vector<OrientedBox> fair;
         for (const int part : parts) {
             const OrientedBox& box = detections_[at(part)].box;
             if (box.area() < kFairPart * predicted.area()) continue;
-            const bool apart = std::all_of(fair.begin(), fair.end(), [&](int other) {
-                return containment(detections_[at(other)].box, box) < kDuplicateTracks;
+            const bool apart = std::all_of(fair.begin(), fair.end(), [&](const OrientedBox& other) {
+                return containment(other, box) < kDuplicateTracks;
             });
-            if (apart) fair.push_back(part);
+            if (!apart) continue;
+            track.abreast = track.abreast || std::any_of(fair.begin(), fair.end(), [&](const OrientedBox& other) {
+                                return areAbreast(other, box, predicted);
+                            });
+            fair.push_back(box);
         }
-        return fair.size() >= 2;
+        track.in_parts = fair.size() >= 2;
+    }
+
+    static bool areAbreast(const OrientedBox& a, const OrientedBox& b, const OrientedBox& predicted) {
+        if (std::min(a.length, b.length) < predicted.length / 2) return false;
+        const cv::Point2d apart = predicted.toBox(a.centre) - predicted.toBox(b.centre);
+        return std::abs(apart.x) < std::min(a.length, b.length) / 2 && std::abs(apart.y) > (a.width + b.width) / 4;
     }
 
     const OverlapMatrix& matrix_;

@@ -23,12 +23,14 @@ struct TrackAssociation {
     int detection = -1;      ///< matched: its index
     std::vector<int> parts;  ///< split: the detections that are parts of the object; they are fused
     bool in_parts = false;   ///< several separate detections of fair size lie in the predicted box
+    bool abreast = false;    ///< … side by side, as no vehicle falls apart
 };
 
 /// How far a track may claim detections.
 struct TrackAuthority {
     bool confirmed = false;
     bool established = false;     ///< its size is known: it may own parts and be merged
+    bool mergeable = false;       ///< seen often enough to be merged with an established one
     bool gives_up_parts = false;  ///< it was in parts for too long
 };
 

@@ -25,6 +25,7 @@ struct Track {
     int size_streak = 0;           ///< detections in a row beyond the size gate
     int whole_hits = 0;            ///< detections in one piece
     int parts_streak = 0;          ///< frames in separate parts, less those in one piece
+    int abreast_streak = 0;        ///< the same, for parts side by side
     bool merged = false;           ///< its detection covers other tracks, too
     bool stopped = false;          ///< lost while slow
 

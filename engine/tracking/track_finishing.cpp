@@ -48,9 +48,16 @@ bool leftTheImage(const TrackPath& path, const GroundMotion& ground) {
     return ground.cutByBorder(path.states.back().second.box, path.lastFrame());
 }
 
-void trimPredictedEnd(TrackPath& path, const GroundMotion& ground) {
+/// `stop_speed`: px/frame below which a lost object is taken to stand where it was.
+void trimPredictedEnd(TrackPath& path, const GroundMotion& ground, double stop_speed) {
     if (leftTheImage(path, ground)) return;
-    while (!path.states.empty() && path.states.back().second.origin == StateOrigin::predicted) path.states.pop_back();
+    std::size_t seen = path.states.size();
+    while (seen > 0 && path.states[seen - 1].second.origin == StateOrigin::predicted) --seen;
+    if (seen > 0) {
+        const cv::Point2d velocity = path.states[seen - 1].second.velocity;
+        if (std::hypot(velocity.x, velocity.y) < stop_speed) return;
+    }
+    path.states.resize(seen);
 }
 
 int framesOf(double seconds, const SceneScale& scale) {
@@ -64,6 +71,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
            {"", "A confirmed track's states from before its confirmation belong to the result.", "Teutsch §7.1.2"});
     v.flag("finishing.trim_predicted", trim_predicted,
            {"", "Cut the end of a track that was predicted only, unless it left the image.", ""});
+    v.real("finishing.stop_speed", stop_speed, 0, 50,
+           {"m/s", "An object that was lost while slower than this stands: its predicted end is kept.", ""});
     v.real("finishing.join_gap", join_gap_s, 0, 60,
            {"s", "Longest gap over which two fragments become one track. 0: never joined.", ""});
     v.real("finishing.join_distance_m", join_distance_m, 0, 100,
@@ -103,7 +112,7 @@ std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::
         if (!options.keep_tentative) {
             std::erase_if(path.states, [](const TimedState& s) { return s.second.status == TrackStatus::tentative; });
         }
-        if (options.trim_predicted) trimPredictedEnd(path, ground);
+        if (options.trim_predicted) trimPredictedEnd(path, ground, scale.pxPerFrame(options.stop_speed));
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);

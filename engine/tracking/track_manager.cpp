@@ -93,7 +93,8 @@ bool TrackManager::mayBeReconstructed(const Track& track) const {
 }
 
 bool TrackManager::givesUpParts(const Track& track) const {
-    return track.parts_streak >= split_patience_ && track.whole_hits < 3 * track.parts_streak;
+    return track.abreast_streak >= split_patience_ ||
+           (track.parts_streak >= split_patience_ && track.whole_hits < 3 * track.parts_streak);
 }
 
 bool TrackManager::leaving(const Track& track, cv::Size image) const {

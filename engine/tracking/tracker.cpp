@@ -13,6 +13,8 @@
 namespace eyrie {
 namespace {
 
+constexpr int kHitsToBeMerged = 3;  ///< detections that show a track beside an established one to be real
+
 const SceneScale& checked(const SceneScale& scale) {
     const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
     if (!positive(scale.gsd_m_per_px) || !positive(scale.frame_rate_hz)) {
@@ -157,8 +159,8 @@ FrameAssociation Tracker::associate(const std::vector<MovingBox>& detected, cons
     gate.image = image;
     std::vector<TrackAuthority> authority;
     for (const Track& track : tracks_) {
-        authority.push_back(
-            {track.status != TrackStatus::tentative, manager_.established(track), manager_.givesUpParts(track)});
+        authority.push_back({track.status != TrackStatus::tentative, manager_.established(track),
+                             track.hits >= kHitsToBeMerged, manager_.givesUpParts(track)});
     }
     return associateDetections(OverlapMatrix(detected, predicted, gate), detected, predicted, authority,
                                options_.split_merge, options_.part_containment);
@@ -177,9 +179,11 @@ void Tracker::updateTrack(Track& track, const TrackAssociation& association,
             track.filter.forgetSize(track.filter.box().length / 2);
             track.size_streak = options_.size_patience;
             track.parts_streak = 0;
+            track.abreast_streak = 0;
             track.vectors.clear();
         } else {
             ++track.parts_streak;
+            track.abreast_streak += association.abreast;
         }
     }
     bool updated = false;
@@ -188,6 +192,7 @@ void Tracker::updateTrack(Track& track, const TrackAssociation& association,
         if (!association.in_parts) {
             ++track.whole_hits;
             track.parts_streak = std::max(0, track.parts_streak - 1);
+            track.abreast_streak = std::max(0, track.abreast_streak - 1);
         }
         updated = updateByDetection(track, detection.box, detection);
     } else if (association.kind == AssociationKind::split && !association.parts.empty()) {
@@ -216,11 +221,14 @@ bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Dete
         ++track.size_streak;
         if (!size_known && manager_.established(track)) track.filter.forgetSize(track.filter.box().width / 2);
     } else {
-        track.size_streak = 0;
+        track.size_streak = std::max(0, track.size_streak - 1);
     }
     // The first boxes are often parts of the object: what was seen last counts half.
     if (!manager_.established(track)) track.filter.forgetSize(model_.sizeDeviation());
-    if (update.size_growth > 0) track.filter.forgetSize(update.size_growth);
+    if (update.size_growth > 0) {
+        track.filter.forgetSize(update.size_growth);
+        track.filter.smear(update.shift);
+    }
     return track.filter.update(update.measurement);
 }
 

@@ -29,8 +29,8 @@ FrameAssociation associated(const std::vector<MovingBox>& detections, const std:
     gate.max_turn = kPi / 2;
     gate.slow_speed = 0.1;
     const OverlapMatrix matrix(detections, tracks, gate);
-    return associateDetections(matrix, detections, tracks, std::vector<TrackAuthority>(tracks.size(), {true, true}),
-                               rule, 0.6);
+    return associateDetections(matrix, detections, tracks,
+                               std::vector<TrackAuthority>(tracks.size(), {true, true, true, false}), rule, 0.6);
 }
 
 double weightOf(const std::vector<WeightedPair>& pairs, const std::vector<int>& chosen) {
@@ -174,7 +174,7 @@ TEST(SplitMerge, aTrackThatGivesUpItsPartsLeavesThemFree) {
     const std::vector<MovingBox> detections{at(-12, 0, 16, 12), at(12, 0, 14, 12)};
     const OverlapMatrix matrix(detections, tracks, {});
     const auto result =
-        associateDetections(matrix, detections, tracks, {{true, true, true}}, SplitMergeRule::containment, 0.6);
+        associateDetections(matrix, detections, tracks, {{true, true, true, true}}, SplitMergeRule::containment, 0.6);
     EXPECT_EQ(result.tracks[0].kind, AssociationKind::matched);
     EXPECT_EQ(result.tracks[0].detection, 0);
     EXPECT_THAT(result.used, ElementsAre(1, 0));

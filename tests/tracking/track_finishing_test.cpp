@@ -156,6 +156,14 @@ TEST(FinishTracks, predictedEndsAreTrimmedUnlessTheObjectLeft) {
     EXPECT_EQ(last[1], 19);
     EXPECT_EQ(count[1], 20) << "predictions in between stay";
     EXPECT_EQ(last[2], 29);
+
+    scene.objects[0].velocity = {0.2, 0};  // 1.25 m/s
+    states.clear();
+    for (int frame = 0; frame < 30; ++frame) {
+        states.emplace_back(frame, trueState(scene, 0, frame, 1));
+        if (frame >= 20) states.back().second.origin = StateOrigin::predicted;
+    }
+    EXPECT_EQ(finishTracks(states, summariesOf(scene, 30), {}, scene.scale).size(), 30u) << "it stopped";
 }
 
 TEST(FinishTracks, fragmentsOfOneVehicleAreJoinedAndTheGapFilled) {
@@ -261,7 +269,7 @@ TEST(FinishTracks, survivesMissingSummariesAndBrokenStates) {
 TEST(FinishingOptions, areAllNamedAfterFinishing) {
     FinishingOptions options;
     const auto parameters = listParameters(describeOf(options));
-    EXPECT_EQ(parameters.size(), 10u);
+    EXPECT_EQ(parameters.size(), 11u);
     for (const Parameter& parameter : parameters) EXPECT_EQ(parameter.name.rfind("finishing.", 0), 0u);
 }
 

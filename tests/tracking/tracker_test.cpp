@@ -183,6 +183,22 @@ TEST(Tracker, aTrackThatBeganAsTwoMergedObjectsGivesUp) {
     for (std::size_t i = 0; i < 2; ++i) EXPECT_GT(overlap(states[i].box, scene.box(i, 49)), 0.8);
 }
 
+TEST(Tracker, neighboursThatWereMergedForLongComeApart) {
+    const MovingScene scene = neighbours();
+    Tracker tracker({}, scene.scale);
+    std::vector<TrackState> states;
+    for (int frame = 0; frame < 110; ++frame) {
+        std::vector<Detection> detections = scene.detections(frame);
+        if (frame < 70) {
+            detections[0].box = unionBox(detections[0].box, detections[1].box);
+            detections.resize(1);
+        }
+        states = tracker.next(scene.motion(frame), detections);
+    }
+    ASSERT_EQ(states.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NE(nearest(states, scene.box(i, 109)), nullptr);
+}
+
 TEST(Tracker, anOversizedDetectionDoesNotBlowUpAKnownTrack) {
     const MovingScene scene = twoCars();
     Tracker tracker({}, scene.scale);
