@@ -14,6 +14,8 @@ namespace {
 
 /// Pictures that a decoder may hold back to bring others first; H.264 and H.265 allow 16 frames.
 constexpr int kDeepestReordering = 40;
+/// Frames a second; more is a clock's rate, not a camera's.
+constexpr double kHighestRate = 1000;
 
 class Progress {
  public:
@@ -87,7 +89,8 @@ Scan scanPackets(const std::filesystem::path& path, Progress& progress) {
     index.tick_denominator = stream.time_base.den;
     index.quarter_turns = quarterTurns(stream);
     const AVRational rate = av_guess_frame_rate(demuxer.get(), &stream, nullptr);
-    index.nominal_rate_hz = rate.num > 0 && rate.den > 0 ? av_q2d(rate) : 0;
+    const double rate_hz = rate.num > 0 && rate.den > 0 ? av_q2d(rate) : 0;
+    index.nominal_rate_hz = rate_hz < kHighestRate ? rate_hz : 0;
     index.codec = avcodec_get_name(stream.codecpar->codec_id);
     index.container = demuxer->iformat->name;
     scan.order_is_known = showsEveryPacket(stream.codecpar->codec_id) && !mayHoldFields(*stream.codecpar);
@@ -106,7 +109,10 @@ Scan scanPackets(const std::filesystem::path& path, Progress& progress) {
     }
     if (index.packets.empty())
         throw Error(ErrorKind::input, path.string() + ": the video track holds no pictures; the file may be cut off");
-    index.packets.front().key = true;
+    // A recording that begins amid a group of pictures: what comes before its first key frame cannot be decoded
+    // rightly.
+    const int start = index.firstStart();
+    std::fill_n(scan.discarded.begin(), start, true);
     return scan;
 }
 
@@ -130,6 +136,7 @@ void orderByDecoding(const std::filesystem::path& path, VideoIndex& index, Progr
     std::vector<std::int32_t> shown;
     std::unordered_set<std::int32_t> seen;
     VideoDecoder decoder(path, index);
+    decoder.startAt(index.firstStart());
     while (const AVFrame* picture = decoder.next()) {
         const int packet = decoder.packetOf(*picture);
         if (seen.insert(packet).second) shown.push_back(packet);
@@ -142,6 +149,7 @@ void orderByDecoding(const std::filesystem::path& path, VideoIndex& index, Progr
 void trimToDecodable(const std::filesystem::path& path, VideoIndex& index) {
     VideoDecoder decoder(path, index);
     std::vector<FrameIndex> frame_of = index.framesOfPackets();
+    decoder.startAt(index.firstStart());
     const AVFrame* picture = decoder.next();
     while (picture != nullptr && frame_of[static_cast<std::size_t>(decoder.packetOf(*picture))] < 0)
         picture = decoder.next();
@@ -190,11 +198,18 @@ void placeInTime(VideoIndex& index) {
 
 cv::Size firstPictureSize(const std::filesystem::path& path, const VideoIndex& index) {
     VideoDecoder decoder(path, index);
+    decoder.startAt(index.firstStart());
     const AVFrame* picture = decoder.next();
     return picture == nullptr ? cv::Size() : cv::Size(picture->width, picture->height);
 }
 
 }  // namespace
+
+int VideoIndex::firstStart() const {
+    const auto key =
+        std::find_if(packets.begin(), packets.end(), [](const PacketRecord& packet) { return packet.key; });
+    return key == packets.end() ? 0 : static_cast<int>(key - packets.begin());
+}
 
 std::vector<FrameIndex> VideoIndex::framesOfPackets() const {
     std::vector<FrameIndex> frames(packets.size(), -1);

@@ -41,6 +41,8 @@ struct VideoIndex {
     std::vector<std::int32_t> shown;        ///< packet number of each frame, in the order of presentation
     std::vector<std::int64_t> shown_ticks;  ///< presentation time of each frame from the first, strictly ascending
 
+    /// Packet that decoding the whole video starts from: the first key frame, or 0 in a video without any.
+    int firstStart() const;
     /// Frame of each packet; -1 for packets that never show.
     std::vector<FrameIndex> framesOfPackets() const;
 };

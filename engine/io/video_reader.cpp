@@ -14,6 +14,9 @@ namespace {
 /// Key frames to go back for a frame that does not come out of the nearest one: streams that refresh gradually, or
 /// refer across key frames.
 constexpr std::size_t kStartsToTry = 4;
+/// Streams that refresh gradually have no key pictures, only places from which one is built up; measured, what the
+/// decoder delivers from there is right only after another period.
+constexpr std::size_t kStartsToRefresh = 2;
 /// Decoding on is cheaper than seeking when the key frame is this few packets ahead.
 constexpr int kPacketsWorthDecoding = 8;
 
@@ -28,6 +31,36 @@ void turn(cv::Mat& image, int quarter_turns) {
     cv::Mat turned;
     cv::rotate(image, turned, turns[quarter_turns - 1]);
     image = turned;
+}
+
+struct FrameTiming {
+    double rate_hz = 0;  ///< 0: unknown
+    bool is_variable = false;
+};
+
+/// A few lost frames do not change the rate: it is the mean over the usual steps if nearly all steps are that.
+FrameTiming timingOf(const std::vector<std::int64_t>& ticks, double tick_s) {
+    if (ticks.size() < 2) return {};
+    std::vector<double> steps_s;
+    for (std::size_t i = 1; i < ticks.size(); ++i)
+        steps_s.push_back(static_cast<double>(ticks[i] - ticks[i - 1]) * tick_s);
+    std::vector<double> sorted = steps_s;
+    std::nth_element(sorted.begin(), sorted.begin() + std::ssize(sorted) / 2, sorted.end());
+    const double usual_s = sorted[sorted.size() / 2];
+    // Containers round stamps to as little as a millisecond.
+    const double tolerance_s = std::max(0.0015, 0.05 * usual_s);
+    double sum_s = 0;
+    std::size_t usual_steps = 0;
+    for (const double step_s : steps_s) {
+        if (std::abs(step_s - usual_s) > tolerance_s) continue;
+        sum_s += step_s;
+        ++usual_steps;
+    }
+    if (usual_steps * 10 < steps_s.size() * 9) {
+        sum_s = static_cast<double>(ticks.back()) * tick_s;
+        return {static_cast<double>(steps_s.size()) / sum_s, true};
+    }
+    return {static_cast<double>(usual_steps) / sum_s, usual_steps < steps_s.size()};
 }
 
 }  // namespace
@@ -59,15 +92,9 @@ void VideoReader::describe(const SourceOptions& options) {
     info_.codec = index_.codec;
     info_.container = index_.container;
     info_.frame_rate_hz = index_.nominal_rate_hz > 0 ? index_.nominal_rate_hz : 25.0;
-    if (ticks.size() > 1 && ticks.back() > 0)
-        info_.frame_rate_hz = static_cast<double>(ticks.size() - 1) / (static_cast<double>(ticks.back()) * tick_s);
-
-    const double usual_s = 1 / info_.frame_rate_hz;
-    for (std::size_t i = 1; i < ticks.size(); ++i) {
-        // Containers round stamps to as little as a millisecond.
-        const double step_s = static_cast<double>(ticks[i] - ticks[i - 1]) * tick_s;
-        if (std::abs(step_s - usual_s) > std::max(0.0015, 0.05 * usual_s)) info_.variable_frame_rate = true;
-    }
+    const FrameTiming timing = timingOf(ticks, tick_s);
+    if (timing.rate_hz > 0) info_.frame_rate_hz = timing.rate_hz;
+    info_.variable_frame_rate = timing.is_variable;
     if (options.frame_rate_hz > 0) {
         info_.frame_rate_hz = options.frame_rate_hz;
         info_.variable_frame_rate = false;
@@ -99,14 +126,17 @@ std::vector<int> VideoReader::startsFor(FrameIndex index) const {
         --key;
         if (frame_of_packet_[static_cast<std::size_t>(*key)] <= index) starts.push_back(*key);
     }
-    if (starts.empty() || (starts.size() < kStartsToTry && starts.back() != 0)) starts.push_back(0);
+    const int first = index_.firstStart();
+    if (starts.empty() || (starts.size() < kStartsToTry && starts.back() != first)) starts.push_back(first);
     return starts;
 }
 
 const AVFrame* VideoReader::decodeUpTo(FrameIndex index) {
     while ((picture_ = decoder_->next()) != nullptr) {
-        const FrameIndex frame = frame_of_packet_[static_cast<std::size_t>(decoder_->packetOf(*picture_))];
+        const int packet = decoder_->packetOf(*picture_);
+        const FrameIndex frame = frame_of_packet_[static_cast<std::size_t>(packet)];
         if (frame < 0) continue;
+        start_came_out_ = start_came_out_ || packet == start_;
         picture_frame_ = frame;
         if (frame >= index) return frame == index ? picture_ : nullptr;
     }
@@ -120,13 +150,16 @@ const AVFrame& VideoReader::pictureOf(FrameIndex index) {
     const bool ahead = picture_ != nullptr && picture_frame_ < index;
     if (ahead && starts.front() <= decoder_->nextPacket() + kPacketsWorthDecoding)
         if (const AVFrame* picture = decodeUpTo(index)) return *picture;
-    for (const int start : starts) {
+    for (std::size_t tried = 0; tried < starts.size(); ++tried) {
         picture_ = nullptr;
-        decoder_->startAt(start);
+        start_ = starts[tried];
+        start_came_out_ = false;
+        decoder_->startAt(start_);
         const AVFrame* picture = decodeUpTo(index);
-        // A picture that misses its references is flagged; an earlier start may have them.
-        const bool doubtful = picture != nullptr && (picture->flags & AV_FRAME_FLAG_CORRUPT) && start != starts.back();
-        if (picture != nullptr && !doubtful) return *picture;
+        if (picture == nullptr) continue;
+        const bool lacks_references = (picture->flags & AV_FRAME_FLAG_CORRUPT) != 0;
+        const bool still_refreshes = !start_came_out_ && tried < kStartsToRefresh;
+        if ((!lacks_references && !still_refreshes) || tried + 1 == starts.size()) return *picture;
     }
     throw Error(ErrorKind::input,
                 info_.path.string() + ": frame " + std::to_string(index) +

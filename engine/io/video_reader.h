@@ -38,6 +38,8 @@ class VideoReader : public FrameSource {
     PixelConversion conversion_;
     const AVFrame* picture_ = nullptr;  ///< what the decoder delivered last
     FrameIndex picture_frame_ = -1;
+    int start_ = 0;                ///< packet that decoding last began with
+    bool start_came_out_ = false;  ///< the decoder delivered the picture of `start_`
 };
 
 }  // namespace eyrie

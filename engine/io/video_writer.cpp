@@ -28,6 +28,15 @@ const AVCodec* findEncoder(const std::string& name) {
     return encoder != nullptr ? encoder : avcodec_find_encoder(AV_CODEC_ID_MPEG4);
 }
 
+/// What every player shows: 4:2:0, or what the encoder prefers if it is bound to another.
+AVPixelFormat pixelFormatFor(const AVCodec& encoder) {
+    if (encoder.pix_fmts == nullptr) return AV_PIX_FMT_YUV420P;
+    if (encoder.id == AV_CODEC_ID_MJPEG) return AV_PIX_FMT_YUVJ420P;
+    for (const AVPixelFormat* format = encoder.pix_fmts; *format != AV_PIX_FMT_NONE; ++format)
+        if (*format == AV_PIX_FMT_YUV420P) return *format;
+    return encoder.pix_fmts[0];
+}
+
 }  // namespace
 
 struct VideoWriter::Implementation {
@@ -84,9 +93,7 @@ struct VideoWriter::Implementation {
         codec.reset(avcodec_alloc_context3(encoder));
         codec->width = size.width + size.width % 2;
         codec->height = size.height + size.height % 2;
-        codec->pix_fmt = encoder->pix_fmts != nullptr ? encoder->pix_fmts[0] : AV_PIX_FMT_YUV420P;
-        for (const AVPixelFormat* format = encoder->pix_fmts; format != nullptr && *format != AV_PIX_FMT_NONE; ++format)
-            if (*format == AV_PIX_FMT_YUV420P) codec->pix_fmt = *format;
+        codec->pix_fmt = pixelFormatFor(*encoder);
         codec->color_range = codec->pix_fmt == AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
         codec->colorspace = AVCOL_SPC_SMPTE170M;
         codec->framerate = av_d2q(options.frame_rate_hz, 100000);
