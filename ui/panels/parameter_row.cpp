@@ -11,6 +11,9 @@
 namespace eyrie::ui {
 namespace {
 
+// One width for all kinds of fields, so that they stand in a column.
+constexpr int kFieldCharacters = 15;
+
 /// "min speed" for "motion.min_speed".
 QString shownName(const QString& name) {
     return name.mid(name.indexOf(QLatin1Char('.')) + 1).replace(QLatin1Char('_'), QLatin1Char(' '));
@@ -48,10 +51,11 @@ ParameterRow::ParameterRow(const Parameter& parameter, QWidget* parent)
     auto* unit = new QLabel(QString::fromStdString(parameter.text.unit), this);
     unit->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("px/frame ")));
 
+    editor_->setFixedWidth(fontMetrics().horizontalAdvance(QLatin1Char('0')) * kFieldCharacters);
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 1, 0, 1);
-    layout->addWidget(label_, 5);
-    layout->addWidget(editor_, 4);
+    layout->addWidget(label_, 1);
+    layout->addWidget(editor_);
     layout->addWidget(unit);
     layout->addWidget(reset_);
 

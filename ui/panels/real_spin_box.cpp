@@ -62,6 +62,7 @@ void RealSpinBox::commit() {
 }
 
 void RealSpinBox::stepBy(int steps) {
+    if (isReadOnly() || steps == 0) return;
     commit();
     const double value = numberOf(value_text_).value_or(min_);
     const double step = stepAt(value, min_, max_);

@@ -33,6 +33,7 @@ StageTimesChart::StageTimesChart(QWidget* parent)
     empty_->setTexts(
         tr("No times yet. While a run works, or when a run is chosen, this shows where the time of each "
            "frame goes."));
+    readout_->setContentsMargins(4, 2, 4, 2);
     readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     readout_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     auto* chart = new QWidget(this);
@@ -44,6 +45,7 @@ StageTimesChart::StageTimesChart(QWidget* parent)
     stack_->addWidget(empty_);
     stack_->addWidget(chart);
     setFocusPolicy(Qt::StrongFocus);
+    plot_->setObjectName(QStringLiteral("plot"));
     plot_->setFocusPolicy(Qt::NoFocus);
     makePlot();
     connectPlot();
@@ -77,8 +79,12 @@ void StageTimesChart::makePlot() {
     budget_->setVisible(false);
 
     // Beside the bands, where it covers nothing.
-    plot_->plotLayout()->addElement(0, 1, plot_->legend);
+    auto* side = new QCPLayoutGrid;
+    plot_->plotLayout()->addElement(0, 1, side);
     plot_->plotLayout()->setColumnStretchFactor(1, 0.001);
+    side->addElement(0, 0, plot_->legend);
+    side->addElement(1, 0, new QCPLayoutElement(plot_));
+    side->setRowStretchFactor(0, 0.001);
     plot_->legend->setVisible(true);
     plot_->legend->setFillOrder(QCPLegend::foRowsFirst);
 }
@@ -141,24 +147,28 @@ void StageTimesChart::refresh() {
     refresh_scheduled_ = false;
     stack_->setCurrentIndex(data_.size() == 0 ? 0 : 1);
     if (data_.size() == 0) return;
-    for (int i = 0; i < kStageCount; ++i) {
-        QCPGraph* graph = graphs_[static_cast<std::size_t>(i)];
-        const bool used = data_.isUsed(static_cast<Stage>(i));
-        if (used == graph->visible() && used == plot_->legend->hasItemWithPlottable(graph)) continue;
-        graph->setVisible(used);
-        if (!used) graph->removeFromLegend();
-    }
-    // Removed and added again in the order from top to bottom of the bands.
-    plot_->legend->clearItems();
-    for (int i = kStageCount - 1; i >= 0; --i) {
-        QCPGraph* graph = graphs_[static_cast<std::size_t>(i)];
-        if (graph->visible()) graph->addToLegend();
-    }
+    listUsedStages();
     if (follows_)
         plot_->xAxis->setRange(data_.frameAt(0), std::max(data_.frameAt(data_.size() - 1), data_.frameAt(0) + 1));
     plot_->yAxis->setRange(0, data_.axisMaximum());
     if (readout_->text().isEmpty()) describeFrame(current_frame_);
     plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+/// Puts the stages that took time into the legend, from top to bottom as their bands lie.
+void StageTimesChart::listUsedStages() {
+    bool changed = false;
+    for (int i = 0; i < kStageCount; ++i) {
+        QCPGraph* graph = graphs_[static_cast<std::size_t>(i)];
+        const bool used = data_.isUsed(static_cast<Stage>(i));
+        changed = changed || used != graph->visible() || used != plot_->legend->hasItemWithPlottable(graph);
+        graph->setVisible(used);
+    }
+    if (!changed) return;
+    plot_->legend->clearItems();
+    for (auto graph = graphs_.rbegin(); graph != graphs_.rend(); ++graph) {
+        if ((*graph)->visible()) (*graph)->addToLegend();
+    }
 }
 
 void StageTimesChart::showAll() {

@@ -52,6 +52,7 @@ class StageTimesChart : public QWidget {
     void addToGraphs(std::size_t position);
     void refreshLater();
     void refresh();
+    void listUsedStages();
     void showAll();
     void applyColours();
     void describeFrame(FrameIndex frame);

@@ -135,6 +135,10 @@ void TablePanel::selectId(int id) {
 }
 
 void TablePanel::keepSelection() {
+    if (!columns_fit_ && proxy_->rowCount() > 0) {
+        table_->resizeColumnsToContents();
+        columns_fit_ = true;
+    }
     showTableOrEmptyState();
     if (kept_id_ != 0 && currentId() != kept_id_) selectId(kept_id_);
 }
@@ -221,7 +225,8 @@ void TablePanel::showHeaderMenu(const QPoint& place) {
 
 void TablePanel::restoreColumns() {
     const QByteArray state = QSettings().value(settings_key_).toByteArray();
-    if (state.isEmpty() || !table_->horizontalHeader()->restoreState(state)) table_->resizeColumnsToContents();
+    columns_fit_ = !state.isEmpty() && table_->horizontalHeader()->restoreState(state);
+    if (!columns_fit_) table_->resizeColumnsToContents();
     // A memory of an older version may know fewer columns, or hide all.
     table_->horizontalHeader()->setStretchLastSection(true);
     if (shownColumns().isEmpty()) table_->showColumn(0);

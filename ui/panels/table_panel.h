@@ -69,8 +69,9 @@ class TablePanel : public QWidget {
     EmptyState* empty_;
     EmptyState* nothing_found_;
     QStackedLayout* stack_;
-    int kept_id_ = 0;      ///< selected by user or program; selected again when its row comes back
-    bool telling_ = true;  ///< false while the program selects
+    bool columns_fit_ = false;  ///< widths were remembered, or fitted to the first rows
+    int kept_id_ = 0;           ///< selected by user or program; selected again when its row comes back
+    bool telling_ = true;       ///< false while the program selects
 };
 
 }  // namespace eyrie::ui
