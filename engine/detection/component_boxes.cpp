@@ -20,10 +20,14 @@ cv::Rect pixelsTouching(const cv::Rect2d& edges) {
             std::max(1, cvRound(edges.y + edges.height) - top + 1)};
 }
 
-cv::Rect2d shrunk(const cv::Rect2d& box, double less) {
-    const double width = std::max(box.width - less, std::min(box.width, 1.0));
-    const double height = std::max(box.height - less, std::min(box.height, 1.0));
+cv::Rect2d shrunk(const cv::Rect2d& box, double less_length, double less_width) {
+    const double width = std::max(box.width - less_width, std::min(box.width, 1.0));
+    const double height = std::max(box.height - less_length, std::min(box.height, 1.0));
     return {box.x + (box.width - width) / 2, box.y + (box.height - height) / 2, width, height};
+}
+
+double patternReach(const GradientOptions& options) {
+    return options.method == GradientMethod::lbp ? std::max(options.lbp_radius_min, options.lbp_radius_max) : 0;
 }
 
 }  // namespace
@@ -66,9 +70,8 @@ ComponentBoxes::ComponentBoxes(const GradientOptions& options, const SceneScale&
       vehicle_width_(std::max(scale.px(options.vehicle_width_m), 4.0)),
       growth_along_(options.growth_along_m > 0 ? std::max(1.0, scale.px(options.growth_along_m)) : 0),
       growth_across_(options.growth_across_m > 0 ? std::max(1.0, scale.px(options.growth_across_m)) : 0),
-      widening_(options.method == GradientMethod::lbp
-                    ? options.widening_correction * std::max(options.lbp_radius_min, options.lbp_radius_max)
-                    : 0) {}
+      too_long_(options.length_correction * patternReach(options)),
+      too_wide_(options.width_correction * patternReach(options)) {}
 
 cv::Rect2d ComponentBoxes::boxOf(const Region& region, const cv::Mat& labels, const cv::Rect2d& core) const {
     if (!options_.handle_cut || !region.cut) return edgesOf(region.box);
@@ -124,7 +127,7 @@ std::vector<cv::Rect2d> ComponentBoxes::select(const std::vector<Region>& region
     if (options_.join_components) join(boxes);
     std::vector<cv::Rect2d> selected;
     for (const cv::Rect2d& box : boxes) {
-        const cv::Rect2d final_box = shrunk(limited(box, vectors), widening_);
+        const cv::Rect2d final_box = shrunk(limited(box, vectors), too_long_, too_wide_);
         if (final_box.area() >= options_.min_box_area_px) selected.push_back(final_box);
     }
     return selected;

@@ -19,7 +19,7 @@ cv::Rect2d grown(const cv::Rect2d& box, double along, double across);
 std::vector<cv::Point2f> pointsWithin(const cv::Rect2d& box, const std::vector<cv::Point2f>& points, double margin);
 
 /// Applies what GradientOptions says about components, in this order: cut ones, support, joining, limits of growth,
-/// widening. Lengths are turned into pixels once.
+/// correction of size. Lengths are turned into pixels once.
 class ComponentBoxes {
  public:
     ComponentBoxes(const GradientOptions& options, const SceneScale& scale);
@@ -43,7 +43,8 @@ class ComponentBoxes {
     double vehicle_width_;
     double growth_along_;
     double growth_across_;
-    double widening_;  ///< px that a box is too long and too wide
+    double too_long_;  ///< px
+    double too_wide_;  ///< px
 };
 
 }  // namespace eyrie

@@ -30,7 +30,8 @@ GradientOptions GradientOptions::thesis(GradientMethod method) {
     options.join_components = false;
     options.growth_along_m = 0;
     options.growth_across_m = 0;
-    options.widening_correction = 0;
+    options.length_correction = 0;
+    options.width_correction = 0;
     options.fall_back = false;
     return options;
 }
@@ -84,11 +85,11 @@ void GradientOptions::describe(ParameterVisitor& visitor) {
                  {"m", "A box ends at most this far ahead of and behind its motion vectors; 0: no limit.", ""});
     visitor.real("gradient.growth_across", growth_across_m, 0, 100,
                  {"m", "A box ends at most this far beside its motion vectors; 0: no limit.", ""});
-    visitor.real("gradient.widening_correction", widening_correction, 0, 4,
-                 {"",
-                  "Boxes shrink by this many largest LBP radii in length and width, since patterns answer beside the "
-                  "edge too.",
-                  ""});
+    visitor.real(
+        "gradient.length_correction", length_correction, 0, 4,
+        {"", "Boxes get shorter by this many largest LBP radii, since patterns answer beside an edge too.", ""});
+    visitor.real("gradient.width_correction", width_correction, 0, 4,
+                 {"", "Boxes get narrower by this many largest LBP radii.", ""});
     visitor.flag(
         "gradient.fall_back", fall_back,
         {"", "Deliver the box of the motion cluster where the segmentation does not explain its vectors.", ""});

@@ -9,7 +9,7 @@ namespace eyrie {
 /// Parameters of independent motion detection (Teutsch §4.2).
 struct IndependentMotionOptions {
     int min_age = 5;             ///< frames a corner must have been tracked
-    int baseline = 8;            ///< frames over which the velocity is measured, as far as the corner is that old
+    int baseline = 12;           ///< frames over which the velocity is measured, as far as the corner is that old
     double min_speed_m_s = 1.0;  ///< lowest speed of a moving object
     double min_speed_px = 0.05;  ///< px/frame, lowest threshold whatever the scale
     double sigma_factor = 4;     ///< threshold in deviations of the background's residual speed; 0: not used

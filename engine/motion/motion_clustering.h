@@ -13,7 +13,7 @@ namespace eyrie {
 /// Parameters of motion clustering (Teutsch §4.2).
 struct MotionClusteringOptions {
     double along_m = 3.5;                   ///< linkage distance along the motion
-    double across_m = 1.4;                  ///< linkage distance across the motion
+    double across_m = 1.0;                  ///< linkage distance across the motion
     double min_distance_px = 4;             ///< lowest linkage distance: corners are at least 2 px apart at any scale
     double velocity_share = 0.05;           ///< velocities may differ by this share of the speed …
     double velocity_floor_px = 0.03;        ///< … or by this, px/frame …

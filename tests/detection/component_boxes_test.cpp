@@ -94,7 +94,8 @@ TEST(ComponentBoxes, ShrinkByTheWideningOfTheirPatterns) {
     scene.binary(cv::Rect(20, 20, 16, 40)).setTo(255);
     scene.binary(cv::Rect(50, 100, 2, 2)).setTo(255);
     GradientOptions options = bare();
-    options.widening_correction = 1;
+    options.length_correction = 1;
+    options.width_correction = 1;
     options.lbp_radius_max = 3;
     const auto boxes = scene.select(options);
     ASSERT_EQ(boxes.size(), 2U);
