@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+#include "scene/scene_description.h"
+
+/// The built-in scenes, one function each; see scene_preset.h.
+namespace eyrie {
+
+SceneDescription presetSeq1(std::uint32_t seed);
+SceneDescription presetSeq2(std::uint32_t seed);
+SceneDescription presetEgTest01(std::uint32_t seed);
+SceneDescription presetDemo(std::uint32_t seed);
+
+}  // namespace eyrie

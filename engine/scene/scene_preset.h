@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/scene_description.h"
+
+namespace eyrie {
+
+/// Names of the built-in scenes: seq1, seq2, egtest01 (after Teutsch table 7.1) and demo.
+const std::vector<std::string>& scenePresetNames();
+
+/// A built-in scene. `seed` 0 stands for the preset's own. Throws Error(parameter) for an unknown name, listing the
+/// known ones.
+SceneDescription scenePreset(const std::string& name, std::uint32_t seed = 0);
+
+}  // namespace eyrie
