@@ -1,4 +1,5 @@
 #include <QClipboard>
+#include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
 #include <cmath>
@@ -133,6 +134,54 @@ class StageTimesTest : public QObject {
         QTest::mousePress(plot, Qt::LeftButton, Qt::NoModifier, QPoint(200, 100));
         QTest::mouseRelease(plot, Qt::LeftButton, Qt::NoModifier, QPoint(300, 100));
         QCOMPARE(activated.count(), 1);
+    }
+
+    void longRunsAreDrawnInBins() {
+        StageTimesData data;
+        QVERIFY(data.bins(0, 10, 5).empty());
+        for (int frame = 0; frame < 1000; ++frame) {
+            data.append(frameWith(frame, {{Stage::read, 1}, {Stage::store, frame == 500 ? 50.F : 2.F}}));
+        }
+        const auto all = data.bins(0, 999, 100);
+        QVERIFY(all.size() <= 101);
+        QCOMPARE(all[0].frame, 4.5);
+        QCOMPARE(all[0].tops.front(), 1.0);
+        QVERIFY(std::abs(all[0].tops.back() - 3) < 1e-9);
+        QVERIFY(std::abs(all[50].tops.back() - 7.8) < 1e-9);  // nine times 3 and once 51, of ten
+        QCOMPARE(all[50].peak, 51.0);
+        const auto few = data.bins(100, 109, 100);
+        QCOMPARE(few.size(), std::size_t{12});
+        QCOMPARE(few[0].frame, 99.0);
+        QCOMPARE(few.back().frame, 110.0);
+        QCOMPARE(data.bins(0, 999, 0).size(), std::size_t{1});
+        QVERIFY(data.bins(5000, 6000, 100).size() <= 2);
+        QVERIFY(data.bins(-50, -20, 100).size() <= 2);
+    }
+
+    void draggingStaysWhereItWasLeft() {
+        StageTimesChart chart;
+        chart.resize(600, 300);
+        chart.setFrames(wholeRun(200));
+        chart.show();
+        QVERIFY(QTest::qWaitForWindowExposed(&chart));
+        auto* plot = chart.findChild<QWidget*>(QStringLiteral("plot"));
+        QTest::qWait(150);
+        QSignalSpy activated(&chart, &StageTimesChart::frameActivated);
+        const QPoint place(plot->width() / 2, plot->height() / 2);
+        QTest::mouseClick(plot, Qt::LeftButton, Qt::NoModifier, place);
+        QTest::mousePress(plot, Qt::LeftButton, Qt::NoModifier, place);
+        // QTest::mouseMove() tells of no pressed buttons.
+        for (const int way : {20, 60}) {
+            const QPointF to = place + QPoint(way, 0);
+            QMouseEvent move(QEvent::MouseMove, to, plot->mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
+                             Qt::NoModifier);
+            QApplication::sendEvent(plot, &move);
+        }
+        QTest::mouseRelease(plot, Qt::LeftButton, Qt::NoModifier, place + QPoint(60, 0));
+        QTest::qWait(150);
+        QCOMPARE(activated.count(), 1);
+        QTest::mouseClick(plot, Qt::LeftButton, Qt::NoModifier, place);
+        QVERIFY(activated[1][0].toInt() < activated[0][0].toInt());
     }
 
     void copiesAsText() {

@@ -49,7 +49,7 @@ class StageTimesChart : public QWidget {
  private:
     void makePlot();
     void connectPlot();
-    void addToGraphs(std::size_t position);
+    void fillGraphs();
     void refreshLater();
     void refresh();
     void listUsedStages();
@@ -65,6 +65,7 @@ class StageTimesChart : public QWidget {
     QLabel* readout_;
     QCustomPlot* plot_;
     std::array<QCPGraph*, kStageCount> graphs_{};
+    QCPGraph* peaks_ = nullptr;  ///< the slowest frame where several are drawn as one
     QCPItemStraightLine* marker_ = nullptr;
     QCPItemStraightLine* budget_ = nullptr;
     FrameIndex current_frame_ = 0;

@@ -74,6 +74,30 @@ std::optional<std::size_t> StageTimesData::positionOf(FrameIndex frame) const {
     return static_cast<std::size_t>(after - frames_.begin()) - 1;
 }
 
+std::vector<StageTimesData::Bin> StageTimesData::bins(FrameIndex first, FrameIndex last, std::size_t most) const {
+    if (frames_.empty()) return {};
+    const std::size_t from = positionOf(first - 1).value_or(0);
+    const std::size_t to = std::min(positionOf(last).value_or(0) + 2, frames_.size());
+    const std::size_t count = to - std::min(from, to);
+    const std::size_t per_bin = (count + std::max<std::size_t>(most, 1) - 1) / std::max<std::size_t>(most, 1);
+    std::vector<Bin> bins;
+    // Bins begin at multiples of their size, so that they stay as they are while a run grows.
+    for (std::size_t at = from; at < to;) {
+        const std::size_t end = std::min(to, (at / per_bin + 1) * per_bin);
+        const auto members = static_cast<double>(end - at);
+        Bin bin;
+        bin.frame = 0.5 * (frames_[at].frame + frames_[end - 1].frame);
+        for (; at < end; ++at) {
+            for (std::size_t stage = 0; stage < bin.tops.size(); ++stage) {
+                bin.tops[stage] += frames_[at].tops[stage] / members;
+            }
+            bin.peak = std::max(bin.peak, frames_[at].tops.back());
+        }
+        bins.push_back(bin);
+    }
+    return bins;
+}
+
 QString StageTimesData::describe(std::size_t position) const {
     std::vector<Stage> stages;
     for (int i = 0; i < kStageCount; ++i) {

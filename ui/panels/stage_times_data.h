@@ -21,6 +21,16 @@ class StageTimesData {
 
     std::size_t size() const { return frames_.size(); }
     FrameIndex frameAt(std::size_t position) const { return frames_[position].frame; }
+    /// Some frames drawn as one, so that long runs draw quickly.
+    struct Bin {
+        double frame = 0;  ///< the middle of its frames
+        Tops tops{};       ///< means over its frames
+        double peak = 0;   ///< total of the slowest of its frames
+    };
+    /// The frames in [first, last] and one to either side, in at most `most` bins (at least one); a bin per frame when
+    /// they fit.
+    std::vector<Bin> bins(FrameIndex first, FrameIndex last, std::size_t most) const;
+
     /// Upper edge of each stage's band, ms: its own time and that of all stages before it.
     const Tops& topsAt(std::size_t position) const { return frames_[position].tops; }
     double totalAt(std::size_t position) const { return frames_[position].tops.back(); }
