@@ -8,6 +8,7 @@
 
 #include "registration/corner_grid.h"
 #include "registration/corner_strength.h"
+#include "registration/neighbourhood_mask.h"
 #include "registration/padding_mask.h"
 
 namespace eyrie {
@@ -37,12 +38,30 @@ std::vector<StrengthPeak> allPeaks(const PaddedPicture& picture, const StrengthL
 /// A peak that may become a corner.
 struct Candidate {
     StrengthPeak peak;
-    int block = 0;        ///< of the grid that shares out the cap
+    int block = 0;        ///< see BlockGrid
     bool wanted = false;  ///< near a moving corner
+
+    cv::Point2f position() const { return {static_cast<float>(peak.x), static_cast<float>(peak.y)}; }
+};
+
+/// Large squares between which the cap on the number of corners is shared.
+class BlockGrid {
+ public:
+    BlockGrid(cv::Size image, double spacing_px)
+        : side_(std::max(32, static_cast<int>(6 * spacing_px))),
+          across_(image.width / side_ + 1),
+          down_(image.height / side_ + 1) {}
+    int count() const { return across_ * down_; }
+    int blockOf(cv::Point2f p) const { return static_cast<int>(p.y) / side_ * across_ + static_cast<int>(p.x) / side_; }
+
+ private:
+    int side_;
+    int across_;
+    int down_;
 };
 
 /// Keeps at most `ordinary` unwanted and `all` candidates: the strongest of each block, blocks filled up evenly.
-void shareOut(std::vector<Candidate>& candidates, std::vector<int> living_in_block, int ordinary, int all) {
+void shareOut(std::vector<Candidate>& candidates, const std::vector<int>& living_in_block, int ordinary, int all) {
     std::vector<std::vector<int>> by_block(living_in_block.size());
     int wanted = 0;
     for (int i = 0; i < static_cast<int>(candidates.size()); ++i) {
@@ -92,6 +111,56 @@ void shareOut(std::vector<Candidate>& candidates, std::vector<int> living_in_blo
     candidates.resize(kept);
 }
 
+/// Peaks that are far enough from living corners and from stronger peaks, in a fixed order; `everywhere` false: near
+/// moving corners only.
+std::vector<Candidate> findCandidates(const PaddedPicture& picture, const CornerSurroundings& surroundings,
+                                      const StrengthLimits& limits, const CornerGrid& movers, double spacing_px,
+                                      bool everywhere) {
+    const cv::Size size(picture.width(), picture.height());
+    const double apart = 0.8 * spacing_px;
+    const std::vector<StrengthPeak> peaks = allPeaks(picture, limits);
+    const PaddingMask padding(picture);
+    NeighbourhoodMask occupied(size, apart);
+    for (const cv::Point2f& corner : surroundings.living) occupied.add(corner);
+
+    // The strongest peak of each cell that is not too near a living corner …
+    const CornerGrid cells(size, static_cast<float>(spacing_px), {});
+    std::vector<int> best(std::size_t(cells.cells()), -1);
+    std::vector<int> filled;
+    for (int i = 0; i < static_cast<int>(peaks.size()); ++i) {
+        const StrengthPeak& peak = peaks[std::size_t(i)];
+        const cv::Point2f at(static_cast<float>(peak.x), static_cast<float>(peak.y));
+        if (occupied.contains(at) || padding.contains(peak.x, peak.y)) continue;
+        if (!everywhere && !movers.anyInOrAround(at)) continue;
+        const int cell = cells.cellOf(at);
+        int& winner = best[std::size_t(cell)];
+        if (winner < 0) filled.push_back(cell);
+        if (winner < 0 || peak.strength > peaks[std::size_t(winner)].strength) winner = i;
+    }
+    // … unless a stronger one stands just across the cell's border.
+    std::vector<Candidate> candidates;
+    for (const int cell : filled) {
+        const int winner = best[std::size_t(cell)];
+        const StrengthPeak& peak = peaks[std::size_t(winner)];
+        bool suppressed = false;
+        cells.forNeighbours(cell, [&](int neighbour) {
+            const int other = best[std::size_t(neighbour)];
+            if (other < 0 || other == winner) return;
+            const StrengthPeak& rival = peaks[std::size_t(other)];
+            const int dx = rival.x - peak.x;
+            const int dy = rival.y - peak.y;
+            const bool stronger = rival.strength > peak.strength || (rival.strength == peak.strength && other < winner);
+            if (stronger && dx * dx + dy * dy < apart * apart) suppressed = true;
+        });
+        if (suppressed) continue;
+        Candidate candidate;
+        candidate.peak = peak;
+        candidate.wanted = movers.anyInOrAround(candidate.position());
+        candidates.push_back(candidate);
+    }
+    return candidates;
+}
+
 }  // namespace
 
 void CornerOptions::describe(ParameterVisitor& visitor) {
@@ -131,55 +200,18 @@ std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
     const int room = options_.max_corners - static_cast<int>(surroundings.living.size());
     if (room <= 0 || size.width <= 2 * limits.margin || size.height <= 2 * limits.margin) return corners;
 
-    const std::vector<StrengthPeak> peaks = allPeaks(picture, limits);
-    const PaddingMask padding(picture);
-    const CornerGrid living(size, static_cast<float>(spacing_px_), surroundings.living);
-    const auto apart = static_cast<float>(0.8 * spacing_px_);
-
-    // The strongest peak of each cell that is not too near a living corner …
-    std::vector<int> best(std::size_t(living.cells()), -1);
-    for (int i = 0; i < static_cast<int>(peaks.size()); ++i) {
-        const StrengthPeak& peak = peaks[std::size_t(i)];
-        const cv::Point2f at(static_cast<float>(peak.x), static_cast<float>(peak.y));
-        int& winner = best[std::size_t(living.cellOf(at))];
-        if (winner >= 0 && peaks[std::size_t(winner)].strength >= peak.strength) continue;
-        if (padding.contains(peak.x, peak.y) || living.anyWithin(at, apart)) continue;
-        winner = i;
-    }
-    // … unless a stronger one stands just across the cell's border.
-    const int block_px = std::max(32, static_cast<int>(6 * spacing_px_));
-    const int blocks_across = size.width / block_px + 1;
-    const auto blockOf = [&](cv::Point2f p) {
-        return static_cast<int>(p.y) / block_px * blocks_across + static_cast<int>(p.x) / block_px;
-    };
+    const int ordinary =
+        static_cast<int>(kOrdinaryShare * options_.max_corners) - static_cast<int>(surroundings.living.size());
+    if (ordinary <= 0 && surroundings.movers.empty()) return corners;
     const CornerGrid movers(size, static_cast<float>(std::max(6.0, 2.5 * spacing_px_)), surroundings.movers);
-    std::vector<Candidate> candidates;
-    for (int cell = 0; cell < living.cells(); ++cell) {
-        const int winner = best[std::size_t(cell)];
-        if (winner < 0) continue;
-        const StrengthPeak& peak = peaks[std::size_t(winner)];
-        bool suppressed = false;
-        living.forNeighbours(cell, [&](int neighbour) {
-            const int other = best[std::size_t(neighbour)];
-            if (other < 0 || other == winner) return;
-            const StrengthPeak& rival = peaks[std::size_t(other)];
-            const auto dx = static_cast<float>(rival.x - peak.x);
-            const auto dy = static_cast<float>(rival.y - peak.y);
-            const bool stronger = rival.strength > peak.strength || (rival.strength == peak.strength && other < winner);
-            if (stronger && dx * dx + dy * dy < apart * apart) suppressed = true;
-        });
-        if (suppressed) continue;
-        const cv::Point2f at(static_cast<float>(peak.x), static_cast<float>(peak.y));
-        candidates.push_back({peak, blockOf(at), movers.anyInOrAround(at)});
-    }
-
-    if (static_cast<int>(candidates.size()) > std::min(room, static_cast<int>(kOrdinaryShare * options_.max_corners) -
-                                                                 static_cast<int>(surroundings.living.size()))) {
-        std::vector<int> living_in_block(std::size_t(blocks_across) * std::size_t(size.height / block_px + 1), 0);
-        for (const cv::Point2f& corner : surroundings.living) ++living_in_block[std::size_t(blockOf(corner))];
-        const int ordinary =
-            static_cast<int>(kOrdinaryShare * options_.max_corners) - static_cast<int>(surroundings.living.size());
-        shareOut(candidates, std::move(living_in_block), ordinary, room);
+    std::vector<Candidate> candidates =
+        findCandidates(picture, surroundings, limits, movers, spacing_px_, ordinary > 0);
+    if (static_cast<int>(candidates.size()) > std::min(room, ordinary)) {
+        const BlockGrid blocks(size, spacing_px_);
+        std::vector<int> living_in_block(std::size_t(blocks.count()), 0);
+        for (const cv::Point2f& corner : surroundings.living) ++living_in_block[std::size_t(blocks.blockOf(corner))];
+        for (Candidate& candidate : candidates) candidate.block = blocks.blockOf(candidate.position());
+        shareOut(candidates, living_in_block, ordinary, room);
     }
     corners.reserve(candidates.size());
     for (const Candidate& candidate : candidates) {

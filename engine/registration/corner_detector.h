@@ -37,8 +37,8 @@ class CornerDetector {
  public:
     CornerDetector(const CornerOptions& options, const SceneScale& scale);
 
-    /// New corners in raster order of the grid's cells. Together with the living ones there are at most `max_corners`.
-    /// Places nothing in constant padding at the border of the picture.
+    /// New corners, in an order that does not depend on threads. Together with the living ones there are at most
+    /// `max_corners`. Places nothing in constant padding at the border of the picture.
     std::vector<cv::Point2f> detect(const PaddedPicture& picture, const CornerSurroundings& surroundings) const;
 
     /// Distance between corners, px.

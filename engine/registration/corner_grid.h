@@ -46,18 +46,6 @@ class CornerGrid {
         for (int i = head_[std::size_t(cell)]; i >= 0; i = next_[std::size_t(i)]) visit(i);
     }
 
-    /// Whether a point is nearer than `distance`, which may not exceed the cell's side.
-    bool anyWithin(cv::Point2f p, float distance) const {
-        bool any = false;
-        forNeighbours(cellOf(p), [&](int cell) {
-            forPointsIn(cell, [&](int i) {
-                const cv::Point2f d = points_[std::size_t(i)] - p;
-                any = any || d.x * d.x + d.y * d.y < distance * distance;
-            });
-        });
-        return any;
-    }
-
     /// Whether the point's cell or a neighbour of it holds a point.
     bool anyInOrAround(cv::Point2f p) const {
         bool any = false;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <cstdint>
 #include <opencv2/core/types.hpp>
 #include <vector>
@@ -38,6 +40,13 @@ class CornerSet {
     }
     std::int16_t* patch(const TrackedCorner& corner) {
         return patches_.data() + std::ptrdiff_t(corner.slot) * patchSamples(window_);
+    }
+
+    /// Asks the memory for a patch that will soon be needed.
+    void prefetchPatch(const TrackedCorner& corner) const {
+        const auto* bytes = reinterpret_cast<const char*>(patch(corner));
+        const int count = patchSamples(window_) * static_cast<int>(sizeof(std::int16_t));
+        for (int offset = 0; offset < count; offset += 64) hwy::Prefetch(bytes + offset);
     }
 
     /// Room for one more patch.

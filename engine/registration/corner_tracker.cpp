@@ -9,6 +9,7 @@
 
 #include "registration/corner_grid.h"
 #include "registration/local_map.h"
+#include "registration/neighbourhood_mask.h"
 
 namespace eyrie {
 namespace {
@@ -56,14 +57,14 @@ class Follower {
         const auto acceptable =
             static_cast<float>(std::max(kNoiseResidual * noise * noise, max_residual * double(fine_.contrast())));
         // Good enough to look no further.
-        const auto good = static_cast<float>(std::max(3 * noise * noise, 0.3 * double(acceptable)));
+        const auto good = static_cast<float>(std::max(3 * noise * noise, 0.4 * double(acceptable)));
 
         Alignment best;
         best.residual = std::numeric_limits<float>::max();
         AlignmentLimits limits;
         limits.max_shift_px = float(set_.window()) * 0.5F + 1.5F;
         const auto attempt = [&](cv::Point2f start) {
-            const Alignment found = align(fine_, to_.level(0), start, limits);
+            const Alignment found = align(fine_, to_.smooth(), start, limits);
             if (found.found && found.residual < best.residual &&
                 squareOf(found.position - map.point) <= max_step_px * max_step_px) {
                 best = found;
@@ -212,6 +213,8 @@ std::vector<TrackedPosition> CornerTracker::track(const CornerSet& set, const Im
     tbb::parallel_for(tbb::blocked_range<int>(0, set.size(), kGrain), [&](const tbb::blocked_range<int>& range) {
         Follower follower(set, from, to, to_from, grid, velocities);
         for (int i = range.begin(); i < range.end(); ++i) {
+            // Patches lie scattered; fetch one while its predecessors are worked on.
+            if (i + 3 < range.end()) set.prefetchPatch(set.corners[std::size_t(i) + 3]);
             result[std::size_t(i)] = follower.follow(set.corners[std::size_t(i)], noise, options_.max_residual,
                                                      max_step_px_ * frames, frames);
         }
@@ -282,7 +285,8 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
             const cv::Point2f shift = now.position - map.point;
             const cv::Point2f velocity = shift * (1.0F / float(frames));
             if (corner.age > 0) {
-                const double allowed = options_.max_jerk_px + 0.5 * std::sqrt(double(squareOf(expected)));
+                const double allowed =
+                    std::max(options_.max_jerk_px, 4 * fit.sigma_px) + 0.5 * std::sqrt(double(squareOf(expected)));
                 if (squareOf(velocity - expected) > allowed * allowed) continue;
             }
             corner.velocity = corner.age == 0 ? velocity : expected + kFollow * (velocity - expected);
@@ -315,22 +319,15 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
     });
 
     // Where two run together the older one stays: ids ascend with age, so earlier corners claim their place first.
-    std::vector<cv::Point2f> places;
-    std::vector<int> owners;
+    NeighbourhoodMask claimed(cv::Size(to.width(), to.height()), merge_distance_px);
     for (int i = 0; i < set.size(); ++i) {
         if (lives[std::size_t(i)] == 0) continue;
-        places.push_back(set.corners[std::size_t(i)].position);
-        owners.push_back(i);
-    }
-    const auto near = static_cast<float>(merge_distance_px);
-    const CornerGrid grid(cv::Size(to.width(), to.height()), std::max(near, 4.0F), places);
-    for (std::size_t k = 0; k < places.size(); ++k) {
-        grid.forNeighbours(grid.cellOf(places[k]), [&](int cell) {
-            grid.forPointsIn(cell, [&](int other) {
-                if (other >= static_cast<int>(k) || lives[std::size_t(owners[std::size_t(other)])] == 0) return;
-                if (squareOf(places[std::size_t(other)] - places[k]) < near * near) lives[std::size_t(owners[k])] = 0;
-            });
-        });
+        const cv::Point2f place = set.corners[std::size_t(i)].position;
+        if (claimed.contains(place)) {
+            lives[std::size_t(i)] = 0;
+        } else {
+            claimed.add(place);
+        }
     }
 
     std::size_t kept = 0;

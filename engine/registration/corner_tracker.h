@@ -17,8 +17,8 @@ struct TrackingOptions {
     double window_m = 0.6;
     double max_residual = 0.3;
     double max_speed_mps = 60;
-    double max_jerk_px = 1.5;
-    int patch_life = 40;
+    double max_jerk_px = 0.5;
+    int patch_life = 100;
     double patch_deformation_px = 0.2;
 
     void describe(ParameterVisitor& visitor);

@@ -7,6 +7,7 @@ namespace eyrie {
 void ImagePyramid::build(const cv::Mat& gray) {
     pictures_.resize(kMaxLevels);
     pictures_[0].copyFrom(gray);
+    smoothe(pictures_[0], smooth_);
     levels_ = 1;
     while (levels_ < kMaxLevels) {
         const PaddedPicture& finer = pictures_[std::size_t(levels_) - 1];

@@ -7,7 +7,8 @@
 
 namespace eyrie {
 
-/// A picture and its halves, level 0 the full size, down to about `kSmallestSide` pixels.
+/// A picture and its halves, level 0 the full size, down to about `kSmallestSide` pixels; and the full size smoothed,
+/// in which corners are aligned: interpolation between unsmoothed pixels errs more than the corners' noise.
 class ImagePyramid {
  public:
     static constexpr int kSmallestSide = 24;
@@ -19,6 +20,8 @@ class ImagePyramid {
     bool empty() const { return levels_ == 0; }
     int levels() const { return levels_; }
     const PaddedPicture& level(int index) const { return pictures_[std::size_t(index)]; }
+    /// The full picture under the binomial mask [1 2 1] in both directions.
+    const PaddedPicture& smooth() const { return smooth_; }
     cv::Size size() const { return empty() ? cv::Size() : cv::Size(level(0).width(), level(0).height()); }
 
     /// A point of the full picture in the coordinates of a level, and back.
@@ -32,6 +35,7 @@ class ImagePyramid {
     }
 
  private:
+    PaddedPicture smooth_;
     int levels_ = 0;
     std::vector<PaddedPicture> pictures_;
 };

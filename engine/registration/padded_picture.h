@@ -38,4 +38,7 @@ class PaddedPicture {
 /// (2x + ½, 2y + ½) of the source.
 void halve(const PaddedPicture& source, PaddedPicture& half);
 
+/// The picture under the binomial mask [1 2 1; 2 4 2; 1 2 1] / 16; border pixels repeat outwards.
+void smoothe(const PaddedPicture& source, PaddedPicture& smooth);
+
 }  // namespace eyrie

@@ -220,7 +220,7 @@ PatchTemplate::PatchTemplate(int window)
         for (int column = 0; column < window; ++column) {
             const float x = (float(column) - half) / (half + 1);
             const float y = (float(row) - half) / (half + 1);
-            const float weight = std::exp(-0.8F * (x * x + y * y));
+            const float weight = std::exp(-1.5F * (x * x + y * y));
             weights_[row * kPitch + column] = weight;
             sum += weight;
             squares += weight * weight;

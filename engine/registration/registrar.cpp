@@ -242,7 +242,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
     }
     {
         const StageTimer timer(times, Stage::tracking_corners);
-        tracker_.advance(anchor.corners, match.positions, match.fit, current_.level(0), anchor.frames_ago + 1,
+        tracker_.advance(anchor.corners, match.positions, match.fit, current_.smooth(), anchor.frames_ago + 1,
                          std::max(1.0, 0.4 * detector_.spacing()));
     }
     if (anchor.frames_ago == 0 && repeated_ == 0) motion_ = match.fit.matrix;
@@ -311,7 +311,7 @@ void Registrar::replenish(Anchor& anchor, StageTimes& times) {
     }
     surroundings.noise = anchor.noise;
     surroundings.margin = tracker_.margin();
-    tracker_.add(anchor.corners, detector_.detect(anchor.pyramid.level(0), surroundings), anchor.pyramid.level(0),
+    tracker_.add(anchor.corners, detector_.detect(anchor.pyramid.level(0), surroundings), anchor.pyramid.smooth(),
                  next_id_);
 }
 
