@@ -109,6 +109,19 @@ TEST_F(RunStoreTest, SummariesAgreeWithTheFrames) {
     }
 }
 
+TEST_F(RunStoreTest, HomographiesAreReadFromAFrameOn) {
+    const int run = test::writeSampleProject(path_, 5);
+    ProjectFile project = ProjectFile::open(path_);
+    const auto homographies = RunStore(project).homographies(run, 3);
+    ASSERT_EQ(homographies.size(), 2U);
+    for (int i = 0; i < 2; ++i) {
+        const Homography& read = homographies[static_cast<std::size_t>(i)];
+        const FrameResult written = sampleFrame(3 + i);
+        EXPECT_EQ(read.to_frame, 3 + i);
+        EXPECT_EQ(read.matrix, written.motion.registration.current_from_previous.matrix);
+    }
+}
+
 /// A track of id 1 that moves 3 px right and 4 px down per frame in frames 4 … 6, confirmed in the last; and a
 /// tentative track 2 in frame 5.
 std::vector<FrameResult> twoTracks() {
