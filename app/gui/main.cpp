@@ -1,0 +1,97 @@
+#include <QApplication>
+#include <QCommandLineParser>
+#include <cmath>
+#include <cstdio>
+
+#include "main_window/main_window.h"
+#include "main_window/screenshot.h"
+#include "main_window/theme.h"
+
+namespace {
+
+using eyrie::ui::StartOptions;
+using eyrie::ui::ThemeChoice;
+
+[[noreturn]] void refuse(const QString& message) {
+    std::fprintf(stderr, "eyrie: %s\n", message.toLocal8Bit().constData());
+    std::exit(2);
+}
+
+/// A number above 0, or 0 when the option was not given.
+double positive(const QCommandLineParser& parser, const QCommandLineOption& option) {
+    if (!parser.isSet(option)) return 0;
+    bool understood = false;
+    const double value = parser.value(option).toDouble(&understood);
+    if (!understood || !std::isfinite(value) || value <= 0)
+        refuse(
+            QStringLiteral("--%1 %2: expected a number above 0").arg(option.names().constLast(), parser.value(option)));
+    return value;
+}
+
+StartOptions readOptions(const QCoreApplication& application) {
+    QCommandLineParser parser;
+    parser.setApplicationDescription(
+        QStringLiteral("Finds, outlines and follows the small moving vehicles in aerial video.\n"
+                       "With a video or folder of images: opens it and, unless it has a finished run, processes it.\n"
+                       "With a project: shows its runs. With neither: shows the built-in demo scene."));
+    parser.addHelpOption();
+    parser.addVersionOption();
+    parser.addPositionalArgument(QStringLiteral("input"),
+                                 QStringLiteral("Video, folder of images, or project (.eyrie)."),
+                                 QStringLiteral("[VIDEO|PROJECT]"));
+    const QCommandLineOption gsd(QStringLiteral("gsd"), QStringLiteral("Ground sampling distance, metres per pixel."),
+                                 QStringLiteral("m"));
+    const QCommandLineOption rate(QStringLiteral("fps"), QStringLiteral("Frames per second, for folders of images."),
+                                  QStringLiteral("f"));
+    const QCommandLineOption demo(QStringLiteral("demo"), QStringLiteral("Show the built-in demo scene."));
+    const QCommandLineOption run(QStringLiteral("run"), QStringLiteral("Start a run even if there is a finished one."));
+    const QCommandLineOption empty(QStringLiteral("empty"), QStringLiteral("Start without a video."));
+    const QCommandLineOption theme(QStringLiteral("theme"), QStringLiteral("system, light or dark."),
+                                   QStringLiteral("name"), QStringLiteral("system"));
+    const QCommandLineOption screenshot(QStringLiteral("screenshot"),
+                                        QStringLiteral("Write a picture of the window and quit."),
+                                        QStringLiteral("file"));
+    const QCommandLineOption after(QStringLiteral("after-frames"),
+                                   QStringLiteral("… once this many frames with results were shown (1)."),
+                                   QStringLiteral("n"), QStringLiteral("1"));
+    parser.addOptions({gsd, rate, demo, run, empty, theme, screenshot, after});
+    parser.process(application);
+
+    StartOptions options;
+    const QStringList inputs = parser.positionalArguments();
+    if (inputs.size() > 1) refuse(QStringLiteral("expected one video or project, got %1").arg(inputs.size()));
+    if (!inputs.isEmpty()) options.input = inputs.front().toStdString();
+    options.gsd_m_per_px = positive(parser, gsd);
+    options.frame_rate_hz = positive(parser, rate);
+    options.demo = parser.isSet(demo) || (inputs.isEmpty() && !parser.isSet(empty));
+    options.run = parser.isSet(run);
+    options.screenshot = parser.value(screenshot).toStdString();
+    options.after_frames = std::max(0, parser.value(after).toInt());
+    const QString theme_name = parser.value(theme);
+    if (theme_name == QLatin1String("dark"))
+        options.theme = ThemeChoice::dark;
+    else if (theme_name == QLatin1String("light"))
+        options.theme = ThemeChoice::light;
+    else if (theme_name != QLatin1String("system"))
+        refuse(QStringLiteral("--theme %1: expected system, light or dark").arg(theme_name));
+    return options;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    QApplication::setHighDpiScaleFactorRoundingPolicy(Qt::HighDpiScaleFactorRoundingPolicy::PassThrough);
+    QApplication application(argc, argv);
+    QApplication::setOrganizationName(QStringLiteral("eyrie"));
+    QApplication::setApplicationName(QStringLiteral("eyrie"));
+    QApplication::setApplicationVersion(QStringLiteral(EYRIE_VERSION));
+    QApplication::setDesktopFileName(QStringLiteral("eyrie"));
+    const StartOptions options = readOptions(application);
+    eyrie::ui::Theme theme(application);
+    theme.choose(options.theme);
+    eyrie::ui::MainWindow window;
+    window.show();
+    if (!options.screenshot.empty()) eyrie::ui::takeScreenshot(window, options.screenshot, options.after_frames);
+    window.start(options);
+    return QApplication::exec();
+}

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <QMainWindow>
+#include <QStringList>
+#include <memory>
+
+#include "main_window/start_options.h"
+#include "main_window/window_settings.h"
+#include "session/project_session.h"
+#include "view/overlay_settings.h"
+
+class QMenu;
+class QStackedWidget;
+
+namespace eyrie::ui {
+
+class MessageBar;
+class ParameterBinding;
+class ReviewDocks;
+class RunBar;
+class StatusFields;
+class TimelineBinding;
+class TimelineView;
+class TransportBar;
+class VideoView;
+class WelcomePanel;
+class WindowActions;
+
+/// The window: menus, docks, canvas and timeline, joined with the session. Decides nothing about videos and runs
+/// itself.
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+
+ public:
+    explicit MainWindow(QWidget* parent = nullptr);
+    ~MainWindow() override;
+
+    /// Does what the command line asked for: opens, and runs when there is no finished run.
+    void start(const StartOptions& options);
+
+    ProjectSession& session() { return session_; }
+    VideoView& canvas() { return *canvas_; }
+    TimelineView& timeline() { return *timeline_; }
+    MessageBar& messages() { return *messages_; }
+    WindowActions& actions() { return *actions_; }
+    OverlaySettings& overlays() { return overlays_; }
+
+ protected:
+    void closeEvent(QCloseEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+
+ private:
+    void buildCentre();
+    void buildMenus();
+    void buildToolBar();
+    QMenu* buildOverlayMenu();
+    QWidget* overlayButton(QMenu* menu);
+    void wireFileActions();
+    void wirePlaybackActions();
+    void wireViewActions();
+    void wireSession();
+    void openVideo();
+    void openFolder();
+    void openProject();
+    void saveCopy();
+    void openPath(const QString& path);
+    void showDemo();
+    void showProblem(const QString& message);
+    void showNotice(const QString& message);
+    void becameReady(bool has_results);
+    void runEnded(const RunSummary& summary);
+    void enableActions();
+    void updateTitle();
+    void showRecent();
+    void restoreView();
+    void rememberView();
+    void focusCanvas();
+
+    WindowSettings settings_;
+    OverlaySettings overlays_;
+    ProjectSession session_;
+    StartOptions start_;           ///< what is still to be done of it
+    bool run_when_ready_ = false;  ///< opened from the command line, by the demo or by dropping: run if there is no run
+    bool play_when_done_ = false;
+    std::filesystem::path shown_project_;  ///< whose view is to be remembered
+
+    WindowActions* actions_;
+    MessageBar* messages_;
+    QStackedWidget* stack_;
+    WelcomePanel* welcome_;
+    VideoView* canvas_;
+    TransportBar* transport_;
+    TimelineView* timeline_;
+    RunBar* run_bar_;
+    StatusFields* status_;
+    ReviewDocks* docks_;
+    ParameterBinding* parameters_;
+    TimelineBinding* timeline_binding_;
+    QMenu* recent_menu_;
+    QByteArray default_layout_;
+};
+
+}  // namespace eyrie::ui

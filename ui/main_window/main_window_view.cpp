@@ -1,0 +1,125 @@
+// The part of MainWindow that deals with how things are shown: zoom, overlays, sheets.
+#include <QApplication>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QMessageBox>
+#include <QPainter>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QWidgetAction>
+
+#include "chain/run_recorder.h"
+#include "main_window/key_sheet.h"
+#include "main_window/main_window.h"
+#include "main_window/status_fields.h"
+#include "main_window/window_actions.h"
+#include "view/timeline_view.h"
+#include "view/video_view.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr double kZoomStep = 1.25;
+
+/// A square in the colour of an overlay, so that the menu is also the legend.
+QIcon swatch(const QColor& colour) {
+    QPixmap pixmap(16, 16);
+    pixmap.fill(Qt::transparent);
+    QPainter painter(&pixmap);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QColor(0, 0, 0, 150));
+    painter.setBrush(colour);
+    painter.drawRoundedRect(QRectF(2.5, 2.5, 11, 11), 2, 2);
+    return {pixmap};
+}
+}  // namespace
+
+QMenu* MainWindow::buildOverlayMenu() {
+    auto* menu = new QMenu(this);
+    for (const ActionSection& section : actions_->sections())
+        if (section.actions.contains(actions_->labels)) menu->addActions(section.actions);
+    auto* row = new QWidget(menu);
+    auto* layout = new QHBoxLayout(row);
+    layout->setContentsMargins(28, 2, 8, 2);
+    auto* length = new QDoubleSpinBox(row);
+    length->setRange(1, 100);
+    length->setDecimals(1);
+    length->setSuffix(tr(" frames"));
+    length->setToolTip(tr("A motion vector is drawn as long as the corner moves in this many frames"));
+    length->setValue(overlays_.style().vector_length_factor);
+    layout->addWidget(new QLabel(tr("Vector length"), row));
+    layout->addWidget(length, 1);
+    connect(length, &QDoubleSpinBox::valueChanged, &overlays_, &OverlaySettings::setVectorLengthFactor);
+    auto* action = new QWidgetAction(menu);
+    action->setDefaultWidget(row);
+    menu->addSeparator();
+    menu->addAction(action);
+
+    const auto refresh = [this, length] {
+        const QSignalBlocker blocker(length);
+        length->setValue(overlays_.style().vector_length_factor);
+        const OverlayColours& colours = overlays_.style().colours;
+        const auto colour = [&](OverlayKind kind, const QColor& value) {
+            actions_->overlay[static_cast<size_t>(kind)]->setIcon(swatch(value));
+        };
+        colour(OverlayKind::corners, colours.stationary_corner);
+        colour(OverlayKind::vectors, colours.motion_vector);
+        colour(OverlayKind::clusters, colours.cluster);
+        colour(OverlayKind::rois, colours.roi);
+        colour(OverlayKind::detections, colours.detection);
+        colour(OverlayKind::tracks, colours.track);
+        colour(OverlayKind::ground_truth, colours.ground_truth);
+        timeline_->setPalette(overlays_.palette());
+    };
+    connect(&overlays_, &OverlaySettings::changed, this, refresh);
+    refresh();
+    return menu;
+}
+
+QWidget* MainWindow::overlayButton(QMenu* menu) {
+    auto* button = new QToolButton(this);
+    button->setText(tr("Overlays"));
+    button->setIcon(QIcon::fromTheme(QStringLiteral("layer-visible-on")));
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setPopupMode(QToolButton::InstantPopup);
+    button->setFocusPolicy(Qt::NoFocus);
+    button->setMenu(menu);
+    return button;
+}
+
+void MainWindow::wireViewActions() {
+    connect(actions_->fit, &QAction::triggered, canvas_, &VideoView::fit);
+    connect(actions_->one_to_one, &QAction::triggered, canvas_, &VideoView::showOneToOne);
+    connect(actions_->zoom_in, &QAction::triggered, canvas_, [this] { canvas_->zoomBy(kZoomStep); });
+    connect(actions_->zoom_out, &QAction::triggered, canvas_, [this] { canvas_->zoomBy(1 / kZoomStep); });
+    connect(actions_->full_screen, &QAction::triggered, this, [this](bool on) {
+        setWindowState(on ? windowState() | Qt::WindowFullScreen : windowState() & ~Qt::WindowFullScreen);
+    });
+    connect(actions_->deselect, &QAction::triggered, this, [this] {
+        // Escape goes one step back: out of a field, out of the selection, out of the full screen.
+        if (!canvas_->hasFocus())
+            focusCanvas();
+        else if (session_.selectedTrack())
+            session_.selectTrack(std::nullopt);
+        else if (isFullScreen())
+            actions_->full_screen->trigger();
+    });
+    connect(actions_->keys, &QAction::triggered, this, [this] {
+        auto* sheet = new KeySheet(*actions_, this);
+        sheet->setAttribute(Qt::WA_DeleteOnClose);
+        sheet->show();
+    });
+    connect(actions_->about, &QAction::triggered, this, [this] {
+        QMessageBox::about(this, tr("About Eyrie"),
+                           tr("<h3>Eyrie %1</h3><p>Finds, outlines and follows small moving vehicles in aerial video, "
+                              "after M. Teutsch, <i>Moving Object Detection and Segmentation for Remote Aerial Video "
+                              "Surveillance</i>.</p>")
+                               .arg(QString::fromStdString(engineVersion())));
+    });
+    connect(canvas_, &VideoView::cursorMoved, status_, &StatusFields::showCursor);
+    connect(canvas_, &VideoView::transformChanged, status_, [this] { status_->showZoom(canvas_->transform().zoom()); });
+}
+
+}  // namespace eyrie::ui

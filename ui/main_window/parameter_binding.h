@@ -1,0 +1,38 @@
+#pragma once
+
+#include <QObject>
+
+#include "session/preset_store.h"
+#include "session/project_session.h"
+
+namespace eyrie::ui {
+
+class ParameterForm;
+
+/// Joins the form of parameters with the settings of the next run and with the presets.
+class ParameterBinding : public QObject {
+    Q_OBJECT
+
+ public:
+    /// Both must outlive the binding.
+    ParameterBinding(ProjectSession& session, ParameterForm& form, QObject* parent);
+
+    /// Takes over the parameters of the current run, which were read with it.
+    void adoptRunParameters();
+
+ signals:
+    void problem(const QString& message);
+    void notice(const QString& message);
+
+ private:
+    void show();
+    void choosePreset(const QString& name);
+    void savePreset();
+
+    ProjectSession& session_;
+    ParameterForm& form_;
+    PresetStore presets_;
+    ChainOptions defaults_;  ///< the values of the preset chosen last
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,97 @@
+#include "main_window/review_docks.h"
+
+#include <QDockWidget>
+#include <QMainWindow>
+
+#include "main_window/inspector_panel.h"
+#include "panels/parameter_form.h"
+#include "panels/runs_panel.h"
+#include "panels/stage_times_chart.h"
+#include "panels/tracks_panel.h"
+
+namespace eyrie::ui {
+
+ReviewDocks::ReviewDocks(ProjectSession& session, QMainWindow& window)
+    : QObject(&window), session_(session), window_(window) {
+    runs_model_ = new RunsModel(this);
+    tracks_model_ = new TracksModel(this);
+    runs_ = new RunsPanel(runs_model_);
+    tracks_ = new TracksPanel(tracks_model_);
+    inspector_ = new InspectorPanel(session_);
+    form_ = new ParameterForm;
+    chart_ = new StageTimesChart;
+    QDockWidget* runs = dock(QStringLiteral("runs"), tr("Runs"), runs_, Qt::LeftDockWidgetArea);
+    QDockWidget* tracks = dock(QStringLiteral("tracks"), tr("Tracks"), tracks_, Qt::LeftDockWidgetArea);
+    QDockWidget* inspector = dock(QStringLiteral("inspector"), tr("Inspector"), inspector_, Qt::RightDockWidgetArea);
+    QDockWidget* parameters = dock(QStringLiteral("parameters"), tr("Parameters"), form_, Qt::RightDockWidgetArea);
+    QDockWidget* chart = dock(QStringLiteral("stage_times"), tr("Stage times"), chart_, Qt::RightDockWidgetArea);
+    window_.tabifyDockWidget(inspector, parameters);
+    inspector->raise();
+    window_.resizeDocks({runs, tracks}, {200, 420}, Qt::Vertical);
+    window_.resizeDocks({inspector, chart}, {420, 200}, Qt::Vertical);
+    window_.resizeDocks({runs, inspector}, {300, 310}, Qt::Horizontal);
+    wireRuns();
+    wireTracks();
+}
+
+QDockWidget* ReviewDocks::dock(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
+    auto* dock = new QDockWidget(title, &window_);
+    dock->setObjectName(name);
+    dock->setWidget(content);
+    window_.addDockWidget(area, dock);
+    docks_.append(dock);
+    return dock;
+}
+
+void ReviewDocks::wireRuns() {
+    connect(&session_, &ProjectSession::runsChanged, this, &ReviewDocks::showRuns);
+    connect(&session_, &ProjectSession::currentRunChanged, this, &ReviewDocks::showRuns);
+    connect(&session_, &ProjectSession::currentRunChanged, this, &ReviewDocks::showTracks);
+    connect(&session_, &ProjectSession::runStarted, this, &ReviewDocks::showRuns);
+    connect(&session_, &ProjectSession::runFinished, this, &ReviewDocks::showRuns);
+    connect(&session_, &ProjectSession::liveFrames, this, [this] {
+        if (session_.running() && !session_.runs().empty()) runs_model_->updateRun(session_.runs().back());
+    });
+    connect(runs_model_, &RunsModel::renameRequested, &session_, &ProjectSession::renameRun);
+    connect(runs_, &RunsPanel::runActivated, &session_, &ProjectSession::showRun);
+    connect(runs_, &RunsPanel::removeRequested, &session_, &ProjectSession::removeRun);
+    connect(runs_, &RunsPanel::runRequested, this, &ReviewDocks::runRequested);
+    connect(runs_, &RunsPanel::parametersRequested, this, [this](int run_id) {
+        if (session_.currentRun() == run_id && session_.runData()) {
+            emit parametersRequested();
+            return;
+        }
+        parameters_wanted_of_ = run_id;
+        session_.showRun(run_id);
+    });
+    connect(&session_, &ProjectSession::runDataChanged, this, [this] {
+        if (!parameters_wanted_of_ || session_.currentRun() != parameters_wanted_of_) return;
+        parameters_wanted_of_.reset();
+        emit parametersRequested();
+    });
+}
+
+void ReviewDocks::showRuns() {
+    runs_model_->setLiveRun(session_.running() && !session_.runs().empty() ? session_.runs().back().id : 0);
+    runs_model_->setRuns(session_.runs());
+    runs_->selectId(session_.currentRun().value_or(0));
+}
+
+void ReviewDocks::wireTracks() {
+    connect(&session_, &ProjectSession::runDataChanged, this, &ReviewDocks::showTracks);
+    connect(&session_, &ProjectSession::selectionChanged, this,
+            [this](std::optional<TrackId> track) { tracks_->selectId(track.value_or(0)); });
+    connect(tracks_, &TracksPanel::trackSelected, &session_, &ProjectSession::goToTrack);
+    connect(tracks_, &TracksPanel::trackActivated, this, [this](int track, int frame) {
+        session_.selectTrack(track);
+        session_.goToFrame(frame);
+    });
+}
+
+void ReviewDocks::showTracks() {
+    tracks_model_->setTracks(session_.runData() ? session_.runData()->tracks : std::vector<TrackSummary>(),
+                             session_.scale());
+    tracks_->selectId(session_.selectedTrack().value_or(0));
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <QList>
+#include <QObject>
+
+#include "models/runs_model.h"
+#include "models/tracks_model.h"
+#include "session/project_session.h"
+
+class QDockWidget;
+class QMainWindow;
+
+namespace eyrie::ui {
+
+class InspectorPanel;
+class ParameterForm;
+class RunsPanel;
+class StageTimesChart;
+class TracksPanel;
+
+/// The docks of the review workspace and how their lists follow the session.
+class ReviewDocks : public QObject {
+    Q_OBJECT
+
+ public:
+    /// Docks into `window`, which owns the widgets. The session must outlive them.
+    ReviewDocks(ProjectSession& session, QMainWindow& window);
+
+    const QList<QDockWidget*>& docks() const { return docks_; }
+    ParameterForm& parameterForm() { return *form_; }
+    StageTimesChart& stageTimes() { return *chart_; }
+
+ signals:
+    void runRequested();
+    void parametersRequested();
+
+ private:
+    QDockWidget* dock(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area);
+    void wireRuns();
+    void wireTracks();
+    void showRuns();
+    void showTracks();
+
+    ProjectSession& session_;
+    QMainWindow& window_;
+    RunsModel* runs_model_;
+    TracksModel* tracks_model_;
+    RunsPanel* runs_;
+    TracksPanel* tracks_;
+    InspectorPanel* inspector_;
+    ParameterForm* form_;
+    StageTimesChart* chart_;
+    QList<QDockWidget*> docks_;
+    std::optional<int> parameters_wanted_of_;  ///< run whose parameters are taken over once they are read
+};
+
+}  // namespace eyrie::ui

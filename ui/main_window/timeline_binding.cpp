@@ -1,0 +1,94 @@
+#include "main_window/timeline_binding.h"
+
+#include <algorithm>
+
+#include "panels/stage_times_chart.h"
+#include "view/timeline_view.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+TimelineFrame timelineFrame(const FrameSummary& frame) {
+    return {.done = true,
+            .state = frame.state,
+            .rms_px = frame.rms_px,
+            .inliers = frame.inliers,
+            .corners = frame.corners,
+            .motion_vectors = frame.motion_vectors,
+            .tracks = frame.tracks};
+}
+
+}  // namespace
+
+TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline, StageTimesChart& chart,
+                                 QObject* parent)
+    : QObject(parent), session_(session), timeline_(timeline), chart_(chart) {
+    connect(&session_, &ProjectSession::videoChanged, this, &TimelineBinding::showVideo);
+    connect(&session_, &ProjectSession::currentRunChanged, this, &TimelineBinding::forgetRun);
+    connect(&session_, &ProjectSession::runDataChanged, this, &TimelineBinding::showRun);
+    connect(&session_, &ProjectSession::liveFrames, this, &TimelineBinding::addLive);
+    connect(&session_, &ProjectSession::selectionChanged, this, &TimelineBinding::showTrackLife);
+    connect(&session_, &ProjectSession::frameChanged, this, [this](FrameIndex frame) {
+        timeline_.setCurrentFrame(frame);
+        chart_.setCurrentFrame(frame);
+    });
+    connect(&session_, &ProjectSession::runStarted, this, [this](const RunRecord& run) {
+        live_ = true;
+        timeline_.setRunRange(std::pair(run.first_frame, run.last_frame));
+    });
+    connect(&session_, &ProjectSession::runFinished, this, [this] {
+        live_ = false;
+        timeline_.setRunRange(std::nullopt);
+    });
+    connect(&timeline_, &TimelineView::frameRequested, &session_,
+            [this](FrameIndex frame, bool) { session_.goToFrame(frame); });
+    connect(&chart_, &StageTimesChart::frameActivated, &session_, &ProjectSession::goToFrame);
+}
+
+void TimelineBinding::showVideo() {
+    timeline_.setTimes(session_.timesUs());
+    chart_.clear();
+    if (session_.video()) chart_.setBudgetMs(1000 / std::max(0.001, session_.video()->frame_rate_hz));
+}
+
+void TimelineBinding::forgetRun() {
+    live_ = false;
+    timeline_.setFrames({});
+    timeline_.setTrackLife(std::nullopt);
+    chart_.clear();
+}
+
+void TimelineBinding::showRun() {
+    showTrackLife();
+    if (live_ || !session_.runData()) return;  // what came live is newer than what was read
+    std::vector<TimelineFrame> frames;
+    for (const FrameSummary& frame : session_.runData()->frames) {
+        if (frame.frame < 0) continue;
+        if (frames.size() <= static_cast<size_t>(frame.frame)) frames.resize(static_cast<size_t>(frame.frame) + 1);
+        frames[static_cast<size_t>(frame.frame)] = timelineFrame(frame);
+    }
+    timeline_.setFrames(std::move(frames));
+    chart_.setFrames(session_.runData()->frames);
+}
+
+void TimelineBinding::addLive(const std::vector<FrameSummary>& frames) {
+    if (!live_) return;
+    for (const FrameSummary& frame : frames) {
+        timeline_.setFrameDone(frame.frame, timelineFrame(frame));
+        chart_.append(frame);
+    }
+}
+
+void TimelineBinding::showTrackLife() {
+    const auto track = session_.selectedTrack();
+    if (track && session_.runData())
+        for (const TrackSummary& summary : session_.runData()->tracks)
+            if (summary.id == *track) {
+                timeline_.setTrackLife(std::pair(summary.first_frame, summary.last_frame), tr("Track %1").arg(*track));
+                return;
+            }
+    timeline_.setTrackLife(std::nullopt);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <QObject>
+#include <vector>
+
+#include "session/project_session.h"
+
+namespace eyrie::ui {
+
+class StageTimesChart;
+class TimelineView;
+
+/// Feeds the timeline and the chart of stage times from the session: the stored run, or frame by frame the running one.
+class TimelineBinding : public QObject {
+    Q_OBJECT
+
+ public:
+    /// All must outlive the binding.
+    TimelineBinding(ProjectSession& session, TimelineView& timeline, StageTimesChart& chart, QObject* parent);
+
+ private:
+    void showVideo();
+    void forgetRun();
+    void showRun();
+    void addLive(const std::vector<FrameSummary>& frames);
+    void showTrackLife();
+
+    ProjectSession& session_;
+    TimelineView& timeline_;
+    StageTimesChart& chart_;
+    bool live_ = false;  ///< what is shown came from the running run
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,86 @@
+#include "main_window/welcome_panel.h"
+
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "main_window/window_actions.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr int kMostRecent = 6;
+constexpr int kWidth = 560;
+
+QPushButton* buttonOf(QAction* action, QWidget* parent) {
+    auto* button = new QPushButton(action->icon(), action->text().remove(QLatin1Char('&')), parent);
+    button->setToolTip(action->toolTip());
+    button->setMinimumHeight(34);
+    QObject::connect(button, &QPushButton::clicked, action, &QAction::trigger);
+    return button;
+}
+}  // namespace
+
+WelcomePanel::WelcomePanel(const WindowActions& actions, QWidget* parent) : QWidget(parent) {
+    auto* title = new QLabel(tr("Drop a video here"), this);
+    QFont font = title->font();
+    font.setPointSizeF(font.pointSizeF() * 2);
+    title->setFont(font);
+    title->setAlignment(Qt::AlignCenter);
+    auto* text =
+        new QLabel(tr("or a folder of images, or a project. Eyrie finds, outlines and follows the small moving "
+                      "vehicles in it, and keeps what it found in a project."),
+                   this);
+    text->setWordWrap(true);
+    text->setAlignment(Qt::AlignCenter);
+    auto* buttons = new QHBoxLayout;
+    buttons->addWidget(buttonOf(actions.open_video, this));
+    buttons->addWidget(buttonOf(actions.open_folder, this));
+    buttons->addWidget(buttonOf(actions.demo, this));
+
+    recent_box_ = new QWidget(this);
+    recent_layout_ = new QVBoxLayout(recent_box_);
+    recent_layout_->setContentsMargins(0, 18, 0, 0);
+    recent_layout_->setSpacing(2);
+
+    auto* column = new QWidget(this);
+    column->setFixedWidth(kWidth);
+    auto* rows = new QVBoxLayout(column);
+    rows->setSpacing(12);
+    rows->addWidget(title);
+    rows->addWidget(text);
+    rows->addLayout(buttons);
+    rows->addWidget(recent_box_);
+    auto* layout = new QVBoxLayout(this);
+    layout->addStretch(2);
+    layout->addWidget(column, 0, Qt::AlignHCenter);
+    layout->addStretch(3);
+    setRecent({});
+}
+
+void WelcomePanel::setRecent(const QStringList& paths) {
+    while (QLayoutItem* item = recent_layout_->takeAt(0)) {
+        delete item->widget();
+        delete item;
+    }
+    recent_box_->setVisible(!paths.isEmpty());
+    if (paths.isEmpty()) return;
+    auto* heading = new QLabel(tr("Opened lately"), recent_box_);
+    heading->setForegroundRole(QPalette::PlaceholderText);
+    recent_layout_->addWidget(heading);
+    for (const QString& path : paths.mid(0, kMostRecent)) {
+        auto* button = new QToolButton(recent_box_);
+        const QString full = tr("%1  –  %2").arg(QFileInfo(path).fileName(), QFileInfo(path).path());
+        button->setText(button->fontMetrics().elidedText(full, Qt::ElideMiddle, kWidth - 24));
+        button->setToolTip(path);
+        button->setAutoRaise(true);
+        button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+        connect(button, &QToolButton::clicked, this, [this, path] { emit recentChosen(path); });
+        recent_layout_->addWidget(button);
+    }
+}
+
+}  // namespace eyrie::ui

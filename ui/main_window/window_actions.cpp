@@ -1,0 +1,126 @@
+#include "main_window/window_actions.h"
+
+#include <QIcon>
+#include <QWidget>
+#include <algorithm>
+
+namespace eyrie::ui {
+
+WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObject(parent), parent_(parent) {
+    section(tr("File"));
+    open_video = add(tr("Open &video…"), {"document-open", {QKeySequence::Open}});
+    open_folder = add(tr("Open folder of &images…"), {"document-open-folder", {QKeySequence(tr("Ctrl+Shift+O"))}});
+    open_project = add(tr("Open &project…"), {"project-open", {QKeySequence(tr("Ctrl+P"))}});
+    save_copy = add(tr("&Save project as…"), {"document-save-as", {QKeySequence(tr("Ctrl+Shift+S"))}});
+    demo = add(tr("Watch the &demo scene"), {"media-playback-start", {QKeySequence(tr("Ctrl+D"))}});
+    quit = add(tr("&Quit"), {"application-exit", {QKeySequence(tr("Ctrl+Q"))}});
+
+    section(tr("Run"));
+    run = add(tr("&Run"), {"media-record",
+                           {QKeySequence(tr("Ctrl+R"))},
+                           QT_TR_NOOP("Find and follow the moving vehicles, with the parameters shown")});
+    stop = add(tr("S&top the run"),
+               {"media-playback-stop", {QKeySequence(tr("Ctrl+."))}, QT_TR_NOOP("Stop; what is done is kept")});
+    follow = addToggle(tr("&Follow the run"),
+                       {"go-last", {QKeySequence(tr("Ctrl+L"))}, QT_TR_NOOP("Show each frame as the run finishes it")},
+                       false);
+
+    section(tr("Playback"));
+    play = add(tr("&Play"), {"media-playback-start", {QKeySequence(Qt::Key_Space)}});
+    step_back = add(tr("Step back"), {"media-skip-backward", {QKeySequence(Qt::Key_Left)}});
+    step_on = add(tr("Step on"), {"media-skip-forward", {QKeySequence(Qt::Key_Right)}});
+    jump_back = add(tr("10 frames back"), {"media-seek-backward", {QKeySequence(tr("Shift+Left"))}});
+    jump_on = add(tr("10 frames on"), {"media-seek-forward", {QKeySequence(tr("Shift+Right"))}});
+    first = add(tr("First frame"), {"go-first", {QKeySequence(Qt::Key_Home)}});
+    last = add(tr("Last frame"), {"go-last", {QKeySequence(Qt::Key_End)}});
+    go_to_frame = add(tr("&Go to frame…"), {"go-jump", {QKeySequence(Qt::Key_G)}});
+    shuttle_back = add(tr("Play backwards, again: faster"), {nullptr, {QKeySequence(Qt::Key_J)}});
+    shuttle_stop = add(tr("Pause"), {"media-playback-pause", {QKeySequence(Qt::Key_K)}});
+    shuttle_on = add(tr("Play forwards, again: faster"), {nullptr, {QKeySequence(Qt::Key_L)}});
+    slower = add(tr("Slower"), {nullptr, {QKeySequence(Qt::Key_BracketLeft), QKeySequence(Qt::Key_Comma)}});
+    faster = add(tr("Faster"), {nullptr, {QKeySequence(Qt::Key_BracketRight), QKeySequence(Qt::Key_Period)}});
+    loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(Qt::Key_O)}}, false);
+
+    section(tr("View"));
+    fit = add(tr("&Fit the window"), {"zoom-fit-best", {QKeySequence(Qt::Key_F)}});
+    one_to_one = add(tr("Actual size (1:1)"), {"zoom-original", {QKeySequence(Qt::Key_1)}});
+    zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
+    zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
+    deselect = add(tr("Select nothing"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
+    full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
+
+    addOverlays(overlays);
+
+    section(tr("Help"));
+    keys = add(tr("&Keys"), {"help-keybord-shortcuts", {QKeySequence(Qt::Key_F1), QKeySequence(tr("?"))}});
+    about = add(tr("&About Eyrie"), {"help-about", {}});
+}
+
+void WindowActions::section(const QString& title) {
+    sections_.append({title, {}});
+}
+
+QAction* WindowActions::add(const QString& text, const Look& look) {
+    auto* action = new QAction(text, this);
+    if (look.icon != nullptr) action->setIcon(QIcon::fromTheme(QString::fromLatin1(look.icon)));
+    action->setShortcuts(look.keys);
+    QString tip =
+        look.tip != nullptr ? tr(look.tip) : QString(text).remove(QLatin1Char('&')).remove(QStringLiteral("…"));
+    if (!look.keys.isEmpty()) tip += QStringLiteral(" (%1)").arg(look.keys.front().toString(QKeySequence::NativeText));
+    action->setToolTip(tip);
+    parent_->addAction(action);
+    sections_.back().actions.append(action);
+    return action;
+}
+
+QAction* WindowActions::addToggle(const QString& text, const Look& look, bool checked) {
+    QAction* action = add(text, look);
+    action->setCheckable(true);
+    action->setChecked(checked);
+    return action;
+}
+
+void WindowActions::addOverlays(OverlaySettings& overlays) {
+    section(tr("Overlays"));
+    struct Entry {
+        OverlayKind kind;
+        QString text;
+        Qt::Key key;
+    };
+    const Entry entries[] = {{OverlayKind::corners, tr("Stationary &corners"), Qt::Key_C},
+                             {OverlayKind::vectors, tr("Motion &vectors"), Qt::Key_V},
+                             {OverlayKind::clusters, tr("&Motion clusters"), Qt::Key_M},
+                             {OverlayKind::rois, tr("Motion &ROIs"), Qt::Key_R},
+                             {OverlayKind::detections, tr("&Detections"), Qt::Key_D},
+                             {OverlayKind::tracks, tr("&Tracks"), Qt::Key_T},
+                             {OverlayKind::ground_truth, tr("&Ground truth"), Qt::Key_U}};
+    for (const Entry& entry : entries) {
+        QAction* action = addToggle(entry.text, {nullptr, {QKeySequence(entry.key)}}, overlays.isVisible(entry.kind));
+        overlay[static_cast<size_t>(entry.kind)] = action;
+        connect(action, &QAction::toggled, &overlays,
+                [&overlays, kind = entry.kind](bool on) { overlays.setVisible(kind, on); });
+    }
+    const OverlayStyle& style = overlays.style();
+    labels = addToggle(tr("Track la&bels"), {nullptr, {QKeySequence(Qt::Key_B)}}, style.labels);
+    trails = addToggle(tr("Tr&ails"), {nullptr, {QKeySequence(Qt::Key_A)}}, style.trails);
+    rejected = addToggle(tr("Re&jected detections"), {nullptr, {QKeySequence(Qt::Key_X)}}, style.rejected_detections);
+    tentative = addToggle(tr("T&entative tracks"), {nullptr, {QKeySequence(Qt::Key_E)}}, style.tentative_tracks);
+    longer_vectors = add(tr("Longer vectors"), {nullptr, {QKeySequence(tr("Shift+V"))}});
+    shorter_vectors = add(tr("Shorter vectors"), {nullptr, {QKeySequence(tr("Ctrl+Shift+V"))}});
+    colour_blind =
+        addToggle(tr("Colour-blind safe colours"), {nullptr, {}}, overlays.palette() == PaletteKind::colour_blind);
+    connect(labels, &QAction::toggled, &overlays, &OverlaySettings::setLabels);
+    connect(trails, &QAction::toggled, &overlays, &OverlaySettings::setTrails);
+    connect(rejected, &QAction::toggled, &overlays, &OverlaySettings::setRejectedDetections);
+    connect(tentative, &QAction::toggled, &overlays, &OverlaySettings::setTentativeTracks);
+    connect(longer_vectors, &QAction::triggered, &overlays, [&overlays] {
+        overlays.setVectorLengthFactor(std::min(100.0, overlays.style().vector_length_factor * 1.5));
+    });
+    connect(shorter_vectors, &QAction::triggered, &overlays, [&overlays] {
+        overlays.setVectorLengthFactor(std::max(1.0, overlays.style().vector_length_factor / 1.5));
+    });
+    connect(colour_blind, &QAction::toggled, &overlays,
+            [&overlays](bool on) { overlays.setPalette(on ? PaletteKind::colour_blind : PaletteKind::thesis); });
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,45 @@
+#include "session/media.h"
+
+#include "scene/scene_preset.h"
+#include "scene/scene_source.h"
+
+namespace eyrie::ui {
+
+namespace fs = std::filesystem;
+
+namespace {
+const std::string kScenePrefix = "scene:";
+}
+
+Media videoMedia(const fs::path& path, double frame_rate_hz) {
+    std::error_code no_such_path;
+    fs::path absolute = fs::weakly_canonical(path, no_such_path);
+    if (no_such_path) absolute = fs::absolute(path);
+    if (!absolute.has_filename()) absolute = absolute.parent_path();
+    Media media;
+    media.name = absolute.filename().string();
+    media.identity = absolute.string();
+    media.gsd_m_per_px = [] { return 0.0; };
+    media.open = [absolute, frame_rate_hz](const IndexProgress& progress, std::stop_token stop) {
+        SourceOptions options;
+        options.frame_rate_hz = frame_rate_hz;
+        return openSource(absolute, options, progress, std::move(stop));
+    };
+    return media;
+}
+
+Media sceneMedia(const std::string& scene) {
+    Media media;
+    media.name = scene + " scene";
+    media.identity = kScenePrefix + scene;
+    media.gsd_m_per_px = [scene] { return scenePreset(scene).gsd_m_per_px; };
+    media.open = [scene](const IndexProgress&, std::stop_token) { return openScene(scene); };
+    return media;
+}
+
+Media mediaOfIdentity(const std::string& identity, double frame_rate_hz) {
+    if (identity.starts_with(kScenePrefix)) return sceneMedia(identity.substr(kScenePrefix.size()));
+    return videoMedia(identity, frame_rate_hz);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,75 @@
+#include "session/run_controller.h"
+
+#include <exception>
+#include <utility>
+
+#include "chain/run_recorder.h"
+#include "session/queued_call.h"
+
+namespace eyrie::ui {
+
+RunController::RunController(QObject* parent) : QObject(parent) {}
+
+RunController::~RunController() {
+    thread_.request_stop();
+    if (thread_.joinable()) thread_.join();
+}
+
+void RunController::start(RunRequest request) {
+    if (running()) return;
+    feed_ = std::make_shared<LiveFeed>(request.trail_length, [this] { queuedCall(this, [this] { fetch(); }); });
+    thread_ = std::jthread([this, request = std::move(request), feed = feed_](const std::stop_token& stop) {
+        work(request, *feed, stop);
+    });
+}
+
+void RunController::stop() {
+    thread_.request_stop();
+}
+
+std::optional<ViewFrame> RunController::takeFrame() {
+    return feed_ ? feed_->takeFrame() : std::nullopt;
+}
+
+std::vector<FrameSummary> RunController::takeSummaries() {
+    return feed_ ? feed_->takeSummaries() : std::vector<FrameSummary>();
+}
+
+void RunController::work(const RunRequest& request, LiveFeed& feed, const std::stop_token& stop) {
+    RunSummary summary;
+    int run_id = 0;
+    try {
+        const auto source = request.media.open({}, stop);
+        const SceneScale scale = sceneScale(source->info(), request.gsd_m_per_px);
+        RunRecord record = plannedRun(source->info(), scale, request.range, request.preset);
+        record.name = request.name;
+        record.sequence.path = request.media.identity;
+        RunRecorder recorder(request.project, record, request.options, &feed);
+        run_id = recorder.runId();
+        record.id = run_id;
+        queuedCall(this, [this, record] { emit started(record); });
+        summary = ChainRun(request.options, scale).run(*source, request.range, recorder, stop, true);
+        recorder.finish(summary);
+    } catch (const std::exception& error) {
+        summary.outcome = stop.stop_requested() && run_id == 0 ? RunOutcome::stopped : RunOutcome::failed;
+        summary.message = error.what();
+    }
+    feed.flush();
+    queuedCall(this, [this, summary, run_id] { end(summary, run_id); });
+}
+
+void RunController::fetch() {
+    if (!feed_) return;
+    feed_->fetching();
+    if (const auto news = feed_->takeProgress()) emit progress(*news);
+    emit frameAvailable();
+}
+
+void RunController::end(const RunSummary& summary, int run_id) {
+    fetch();
+    thread_.join();
+    feed_.reset();
+    emit finished(summary, run_id);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <QObject>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <thread>
+
+#include "chain/chain_options.h"
+#include "chain/chain_run.h"
+#include "session/live_feed.h"
+#include "session/media.h"
+
+namespace eyrie::ui {
+
+/// Everything a run needs, by value.
+struct RunRequest {
+    Media media;
+    std::filesystem::path project;
+    ChainOptions options;
+    std::string preset;
+    std::string name;         ///< for the list; may be empty
+    double gsd_m_per_px = 0;  ///< ≤ 0: not known
+    FrameRange range;
+    int trail_length = 40;
+};
+
+/// The only object of the window that starts the engine. One run at a time, on its own thread; what it finds goes into
+/// the project there. Signals arrive on the thread of this object.
+class RunController : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit RunController(QObject* parent = nullptr);
+    /// Stops a run and waits until its frames are stored.
+    ~RunController() override;
+
+    bool running() const { return feed_ != nullptr; }
+    bool stopping() const { return running() && thread_.get_stop_token().stop_requested(); }
+    /// Returns at once. Nothing happens while a run works.
+    void start(RunRequest request);
+    /// Returns at once; finished() follows.
+    void stop();
+
+    /// For receivers of frameAvailable(): the newest frame, unless it was fetched before.
+    std::optional<ViewFrame> takeFrame();
+    std::vector<FrameSummary> takeSummaries();
+
+ signals:
+    /// The run has its number and is in the project.
+    void started(const RunRecord& record);
+    void progress(const RunProgress& progress);
+    void frameAvailable();
+    /// The last signal of a run. `run_id` is 0 when it failed before it was in the project.
+    void finished(const RunSummary& summary, int run_id);
+
+ private:
+    void work(const RunRequest& request, LiveFeed& feed, const std::stop_token& stop);
+    void fetch();
+    void end(const RunSummary& summary, int run_id);
+
+    std::shared_ptr<LiveFeed> feed_;  ///< exists while a run works
+    std::jthread thread_;
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "store/run_store.h"
+
+namespace eyrie::ui {
+
+/// What lists, charts and timeline show of one stored run. Read once, then shared and never changed.
+struct RunData {
+    RunRecord record;
+    std::vector<std::pair<std::string, std::string>> parameters;
+    std::vector<FrameSummary> frames;  ///< ascending frames
+    std::vector<TrackSummary> tracks;  ///< ascending id
+};
+
+}  // namespace eyrie::ui
