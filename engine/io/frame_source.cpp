@@ -11,8 +11,10 @@ std::unique_ptr<FrameSource> openSource(const std::filesystem::path& path, const
     std::error_code failure;
     const auto status = std::filesystem::status(path, failure);
     if (!std::filesystem::exists(status))
-        throw Error(ErrorKind::input, path.string() + ": there is no such file or folder" +
-                                          (failure ? " (" + failure.message() + ")" : std::string()));
+        throw Error(ErrorKind::input,
+                    path.string() + ": there is no such file or folder" +
+                        (failure && failure != std::errc::no_such_file_or_directory ? " (" + failure.message() + ")"
+                                                                                    : "; check the name"));
     if (std::filesystem::is_directory(status) || ImageSequence::isImageFile(path))
         return std::make_unique<ImageSequence>(path, options);
     if (!std::filesystem::is_regular_file(status))

