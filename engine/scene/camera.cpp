@@ -21,8 +21,8 @@ double smooth(const std::array<double, 4>& times, const std::array<double, 4>& v
     const double slope_to = times[3] > times[1] ? (values[3] - values[1]) / (times[3] - times[1]) : 0;
     const double s2 = share * share;
     const double s3 = s2 * share;
-    return (2 * s3 - 3 * s2 + 1) * values[1] + (s3 - 2 * s2 + share) * span * slope_from + (3 * s2 - 2 * s3) * values[2] +
-           (s3 - s2) * span * slope_to;
+    return (2 * s3 - 3 * s2 + 1) * values[1] + (s3 - 2 * s2 + share) * span * slope_from +
+           (3 * s2 - 2 * s3) * values[2] + (s3 - s2) * span * slope_to;
 }
 
 CameraKey between(const std::vector<CameraKey>& keys, double frame) {
@@ -113,7 +113,8 @@ CameraPose CameraPath::at(double frame) const {
     const double st = portable::sine(key.tilt);
     const cv::Vec3d view = down * ct - back * st;
     const cv::Vec3d image_down = back * ct + down * st;
-    const cv::Matx33d turn(right[0], right[1], right[2], image_down[0], image_down[1], image_down[2], view[0], view[1], view[2]);
+    const cv::Matx33d turn(right[0], right[1], right[2], image_down[0], image_down[1], image_down[2], view[0], view[1],
+                           view[2]);
 
     const double seconds = frame / frame_rate_hz;
     const auto wobble = [&](std::uint32_t axis) {

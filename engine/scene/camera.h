@@ -11,10 +11,10 @@ namespace eyrie {
 
 /// A pinhole camera at one moment.
 struct CameraPose {
-    cv::Point3d position;                     ///< m
-    cv::Matx33d camera_from_world_turn;       ///< rows: image right, image down, viewing direction
+    cv::Point3d position;                ///< m
+    cv::Matx33d camera_from_world_turn;  ///< rows: image right, image down, viewing direction
     double focal_px = 1000;
-    cv::Point2d principal{0, 0};              ///< px
+    cv::Point2d principal{0, 0};  ///< px
 
     /// Pixel of a world point that lies before the camera.
     cv::Point2d project(cv::Point3d point) const;
@@ -27,10 +27,10 @@ struct CameraPose {
 /// Where the camera looks at one moment of its path.
 struct CameraKey {
     double frame = 0;
-    cv::Point2d target;     ///< m: ground point on the optical axis
-    double height = 400;    ///< m above the ground
-    double heading = 0;     ///< radians: direction on the map of the image's +x
-    double tilt = 0;        ///< radians from straight down, towards the image's top; below about 60°
+    cv::Point2d target;   ///< m: ground point on the optical axis
+    double height = 400;  ///< m above the ground
+    double heading = 0;   ///< radians: direction on the map of the image's +x
+    double tilt = 0;      ///< radians from straight down, towards the image's top; below about 60°
     double focal_px = 1000;
 };
 

@@ -19,7 +19,8 @@ std::uint32_t packed(cv::Vec3f colour, std::uint32_t sun) {
 }
 
 cv::Vec3f unpacked(std::uint32_t texel) {
-    return {static_cast<float>(texel & 255), static_cast<float>((texel >> 8) & 255), static_cast<float>((texel >> 16) & 255)};
+    return {static_cast<float>(texel & 255), static_cast<float>((texel >> 8) & 255),
+            static_cast<float>((texel >> 16) & 255)};
 }
 
 }  // namespace
@@ -30,7 +31,8 @@ GroundMap::GroundMap(const SceneDescription& scene, cv::Rect2d area, double texe
     const double rows = std::ceil(area.height / texel);
     if (!(columns >= 2) || !(rows >= 2) || columns * rows > 2e8) {
         throw Error(ErrorKind::internal, "Scene '" + scene.name + "': its ground map would have " +
-                                             std::to_string(columns * rows) + " texels; keep the camera's view below 200 million.");
+                                             std::to_string(columns * rows) +
+                                             " texels; keep the camera's view below 200 million.");
     }
     width_ = static_cast<int>(columns);
     height_ = static_cast<int>(rows);
@@ -46,7 +48,8 @@ GroundMap::GroundMap(const SceneDescription& scene, cv::Rect2d area, double texe
     });
 }
 
-GroundMap::Job GroundMap::job(const std::vector<cv::Point2d>& outline, const Surface& surface, Job::Effect effect) const {
+GroundMap::Job GroundMap::job(const std::vector<cv::Point2d>& outline, const Surface& surface,
+                              Job::Effect effect) const {
     Job made;
     made.surface = surface;
     made.effect = effect;
@@ -62,16 +65,18 @@ GroundMap::Job GroundMap::job(const std::vector<cv::Point2d>& outline, const Sur
 
 std::vector<GroundMap::Job> GroundMap::jobsOf(const SceneDescription& scene) const {
     std::vector<Job> jobs;
-    for (const GroundPatch& patch : scene.patches) jobs.push_back(job(patch.outline, patch.surface, Job::Effect::paint));
+    for (const GroundPatch& patch : scene.patches)
+        jobs.push_back(job(patch.outline, patch.surface, Job::Effect::paint));
     for (const auto& shadow : staticShadows(scene)) jobs.push_back(job(shadow, {}, Job::Effect::shadow));
     for (const ParkedVehicle& parked : scene.parked) {
         // Little skylight reaches the ground below a vehicle.
-        jobs.push_back(job(rectangleAt(parked.pose.position, parked.pose.direction, parked.look.length + 0.1, parked.look.width + 0.1),
-                           Surface{Material::plain, 0.15, 0.6}, Job::Effect::paint));
+        jobs.push_back(job(
+            rectangleAt(parked.pose.position, parked.pose.direction, parked.look.length + 0.1, parked.look.width + 0.1),
+            Surface{Material::plain, 0.15, 0.6}, Job::Effect::paint));
     }
     for (const Building& building : scene.buildings) {
-        jobs.push_back(job(rectangleAt(building.centre, building.direction, building.length, building.width), building.roof_surface,
-                           Job::Effect::roof));
+        jobs.push_back(job(rectangleAt(building.centre, building.direction, building.length, building.width),
+                           building.roof_surface, Job::Effect::roof));
         if (building.roof != RoofKind::flat) continue;
         // The lighter rim of the parapet.
         Surface rim = building.roof_surface;
@@ -80,7 +85,8 @@ std::vector<GroundMap::Job> GroundMap::jobsOf(const SceneDescription& scene) con
         for (const double side : {-1.0, 1.0}) {
             const cv::Point2d long_side = building.centre + right * (side * (building.width / 2 - 0.2));
             const cv::Point2d short_side = building.centre + building.direction * (side * (building.length / 2 - 0.2));
-            jobs.push_back(job(rectangleAt(long_side, building.direction, building.length, 0.4), rim, Job::Effect::roof));
+            jobs.push_back(
+                job(rectangleAt(long_side, building.direction, building.length, 0.4), rim, Job::Effect::roof));
             jobs.push_back(job(rectangleAt(short_side, right, building.width, 0.4), rim, Job::Effect::roof));
         }
     }
@@ -89,7 +95,8 @@ std::vector<GroundMap::Job> GroundMap::jobsOf(const SceneDescription& scene) con
         if (block.bottom < 2) continue;
         std::vector<cv::Point2d> corners = rectangleAt(block.centre, block.direction, block.length, block.width);
         const std::size_t count = corners.size();
-        for (std::size_t i = 0; i < count; ++i) corners.push_back(corners[i] + scene.sun.shadow * (block.top - block.bottom));
+        for (std::size_t i = 0; i < count; ++i)
+            corners.push_back(corners[i] + scene.sun.shadow * (block.top - block.bottom));
         jobs.push_back(job(hullOf(corners), {}, Job::Effect::shadow));
     }
     return jobs;

@@ -8,10 +8,11 @@
 
 namespace eyrie {
 
-/// Everything that lies flat and stands still, seen straight from above: colours in full sunlight (blue, green, red in the three
-/// low bytes) and the share of sunlight that arrives (high byte). Roofs are painted where their buildings stand.
+/// Everything that lies flat and stands still, seen straight from above: colours in full sunlight (blue, green, red in
+/// the three low bytes) and the share of sunlight that arrives (high byte). Roofs are painted where their buildings
+/// stand.
 class GroundMap {
-   public:
+ public:
     /// Paints the scene's ground over `area` (m) with texels of this size (m).
     GroundMap(const SceneDescription& scene, cv::Rect2d area, double texel);
 
@@ -45,7 +46,7 @@ class GroundMap {
     /// Share of sunlight at a ground point, 0 … 255.
     int sunAt(std::int32_t x256, std::int32_t y256) const { return static_cast<int>(sample(x256, y256) >> 24); }
 
-   private:
+ private:
     /// Four bytes to four 16-bit lanes, so that one product weighs all channels.
     static std::uint64_t spread(std::uint32_t bytes) {
         const std::uint64_t halves = (static_cast<std::uint64_t>(bytes & 0xFFFF0000U) << 16) | (bytes & 0xFFFFU);

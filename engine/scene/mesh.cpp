@@ -27,8 +27,8 @@ void orient(Mesh& mesh) {
     for (Face& face : mesh.faces) face.normal = normalOf(face);
 }
 
-void addPrism(Mesh& mesh, const std::vector<cv::Point2d>& outline, double bottom, double top, cv::Vec3f wall, cv::Vec3f lid,
-              Finish finish) {
+void addPrism(Mesh& mesh, const std::vector<cv::Point2d>& outline, double bottom, double top, cv::Vec3f wall,
+              cv::Vec3f lid, Finish finish) {
     std::vector<cv::Point3d> solid;
     Face roof;
     roof.colour = lid;

@@ -44,8 +44,8 @@ struct Mesh {
 void orient(Mesh& mesh);
 
 /// Walls over an outline (clockwise on the map as seen from above) and a lid on top.
-void addPrism(Mesh& mesh, const std::vector<cv::Point2d>& outline, double bottom, double top, cv::Vec3f wall, cv::Vec3f lid,
-              Finish finish);
+void addPrism(Mesh& mesh, const std::vector<cv::Point2d>& outline, double bottom, double top, cv::Vec3f wall,
+              cv::Vec3f lid, Finish finish);
 
 /// Convex hull of points on the ground, clockwise on the map.
 std::vector<cv::Point2d> hullOf(std::vector<cv::Point2d> points);

@@ -22,8 +22,16 @@ cv::Point3d unit(cv::Point3d v) {
 Light::Light(const Sun& sun)
     : to_sun(unit({-sun.shadow.x, -sun.shadow.y, 1})), ambient(sun.ambient), shadow(sun.shadow) {}
 
-PassBuilder::PassBuilder(CameraPose camera, cv::Point2d offset, cv::Size image, const Light& light, const GroundMap& map)
-    : camera_(camera), image_(image), light_(light), map_(map) {
+cv::Rect TileGrid::tile(int index) const {
+    const int x = index % columns() * tile_width;
+    const int y = index / columns() * tile_height;
+    return {x, y, std::min(tile_width, image.width - x), std::min(tile_height, image.height - y)};
+}
+
+PassBuilder::PassBuilder(CameraPose camera, cv::Point2d offset, const TileGrid& grid, const Light& light,
+                         const GroundMap& map)
+    : camera_(camera), grid_(grid), light_(light), map_(map) {
+    pass_.tiles.resize(static_cast<std::size_t>(grid.count()));
     camera_.principal -= offset;
     image_from_ground_ = camera_.imageFromGround();
     pass_.ground_from_image = image_from_ground_.inv();
@@ -33,8 +41,37 @@ ScreenPlane PassBuilder::planeOf(cv::Vec3d in_camera) const {
     ScreenPlane plane;
     plane.a = static_cast<float>(in_camera[0] / camera_.focal_px);
     plane.b = static_cast<float>(in_camera[1] / camera_.focal_px);
-    plane.c = static_cast<float>(in_camera[2] - (in_camera[0] * camera_.principal.x + in_camera[1] * camera_.principal.y) / camera_.focal_px);
+    plane.c = static_cast<float>(
+        in_camera[2] - (in_camera[0] * camera_.principal.x + in_camera[1] * camera_.principal.y) / camera_.focal_px);
     return plane;
+}
+
+void PassBuilder::Bounds::hold(cv::Point2f point) {
+    left = std::min(left, point.x);
+    right = std::max(right, point.x);
+    top = std::min(top, point.y);
+    bottom = std::max(bottom, point.y);
+}
+
+bool PassBuilder::inPicture(const Bounds& bounds) const {
+    return bounds.right >= 0 && bounds.left <= static_cast<float>(grid_.image.width - 1) && bounds.bottom >= 0 &&
+           bounds.top <= static_cast<float>(grid_.image.height - 1);
+}
+
+void PassBuilder::enter(const Bounds& bounds, std::vector<int> TileContent::*list, std::size_t position) {
+    const auto tileAt = [](float place, int size, int count) {
+        return std::clamp(static_cast<int>(std::max(place, 0.0F)) / size, 0, count - 1);
+    };
+    const int left = tileAt(bounds.left, grid_.tile_width, grid_.columns());
+    const int right = tileAt(std::min(bounds.right, 1e6F), grid_.tile_width, grid_.columns());
+    const int top = tileAt(bounds.top, grid_.tile_height, grid_.rows());
+    const int bottom = tileAt(std::min(bounds.bottom, 1e6F), grid_.tile_height, grid_.rows());
+    for (int row = top; row <= bottom; ++row) {
+        for (int column = left; column <= right; ++column) {
+            (pass_.tiles[static_cast<std::size_t>(row * grid_.columns() + column)].*list)
+                .push_back(static_cast<int>(position));
+        }
+    }
 }
 
 void PassBuilder::add(const Mesh& mesh) {
@@ -49,21 +86,15 @@ void PassBuilder::add(const Face& face) {
 
     ScreenFace out;
     out.count = static_cast<int>(std::min(face.corners.size(), out.corners.size()));
-    float left = 1e30F, right = -1e30F, top = 1e30F, bottom = -1e30F;
+    Bounds bounds;
     for (int i = 0; i < out.count; ++i) {
         const cv::Point3d& corner = face.corners[static_cast<std::size_t>(i)];
         if (camera_.depth(corner) < 1) return;
         const cv::Point2f p(camera_.project(corner));
         out.corners[static_cast<std::size_t>(i)] = p;
-        left = std::min(left, p.x);
-        right = std::max(right, p.x);
-        top = std::min(top, p.y);
-        bottom = std::max(bottom, p.y);
+        bounds.hold(p);
     }
-    if (right < 0 || left > static_cast<float>(image_.width) || bottom < 0 || top > static_cast<float>(image_.height)) return;
-    out.top = std::max(0, static_cast<int>(std::ceil(top)));
-    out.bottom = std::min(image_.height - 1, static_cast<int>(std::ceil(bottom)) - 1);
-    if (out.top > out.bottom) return;
+    if (!inPicture(bounds)) return;
 
     const cv::Matx33d& turn = camera_.camera_from_world_turn;
     out.inverse_depth = planeOf(turn * cv::Vec3d(normal) * (-1 / facing));
@@ -110,6 +141,7 @@ void PassBuilder::add(const Face& face) {
         out.sunny[channel] = static_cast<float>(sunny);
         out.shaded[channel] = static_cast<float>(face.finish == Finish::lamp ? sunny : shaded);
     }
+    enter(bounds, &TileContent::faces, pass_.faces.size());
     pass_.faces.push_back(out);
 }
 
@@ -123,33 +155,30 @@ void PassBuilder::add(const Ball& ball, cv::Point3d shift) {
     out.y = static_cast<float>(p.y);
     out.radius = static_cast<float>(ball.radius * camera_.focal_px / depth);
     out.inverse_depth = static_cast<float>(1 / depth);
-    if (out.x + out.radius < 0 || out.y + out.radius < 0 || out.x - out.radius > static_cast<float>(image_.width) ||
-        out.y - out.radius > static_cast<float>(image_.height)) {
-        return;
-    }
+    Bounds bounds;
+    bounds.hold({out.x - out.radius, out.y - out.radius});
+    bounds.hold({out.x + out.radius, out.y + out.radius});
+    if (!inPicture(bounds)) return;
     for (int channel = 0; channel < 3; ++channel) {
         const float value = std::clamp(ball.colour[channel], 0.0F, 255.0F);
         out.colour |= static_cast<std::uint32_t>(value) << (8 * channel);
     }
+    enter(bounds, &TileContent::balls, pass_.balls.size());
     pass_.balls.push_back(out);
 }
 
 void PassBuilder::addShadow(const std::vector<cv::Point2d>& outline, bool contact) {
     ScreenShadow out;
     out.contact = contact;
-    float top = 1e30F, bottom = -1e30F, left = 1e30F, right = -1e30F;
+    Bounds bounds;
     for (const cv::Point2d& p : outline) {
         const cv::Vec3d seen = image_from_ground_ * cv::Vec3d(p.x, p.y, 1);
         const cv::Point2f corner(static_cast<float>(seen[0] / seen[2]), static_cast<float>(seen[1] / seen[2]));
         out.corners.push_back(corner);
-        top = std::min(top, corner.y);
-        bottom = std::max(bottom, corner.y);
-        left = std::min(left, corner.x);
-        right = std::max(right, corner.x);
+        bounds.hold(corner);
     }
-    if (right < 0 || left > static_cast<float>(image_.width) || bottom < 0 || top > static_cast<float>(image_.height)) return;
-    out.top = std::max(0, static_cast<int>(std::ceil(top)));
-    out.bottom = std::min(image_.height - 1, static_cast<int>(std::ceil(bottom)) - 1);
+    if (!inPicture(bounds)) return;
+    enter(bounds, &TileContent::shadows, pass_.shadows.size());
     pass_.shadows.push_back(std::move(out));
 }
 
@@ -160,8 +189,8 @@ bool PassBuilder::sees(cv::Point2d centre, double reach, double height) const {
     const cv::Point2d a = camera_.project(low);
     const cv::Point2d b = camera_.project(high);
     const double margin = (reach + 1) * camera_.focal_px / camera_.depth(high) + 2;
-    return std::max(a.x, b.x) + margin > 0 && std::min(a.x, b.x) - margin < image_.width && std::max(a.y, b.y) + margin > 0 &&
-           std::min(a.y, b.y) - margin < image_.height;
+    return std::max(a.x, b.x) + margin > 0 && std::min(a.x, b.x) - margin < grid_.image.width &&
+           std::max(a.y, b.y) + margin > 0 && std::min(a.y, b.y) - margin < grid_.image.height;
 }
 
 PassGeometry PassBuilder::finish() {

@@ -23,7 +23,6 @@ struct ScreenPlane {
 struct ScreenFace {
     int count = 0;
     std::array<cv::Point2f, 14> corners;
-    int top = 0, bottom = 0;              ///< first and last row that it may touch
     ScreenPlane inverse_depth;
     /// Texture coordinate: `u_base` + depth · u (likewise v). In 1/256 map texels, except for facades: metres.
     ScreenPlane u, v;
@@ -42,7 +41,6 @@ struct ScreenBall {
 /// A dark area on the ground that moves with an object.
 struct ScreenShadow {
     std::vector<cv::Point2f> corners;
-    int top = 0, bottom = 0;
     bool contact = false;  ///< below the body: skylight is missing, too
 };
 
@@ -54,19 +52,37 @@ struct Light {
     explicit Light(const Sun& sun);
 };
 
+/// The picture is painted in tiles, so that the part of the ground map that a tile shows stays in the cache.
+struct TileGrid {
+    cv::Size image;
+    int tile_width = 160;
+    int tile_height = 96;
+
+    int columns() const { return (image.width + tile_width - 1) / tile_width; }
+    int rows() const { return (image.height + tile_height - 1) / tile_height; }
+    int count() const { return columns() * rows(); }
+    cv::Rect tile(int index) const;
+};
+
+/// What may touch a tile: positions in the lists of its pass.
+struct TileContent {
+    std::vector<int> faces, balls, shadows;
+};
+
 /// One pass, ready to be painted.
 struct PassGeometry {
     cv::Matx33d ground_from_image;  ///< pixel → m
     std::vector<ScreenFace> faces;
     std::vector<ScreenBall> balls;
     std::vector<ScreenShadow> shadows;
+    std::vector<TileContent> tiles;
 };
 
 /// Collects what one pass sees.
 class PassBuilder {
-   public:
+ public:
     /// `offset`: where in (or around) its pixel the pass looks, px.
-    PassBuilder(CameraPose camera, cv::Point2d offset, cv::Size image, const Light& light, const GroundMap& map);
+    PassBuilder(CameraPose camera, cv::Point2d offset, const TileGrid& grid, const Light& light, const GroundMap& map);
 
     void add(const Mesh& mesh);
     void add(const Face& face);
@@ -77,11 +93,18 @@ class PassBuilder {
     bool sees(cv::Point2d centre, double reach, double height) const;
     PassGeometry finish();
 
-   private:
+ private:
+    struct Bounds {
+        float left = 1e30F, right = -1e30F, top = 1e30F, bottom = -1e30F;
+        void hold(cv::Point2f point);
+    };
     ScreenPlane planeOf(cv::Vec3d in_camera) const;
+    bool inPicture(const Bounds& bounds) const;
+    /// Enters a thing into the tiles it may touch.
+    void enter(const Bounds& bounds, std::vector<int> TileContent::*list, std::size_t position);
 
     CameraPose camera_;
-    cv::Size image_;
+    TileGrid grid_;
     const Light& light_;
     const GroundMap& map_;
     cv::Matx33d image_from_ground_;

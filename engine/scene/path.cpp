@@ -40,7 +40,8 @@ Path::Path(std::vector<cv::Point2d> points) {
     }
     if (points_.size() < 2) throw Error(ErrorKind::internal, "A path needs two different points.");
     lengths_.push_back(0);
-    for (std::size_t i = 1; i < points_.size(); ++i) lengths_.push_back(lengths_.back() + norm(points_[i] - points_[i - 1]));
+    for (std::size_t i = 1; i < points_.size(); ++i)
+        lengths_.push_back(lengths_.back() + norm(points_[i] - points_[i - 1]));
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const cv::Point2d before = points_[i == 0 ? 0 : i - 1];
         const cv::Point2d after = points_[std::min(i + 1, points_.size() - 1)];
@@ -57,7 +58,8 @@ Path Path::rounded(const std::vector<cv::Point2d>& waypoints, double radius) {
         const double turn = portable::arcTangent(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
         if (std::abs(turn) < 1e-6) continue;
         const double half_tangent = portable::tangent(std::abs(turn) / 2);
-        const double room = std::min(norm(waypoints[i] - waypoints[i - 1]), norm(waypoints[i + 1] - waypoints[i])) * 0.49;
+        const double room =
+            std::min(norm(waypoints[i] - waypoints[i - 1]), norm(waypoints[i + 1] - waypoints[i])) * 0.49;
         const double used_radius = std::min(radius, room / half_tangent);
         const cv::Point2d start = waypoints[i] - in * (used_radius * half_tangent);
         appendLine(points, start);
@@ -122,8 +124,10 @@ double Path::curvature(double s) const {
 }
 
 double Path::nearest(cv::Point2d point, double from, double to) const {
-    const auto first = static_cast<std::size_t>(std::lower_bound(lengths_.begin(), lengths_.end(), from) - lengths_.begin());
-    const auto end = static_cast<std::size_t>(std::upper_bound(lengths_.begin(), lengths_.end(), to) - lengths_.begin());
+    const auto first =
+        static_cast<std::size_t>(std::lower_bound(lengths_.begin(), lengths_.end(), from) - lengths_.begin());
+    const auto end =
+        static_cast<std::size_t>(std::upper_bound(lengths_.begin(), lengths_.end(), to) - lengths_.begin());
     if (first >= end) return from;
     const auto distance = [&](std::size_t i) {
         const cv::Point2d offset = point - points_[i];

@@ -7,7 +7,7 @@ namespace eyrie {
 
 /// A curve on the ground by arc length, metres; x right, y down as on a map. "Right" is as seen along the curve.
 class Path {
-   public:
+ public:
     Path() = default;
     /// Through the points in straight lines.
     explicit Path(std::vector<cv::Point2d> points);
@@ -33,12 +33,12 @@ class Path {
     double nearest(cv::Point2d point) const { return nearest(point, 0, length()); }
     const std::vector<cv::Point2d>& points() const { return points_; }
 
-   private:
+ private:
     std::size_t pieceAt(double s) const;
 
     std::vector<cv::Point2d> points_;
-    std::vector<double> lengths_;           ///< arc length up to each point
-    std::vector<cv::Point2d> directions_;   ///< unit tangent at each point
+    std::vector<double> lengths_;          ///< arc length up to each point
+    std::vector<cv::Point2d> directions_;  ///< unit tangent at each point
 };
 
 /// The right-hand normal of a direction when y points down.

@@ -37,7 +37,8 @@ void scanPolygon(const std::vector<cv::Point2d>& outline, cv::Rect bounds, const
         bottom = std::max(bottom, p.y);
     }
     const auto cell = [](double value, int low, int high) {
-        return static_cast<int>(std::clamp(std::floor(value + 0.5), static_cast<double>(low), static_cast<double>(high)));
+        return static_cast<int>(
+            std::clamp(std::floor(value + 0.5), static_cast<double>(low), static_cast<double>(high)));
     };
     const int x_begin = cell(left, bounds.x, bounds.x + bounds.width);
     const int x_end = cell(right + 1, bounds.x, bounds.x + bounds.width);

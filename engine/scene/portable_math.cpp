@@ -47,10 +47,14 @@ double sine(double radians) {
     const double quarters = std::floor(radians / (kPi / 2) + 0.5);
     const double rest = radians - quarters * (kPi / 2);
     switch (static_cast<long long>(quarters) & 3) {
-        case 0: return smallSine(rest);
-        case 1: return smallCosine(rest);
-        case 2: return -smallSine(rest);
-        default: return -smallCosine(rest);
+        case 0:
+            return smallSine(rest);
+        case 1:
+            return smallCosine(rest);
+        case 2:
+            return -smallSine(rest);
+        default:
+            return -smallCosine(rest);
     }
 }
 
@@ -68,7 +72,8 @@ double arcTangent(double y, double x) {
     if (ax == 0 && ay == 0) return 0;
     const double ratio = ax > ay ? ay / ax : ax / ay;
     // tan(π/8) splits the octant so that the series converges within its terms.
-    const double octant = ratio > 0.41421356 ? kPi / 4 + smallArcTangent((ratio - 1) / (ratio + 1)) : smallArcTangent(ratio);
+    const double octant =
+        ratio > 0.41421356 ? kPi / 4 + smallArcTangent((ratio - 1) / (ratio + 1)) : smallArcTangent(ratio);
     double angle = ax > ay ? octant : kPi / 2 - octant;
     if (x < 0) angle = kPi - angle;
     return y < 0 ? -angle : angle;

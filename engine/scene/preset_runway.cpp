@@ -21,7 +21,8 @@ void layRunway(SceneDescription& scene, Random& random) {
         const double y = random.uniform(-260, 260);
         const double length = random.uniform(20, 120);
         const double width = random.uniform(6, 26);
-        Surface ground{random.chance(0.6) ? Material::soil : Material::field, random.uniform(0.75, 1.0), random.uniform(0.3, 0.8)};
+        Surface ground{random.chance(0.6) ? Material::soil : Material::field, random.uniform(0.75, 1.0),
+                       random.uniform(0.3, 0.8)};
         patch(rectangleAt({x, y}, {1, 0}, length, width), ground);
     }
     patch(stripAlong(axis, 0, 800, -30, 30), Surface{Material::worn_asphalt, 0.95});
@@ -49,7 +50,8 @@ void layRunway(SceneDescription& scene, Random& random) {
         const double y = random.uniform(-23, 23);
         const bool along = random.chance(0.5);
         const double length = random.uniform(2, 14);
-        patch(rectangleAt({x, y}, along ? cv::Point2d(1, 0) : cv::Point2d(0, 1), length, 0.14), Surface{Material::tar, 0.9, 0.7});
+        patch(rectangleAt({x, y}, along ? cv::Point2d(1, 0) : cv::Point2d(0, 1), length, 0.14),
+              Surface{Material::tar, 0.9, 0.7});
     }
     const Surface paint{Material::paint, 0.97};
     for (double x = -300; x < 300; x += 50) patch(rectangleAt({x, 0}, {1, 0}, 30, 0.9), paint);
@@ -70,7 +72,9 @@ Path convoyWay() {
 SceneDescription presetEgTest01(std::uint32_t seed) {
     SceneDescription scene;
     scene.name = "egtest01";
-    scene.text = "Six vehicles turn on a runway and drive one behind the other, seen obliquely from changing heights (after EgTest01 of VIVID)";
+    scene.text =
+        "Six vehicles turn on a runway and drive one behind the other, seen obliquely from changing heights (after "
+        "EgTest01 of VIVID)";
     scene.seed = seed;
     scene.frame_count = 1821;
     scene.frame_rate_hz = 30;
@@ -94,7 +98,8 @@ SceneDescription presetEgTest01(std::uint32_t seed) {
 
     const Route route{convoyWay(), {0}, {}};
     std::vector<Driver> drivers;
-    const ObjectKind kinds[6] = {ObjectKind::car, ObjectKind::van, ObjectKind::car, ObjectKind::car, ObjectKind::van, ObjectKind::car};
+    const ObjectKind kinds[6] = {ObjectKind::car, ObjectKind::van, ObjectKind::car,
+                                 ObjectKind::car, ObjectKind::van, ObjectKind::car};
     double start = 146;
     for (const ObjectKind kind : kinds) {
         Driver driver;

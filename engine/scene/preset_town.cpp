@@ -20,7 +20,9 @@ double degrees(double value) {
 SceneDescription presetSeq1(std::uint32_t seed) {
     SceneDescription scene;
     scene.name = "seq1";
-    scene.text = "Busy urban street from 420 m, dense traffic bumper to bumper and overtaking (after SEQ 1 of Teutsch table 7.1)";
+    scene.text =
+        "Busy urban street from 420 m, dense traffic bumper to bumper and overtaking (after SEQ 1 of Teutsch table "
+        "7.1)";
     scene.seed = seed;
     scene.frame_count = 401;
     scene.frame_rate_hz = 25;
@@ -96,7 +98,8 @@ SceneDescription presetSeq1(std::uint32_t seed) {
         load.speed = {8, 11};
         const int out = traffic.straight(sides[i], true);
         const int back = traffic.straight(sides[i], false);
-        const std::pair<double, double> red = i == 1 ? std::pair<double, double>{4, 99} : std::pair<double, double>{-99, 99};
+        const std::pair<double, double> red =
+            i == 1 ? std::pair<double, double>{4, 99} : std::pair<double, double>{-99, 99};
         traffic.redLight(out, sides[i], street, true, {red});
         traffic.redLight(back, sides[i], street, false, {red});
         traffic.fill(out, 0, load);
@@ -105,7 +108,8 @@ SceneDescription presetSeq1(std::uint32_t seed) {
         const double line = traffic.lengthOf(right_in) / 3;
         traffic.send(right_in, 0, line, ObjectKind::car, 9);
         const int right_out = traffic.turn(street, true, sides[i], true);
-        const double centre = traffic.nearestOn(right_out, town.streets()[static_cast<std::size_t>(sides[i])].path.position(420));
+        const double centre =
+            traffic.nearestOn(right_out, town.streets()[static_cast<std::size_t>(sides[i])].path.position(420));
         traffic.send(right_out, 0, centre - 95, ObjectKind::car, 10);
         traffic.send(right_out, 0, centre - 150, ObjectKind::van, 10);
     }
@@ -119,7 +123,8 @@ SceneDescription presetSeq2(std::uint32_t seed) {
     SceneDescription scene;
     scene.name = "seq2";
     scene.text =
-        "Urban street in low sun: long shadows, trees beside and over the street, persons and two-wheelers (after SEQ 2 of Teutsch table 7.1)";
+        "Urban street in low sun: long shadows, trees beside and over the street, persons and two-wheelers (after SEQ "
+        "2 of Teutsch table 7.1)";
     scene.seed = seed;
     scene.frame_count = 201;
     scene.frame_rate_hz = 25;

@@ -8,7 +8,7 @@ namespace eyrie {
 /// Random numbers that are the same everywhere for the same seed: the generator is prescribed by the language, the
 /// distributions are ours (those of the standard library may differ between implementations).
 class Random {
-   public:
+ public:
     explicit Random(std::uint32_t seed) : engine_(seed) {}
 
     /// Uniform in [0, 1).
@@ -22,7 +22,7 @@ class Random {
     bool chance(double probability) { return uniform() < probability; }
     std::uint32_t bits() { return engine_(); }
 
-   private:
+ private:
     std::mt19937 engine_;
 };
 

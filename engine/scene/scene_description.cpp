@@ -9,13 +9,20 @@ namespace eyrie {
 
 const char* nameOf(ObjectKind kind) {
     switch (kind) {
-        case ObjectKind::car: return "car";
-        case ObjectKind::van: return "van";
-        case ObjectKind::truck: return "truck";
-        case ObjectKind::bus: return "bus";
-        case ObjectKind::motorcycle: return "motorcycle";
-        case ObjectKind::bicycle: return "bicycle";
-        case ObjectKind::person: return "person";
+        case ObjectKind::car:
+            return "car";
+        case ObjectKind::van:
+            return "van";
+        case ObjectKind::truck:
+            return "truck";
+        case ObjectKind::bus:
+            return "bus";
+        case ObjectKind::motorcycle:
+            return "motorcycle";
+        case ObjectKind::bicycle:
+            return "bicycle";
+        case ObjectKind::person:
+            return "person";
     }
     return "other";
 }

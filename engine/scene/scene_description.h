@@ -22,11 +22,11 @@ bool isVehicle(ObjectKind kind);
 /// The outside of a vehicle or person.
 struct ObjectLook {
     ObjectKind kind = ObjectKind::car;
-    double length = 4.5;          ///< m
-    double width = 1.8;           ///< m
-    double height = 1.45;         ///< m
-    cv::Vec3f colour{40, 40, 40}; ///< of the body: blue, green, red
-    std::uint32_t seed = 1;       ///< chooses the details
+    double length = 4.5;           ///< m
+    double width = 1.8;            ///< m
+    double height = 1.45;          ///< m
+    cv::Vec3f colour{40, 40, 40};  ///< of the body: blue, green, red
+    std::uint32_t seed = 1;        ///< chooses the details
 };
 
 /// Where an object is at one frame.
@@ -104,17 +104,17 @@ struct Sun {
 
 /// What the camera and the radio link do to the picture.
 struct Sensor {
-    double blur_px = 0.35;      ///< deviation of lens blur, besides the pixel's own area
-    double exposure = 0.2;      ///< share of the frame interval the shutter is open: motion blur
-    double read_noise = 1.5;    ///< deviation, grey levels
-    double shot_noise = 0.12;   ///< deviation at level v: this times √v
-    double contrast = 0.8;      ///< around `level`
-    double level = 118;         ///< where mid grey of the scene (120) comes to lie
-    double haze = 0.05;         ///< share of white veil
-    double vignette = 0.12;     ///< darkening of the corners
-    int jpeg_quality = 0;       ///< 1 … 100; 0 without compression
-    bool gray = false;          ///< a camera without colour
-    int samples = 16;           ///< per pixel, spread over its area and the exposure: 4, 8, 16 or 32
+    double blur_px = 0.35;     ///< deviation of lens blur, besides the pixel's own area
+    double exposure = 0.2;     ///< share of the frame interval the shutter is open: motion blur
+    double read_noise = 1.5;   ///< deviation, grey levels
+    double shot_noise = 0.12;  ///< deviation at level v: this times √v
+    double contrast = 0.8;     ///< around `level`
+    double level = 118;        ///< where mid grey of the scene (120) comes to lie
+    double haze = 0.05;        ///< share of white veil
+    double vignette = 0.12;    ///< darkening of the corners
+    int jpeg_quality = 0;      ///< 1 … 100; 0 without compression
+    bool gray = false;         ///< a camera without colour
+    int samples = 16;          ///< per pixel, spread over its area and the exposure: 4, 8, 16 or 32
 };
 
 struct SceneDescription {
@@ -145,8 +145,8 @@ struct SceneDescription {
     std::vector<FrameIndex> shown;
 };
 
-/// Loses about this share of the frames as a bad radio link does: half of the events freeze the picture for one to three frames,
-/// half drop one to three. `scene.frame_count` stays; frames beyond the scene's clock repeat its last.
+/// Loses about this share of the frames as a bad radio link does: half of the events freeze the picture for one to
+/// three frames, half drop one to three. `scene.frame_count` stays; frames beyond the scene's clock repeat its last.
 void loseFrames(SceneDescription& scene, double share);
 
 /// The scene's clock at a frame of the video.

@@ -69,9 +69,10 @@ void thinKind(std::map<int, Presence>& all, bool vehicles, int tracks, int boxes
         Presence* victim = nullptr;
         for (auto& [id, presence] : all) {
             if (!presence.kept || presence.vehicle != vehicles || presence.counted.empty()) continue;
-            const auto relieved = static_cast<double>(
-                std::count_if(presence.counted.begin(), presence.counted.end(),
-                              [&](FrameIndex f) { return most > 0 && counts[static_cast<std::size_t>(f)] > most; }));
+            const auto relieved =
+                static_cast<double>(std::count_if(presence.counted.begin(), presence.counted.end(), [&](FrameIndex f) {
+                    return most > 0 && counts[static_cast<std::size_t>(f)] > most;
+                }));
             const double length = static_cast<double>(presence.counted.size());
             // Platoons stay together: who drives alone goes first.
             double company = 0;

@@ -26,8 +26,9 @@ struct LoadTarget {
     int most_objects = 0;
 };
 
-/// Takes objects out until no more than the wanted number of tracks is left, choosing those that bring the number of boxes nearest
-/// to the wanted one and relieve crowded frames first; drops objects that never come into the picture; numbers the rest anew from 1.
+/// Takes objects out until no more than the wanted number of tracks is left, choosing those that bring the number of
+/// boxes nearest to the wanted one and relieve crowded frames first; drops objects that never come into the picture;
+/// numbers the rest anew from 1.
 void thinOut(SceneDescription& scene, const LoadTarget& target);
 
 }  // namespace eyrie

@@ -7,13 +7,13 @@
 
 #include "core/angle.h"
 #include "core/error.h"
-#include "scene/band_painter.h"
 #include "scene/ground_map.h"
 #include "scene/pass_geometry.h"
 #include "scene/path.h"
 #include "scene/portable_math.h"
 #include "scene/sensor.h"
 #include "scene/static_world.h"
+#include "scene/tile_painter.h"
 #include "scene/vehicle_model.h"
 
 namespace eyrie {
@@ -48,11 +48,16 @@ void check(const SceneDescription& scene) {
     if (scene.image_size.width < 16 || scene.image_size.height < 16) fail("the image must be at least 16×16 px");
     if (scene.camera.keys.empty()) fail("its camera has no path");
     if (!(scene.frame_rate_hz > 0)) fail("its frame rate must be above 0");
+    const int samples = scene.sensor.samples;
+    if (samples != 4 && samples != 8 && samples != 16 && samples != 32) {
+        fail("samples = " + std::to_string(samples) + ", expected 4, 8, 16 or 32 a pixel");
+    }
     if (scene.camera.image_size != scene.image_size) fail("its camera has another image size");
 }
 
 /// Mirrors that throw the sun into the camera light up.
-void addGlints(const Mesh& mesh, const Light& light, const CameraPose& camera, const GroundMap& map, std::vector<Ball>& out) {
+void addGlints(const Mesh& mesh, const Light& light, const CameraPose& camera, const GroundMap& map,
+               std::vector<Ball>& out) {
     for (std::size_t i = 0; i < mesh.glints.size(); ++i) {
         const cv::Point3d place = mesh.glint_places[i];
         cv::Point3d to_camera = camera.position - place;
@@ -75,6 +80,7 @@ void addGlints(const Mesh& mesh, const Light& light, const CameraPose& camera, c
 struct SceneRenderer::World {
     SceneDescription scene;
     Light light;
+    TileGrid grid;
     std::vector<StandingThing> things;
     std::vector<Mesh> bodies;  ///< one per moving object, in its own coordinates
     GroundMap map;
@@ -83,6 +89,7 @@ struct SceneRenderer::World {
     explicit World(SceneDescription description)
         : scene((check(description), std::move(description))),
           light(scene.sun),
+          grid{scene.image_size},
           things(standingThings(scene)),
           map(scene, mapArea(scene), mapTexel(scene)),
           truth(scene, things) {
@@ -90,15 +97,19 @@ struct SceneRenderer::World {
     }
 
     PassGeometry prepare(FrameIndex clock, const PassSample& sample, const std::vector<Ball>& glints) const;
+    std::vector<Ball> glintsAt(FrameIndex clock) const;
     cv::Mat lightOf(FrameIndex clock) const;
 };
 
-PassGeometry SceneRenderer::World::prepare(FrameIndex clock, const PassSample& sample, const std::vector<Ball>& glints) const {
+PassGeometry SceneRenderer::World::prepare(FrameIndex clock, const PassSample& sample,
+                                           const std::vector<Ball>& glints) const {
     const double moment = clock + sample.moment;
-    PassBuilder builder(scene.camera.at(moment), sample.offset, scene.image_size, light, map);
+    PassBuilder builder(scene.camera.at(moment), sample.offset, grid, light, map);
     const double seconds = moment / scene.frame_rate_hz;
+    const double slant = std::sqrt(light.shadow.dot(light.shadow));
     for (const StandingThing& thing : things) {
-        if (!builder.sees(thing.centre, thing.reach, thing.height)) continue;
+        const double shadow = thing.shadows.empty() ? 0 : slant * thing.height;
+        if (!builder.sees(thing.centre, thing.reach + shadow, thing.height)) continue;
         builder.add(thing.mesh);
         for (const auto& outline : thing.shadows) builder.addShadow(outline, false);
         const double swing = thing.sway * portable::sine(2 * kPi * 0.35 * seconds + thing.sway_phase);
@@ -109,8 +120,7 @@ PassGeometry SceneRenderer::World::prepare(FrameIndex clock, const PassSample& s
         ObjectPose pose;
         if (!poseAt(scene.objects[i], moment, pose)) continue;
         const ObjectLook& look = scene.objects[i].look;
-        const double shadow = std::sqrt(light.shadow.dot(light.shadow)) * look.height;
-        if (!builder.sees(pose.position, look.length + shadow, look.height)) continue;
+        if (!builder.sees(pose.position, look.length + slant * look.height, look.height)) continue;
         const Mesh body = placed(bodies[i], pose);
         builder.add(body);
         for (const auto& outline : shadowsOf(body, light.shadow)) builder.addShadow(outline, false);
@@ -122,8 +132,7 @@ PassGeometry SceneRenderer::World::prepare(FrameIndex clock, const PassSample& s
     return builder.finish();
 }
 
-cv::Mat SceneRenderer::World::lightOf(FrameIndex clock) const {
-    const std::vector<PassSample> samples = passesOf(scene.sensor);
+std::vector<Ball> SceneRenderer::World::glintsAt(FrameIndex clock) const {
     const CameraPose camera = scene.camera.at(clock);
     std::vector<Ball> glints;
     for (const StandingThing& thing : things) {
@@ -133,7 +142,12 @@ cv::Mat SceneRenderer::World::lightOf(FrameIndex clock) const {
         ObjectPose pose;
         if (poseAt(scene.objects[i], clock, pose)) addGlints(placed(bodies[i], pose), light, camera, map, glints);
     }
+    return glints;
+}
 
+cv::Mat SceneRenderer::World::lightOf(FrameIndex clock) const {
+    const std::vector<PassSample> samples = passesOf(scene.sensor);
+    const std::vector<Ball> glints = glintsAt(clock);
     std::vector<PassGeometry> passes(samples.size());
     cv::parallel_for_(cv::Range(0, static_cast<int>(samples.size())), [&](const cv::Range& range) {
         for (int i = range.start; i < range.end; ++i) {
@@ -142,26 +156,18 @@ cv::Mat SceneRenderer::World::lightOf(FrameIndex clock) const {
         }
     });
 
-    const int width = scene.image_size.width;
-    const int height = scene.image_size.height;
-    cv::Mat mean(height, width, CV_32FC3);
-    constexpr int kBand = 72;
-    const int bands = (height + kBand - 1) / kBand;
+    cv::Mat mean(scene.image_size, CV_32FC3);
     const float share = 1.0F / static_cast<float>(samples.size());
-    cv::parallel_for_(cv::Range(0, bands), [&](const cv::Range& range) {
-        for (int band = range.start; band < range.end; ++band) {
-            const int first = band * kBand;
-            const int rows = std::min(kBand, height - first);
-            BandPainter painter(width, first, rows);
+    cv::parallel_for_(cv::Range(0, grid.count()), [&](const cv::Range& range) {
+        for (int index = range.start; index < range.end; ++index) {
+            const cv::Rect tile = grid.tile(index);
+            TilePainter painter(tile, index);
             for (const PassGeometry& pass : passes) painter.add(pass, map, light.ambient);
-            const std::vector<std::uint32_t>& sums = painter.sums();
-            for (int row = 0; row < rows; ++row) {
-                auto* to = mean.ptr<float>(first + row);
-                const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) * 3;
-                for (std::size_t x = 0; x < static_cast<std::size_t>(width) * 3; ++x) {
-                    // Passes hold whole levels cut off at the top: half a level was lost on average.
-                    to[x] = static_cast<float>(sums[start + x]) * share + 0.5F;
-                }
+            const std::uint32_t* sums = painter.sums().data();
+            for (int y = tile.y; y < tile.y + tile.height; ++y) {
+                float* to = mean.ptr<float>(y) + 3 * tile.x;
+                // Passes hold whole levels cut off at the top: half a level was lost on average.
+                for (int i = 0; i < 3 * tile.width; ++i) *to++ = static_cast<float>(*sums++) * share + 0.5F;
             }
         }
     });
@@ -184,8 +190,8 @@ int SceneRenderer::frameCount() const {
 RenderedFrame SceneRenderer::render(FrameIndex index) const {
     const SceneDescription& scene = world_->scene;
     if (index < 0 || index >= scene.frame_count) {
-        throw Error(ErrorKind::parameter, "Scene '" + scene.name + "' has no frame " + std::to_string(index) + ", expected 0.." +
-                                              std::to_string(scene.frame_count - 1));
+        throw Error(ErrorKind::parameter, "Scene '" + scene.name + "' has no frame " + std::to_string(index) +
+                                              ", expected 0.." + std::to_string(scene.frame_count - 1));
     }
     const FrameIndex clock = clockFrame(scene, index);
     RenderedFrame rendered;

@@ -21,7 +21,7 @@ struct RenderedFrame {
 /// Paints the frames of a scene and knows their truth. Frames may be asked for in any order and from several threads
 /// at once; equal descriptions give equal frames.
 class SceneRenderer {
-   public:
+ public:
     /// Paints the ground (a second or two for a large scene). Throws Error when the description contradicts itself.
     explicit SceneRenderer(SceneDescription scene);
     ~SceneRenderer();
@@ -38,7 +38,7 @@ class SceneRenderer {
     cv::Matx33d frameFromGround(FrameIndex index) const;
     Homography firstFromFrame(FrameIndex index) const;
 
-   private:
+ private:
     struct World;
     std::unique_ptr<const World> world_;
 };

@@ -9,7 +9,7 @@ namespace eyrie {
 namespace {
 
 class SceneSource : public FrameSource {
-   public:
+ public:
     explicit SceneSource(SceneDescription description) : renderer_(std::move(description)) {
         const SceneDescription& scene = renderer_.scene();
         info_.path = "scene:" + scene.name;
@@ -29,7 +29,7 @@ class SceneSource : public FrameSource {
         return static_cast<std::int64_t>(std::floor(index * 1e6 / info_.frame_rate_hz + 0.5));
     }
 
-   private:
+ private:
     SceneRenderer renderer_;
     VideoInfo info_;
 };

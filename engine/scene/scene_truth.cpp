@@ -9,8 +9,8 @@
 namespace eyrie {
 namespace {
 
-constexpr double kStandingSpeed = 0.3;   ///< m/s
-constexpr int kSpeedReach = 10;          ///< frames before and after
+constexpr double kStandingSpeed = 0.3;  ///< m/s
+constexpr int kSpeedReach = 10;         ///< frames before and after
 constexpr double kLeastInside = 0.6;
 constexpr double kLeastVisible = 0.4;
 
@@ -55,10 +55,12 @@ double speedAround(const MovingObject& object, FrameIndex clock, double frame_ra
 
 }  // namespace
 
-SceneTruth::SceneTruth(const SceneDescription& scene, const std::vector<StandingThing>& things) : scene_(scene), things_(things) {
+SceneTruth::SceneTruth(const SceneDescription& scene, const std::vector<StandingThing>& things)
+    : scene_(scene), things_(things) {
     for (const MovingObject& object : scene.objects) {
         std::vector<cv::Point3d> corners;
-        for (const Face& face : bodyOf(object.look).faces) corners.insert(corners.end(), face.corners.begin(), face.corners.end());
+        for (const Face& face : bodyOf(object.look).faces)
+            corners.insert(corners.end(), face.corners.begin(), face.corners.end());
         bodies_.push_back(std::move(corners));
     }
 }
@@ -80,7 +82,8 @@ std::vector<SceneObject> SceneTruth::collect(FrameIndex clock, bool with_visibil
         const MovingObject& object = scene_.objects[i];
         ObjectPose pose;
         // Only whole frames of its life count; the half frames beyond serve motion blur.
-        if (clock < object.first_frame || clock >= object.first_frame + static_cast<FrameIndex>(object.poses.size())) continue;
+        if (clock < object.first_frame || clock >= object.first_frame + static_cast<FrameIndex>(object.poses.size()))
+            continue;
         if (!poseAt(object, clock, pose)) continue;
         if (camera.depth({pose.position.x, pose.position.y, 0}) < 1) continue;
         const cv::Point2d heading = image_from_ground.applyToVector(pose.position, pose.direction);
@@ -113,7 +116,8 @@ double SceneTruth::visibilityOf(const MovingObject& object, const ObjectPose& po
     for (const StandingThing& thing : things_) {
         if (thing.height <= object.look.height) continue;
         const cv::Point2d offset = thing.centre - pose.position;
-        if (std::sqrt(offset.dot(offset)) < thing.reach + object.look.length + lean * thing.height) near.push_back(&thing);
+        if (std::sqrt(offset.dot(offset)) < thing.reach + object.look.length + lean * thing.height)
+            near.push_back(&thing);
     }
     if (near.empty()) return 1;
     constexpr int kAlong = 11;
@@ -121,8 +125,8 @@ double SceneTruth::visibilityOf(const MovingObject& object, const ObjectPose& po
     int hidden = 0;
     for (int i = 0; i < kAlong; ++i) {
         for (int k = 0; k < kAcross; ++k) {
-            const cv::Point3d local(((i + 0.5) / kAlong - 0.5) * object.look.length, ((k + 0.5) / kAcross - 0.5) * object.look.width,
-                                    object.look.height * 0.75);
+            const cv::Point3d local(((i + 0.5) / kAlong - 0.5) * object.look.length,
+                                    ((k + 0.5) / kAcross - 0.5) * object.look.width, object.look.height * 0.75);
             const cv::Point3d from = placed(local, pose);
             cv::Point3d direction = camera - from;
             direction *= 1 / std::sqrt(direction.dot(direction));

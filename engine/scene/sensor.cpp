@@ -56,9 +56,6 @@ cv::Mat compressed(const cv::Mat& image, int quality) {
 
 std::vector<PassSample> passesOf(const Sensor& sensor) {
     const int count = sensor.samples;
-    if (count != 4 && count != 8 && count != 16 && count != 32) {
-        throw Error(ErrorKind::parameter, "samples = " + std::to_string(count) + ", expected 4, 8, 16 or 32 a pixel");
-    }
     // The pixel's own area has the variance 1/12; a triangle of radius r has r²/6.
     const double radius = std::sqrt(6 * (1.0 / 12 + sensor.blur_px * sensor.blur_px));
     std::vector<PassSample> passes;
@@ -91,7 +88,8 @@ Frame develop(const cv::Mat& light, const Sensor& sensor, std::uint32_t seed, Fr
             const float dx = static_cast<float>(x) - static_cast<float>(width - 1) / 2;
             const float shade = 1 - static_cast<float>(sensor.vignette) * (dx * dx + dy * dy) * corner;
             for (int channel = 0; channel < channels; ++channel) {
-                const float scene = channels == 1 ? 0.114F * from[x][0] + 0.587F * from[x][1] + 0.299F * from[x][2] : from[x][channel];
+                const float scene =
+                    channels == 1 ? 0.114F * from[x][0] + 0.587F * from[x][1] + 0.299F * from[x][2] : from[x][channel];
                 float value = std::clamp((level + contrast * (scene - 120)) * shade, 0.0F, 255.0F);
                 const float deviation = std::sqrt(read_variance + shot_variance * value);
                 const auto place = static_cast<std::uint32_t>((y * width + x) * 3 + channel);

@@ -16,12 +16,12 @@ struct PassSample {
     double moment = 0;   ///< frames from the middle of the exposure
 };
 
-/// The passes of a picture: offsets spread like the pixel's area widened by the lens blur, moments over the exposure. Their means
-/// are zero.
+/// The passes of a picture: offsets spread like the pixel's area widened by the lens blur, moments over the exposure.
+/// Their means are zero.
 std::vector<PassSample> passesOf(const Sensor& sensor);
 
-/// Turns the mean light of the pixels (CV_32FC3, 0 … 255) into the picture the camera delivers: vignette, haze, contrast, noise,
-/// compression. `moment` chooses the noise: the same moment has the same noise.
+/// Turns the mean light of the pixels (CV_32FC3, 0 … 255) into the picture the camera delivers: vignette, haze,
+/// contrast, noise, compression. `moment` chooses the noise: the same moment has the same noise.
 Frame develop(const cv::Mat& light, const Sensor& sensor, std::uint32_t seed, FrameIndex moment);
 
 }  // namespace eyrie

@@ -17,7 +17,8 @@ const cv::Vec3f kSteel(118, 118, 116);
 
 Mesh meshOf(const Building& building) {
     Mesh mesh;
-    const std::vector<cv::Point2d> o = rectangleAt(building.centre, building.direction, building.length, building.width);
+    const std::vector<cv::Point2d> o =
+        rectangleAt(building.centre, building.direction, building.length, building.width);
     addPrism(mesh, o, 0, building.height, building.facade, building.facade, Finish::facade);
     const float storey = 2.8F + 0.6F * static_cast<float>(hashOf(building.seed, 5, 9) >> 8) / 16777215.0F;
     for (Face& face : mesh.faces) face.storey = storey;
@@ -60,8 +61,8 @@ Mesh meshOf(const LampPost& post) {
     addPrism(mesh, rectangleAt(post.position, post.arm, 0.2, 0.2), 0, post.height, kSteel, kSteel, Finish::matte);
     addPrism(mesh, rectangleAt(post.position + post.arm * (post.arm_length / 2), post.arm, post.arm_length, 0.13),
              post.height - 0.12, post.height, kSteel, kSteel, Finish::matte);
-    addPrism(mesh, rectangleAt(post.position + post.arm * post.arm_length, post.arm, 0.8, 0.34), post.height - 0.2, post.height,
-             kSteel * 1.3F, kSteel * 1.5F, Finish::lacquer);
+    addPrism(mesh, rectangleAt(post.position + post.arm * post.arm_length, post.arm, 0.8, 0.34), post.height - 0.2,
+             post.height, kSteel * 1.3F, kSteel * 1.5F, Finish::lacquer);
     return mesh;
 }
 
@@ -122,7 +123,8 @@ std::vector<Ball> crownOf(const Tree& tree, const Sun& sun) {
         const double angle = (i + random.uniform(-0.35, 0.35)) * 2 * kPi / count;
         const double reach = radius * random.uniform(0.42, 0.6);
         const double lift = random.uniform(-0.28, 0.12) * crown_height;
-        lobes.push_back({{reach * portable::cosine(angle), reach * portable::sine(angle), lift}, radius * random.uniform(0.34, 0.5)});
+        lobes.push_back({{reach * portable::cosine(angle), reach * portable::sine(angle), lift},
+                         radius * random.uniform(0.34, 0.5)});
     }
     std::vector<Ball> balls;
     for (const Lobe& lobe : lobes) {
@@ -136,11 +138,14 @@ std::vector<Ball> crownOf(const Tree& tree, const Sun& sun) {
             const double depth = random.uniform(0.72, 1.0);
             Ball ball;
             ball.centre = cv::Point3d(tree.position.x, tree.position.y, middle) + lobe.centre +
-                          cv::Point3d(out.x * lobe.radius, out.y * lobe.radius, out.z * std::min(lobe.radius, crown_height * 0.4)) * depth;
+                          cv::Point3d(out.x * lobe.radius, out.y * lobe.radius,
+                                      out.z * std::min(lobe.radius, crown_height * 0.4)) *
+                              depth;
             ball.centre.z = std::clamp(ball.centre.z, tree.height * 0.2, tree.height);
             ball.radius = random.uniform(0.2, 0.48) * (tree.density < 0.6 ? 0.6 : 1.0);
             const double lit = std::max(0.0, out.dot(to_sun));
-            const double light = sun.ambient * (0.55 + 0.45 * std::max(0.0, out.z)) + (1 - sun.ambient) * lit * lit * depth;
+            const double light =
+                sun.ambient * (0.55 + 0.45 * std::max(0.0, out.z)) + (1 - sun.ambient) * lit * lit * depth;
             ball.colour = tree.colour * static_cast<float>(light * 1.25 * random.uniform(0.6, 1.4));
             balls.push_back(ball);
         }
@@ -171,7 +176,8 @@ std::vector<StandingThing> standingThings(const SceneDescription& scene) {
     }
     for (const Tree& tree : scene.trees) {
         Mesh trunk;
-        addPrism(trunk, rectangleAt(tree.position, {1, 0}, 0.3, 0.3), 0, tree.height * 0.6, {56, 66, 76}, {56, 66, 76}, Finish::matte);
+        addPrism(trunk, rectangleAt(tree.position, {1, 0}, 0.3, 0.3), 0, tree.height * 0.6, {56, 66, 76}, {56, 66, 76},
+                 Finish::matte);
         StandingThing thing = thingOf(std::move(trunk));
         thing.balls = crownOf(tree, scene.sun);
         thing.reach = tree.crown_radius * 1.4 + 1;

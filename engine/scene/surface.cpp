@@ -46,8 +46,8 @@ cv::Vec3f colourOf(const Surface& surface, cv::Point2d p) {
             break;
         case Material::concrete:
             base = {150, 156, 158};
-            factor = 1 + 0.07F * slabTone(along, across, 7.5, 7.5, seed) + 0.09F * broad(12, 5) + 0.05F * broad(0.45, 2) -
-                     0.28F * jointsOf(along, across, 7.5, 7.5, 0.12);
+            factor = 1 + 0.07F * slabTone(along, across, 7.5, 7.5, seed) + 0.09F * broad(12, 5) +
+                     0.05F * broad(0.45, 2) - 0.28F * jointsOf(along, across, 7.5, 7.5, 0.12);
             break;
         case Material::paving:
             base = {142, 148, 152};
@@ -63,7 +63,8 @@ cv::Vec3f colourOf(const Surface& surface, cv::Point2d p) {
         case Material::field: {
             base = {86, 128, 132};
             factor = 1 + 0.10F * broad(30, 4) + 0.08F * broad(0.6, 2) +
-                     0.13F * valueNoise(along / 14, across / 0.8, seed + 5) + 0.06F * valueNoise(along / 60, across / 6, seed + 6);
+                     0.13F * valueNoise(along / 14, across / 0.8, seed + 5) +
+                     0.06F * valueNoise(along / 60, across / 6, seed + 6);
             break;
         }
         case Material::soil:
@@ -106,7 +107,9 @@ cv::Vec3f colourOf(const Surface& surface, cv::Point2d p) {
             factor = 1 + 0.06F * broad(6, 3) + (rib - std::floor(rib) < 0.22 ? -0.16F : 0.0F);
             break;
         }
-        case Material::plain: base = {128, 128, 128}; break;
+        case Material::plain:
+            base = {128, 128, 128};
+            break;
     }
     factor *= static_cast<float>(surface.tone);
     for (int channel = 0; channel < 3; ++channel) {

@@ -17,22 +17,22 @@ enum class Material {
     soil,
     gravel,
     kerb,
-    paint,         ///< road marking, worn in places
-    tar,           ///< repaired cracks and patches
-    stain,         ///< oil and rubber; darkens what lies below
+    paint,  ///< road marking, worn in places
+    tar,    ///< repaired cracks and patches
+    stain,  ///< oil and rubber; darkens what lies below
     roof_gravel,
     roof_tiles,
     roof_metal,
-    plain          ///< one even tone
+    plain  ///< one even tone
 };
 
 /// A painted surface: a material and how it varies.
 struct Surface {
     Material material = Material::asphalt;
-    double tone = 1;               ///< multiplies the material's brightness
-    double opacity = 1;            ///< 0 … 1
-    cv::Point2d direction{1, 0};   ///< of slabs, furrows, tiles; unit vector
-    cv::Vec3f tint{1, 1, 1};       ///< multiplies blue, green, red
+    double tone = 1;              ///< multiplies the material's brightness
+    double opacity = 1;           ///< 0 … 1
+    cv::Point2d direction{1, 0};  ///< of slabs, furrows, tiles; unit vector
+    cv::Vec3f tint{1, 1, 1};      ///< multiplies blue, green, red
     std::uint32_t seed = 1;
 };
 

@@ -76,7 +76,8 @@ std::vector<Town::Gap> Town::openStretches(int street, double margin) const {
 double Town::stopLineAt(const Crossing& crossing, int street, bool forward) const {
     const bool is_first = crossing.first == street;
     const double s = is_first ? crossing.s_first : crossing.s_second;
-    const double half = streets_[static_cast<std::size_t>(is_first ? crossing.second : crossing.first)].halfCarriageway() + 6.5;
+    const double half =
+        streets_[static_cast<std::size_t>(is_first ? crossing.second : crossing.first)].halfCarriageway() + 6.5;
     return forward ? s - half : s + half;
 }
 
@@ -167,22 +168,24 @@ void Town::layCrossings() {
         Surface road{a.material, 0.98};
         road.direction = along_a;
         road.seed = 93;
-        patch(stripAlong(a.path, crossing.s_first - b.halfWidth(), crossing.s_first + b.halfWidth(), -a.halfCarriageway(),
-                         a.halfCarriageway()),
+        patch(stripAlong(a.path, crossing.s_first - b.halfWidth(), crossing.s_first + b.halfWidth(),
+                         -a.halfCarriageway(), a.halfCarriageway()),
               road);
-        patch(stripAlong(b.path, crossing.s_second - a.halfWidth(), crossing.s_second + a.halfWidth(), -b.halfCarriageway(),
-                         b.halfCarriageway()),
+        patch(stripAlong(b.path, crossing.s_second - a.halfWidth(), crossing.s_second + a.halfWidth(),
+                         -b.halfCarriageway(), b.halfCarriageway()),
               road);
         // Rounded corners: the carriageway reaches into the pavement.
         for (const double u : {-1.0, 1.0}) {
             for (const double v : {-1.0, 1.0}) {
                 const double reach = 5;
-                const cv::Point2d corner = centre + along_a * (u * b.halfCarriageway()) + along_b * (v * a.halfCarriageway());
+                const cv::Point2d corner =
+                    centre + along_a * (u * b.halfCarriageway()) + along_b * (v * a.halfCarriageway());
                 std::vector<cv::Point2d> fillet{corner};
                 for (int i = 0; i <= 6; ++i) {
                     // A quarter of a circle seen from the pavement's side.
                     static const double sines[7] = {0, 0.2588, 0.5, 0.7071, 0.8660, 0.9659, 1};
-                    fillet.push_back(corner + along_a * (u * reach * (1 - sines[i])) + along_b * (v * reach * (1 - sines[6 - i])));
+                    fillet.push_back(corner + along_a * (u * reach * (1 - sines[i])) +
+                                     along_b * (v * reach * (1 - sines[6 - i])));
                 }
                 Surface kerb{Material::kerb, 0.95};
                 patch(fillet, kerb);

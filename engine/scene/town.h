@@ -13,15 +13,15 @@ namespace eyrie {
 /// A street with everything along it. Traffic drives on the right.
 struct Street {
     Path path;
-    int lanes = 2;               ///< in each direction
-    double lane_width = 3.25;    ///< m
-    double parking = 2.2;        ///< m of parking lane on each side; 0: none
-    double pavement = 4;         ///< m on each side
-    double occupancy = 0.7;      ///< share of parking places in use
-    double tree_distance = 11;   ///< m between trees on the pavement; 0: none
-    double tree_overhang = 0;    ///< m by which tree crowns reach out over the carriageway
-    double lamp_distance = 28;   ///< m; 0: none
-    double building_share = 0.9; ///< share of the frontage that is built up
+    int lanes = 2;                ///< in each direction
+    double lane_width = 3.25;     ///< m
+    double parking = 2.2;         ///< m of parking lane on each side; 0: none
+    double pavement = 4;          ///< m on each side
+    double occupancy = 0.7;       ///< share of parking places in use
+    double tree_distance = 11;    ///< m between trees on the pavement; 0: none
+    double tree_overhang = 0;     ///< m by which tree crowns reach out over the carriageway
+    double lamp_distance = 28;    ///< m; 0: none
+    double building_share = 0.9;  ///< share of the frontage that is built up
     std::pair<double, double> storeys{3, 6};
     Material material = Material::asphalt;
     bool marked = true;
@@ -43,7 +43,7 @@ struct Crossing {
 /// Lays out a town: ground, kerbs, markings, wear, buildings, trees, lamps and parked vehicles along streets, blocks
 /// with yards and car parks behind them.
 class Town {
-   public:
+ public:
     Town(SceneDescription& scene, cv::Rect2d area, std::uint32_t seed);
 
     int addStreet(Street street);
@@ -51,10 +51,11 @@ class Town {
     void build();
     const std::vector<Street>& streets() const { return streets_; }
     const std::vector<Crossing>& crossings() const { return crossings_; }
-    /// Arc length on a street of the stop line before a crossing, for traffic in the street's direction (or against it).
+    /// Arc length on a street of the stop line before a crossing, for traffic in the street's direction (or against
+    /// it).
     double stopLineAt(const Crossing& crossing, int street, bool forward) const;
 
-   private:
+ private:
     struct Gap {
         double from, to;
     };

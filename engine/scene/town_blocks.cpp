@@ -149,13 +149,17 @@ void Town::parkAlong(int index) {
             while (true) {
                 ParkedVehicle parked;
                 const double draw = random_.uniform();
-                parked.look = randomLook(draw < 0.86 ? ObjectKind::car : draw < 0.97 ? ObjectKind::van : ObjectKind::truck, random_);
+                parked.look = randomLook(draw < 0.86   ? ObjectKind::car
+                                         : draw < 0.97 ? ObjectKind::van
+                                                       : ObjectKind::truck,
+                                         random_);
                 if (parked.look.length > 8) parked.look = randomLook(ObjectKind::van, random_);
                 const double place = s + parked.look.length / 2;
                 s += parked.look.length + 0.5 + random_.uniform(0.1, 1.1);
                 if (s > open.to) break;
                 if (!random_.chance(street.occupancy)) continue;
-                const double right = side * (street.halfCarriageway() - parked.look.width / 2 - random_.uniform(0.1, 0.35));
+                const double right =
+                    side * (street.halfCarriageway() - parked.look.width / 2 - random_.uniform(0.1, 0.35));
                 parked.pose.position = street.path.beside(place, right);
                 const double skew = random_.uniform(-0.03, 0.03);
                 const cv::Point2d along = street.path.direction(place);
@@ -172,11 +176,14 @@ void Town::furnish(int index) {
     for (const Gap& open : openStretches(index, street.pavement + 4)) {
         for (const double side : {-1.0, 1.0}) {
             if (street.tree_distance > 0) {
-                for (double s = open.from + random_.uniform(1, 6); s < open.to; s += street.tree_distance * random_.uniform(0.8, 1.3)) {
+                for (double s = open.from + random_.uniform(1, 6); s < open.to;
+                     s += street.tree_distance * random_.uniform(0.8, 1.3)) {
                     const double height = random_.uniform(6, 11);
                     const double radius = random_.uniform(1.8, 3.2) + street.tree_overhang * 0.5;
-                    const double right = side * (street.halfCarriageway() + 1.1 - std::min(0.6, street.tree_overhang * 0.2));
-                    if (random_.chance(0.85)) addTree(street.path.beside(s, right), height + street.tree_overhang, radius);
+                    const double right =
+                        side * (street.halfCarriageway() + 1.1 - std::min(0.6, street.tree_overhang * 0.2));
+                    if (random_.chance(0.85))
+                        addTree(street.path.beside(s, right), height + street.tree_overhang, radius);
                 }
             }
             if (street.lamp_distance > 0) {

@@ -62,7 +62,8 @@ void Town::markCrossingArm(int index, double s, double other_half, double side) 
     paint.seed = random_.bits();
     const double half = street.halfCarriageway();
     for (double right = -half + 0.5; right + 0.5 < half; right += 1.0) {
-        patch(stripAlong(street.path, std::min(zebra, zebra_end), std::max(zebra, zebra_end), right, right + 0.5), paint);
+        patch(stripAlong(street.path, std::min(zebra, zebra_end), std::max(zebra, zebra_end), right, right + 0.5),
+              paint);
     }
     // Those who drive towards the crossing keep to the right of their own direction.
     const bool forward = side < 0;
@@ -143,7 +144,8 @@ void Town::wear(int index) {
         const double right = random_.uniform(-half + 0.7, half - 0.7);
         const cv::Point2d centre = street.path.beside(s, right);
         std::vector<cv::Point2d> ring;
-        for (int k = 0; k < 10; ++k) ring.push_back(centre + cv::Point2d(portable::cosine(0.628 * k), portable::sine(0.628 * k)) * 0.4);
+        for (int k = 0; k < 10; ++k)
+            ring.push_back(centre + cv::Point2d(portable::cosine(0.628 * k), portable::sine(0.628 * k)) * 0.4);
         Surface iron{Material::tar, random_.chance(0.5) ? 0.7 : 1.6, 0.9};
         patch(ring, iron);
     }

@@ -33,11 +33,13 @@ Path joined(const Path& a, double s_out, const Path& b, double s_in) {
 
 const Crossing& TownTraffic::crossingOf(int street, int other) const {
     for (const Crossing& crossing : town_.crossings()) {
-        if ((crossing.first == street && crossing.second == other) || (crossing.first == other && crossing.second == street)) {
+        if ((crossing.first == street && crossing.second == other) ||
+            (crossing.first == other && crossing.second == street)) {
             return crossing;
         }
     }
-    throw Error(ErrorKind::internal, "Streets " + std::to_string(street) + " and " + std::to_string(other) + " do not cross.");
+    throw Error(ErrorKind::internal,
+                "Streets " + std::to_string(street) + " and " + std::to_string(other) + " do not cross.");
 }
 
 Path TownTraffic::lanePath(int street, bool forward, int lane) const {
@@ -48,7 +50,8 @@ Path TownTraffic::lanePath(int street, bool forward, int lane) const {
 
 bool TownTraffic::onCrossing(cv::Point2d point) const {
     return std::any_of(town_.crossings().begin(), town_.crossings().end(), [&](const Crossing& crossing) {
-        const cv::Point2d centre = town_.streets()[static_cast<std::size_t>(crossing.first)].path.position(crossing.s_first);
+        const cv::Point2d centre =
+            town_.streets()[static_cast<std::size_t>(crossing.first)].path.position(crossing.s_first);
         const cv::Point2d offset = centre - point;
         return offset.dot(offset) < 24.0 * 24.0;
     });
@@ -118,7 +121,8 @@ void TownTraffic::fill(int route, int lane, const LaneLoad& load) {
                 s += 10;
                 continue;
             }
-            const ObjectKind kind = random_.chance(load.motorcycles) ? ObjectKind::motorcycle : randomVehicleKind(random_);
+            const ObjectKind kind =
+                random_.chance(load.motorcycles) ? ObjectKind::motorcycle : randomVehicleKind(random_);
             send(route, lane, s, kind, speed * random_.uniform(0.96, 1.06));
             Driver& driver = drivers_.back();
             // Long vehicles stand around their middle.

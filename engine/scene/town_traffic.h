@@ -11,18 +11,18 @@ namespace eyrie {
 
 /// How a lane is filled with platoons.
 struct LaneLoad {
-    double from = 0, to = 1e9;                 ///< m along the route
-    std::pair<int, int> platoon{2, 6};         ///< vehicles driving close together
-    std::pair<double, double> gap{3, 8};       ///< m between their bodies at the start
-    std::pair<double, double> pause{20, 60};   ///< m between platoons
-    std::pair<double, double> speed{10, 14};   ///< m/s, one for each platoon
-    double eager = 0.2;                        ///< share of drivers who want to go faster and overtake
-    double motorcycles = 0.02;                 ///< share of motorcycles
+    double from = 0, to = 1e9;                ///< m along the route
+    std::pair<int, int> platoon{2, 6};        ///< vehicles driving close together
+    std::pair<double, double> gap{3, 8};      ///< m between their bodies at the start
+    std::pair<double, double> pause{20, 60};  ///< m between platoons
+    std::pair<double, double> speed{10, 14};  ///< m/s, one for each platoon
+    double eager = 0.2;                       ///< share of drivers who want to go faster and overtake
+    double motorcycles = 0.02;                ///< share of motorcycles
 };
 
 /// Traffic on the streets of a town.
 class TownTraffic {
-   public:
+ public:
     TownTraffic(const Town& town, std::uint32_t seed) : town_(town), random_(seed) {}
 
     /// Along a street with all its lanes; returns the route's number.
@@ -43,13 +43,15 @@ class TownTraffic {
 
     double lengthOf(int route) const { return routes_[static_cast<std::size_t>(route)].path.length(); }
     /// Arc length on a route of the point nearest to `point`.
-    double nearestOn(int route, cv::Point2d point) const { return routes_[static_cast<std::size_t>(route)].path.nearest(point); }
+    double nearestOn(int route, cv::Point2d point) const {
+        return routes_[static_cast<std::size_t>(route)].path.nearest(point);
+    }
 
     std::vector<MovingObject> drive(int frame_count, double frame_rate_hz, double run_up) const {
         return driveTraffic(routes_, drivers_, frame_count, frame_rate_hz, run_up);
     }
 
-   private:
+ private:
     const Crossing& crossingOf(int street, int other) const;
     bool onCrossing(cv::Point2d point) const;
     Path lanePath(int street, bool forward, int lane) const;

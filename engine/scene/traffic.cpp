@@ -9,12 +9,12 @@
 namespace eyrie {
 namespace {
 
-constexpr double kAcceleration = 1.9;   ///< m/s²
-constexpr double kBraking = 2.6;        ///< m/s², comfortable
-constexpr double kHardBraking = 7.0;    ///< m/s²
-constexpr double kSideways = 2.6;       ///< m/s² in bends
-constexpr double kLaneChangeTime = 3.2; ///< s
-constexpr double kSight = 60;           ///< m
+constexpr double kAcceleration = 1.9;    ///< m/s²
+constexpr double kBraking = 2.6;         ///< m/s², comfortable
+constexpr double kHardBraking = 7.0;     ///< m/s²
+constexpr double kSideways = 2.6;        ///< m/s² in bends
+constexpr double kLaneChangeTime = 3.2;  ///< s
+constexpr double kSight = 60;            ///< m
 
 struct Mover {
     const Driver* driver = nullptr;
@@ -58,9 +58,9 @@ double following(const Mover& mover, double wanted, double gap, double other_spe
 
 /// Where another stands as seen along a mover's route.
 struct Sighting {
-    double ahead = 0;     ///< m between the centres
-    double aside = 0;     ///< m to the right of the mover's line
-    double speed = 0;     ///< m/s along the mover's direction there
+    double ahead = 0;  ///< m between the centres
+    double aside = 0;  ///< m to the right of the mover's line
+    double speed = 0;  ///< m/s along the mover's direction there
     double half_length = 0;
     double half_width = 0;
 };
@@ -85,7 +85,7 @@ bool sight(const Mover& mover, const Mover& other, double behind, Sighting& seen
 }
 
 class Simulation {
-   public:
+ public:
     Simulation(const std::vector<Route>& routes, const std::vector<Driver>& drivers, double start) : time_(start) {
         for (const Driver& driver : drivers) {
             Mover mover;
@@ -118,7 +118,8 @@ class Simulation {
             if (mover.change < 1) {
                 // A lane change needs way, not time alone.
                 mover.change = std::min(1.0, mover.change + dt / kLaneChangeTime * std::min(1.0, mover.speed / 5));
-                const double eased = mover.change * mover.change * mover.change * (10 + mover.change * (6 * mover.change - 15));
+                const double eased =
+                    mover.change * mover.change * mover.change * (10 + mover.change * (6 * mover.change - 15));
                 mover.side = mover.side_from + (mover.side_to - mover.side_from) * eased;
             } else if (mover.driver->overtakes) {
                 considerLaneChange(i, accelerations[i]);
@@ -128,16 +129,18 @@ class Simulation {
         place();
     }
 
-   private:
+ private:
     static double laneSide(const Mover& mover, int lane) {
         return mover.route->lanes[static_cast<std::size_t>(lane)] + mover.driver->drift;
     }
 
     void place() {
         for (Mover& mover : movers_) {
-            if (!mover.present && !mover.gone && time_ >= mover.driver->enter_time && entryIsFree(mover)) mover.present = true;
+            if (!mover.present && !mover.gone && time_ >= mover.driver->enter_time && entryIsFree(mover))
+                mover.present = true;
             const double strayed =
-                mover.side + 0.12 * portable::sine(mover.s / 23 + static_cast<double>(mover.driver->look.seed % 628) / 100);
+                mover.side +
+                0.12 * portable::sine(mover.s / 23 + static_cast<double>(mover.driver->look.seed % 628) / 100);
             mover.position = mover.route->path.beside(mover.s, strayed);
             const cv::Point2d tangent = mover.route->path.direction(mover.s);
             double slant = 0;
@@ -179,7 +182,8 @@ class Simulation {
             best = std::min(best, following(mover, wanted, gap + mover.driver->gap - 0.4, 0));
         }
         // People on foot and on bicycles keep to ways of their own and walk on.
-        if (mover.driver->look.kind == ObjectKind::person || mover.driver->look.kind == ObjectKind::bicycle) return best;
+        if (mover.driver->look.kind == ObjectKind::person || mover.driver->look.kind == ObjectKind::bicycle)
+            return best;
         for (std::size_t k = 0; k < movers_.size(); ++k) {
             const Mover& other = movers_[k];
             if (k == index || !other.present) continue;
@@ -230,8 +234,8 @@ class Simulation {
 
 }  // namespace
 
-std::vector<MovingObject> driveTraffic(const std::vector<Route>& routes, const std::vector<Driver>& drivers, int frame_count,
-                                       double frame_rate_hz, double run_up) {
+std::vector<MovingObject> driveTraffic(const std::vector<Route>& routes, const std::vector<Driver>& drivers,
+                                       int frame_count, double frame_rate_hz, double run_up) {
     const double dt = 1 / frame_rate_hz;
     const int warm = static_cast<int>(std::floor(run_up * frame_rate_hz));
     Simulation simulation(routes, drivers, -warm * dt);

@@ -37,11 +37,10 @@ struct Driver {
     bool overtakes = false;     ///< changes to a free lane when held up
 };
 
-/// Moves the drivers by a car-following law (Treiber's intelligent driver model), slowing for bends, red lights and whatever stands
-/// on their way, changing lanes to overtake.
-/// `run_up` seconds pass before frame 0. The objects have ids 1, 2 … in the order of the drivers; those that leave their
-/// route's end vanish.
-std::vector<MovingObject> driveTraffic(const std::vector<Route>& routes, const std::vector<Driver>& drivers, int frame_count,
-                                       double frame_rate_hz, double run_up);
+/// Moves the drivers by a car-following law (Treiber's intelligent driver model), slowing for bends, red lights and
+/// whatever stands on their way, changing lanes to overtake. `run_up` seconds pass before frame 0. The objects have ids
+/// 1, 2 … in the order of the drivers; those that leave their route's end vanish.
+std::vector<MovingObject> driveTraffic(const std::vector<Route>& routes, const std::vector<Driver>& drivers,
+                                       int frame_count, double frame_rate_hz, double run_up);
 
 }  // namespace eyrie

@@ -38,8 +38,8 @@ void addPlate(Mesh& mesh, const Extent& e, double shift, double z, cv::Vec3f col
 }
 
 /// A tapering box: window bands all round and a lid.
-void addCabin(Mesh& mesh, const Extent& base, double base_z, const Extent& lid, double lid_z, cv::Vec3f paint, bool windows_at_side,
-              bool window_at_rear) {
+void addCabin(Mesh& mesh, const Extent& base, double base_z, const Extent& lid, double lid_z, cv::Vec3f paint,
+              bool windows_at_side, bool window_at_rear) {
     const std::array<cv::Point3d, 4> low{
         cv::Point3d(base.rear, -base.half_width, base_z), cv::Point3d(base.front, -base.half_width, base_z),
         cv::Point3d(base.front, base.half_width, base_z), cv::Point3d(base.rear, base.half_width, base_z)};
@@ -47,7 +47,8 @@ void addCabin(Mesh& mesh, const Extent& base, double base_z, const Extent& lid, 
         cv::Point3d(lid.rear, -lid.half_width, lid_z), cv::Point3d(lid.front, -lid.half_width, lid_z),
         cv::Point3d(lid.front, lid.half_width, lid_z), cv::Point3d(lid.rear, lid.half_width, lid_z)};
     const auto side = [&](std::size_t a, std::size_t b, bool window) {
-        addQuad(mesh, {high[b], high[a], low[a], low[b]}, window ? kGlass : paint, window ? Finish::glass : Finish::lacquer);
+        addQuad(mesh, {high[b], high[a], low[a], low[b]}, window ? kGlass : paint,
+                window ? Finish::glass : Finish::lacquer);
     };
     side(0, 1, windows_at_side);
     side(1, 2, true);
@@ -71,9 +72,9 @@ void addCar(Mesh& mesh, const ObjectLook& look, Random& random) {
     const double w = look.width / 2;
     const double h = look.height;
     const double belt = h * 0.62;
-    const std::vector<cv::Point2d> outline{{-a, -0.62 * w},       {-a + 0.22, -0.9 * w}, {-a + 0.8, -w},       {a - 0.9, -w},
-                                           {a - 0.3, -0.9 * w},   {a, -0.55 * w},        {a, 0.55 * w},        {a - 0.3, 0.9 * w},
-                                           {a - 0.9, w},          {-a + 0.8, w},         {-a + 0.22, 0.9 * w}, {-a, 0.62 * w}};
+    const std::vector<cv::Point2d> outline{
+        {-a, -0.62 * w}, {-a + 0.22, -0.9 * w}, {-a + 0.8, -w}, {a - 0.9, -w}, {a - 0.3, -0.9 * w},  {a, -0.55 * w},
+        {a, 0.55 * w},   {a - 0.3, 0.9 * w},    {a - 0.9, w},   {-a + 0.8, w}, {-a + 0.22, 0.9 * w}, {-a, 0.62 * w}};
     addPrism(mesh, outline, 0.16, 0.38, kRubber, kRubber, Finish::matte);
     addPrism(mesh, outline, 0.38, belt, look.colour * 0.92F, look.colour, Finish::lacquer);
     const bool hatchback = random.chance(0.5);
@@ -120,11 +121,13 @@ void addTruck(Mesh& mesh, const ObjectLook& look, Random& random) {
     addPrism(mesh, boxOutline({-a, a - 0.2, w * 0.82}), 0.5, 1.05, chassis, chassis, Finish::matte);
     addPrism(mesh, boxOutline({cab_rear, a, w * 0.97}), 0.5, 1.5, look.colour * 0.9F, look.colour, Finish::lacquer);
     const double cab_top = std::min(h, 2.9);
-    addCabin(mesh, {cab_rear, a - 0.05, w * 0.96}, 1.5, {cab_rear + 0.05, a - 0.35, w * 0.9}, cab_top, look.colour, true, false);
+    addCabin(mesh, {cab_rear, a - 0.05, w * 0.96}, 1.5, {cab_rear + 0.05, a - 0.35, w * 0.9}, cab_top, look.colour,
+             true, false);
     const int load = random.below(4);
     if (load == 0 && !trailer) {
         // A tipper with an open bed: dark floor with rubble between bright side walls.
-        addPrism(mesh, boxOutline({-a, cargo_front, w}), 1.05, 1.9, look.colour * 0.8F, look.colour * 0.85F, Finish::matte);
+        addPrism(mesh, boxOutline({-a, cargo_front, w}), 1.05, 1.9, look.colour * 0.8F, look.colour * 0.85F,
+                 Finish::matte);
         const cv::Vec3f rubble(70, 88, 102);
         addPlate(mesh, {-a + 0.12, cargo_front - 0.12, w - 0.12}, 0, 1.91, rubble, Finish::matte);
         for (int i = 0; i < 7; ++i) {
@@ -139,7 +142,8 @@ void addTruck(Mesh& mesh, const ObjectLook& look, Random& random) {
     }
     static constexpr std::array<float, 4> greys{190, 205, 150, 96};
     const float grey = greys[static_cast<std::size_t>(load)];
-    const cv::Vec3f box = random.chance(0.25) ? cv::Vec3f(grey, grey * 0.75F, grey * 0.55F) : cv::Vec3f(grey, grey, grey * 0.98F);
+    const cv::Vec3f box =
+        random.chance(0.25) ? cv::Vec3f(grey, grey * 0.75F, grey * 0.55F) : cv::Vec3f(grey, grey, grey * 0.98F);
     addPrism(mesh, boxOutline({-a, cargo_front, w}), 1.05, h, box * 0.9F, box, Finish::matte);
     if (load >= 2) {
         for (double x = -a + 0.6; x < cargo_front - 0.3; x += 0.62) {
@@ -155,10 +159,12 @@ void addBus(Mesh& mesh, const ObjectLook& look, Random& random) {
     const std::vector<cv::Point2d> outline{{-a, -0.9 * w}, {-a + 0.25, -w}, {a - 0.35, -w}, {a, -0.82 * w},
                                            {a, 0.82 * w},  {a - 0.35, w},   {-a + 0.25, w}, {-a, 0.9 * w}};
     addPrism(mesh, outline, 0.3, 1.2, look.colour * 0.9F, look.colour, Finish::lacquer);
-    addCabin(mesh, {-a + 0.02, a - 0.02, w * 0.985}, 1.2, {-a + 0.12, a - 0.16, w * 0.94}, h - 0.25, look.colour, true, true);
+    addCabin(mesh, {-a + 0.02, a - 0.02, w * 0.985}, 1.2, {-a + 0.12, a - 0.16, w * 0.94}, h - 0.25, look.colour, true,
+             true);
     const cv::Vec3f roof(196, 198, 198);
     const bool plain = random.chance(0.4);
-    addPrism(mesh, boxOutline({-a + 0.1, a - 0.2, w * 0.93}), h - 0.25, h, look.colour, plain ? look.colour : roof, Finish::lacquer);
+    addPrism(mesh, boxOutline({-a + 0.1, a - 0.2, w * 0.93}), h - 0.25, h, look.colour, plain ? look.colour : roof,
+             Finish::lacquer);
     addPlate(mesh, {-a * 0.5, -a * 0.5 + 0.7, 0.38}, 0, h + 0.01, roof * 0.8F, Finish::matte);
     addPlate(mesh, {a * 0.45, a * 0.45 + 0.7, 0.38}, 0, h + 0.01, roof * 0.8F, Finish::matte);
     if (random.chance(0.6)) {
@@ -184,7 +190,8 @@ void addTwoWheeler(Mesh& mesh, const ObjectLook& look, Random& random) {
     const double w = look.width / 2;
     const bool motor = look.kind == ObjectKind::motorcycle;
     const double half = motor ? 0.17 : 0.06;
-    addPrism(mesh, boxOutline({-a, a, half}), 0.05, motor ? 0.8 : 0.65, kRubber, motor ? look.colour * 0.5F : kRubber, Finish::lacquer);
+    addPrism(mesh, boxOutline({-a, a, half}), 0.05, motor ? 0.8 : 0.65, kRubber, motor ? look.colour * 0.5F : kRubber,
+             Finish::lacquer);
     // Handlebars give the full width.
     addPlate(mesh, {a - 0.55, a - 0.45, w}, 0, 1.0, kRubber * 1.4F, Finish::matte);
     const cv::Vec3f head = random.chance(0.5) ? cv::Vec3f(190, 190, 190) : cv::Vec3f(50, 54, 70);
@@ -201,8 +208,8 @@ void addPerson(Mesh& mesh, const ObjectLook& look, Random& random) {
     addPrism(mesh, ellipse(0.03, 0.11, 0.1), look.height - 0.26, look.height, hair, hair, Finish::matte);
 }
 
-/// Curved glass and chrome: mirrors that face nearly, not quite, upwards. Each flashes when the camera passes the one direction it
-/// throws the sun to.
+/// Curved glass and chrome: mirrors that face nearly, not quite, upwards. Each flashes when the camera passes the one
+/// direction it throws the sun to.
 void addGlints(Mesh& mesh, const ObjectLook& look, Random& random) {
     const int count = isVehicle(look.kind) ? 24 : 2;
     for (int i = 0; i < count; ++i) {
@@ -221,13 +228,25 @@ Mesh bodyOf(const ObjectLook& look) {
     Mesh mesh;
     Random random(look.seed);
     switch (look.kind) {
-        case ObjectKind::car: addCar(mesh, look, random); break;
-        case ObjectKind::van: addVan(mesh, look, random); break;
-        case ObjectKind::truck: addTruck(mesh, look, random); break;
-        case ObjectKind::bus: addBus(mesh, look, random); break;
+        case ObjectKind::car:
+            addCar(mesh, look, random);
+            break;
+        case ObjectKind::van:
+            addVan(mesh, look, random);
+            break;
+        case ObjectKind::truck:
+            addTruck(mesh, look, random);
+            break;
+        case ObjectKind::bus:
+            addBus(mesh, look, random);
+            break;
         case ObjectKind::motorcycle:
-        case ObjectKind::bicycle: addTwoWheeler(mesh, look, random); break;
-        case ObjectKind::person: addPerson(mesh, look, random); break;
+        case ObjectKind::bicycle:
+            addTwoWheeler(mesh, look, random);
+            break;
+        case ObjectKind::person:
+            addPerson(mesh, look, random);
+            break;
     }
     addGlints(mesh, look, random);
     orient(mesh);

@@ -1,8 +1,7 @@
-#include "scene/band_painter.h"
+#include "scene/tile_painter.h"
 
 #include <algorithm>
 #include <cmath>
-
 
 namespace eyrie {
 namespace {
@@ -12,9 +11,14 @@ std::uint32_t packed(float blue, float green, float red) {
     return byte(blue) | (byte(green) << 8) | (byte(red) << 16);
 }
 
-/// First and last pixel of a convex polygon in row y; empty when first > last.
+/// A range of rows or columns, inclusive; empty when first > last.
+struct Span {
+    int first, last;
+};
+
+/// Columns of a convex polygon in row y.
 template <class Corners>
-void spanInRow(const Corners& corners, std::size_t count, int y, int width, int& first, int& last) {
+Span columnsInRow(const Corners& corners, std::size_t count, int y, const cv::Rect& tile) {
     float left = 1e30F;
     float right = -1e30F;
     const auto row = static_cast<float>(y);
@@ -26,13 +30,25 @@ void spanInRow(const Corners& corners, std::size_t count, int y, int width, int&
         left = std::min(left, x);
         right = std::max(right, x);
     }
-    if (right < left) {
-        first = 1;
-        last = 0;
-        return;
+    if (right < left) return {1, 0};
+    const auto low = static_cast<float>(tile.x - 1);
+    const auto high = static_cast<float>(tile.x + tile.width);
+    return {std::max(tile.x, static_cast<int>(std::ceil(std::clamp(left, low, high)))),
+            std::min(tile.x + tile.width, static_cast<int>(std::ceil(std::clamp(right, low, high)))) - 1};
+}
+
+template <class Corners>
+Span rowsOf(const Corners& corners, std::size_t count, const cv::Rect& tile) {
+    float top = 1e30F;
+    float bottom = -1e30F;
+    for (std::size_t i = 0; i < count; ++i) {
+        top = std::min(top, corners[i].y);
+        bottom = std::max(bottom, corners[i].y);
     }
-    first = std::max(0, static_cast<int>(std::ceil(left)));
-    last = std::min(width - 1, static_cast<int>(std::ceil(right)) - 1);
+    const auto low = static_cast<float>(tile.y - 1);
+    const auto high = static_cast<float>(tile.y + tile.height);
+    return {std::max(tile.y, static_cast<int>(std::ceil(std::clamp(top, low, high)))),
+            std::min(tile.y + tile.height, static_cast<int>(std::ceil(std::clamp(bottom, low, high)))) - 1};
 }
 
 /// Window panes on a wall, `along` and `up` in metres.
@@ -47,21 +63,20 @@ bool isWindow(float along, float up, float storey) {
 
 }  // namespace
 
-BandPainter::BandPainter(int width, int first_row, int rows)
-    : width_(width),
-      first_row_(first_row),
-      rows_(rows),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows)),
+TilePainter::TilePainter(cv::Rect tile, int index)
+    : tile_(tile),
+      index_(static_cast<std::size_t>(index)),
+      pixels_(static_cast<std::size_t>(tile.area())),
       inverse_depth_(pixels_.size()),
       sums_(pixels_.size() * 3) {}
 
-void BandPainter::add(const PassGeometry& pass, const GroundMap& map, double ambient) {
+void TilePainter::add(const PassGeometry& pass, const GroundMap& map, double ambient) {
     paintGround(pass, map);
-    for (const ScreenShadow& shadow : pass.shadows) paintShadow(shadow);
+    for (const int i : pass.tiles[index_].shadows) paintShadow(pass.shadows[static_cast<std::size_t>(i)]);
     lightGround(ambient);
     std::fill(inverse_depth_.begin(), inverse_depth_.end(), 0.0F);
-    for (const ScreenFace& face : pass.faces) paintFace(face, map);
-    for (const ScreenBall& ball : pass.balls) paintBall(ball);
+    for (const int i : pass.tiles[index_].faces) paintFace(pass.faces[static_cast<std::size_t>(i)], map);
+    for (const int i : pass.tiles[index_].balls) paintBall(pass.balls[static_cast<std::size_t>(i)]);
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         const std::uint32_t pixel = pixels_[i];
         sums_[3 * i] += pixel & 255;
@@ -70,43 +85,42 @@ void BandPainter::add(const PassGeometry& pass, const GroundMap& map, double amb
     }
 }
 
-void BandPainter::paintGround(const PassGeometry& pass, const GroundMap& map) {
+void TilePainter::paintGround(const PassGeometry& pass, const GroundMap& map) {
     const double per_metre = 256 / map.texel();
     const cv::Matx33d& g = pass.ground_from_image;
-    std::vector<std::int32_t> u(static_cast<std::size_t>(width_));
+    std::vector<std::int32_t> u(static_cast<std::size_t>(tile_.width));
     std::vector<std::int32_t> v(u.size());
-    for (int row = 0; row < rows_; ++row) {
-        const double y = first_row_ + row;
+    for (int row = 0; row < tile_.height; ++row) {
+        const double y = tile_.y + row;
         const double xa = g(0, 0) - map.origin().x * g(2, 0);
         const double xb = g(0, 1) * y + g(0, 2) - map.origin().x * (g(2, 1) * y + g(2, 2));
         const double ya = g(1, 0) - map.origin().y * g(2, 0);
         const double yb = g(1, 1) * y + g(1, 2) - map.origin().y * (g(2, 1) * y + g(2, 2));
         const double wb = g(2, 1) * y + g(2, 2);
-        for (int x = 0; x < width_; ++x) {
+        for (int column = 0; column < tile_.width; ++column) {
+            const double x = tile_.x + column;
             const double scale = per_metre / (g(2, 0) * x + wb);
-            u[static_cast<std::size_t>(x)] = static_cast<std::int32_t>((xa * x + xb) * scale);
-            v[static_cast<std::size_t>(x)] = static_cast<std::int32_t>((ya * x + yb) * scale);
+            u[static_cast<std::size_t>(column)] = static_cast<std::int32_t>((xa * x + xb) * scale);
+            v[static_cast<std::size_t>(column)] = static_cast<std::int32_t>((ya * x + yb) * scale);
         }
         std::uint32_t* pixels = pixels_.data() + static_cast<std::size_t>(row) * u.size();
         for (std::size_t x = 0; x < u.size(); ++x) pixels[x] = map.sample(u[x], v[x]);
     }
 }
 
-void BandPainter::paintShadow(const ScreenShadow& shadow) {
-    const int bottom = std::min(shadow.bottom, first_row_ + rows_ - 1);
-    for (int y = std::max(shadow.top, first_row_); y <= bottom; ++y) {
-        int first = 0;
-        int last = -1;
-        spanInRow(shadow.corners, shadow.corners.size(), y, width_, first, last);
-        std::uint32_t* row = pixels_.data() + static_cast<std::size_t>(y - first_row_) * static_cast<std::size_t>(width_);
-        for (int x = first; x <= last; ++x) {
-            row[x] &= 0x00FFFFFFU;
-            if (shadow.contact) row[x] = (row[x] >> 1) & 0x007F7F7FU;
+void TilePainter::paintShadow(const ScreenShadow& shadow) {
+    const Span rows = rowsOf(shadow.corners, shadow.corners.size(), tile_);
+    for (int y = rows.first; y <= rows.last; ++y) {
+        const Span columns = columnsInRow(shadow.corners, shadow.corners.size(), y, tile_);
+        for (int x = columns.first; x <= columns.last; ++x) {
+            std::uint32_t& pixel = pixels_[indexOf(x, y)];
+            pixel &= 0x00FFFFFFU;
+            if (shadow.contact) pixel = (pixel >> 1) & 0x007F7F7FU;
         }
     }
 }
 
-void BandPainter::lightGround(double ambient) {
+void TilePainter::lightGround(double ambient) {
     const auto base = static_cast<std::uint32_t>(ambient * 65536);
     const auto direct = static_cast<std::uint32_t>((1 - ambient) * 65536 / 255);
     for (std::uint32_t& pixel : pixels_) {
@@ -116,24 +130,22 @@ void BandPainter::lightGround(double ambient) {
     }
 }
 
-void BandPainter::paintFace(const ScreenFace& face, const GroundMap& map) {
-    const int bottom = std::min(face.bottom, first_row_ + rows_ - 1);
-    for (int y = std::max(face.top, first_row_); y <= bottom; ++y) {
-        int first = 0;
-        int last = -1;
-        spanInRow(face.corners, static_cast<std::size_t>(face.count), y, width_, first, last);
-        const std::size_t start = static_cast<std::size_t>(y - first_row_) * static_cast<std::size_t>(width_);
+void TilePainter::paintFace(const ScreenFace& face, const GroundMap& map) {
+    const auto count = static_cast<std::size_t>(face.count);
+    const Span rows = rowsOf(face.corners, count, tile_);
+    for (int y = rows.first; y <= rows.last; ++y) {
+        const Span columns = columnsInRow(face.corners, count, y, tile_);
         const auto fy = static_cast<float>(y);
-        for (int x = first; x <= last; ++x) {
+        for (int x = columns.first; x <= columns.last; ++x) {
             const auto fx = static_cast<float>(x);
             const float inverse = face.inverse_depth.at(fx, fy);
-            float& nearest = inverse_depth_[start + static_cast<std::size_t>(x)];
+            float& nearest = inverse_depth_[indexOf(x, y)];
             if (!(inverse > nearest)) continue;
             nearest = inverse;
             const float depth = 1 / inverse;
             const float u = face.u_base + depth * face.u.at(fx, fy);
             const float v = face.v_base + depth * face.v.at(fx, fy);
-            std::uint32_t& pixel = pixels_[start + static_cast<std::size_t>(x)];
+            std::uint32_t& pixel = pixels_[indexOf(x, y)];
             if (face.finish == Finish::facade) {
                 const float tone = isWindow(u, v, face.storey) ? 0.38F : 1.0F;
                 pixel = packed(face.sunny[0] * tone, face.sunny[1] * tone, face.sunny[2] * tone);
@@ -151,20 +163,19 @@ void BandPainter::paintFace(const ScreenFace& face, const GroundMap& map) {
     }
 }
 
-void BandPainter::paintBall(const ScreenBall& ball) {
-    const int top = std::max(first_row_, static_cast<int>(std::ceil(ball.y - ball.radius)));
-    const int bottom = std::min(first_row_ + rows_ - 1, static_cast<int>(std::floor(ball.y + ball.radius)));
+void TilePainter::paintBall(const ScreenBall& ball) {
+    const int top = std::max(tile_.y, static_cast<int>(std::ceil(ball.y - ball.radius)));
+    const int bottom = std::min(tile_.y + tile_.height - 1, static_cast<int>(std::floor(ball.y + ball.radius)));
     for (int y = top; y <= bottom; ++y) {
         const float dy = static_cast<float>(y) - ball.y;
         const float half = std::sqrt(std::max(0.0F, ball.radius * ball.radius - dy * dy));
-        const int first = std::max(0, static_cast<int>(std::ceil(ball.x - half)));
-        const int last = std::min(width_ - 1, static_cast<int>(std::floor(ball.x + half)));
-        const std::size_t start = static_cast<std::size_t>(y - first_row_) * static_cast<std::size_t>(width_);
+        const int first = std::max(tile_.x, static_cast<int>(std::ceil(ball.x - half)));
+        const int last = std::min(tile_.x + tile_.width - 1, static_cast<int>(std::floor(ball.x + half)));
         for (int x = first; x <= last; ++x) {
-            float& nearest = inverse_depth_[start + static_cast<std::size_t>(x)];
+            float& nearest = inverse_depth_[indexOf(x, y)];
             if (!(ball.inverse_depth > nearest)) continue;
             nearest = ball.inverse_depth;
-            pixels_[start + static_cast<std::size_t>(x)] = ball.colour;
+            pixels_[indexOf(x, y)] = ball.colour;
         }
     }
 }
