@@ -11,6 +11,9 @@ std::uint32_t packed(float blue, float green, float red) {
     return byte(blue) | (byte(green) << 8) | (byte(red) << 16);
 }
 
+constexpr std::uint8_t kNoSun = 1;
+constexpr std::uint8_t kContact = 2;
+
 /// A range of rows or columns, inclusive; empty when first > last.
 struct Span {
     int first, last;
@@ -68,15 +71,17 @@ TilePainter::TilePainter(cv::Rect tile, int index)
       index_(static_cast<std::size_t>(index)),
       pixels_(static_cast<std::size_t>(tile.area())),
       inverse_depth_(pixels_.size()),
+      shadow_(pixels_.size()),
       sums_(pixels_.size() * 3) {}
 
 void TilePainter::add(const PassGeometry& pass, const GroundMap& map, double ambient) {
-    paintGround(pass, map);
-    for (const int i : pass.tiles[index_].shadows) paintShadow(pass.shadows[static_cast<std::size_t>(i)]);
-    lightGround(ambient);
     std::fill(inverse_depth_.begin(), inverse_depth_.end(), 0.0F);
-    for (const int i : pass.tiles[index_].faces) paintFace(pass.faces[static_cast<std::size_t>(i)], map);
-    for (const int i : pass.tiles[index_].balls) paintBall(pass.balls[static_cast<std::size_t>(i)]);
+    std::fill(shadow_.begin(), shadow_.end(), std::uint8_t{0});
+    const TileContent& content = pass.tiles[index_];
+    for (const int i : content.faces) paintFace(pass.faces[static_cast<std::size_t>(i)], map);
+    for (const int i : content.balls) paintBall(pass.balls[static_cast<std::size_t>(i)]);
+    for (const int i : content.shadows) markShadow(pass.shadows[static_cast<std::size_t>(i)]);
+    fillGround(pass, map, ambient);
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         const std::uint32_t pixel = pixels_[i];
         sums_[3 * i] += pixel & 255;
@@ -85,48 +90,39 @@ void TilePainter::add(const PassGeometry& pass, const GroundMap& map, double amb
     }
 }
 
-void TilePainter::paintGround(const PassGeometry& pass, const GroundMap& map) {
-    const double per_metre = 256 / map.texel();
-    const cv::Matx33d& g = pass.ground_from_image;
-    std::vector<std::int32_t> u(static_cast<std::size_t>(tile_.width));
-    std::vector<std::int32_t> v(u.size());
-    for (int row = 0; row < tile_.height; ++row) {
-        const double y = tile_.y + row;
-        const double xa = g(0, 0) - map.origin().x * g(2, 0);
-        const double xb = g(0, 1) * y + g(0, 2) - map.origin().x * (g(2, 1) * y + g(2, 2));
-        const double ya = g(1, 0) - map.origin().y * g(2, 0);
-        const double yb = g(1, 1) * y + g(1, 2) - map.origin().y * (g(2, 1) * y + g(2, 2));
-        const double wb = g(2, 1) * y + g(2, 2);
-        for (int column = 0; column < tile_.width; ++column) {
-            const double x = tile_.x + column;
-            const double scale = per_metre / (g(2, 0) * x + wb);
-            u[static_cast<std::size_t>(column)] = static_cast<std::int32_t>((xa * x + xb) * scale);
-            v[static_cast<std::size_t>(column)] = static_cast<std::int32_t>((ya * x + yb) * scale);
-        }
-        std::uint32_t* pixels = pixels_.data() + static_cast<std::size_t>(row) * u.size();
-        for (std::size_t x = 0; x < u.size(); ++x) pixels[x] = map.sample(u[x], v[x]);
-    }
-}
-
-void TilePainter::paintShadow(const ScreenShadow& shadow) {
+void TilePainter::markShadow(const ScreenShadow& shadow) {
     const Span rows = rowsOf(shadow.corners, shadow.corners.size(), tile_);
+    const std::uint8_t mark = shadow.contact ? kContact : kNoSun;
     for (int y = rows.first; y <= rows.last; ++y) {
         const Span columns = columnsInRow(shadow.corners, shadow.corners.size(), y, tile_);
-        for (int x = columns.first; x <= columns.last; ++x) {
-            std::uint32_t& pixel = pixels_[indexOf(x, y)];
-            pixel &= 0x00FFFFFFU;
-            if (shadow.contact) pixel = (pixel >> 1) & 0x007F7F7FU;
-        }
+        for (int x = columns.first; x <= columns.last; ++x) shadow_[indexOf(x, y)] |= mark;
     }
 }
 
-void TilePainter::lightGround(double ambient) {
+void TilePainter::fillGround(const PassGeometry& pass, const GroundMap& map, double ambient) {
+    const double per_metre = 256 / map.texel();
     const auto base = static_cast<std::uint32_t>(ambient * 65536);
     const auto direct = static_cast<std::uint32_t>((1 - ambient) * 65536 / 255);
-    for (std::uint32_t& pixel : pixels_) {
-        const std::uint32_t light = base + direct * (pixel >> 24);
-        pixel = (((pixel & 255) * light) >> 16) | ((((pixel >> 8) & 255) * light >> 16) << 8) |
-                ((((pixel >> 16) & 255) * light >> 16) << 16);
+    const cv::Matx33d& g = pass.ground_from_image;
+    for (int row = 0; row < tile_.height; ++row) {
+        const double y = tile_.y + row;
+        const double wb = g(2, 1) * y + g(2, 2);
+        const double xa = g(0, 0) - map.origin().x * g(2, 0);
+        const double xb = g(0, 1) * y + g(0, 2) - map.origin().x * wb;
+        const double ya = g(1, 0) - map.origin().y * g(2, 0);
+        const double yb = g(1, 1) * y + g(1, 2) - map.origin().y * wb;
+        for (int column = 0; column < tile_.width; ++column) {
+            const std::size_t place = indexOf(tile_.x + column, tile_.y + row);
+            if (inverse_depth_[place] > 0) continue;
+            const double x = tile_.x + column;
+            const double scale = per_metre / (g(2, 0) * x + wb);
+            const std::uint32_t texel = map.sample(static_cast<std::int32_t>((xa * x + xb) * scale),
+                                                   static_cast<std::int32_t>((ya * x + yb) * scale));
+            std::uint32_t light = shadow_[place] == 0 ? base + direct * (texel >> 24) : base;
+            if (shadow_[place] & kContact) light /= 2;
+            pixels_[place] = (((texel & 255) * light) >> 16) | ((((texel >> 8) & 255) * light >> 16) << 8) |
+                             ((((texel >> 16) & 255) * light >> 16) << 16);
+        }
     }
 }
 

@@ -23,16 +23,17 @@ class TilePainter {
         return static_cast<std::size_t>(y - tile_.y) * static_cast<std::size_t>(tile_.width) +
                static_cast<std::size_t>(x - tile_.x);
     }
-    void paintGround(const PassGeometry& pass, const GroundMap& map);
-    void paintShadow(const ScreenShadow& shadow);
-    void lightGround(double ambient);
+    void markShadow(const ScreenShadow& shadow);
+    /// Paints the ground wherever nothing stands before it.
+    void fillGround(const PassGeometry& pass, const GroundMap& map, double ambient);
     void paintFace(const ScreenFace& face, const GroundMap& map);
     void paintBall(const ScreenBall& ball);
 
     cv::Rect tile_;
     std::size_t index_;
-    std::vector<std::uint32_t> pixels_;  ///< blue, green, red, sunlight; once lit: blue, green, red
+    std::vector<std::uint32_t> pixels_;  ///< blue, green, red
     std::vector<float> inverse_depth_;   ///< 0: the ground
+    std::vector<std::uint8_t> shadow_;   ///< where the ground lies in shadows that move
     std::vector<std::uint32_t> sums_;
 };
 
