@@ -109,9 +109,10 @@ std::optional<HomographyFit> CoarseRegistration::find(const CornerSet& corners, 
             if (shown < kFewestPoints) continue;
             const Correspondences found = trackLevel(points, from, to, level, side, guess, noise);
             if (found.size() < kFewestPoints) return std::nullopt;
-            const double tolerance = 0.75 * double(1 << level);
+            // Tight, lest a motion between the ground's and that of a crowd of vehicles pleases both.
+            const double tolerance = 0.5 * double(1 << level);
             const auto model = level > 0 ? MotionModel::similarity : MotionModel::homography;
-            const auto sampled = estimator_.search(found, model, std::max(1.0, tolerance));
+            const auto sampled = estimator_.search(found, model, tolerance);
             if (!sampled) return std::nullopt;
             fit = estimator_.refine(found, *sampled, double(1 << level));
             if (!fit || !plausibleMotion(fit->matrix, from.size())) return std::nullopt;

@@ -47,8 +47,9 @@ struct Candidate {
 /// Large squares between which the cap on the number of corners is shared.
 class BlockGrid {
  public:
-    BlockGrid(cv::Size image, double spacing_px)
-        : side_(std::max(32, static_cast<int>(6 * spacing_px))),
+    /// Large enough for several corners each.
+    BlockGrid(cv::Size image, double spacing_px, int max_corners)
+        : side_(static_cast<int>(std::max({32.0, 6 * spacing_px, std::sqrt(8.0 * image.area() / max_corners)}))),
           across_(image.width / side_ + 1),
           down_(image.height / side_ + 1) {}
     int count() const { return across_ * down_; }
@@ -86,20 +87,28 @@ void shareOut(std::vector<Candidate>& candidates, const std::vector<int>& living
         const int middle = (low + high) / 2;
         (acceptedAt(middle) <= ordinary ? low : high) = middle;
     }
+    const auto stronger = [&](int a, int b) {
+        const float of_a = candidates[std::size_t(a)].peak.strength;
+        const float of_b = candidates[std::size_t(b)].peak.strength;
+        return of_a > of_b || (of_a == of_b && a < b);
+    };
     std::vector<unsigned char> keep(candidates.size(), 0);
+    std::vector<int> next_best;  // of the blocks that have more than their quota
+    int accepted = 0;
     for (std::size_t b = 0; b < by_block.size(); ++b) {
         auto& members = by_block[b];
         const auto quota = static_cast<std::size_t>(std::max(0, low - living_in_block[b]));
         if (members.size() > quota) {
-            std::nth_element(members.begin(), members.begin() + std::ptrdiff_t(quota), members.end(),
-                             [&](int a, int c) {
-                                 const float sa = candidates[std::size_t(a)].peak.strength;
-                                 const float sc = candidates[std::size_t(c)].peak.strength;
-                                 return sa > sc || (sa == sc && a < c);
-                             });
+            std::nth_element(members.begin(), members.begin() + std::ptrdiff_t(quota), members.end(), stronger);
+            if (living_in_block[b] <= low) next_best.push_back(members[quota]);
             members.resize(quota);
         }
         for (const int member : members) keep[std::size_t(member)] = 1;
+        accepted += static_cast<int>(members.size());
+    }
+    std::sort(next_best.begin(), next_best.end(), stronger);
+    for (std::size_t i = 0; i < next_best.size() && accepted < ordinary; ++i, ++accepted) {
+        keep[std::size_t(next_best[i])] = 1;
     }
     std::size_t kept = 0;
     int room = all;
@@ -207,7 +216,7 @@ std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
     std::vector<Candidate> candidates =
         findCandidates(picture, surroundings, limits, movers, spacing_px_, ordinary > 0);
     if (static_cast<int>(candidates.size()) > std::min(room, ordinary)) {
-        const BlockGrid blocks(size, spacing_px_);
+        const BlockGrid blocks(size, spacing_px_, options_.max_corners);
         std::vector<int> living_in_block(std::size_t(blocks.count()), 0);
         for (const cv::Point2f& corner : surroundings.living) ++living_in_block[std::size_t(blocks.blockOf(corner))];
         for (Candidate& candidate : candidates) candidate.block = blocks.blockOf(candidate.position());

@@ -22,7 +22,7 @@ struct HomographyOptions {
 struct HomographyFit {
     cv::Matx33d matrix = cv::Matx33d::eye();
     double sigma_px = 0;            ///< robust deviation of the residuals in one direction
-    double inlier_distance_px = 0;  ///< what counts as agreement: three times that, within fixed limits
+    double inlier_distance_px = 0;  ///< what counts as agreement: five times that, within fixed limits
     int inliers = 0;
     double inlier_share = 0;  ///< inliers per correspondence with a weight
     double rms_px = 0;        ///< of the inliers

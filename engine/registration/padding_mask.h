@@ -12,18 +12,20 @@ class PaddingMask {
  public:
     explicit PaddingMask(const PaddedPicture& picture);
 
-    /// Nothing is padded; `contains` is false everywhere.
-    bool empty() const { return padded_.empty(); }
-    /// Whether the pixel lies in the padding or within a block (8 px) of it. Inside the picture only.
+    /// Whether the pixel lies in the padding or within 8 px of it. Inside the picture only.
     bool contains(int x, int y) const {
-        return !padded_.empty() &&
-               padded_[std::size_t(y / kBlock) * std::size_t(blocks_across_) + std::size_t(x / kBlock)] != 0;
+        if (from_left_.empty()) return false;
+        const auto column = std::size_t(x);
+        const auto row = std::size_t(y);
+        return x < from_left_[row] || x >= from_right_[row] || y < from_top_[column] || y >= from_bottom_[column];
     }
 
  private:
-    static constexpr int kBlock = 8;
-    int blocks_across_ = 0;
-    std::vector<unsigned char> padded_;  ///< per block, empty when there is no padding
+    // Where the picture's content begins and ends in every row and column; empty when nothing is padded.
+    std::vector<int> from_left_;
+    std::vector<int> from_right_;
+    std::vector<int> from_top_;
+    std::vector<int> from_bottom_;
 };
 
 }  // namespace eyrie
