@@ -23,7 +23,7 @@ ChainOptions builtInPreset(const std::string& name) {
     ChainOptions options;
     if (name == "default") return options;
     if (name == "thesis") {
-        options.registration = RegistrationOptions::thesis();
+        // Registration stays: the thesis leaves its parameters open (§4.2).
         options.motion = IndependentMotionOptions::thesis();
         options.clustering = MotionClusteringOptions::thesis();
         options.detection = DetectionOptions::thesis();

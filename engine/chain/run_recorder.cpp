@@ -5,10 +5,19 @@
 #include "store/project_file.h"
 
 namespace eyrie {
+namespace {
+
+/// Makes the project when it does not exist, and shows early whether it can be used.
+const std::filesystem::path& prepared(const std::filesystem::path& project) {
+    ProjectFile::openOrCreate(project);
+    return project;
+}
+
+}  // namespace
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
                          ChainObserver* also)
-    : project_(project),
+    : project_(prepared(project)),
       finishing_(options.finishing),
       scale_(run.scale),
       writer_(project, std::move(run), parameterValues(options)),

@@ -23,6 +23,8 @@ struct MotionClusteringOptions {
     double min_density_share = 0.33;        ///< … and this share of those expected on a car at the measured density
     int max_min_members = 12;               ///< however dense the corners are, that many are enough
     double margin_px = 0.5;                 ///< the box around the members is grown by this on every side
+    double split_width_m = 4.0;             ///< wider clusters are linked again, more tightly; 0: never
+    double split_length_m = 0;              ///< longer clusters, too; 0: never
     double max_length_m = 60;               ///< longer clusters are no vehicles, nor a queue of them; 0: no limit
     double max_width_m = 30;                ///< 0: no limit
 
@@ -45,6 +47,11 @@ class MotionClustering {
     int minMembersFor(const FrameMotion& motion) const;
 
  private:
+    /// Pieces of a group that is too large for one vehicle, by tighter and tighter linkage; the group itself when it
+    /// does not fall into pieces that hold most of it.
+    std::vector<std::vector<int>> split(const FrameMotion& motion, std::vector<int> group, Linkage linkage,
+                                        std::size_t min_members, int steps_left) const;
+
     MotionClusteringOptions options_;
     SceneScale scale_;
 };

@@ -11,6 +11,8 @@ MotionClusteringOptions MotionClusteringOptions::thesis() {
     options.min_members = 4;
     options.min_density_share = 0;
     options.margin_px = 0;
+    options.split_width_m = 0;
+    options.split_length_m = 0;
     options.max_length_m = 0;
     options.max_width_m = 0;
     return options;
@@ -48,6 +50,14 @@ void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
                     {"vectors", "However dense the corners are, that many vectors are enough for a cluster.", ""});
     visitor.real("clustering.margin", margin_px, 0, 20,
                  {"px", "The box around the members is grown by this on every side.", ""});
+    visitor.real(
+        "clustering.split_width", split_width_m, 0, 500,
+        {"m",
+         "Clusters wider than this are linked again, more and more tightly, until they fall into single vehicles. "
+         "0: never.",
+         ""});
+    visitor.real("clustering.split_length", split_length_m, 0, 500,
+                 {"m", "Clusters longer than this, too. Small values cut trucks. 0: never.", ""});
     visitor.real("clustering.max_length", max_length_m, 0, 500, {"m", "Longer clusters are dropped; 0: no limit.", ""});
     visitor.real("clustering.max_width", max_width_m, 0, 500, {"m", "Wider clusters are dropped; 0: no limit.", ""});
 }

@@ -46,7 +46,7 @@ void PartJoiningOptions::describe(ParameterVisitor& visitor) {
                  {"m", "Parts are joined when together they are no longer than this.", ""});
     visitor.real("duplicates.part_length", part_length_m, 0, 100,
                  {"m", "Two parts both shorter than this are joined up to the length of a long vehicle.", ""});
-    visitor.real("duplicates.part_vehicle_length", vehicle_length_m, 0, 100, {"m", "That length.", ""});
+    visitor.real("duplicates.part_vehicle_length", vehicle_length_m, 0, 100, {"m", "Longest vehicle that two short parts may make up.", ""});
     visitor.real("duplicates.part_vehicle_width", vehicle_width_m, 0, 100,
                  {"m", "Parts are not joined into anything wider than this.", ""});
     visitor.real("duplicates.part_velocity_floor", velocity_floor_px, 0, 10,

@@ -57,11 +57,34 @@ Eigen::Matrix2d turnedCovariance(double along, double across, double heading) {
     return turn * Eigen::Vector2d(squared(along), squared(across)).asDiagonal() * turn.transpose();
 }
 
+/// Adds covariances of the centre with the size, given along and across a heading, to a full covariance.
+void addCentreWithSize(BoxKalmanFilter::Covariance& full, double heading, double along, double across) {
+    const double c = std::cos(heading);
+    const double s = std::sin(heading);
+    const auto add = [&](int row, int column, double value) {
+        full(row, column) += value;
+        full(column, row) += value;
+    };
+    add(kX, kLength, along * c);
+    add(kY, kLength, along * s);
+    add(kX, kWidth, -across * s);
+    add(kY, kWidth, across * c);
+}
+
 double known(double deviation, double otherwise) {
     return std::isfinite(deviation) ? deviation : otherwise;
 }
 
 }  // namespace
+
+void BoxMeasurement::setEnds(double front, double rear, double left, double right) {
+    along = std::hypot(front, rear) / 2;
+    across = std::hypot(left, right) / 2;
+    length = std::hypot(front, rear);
+    width = std::hypot(left, right);
+    along_with_length = (squared(front) - squared(rear)) / 2;
+    across_with_width = (squared(right) - squared(left)) / 2;
+}
 
 BoxKalmanFilter::BoxKalmanFilter(const BoxMeasurement& first) {
     const OrientedBox& box = first.box;
@@ -130,6 +153,7 @@ bool BoxKalmanFilter::update(const BoxMeasurement& m) {
     noise(kLength, kLength) = squared(m.length);
     noise(kWidth, kWidth) = squared(m.width);
     noise(kHeading, kHeading) = squared(m.heading);
+    addCentreWithSize(noise, m.box.heading, m.along_with_length, m.across_with_width);
 
     // The measured quantities are entries of the state: the measurement matrix picks rows.
     std::array<int, kSize> rows{};
@@ -187,6 +211,15 @@ void BoxKalmanFilter::slowDown(double factor) {
 void BoxKalmanFilter::forgetSize(double deviation) {
     covariance_(kLength, kLength) = std::max(covariance_(kLength, kLength), squared(deviation));
     covariance_(kWidth, kWidth) = std::max(covariance_(kWidth, kWidth), squared(deviation));
+}
+
+void BoxKalmanFilter::loosenEnds(double front, double rear, double left, double right) {
+    BoxMeasurement ends;
+    ends.setEnds(front, rear, left, right);
+    covariance_.topLeftCorner<2, 2>() += turnedCovariance(ends.along, ends.across, state_(kHeading));
+    covariance_(kLength, kLength) += squared(ends.length);
+    covariance_(kWidth, kWidth) += squared(ends.width);
+    addCentreWithSize(covariance_, state_(kHeading), ends.along_with_length, ends.across_with_width);
 }
 
 void BoxKalmanFilter::smear(cv::Point2d displacement) {

@@ -26,7 +26,13 @@ struct BoxMeasurement {
     double length = kUnknown;
     double width = kUnknown;
     double heading = kUnknown;
-    double speed = kUnknown;  ///< of each component of the velocity
+    double speed = kUnknown;       ///< of each component of the velocity
+    double along_with_length = 0;  ///< px²: covariance of the centre along the heading with the length
+    double across_with_width = 0;  ///< px²: the same across the heading, with the width
+
+    /// Sets centre and size deviations from those of the box's four ends, px. An end that is badly seen, because a part
+    /// of the object is missing there, then moves the other one as little as the truth does.
+    void setEnds(double front, double rear, double left, double right);
 };
 
 /// Kalman filter of one object: centre, velocity relative to the ground, length, width and heading in the current
@@ -56,6 +62,8 @@ class BoxKalmanFilter {
     void slowDown(double factor);
     /// Makes the size as uncertain as the given deviation, px.
     void forgetSize(double deviation);
+    /// Adds uncertainty to each end of the box, px.
+    void loosenEnds(double front, double rear, double left, double right);
     /// Adds uncertainty to the centre along a displacement, px.
     void smear(cv::Point2d displacement);
 

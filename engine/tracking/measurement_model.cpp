@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/angle.h"
 
@@ -59,6 +60,9 @@ CompletedBox completeAtBorder(const OrientedBox& detection, double length, doubl
 MeasurementModel::MeasurementModel(const TrackerOptions& options, const SceneScale& scale)
     : position_(std::hypot(options.position_noise_px, scale.px(options.position_noise_m))),
       position_floor_(options.position_noise_px),
+      car_length_(scale.px(options.car_length_m)),
+      car_width_(scale.px(options.car_width_m)),
+      one_vehicle_(VehicleLimit::of(options, scale)),
       size_(std::hypot(options.size_noise_px, scale.px(options.size_noise_m))),
       heading_(radiansFromDegrees(options.heading_noise_deg)),
       velocity_(scale.pxPerFrame(options.velocity_noise)),
@@ -94,9 +98,12 @@ BoxMeasurement MeasurementModel::first(const Detection& detection) const {
     BoxMeasurement m;
     m.box = detection.box;
     m.along = m.across = position_;
-    // The first box is often a part of the object only.
-    m.length = std::hypot(size_, detection.box.length / 3);
-    m.width = std::hypot(size_, detection.box.width / 3);
+    // The first box is often a part of the object only, and either end may be missing.
+    const double end =
+        std::hypot(size_ / 2, std::max(detection.box.length / 6, (car_length_ - detection.box.length) / 2));
+    const double side =
+        std::hypot(size_ / 2, std::max(detection.box.width / 6, (car_width_ - detection.box.width) / 2));
+    m.setEnds(end, end, side, side);
     m.heading = headingDeviation(std::hypot(detection.velocity.x, detection.velocity.y));
     if (velocityKnown(detection)) {
         m.velocity = detection.velocity;
@@ -131,11 +138,16 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, cv::Po
     result.size_differs = size_gate_ > 1 && (larger || smaller);
     const bool size_measured = !(size_known && result.size_differs);
     // What lies outside the image cannot be measured.
-    if (size_measured && !(completed.length_cut && longer <= 0)) m.length = size_;
-    if (size_measured && !(completed.width_cut && wider <= 0)) m.width = size_;
-    // A box too short by d misses either end: its centre is off by up to d / 2.
-    m.along = comes_in ? position_ : std::hypot(position_, longer / 2);
-    m.across = comes_in ? position_ : std::hypot(position_, wider / 2);
+    // Parts of one vehicle miss an end; a box that may hold several vehicles may as well be merged or fall apart.
+    if (size_measured && !at_border && one_vehicle_.holds(predicted) && one_vehicle_.holds(m.box)) {
+        measureEnds(predicted, result);
+    } else {
+        if (size_measured && !(completed.length_cut && longer <= 0)) m.length = size_;
+        if (size_measured && !(completed.width_cut && wider <= 0)) m.width = size_;
+        // A box too short by d misses either end: its centre is off by up to d / 2.
+        m.along = comes_in ? position_ : std::hypot(position_, longer / 2);
+        m.across = comes_in ? position_ : std::hypot(position_, wider / 2);
+    }
     const cv::Point2d along = m.box.direction();
     if (comes_in && completed.length_cut && longer > 0) {
         result.size_growth = longer;
@@ -146,6 +158,25 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, cv::Po
         result.shift += cv::Point2d(-along.y, along.x) * wider;
     }
     return result;
+}
+
+void MeasurementModel::measureEnds(const OrientedBox& predicted, Update& update) const {
+    const OrientedBox& box = update.measurement.box;
+    const cv::Point2d centre = predicted.toBox(box.centre);
+    const double noise = size_ / std::numbers::sqrt2;
+    // An end that was not seen this time is still there; one that reaches further is new knowledge.
+    const auto deviation = [&](double beyond) { return beyond >= 0 ? noise : std::hypot(noise, beyond); };
+    const double front = centre.x + (box.length - predicted.length) / 2;
+    const double rear = -centre.x + (box.length - predicted.length) / 2;
+    const double right = centre.y + (box.width - predicted.width) / 2;
+    const double left = -centre.y + (box.width - predicted.width) / 2;
+    update.measurement.setEnds(deviation(front), deviation(rear), deviation(left), deviation(right));
+    update.by_ends = true;
+    update.grows_front = std::max(0.0, front);
+    update.grows_rear = std::max(0.0, rear);
+    update.grows_left = std::max(0.0, left);
+    update.grows_right = std::max(0.0, right);
+    update.grows = std::max({front, rear, left, right}) > 2 * noise;
 }
 
 BoxMeasurement MeasurementModel::reconstructed(const Reconstruction& reconstruction) const {

@@ -38,6 +38,13 @@ class MeasurementModel {
         double size_growth = 0;     ///< px by which a box that comes in over the border is larger than before
         cv::Point2d shift{0, 0};    ///< px by which such a box's centre may lag behind the prediction
         bool size_differs = false;  ///< beyond the size gate
+        double grows_front = 0;     ///< px by which the box reaches beyond the predicted one, if believable, else 0
+        double grows_rear = 0;
+        double grows_left = 0;
+        double grows_right = 0;
+        bool by_ends = false;  ///< the ends were measured one by one
+        /// Whether any end reaches beyond the prediction by more than noise does.
+        bool grows = false;
     };
     /// `size_known`: the size gate applies.
     Update update(const OrientedBox& box, cv::Point2d velocity, bool velocity_known, const OrientedBox& predicted,
@@ -53,12 +60,16 @@ class MeasurementModel {
 
  private:
     bool atBorder(const OrientedBox& box) const;
+    void measureEnds(const OrientedBox& predicted, Update& update) const;
     double headingDeviation(double speed) const;
     double velocityDeviation() const;
 
     BoxProcessNoise process_;
     double position_ = 1;
     double position_floor_ = 1;
+    double car_length_ = 0;
+    double car_width_ = 0;
+    VehicleLimit one_vehicle_;
     double size_ = 1;
     double heading_ = 0.1;
     double velocity_ = 0.1;

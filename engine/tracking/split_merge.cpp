@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMergedIsLarger = 1.2;   ///< a merged box has at least this many times the area of each of its tracks
 constexpr double kDuplicateTracks = 0.5;  ///< tracks inside each other by this share are not a merge
+constexpr double kBoxMargin = 2;          ///< px by which gradients widen boxes
 constexpr double kFairPart = 0.08;        ///< area of a part, as a share of the track's, that counts as separate
 
 std::size_t at(int index) {
@@ -22,12 +23,13 @@ class Associator {
  public:
     Associator(const OverlapMatrix& matrix, const std::vector<MovingBox>& detections,
                const std::vector<MovingBox>& tracks, const std::vector<TrackAuthority>& authority,
-               double part_containment)
+               double part_containment, const VehicleLimit& one_vehicle)
         : matrix_(matrix),
           detections_(detections),
           tracks_(tracks),
           authority_(authority),
-          part_containment_(part_containment) {
+          part_containment_(part_containment),
+          one_vehicle_(one_vehicle) {
         result_.tracks.resize(tracks.size());
         result_.used.assign(detections.size(), 0);
     }
@@ -71,6 +73,8 @@ class Associator {
 
     void markMergedByContainment() {
         for (int i = 0; i < matrix_.detectionCount(); ++i) {
+            // Two tracks in a box that holds but one vehicle are parts of it.
+            if (one_vehicle_.holds(detections_[at(i)].box)) continue;
             std::vector<int> covered;
             for (const int r : matrix_.ofDetection(i)) {
                 const BoxRelation& here = relation(r);
@@ -189,6 +193,7 @@ class Associator {
     const std::vector<MovingBox>& tracks_;
     const std::vector<TrackAuthority>& authority_;
     double part_containment_;
+    VehicleLimit one_vehicle_;
     FrameAssociation result_;
 };
 
@@ -201,10 +206,16 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+VehicleLimit VehicleLimit::of(const TrackerOptions& options, const SceneScale& scale) {
+    if (!(options.one_vehicle_factor > 0)) return {};
+    return {options.one_vehicle_factor * scale.px(options.car_length_m) + kBoxMargin,
+            options.one_vehicle_factor * scale.px(options.car_width_m) + kBoxMargin};
+}
+
 FrameAssociation associateDetections(const OverlapMatrix& matrix, const std::vector<MovingBox>& detections,
                                      const std::vector<MovingBox>& tracks, const std::vector<TrackAuthority>& authority,
-                                     SplitMergeRule rule, double part_containment) {
-    return Associator(matrix, detections, tracks, authority, part_containment).run(rule);
+                                     SplitMergeRule rule, double part_containment, const VehicleLimit& one_vehicle) {
+    return Associator(matrix, detections, tracks, authority, part_containment, one_vehicle).run(rule);
 }
 
 std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>& vectors, const FrameVectors& frame,

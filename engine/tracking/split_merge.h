@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/scene_scale.h"
 #include "tracking/overlap_matrix.h"
 #include "tracking/tracker_options.h"
 #include "tracking/vector_association.h"
@@ -40,11 +41,21 @@ struct FrameAssociation {
     std::vector<char> used;  ///< for each detection: 1 when it must not start a track
 };
 
+/// Length and width, px, of a box that holds one vehicle at most; 0: unknown.
+struct VehicleLimit {
+    double length = 0;
+    double width = 0;
+    /// The usual car of the options times `one_vehicle_factor`, and what gradients widen a box by.
+    static VehicleLimit of(const TrackerOptions& options, const SceneScale& scale);
+    bool holds(const OrientedBox& box) const { return box.length <= length && box.width <= width; }
+};
+
 /// Recognises split, merged and missed detections and pairs the others one to one at the largest total overlap
 /// (Teutsch §6.2.1, §6.3).
 FrameAssociation associateDetections(const OverlapMatrix& matrix, const std::vector<MovingBox>& detections,
                                      const std::vector<MovingBox>& tracks, const std::vector<TrackAuthority>& authority,
-                                     SplitMergeRule rule, double part_containment);
+                                     SplitMergeRule rule, double part_containment,
+                                     const VehicleLimit& one_vehicle = {});
 
 /// A box rebuilt from motion vectors.
 struct Reconstruction {

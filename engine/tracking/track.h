@@ -23,6 +23,7 @@ struct Track {
     int reconstructed_streak = 0;  ///< rebuilt boxes since the last real detection
     int predicted_streak = 0;      ///< frames without any evidence
     int size_streak = 0;           ///< detections in a row beyond the size gate
+    int growth_streak = 0;         ///< detections in a row that reach beyond the box
     int whole_hits = 0;            ///< detections in one piece
     int parts_streak = 0;          ///< frames in separate parts, less those in one piece
     int abreast_streak = 0;        ///< the same, for parts side by side

@@ -62,7 +62,8 @@ TrackManager::TrackManager(const TrackerOptions& o, const SceneScale& scale)
       min_visible_(o.min_visible),
       suppress_duplicates_(o.suppress_duplicates),
       duplicate_overlap_(o.duplicate_overlap),
-      duplicate_containment_(o.duplicate_containment) {}
+      duplicate_containment_(o.duplicate_containment),
+      one_vehicle_(VehicleLimit::of(o, scale)) {}
 
 void TrackManager::count(Track& track, double slow_speed) const {
     const bool detected = track.origin == StateOrigin::detected;
@@ -126,6 +127,7 @@ bool TrackManager::alike(const OrientedBox& a, cv::Point2d velocity_a, const Ori
     const double speed = std::max(std::hypot(velocity_a.x, velocity_a.y), std::hypot(velocity_b.x, velocity_b.y));
     const cv::Point2d difference = velocity_a - velocity_b;
     if (std::hypot(difference.x, difference.y) > std::max(slow_speed, kAlikeSpeeds * speed)) return false;
+    if (one_vehicle_.holds(unionBox(a, b))) return true;
     const double smaller = std::min(a.area(), b.area());
     const double shared = intersectionArea(a, b);
     return shared >= duplicate_overlap_ * (a.area() + b.area() - shared) || shared >= duplicate_containment_ * smaller;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/scene_scale.h"
+#include "tracking/split_merge.h"
 #include "tracking/track.h"
 #include "tracking/tracker_options.h"
 
@@ -30,6 +31,8 @@ class TrackManager {
     /// Whether a new box would be a duplicate of a track that has evidence in this frame.
     bool wouldDuplicate(const OrientedBox& box, cv::Point2d velocity, const std::vector<Track>& tracks,
                         double slow_speed) const;
+    /// Size of a box that holds one vehicle at most.
+    const VehicleLimit& oneVehicle() const { return one_vehicle_; }
     /// Frames with failed registration after which all tracks end.
     int maxFailedFrames() const { return max_failed_; }
 
@@ -55,6 +58,7 @@ class TrackManager {
     bool suppress_duplicates_;
     double duplicate_overlap_;
     double duplicate_containment_;
+    VehicleLimit one_vehicle_;
 };
 
 }  // namespace eyrie

@@ -13,7 +13,8 @@
 namespace eyrie {
 namespace {
 
-constexpr int kHitsToBeMerged = 3;  ///< detections that show a track beside an established one to be real
+constexpr int kGrowthsToBelieve = 2;  ///< detections in a row beyond the box after which the box was too small
+constexpr int kHitsToBeMerged = 3;    ///< detections that show a track beside an established one to be real
 
 const SceneScale& checked(const SceneScale& scale) {
     const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
@@ -163,7 +164,7 @@ FrameAssociation Tracker::associate(const std::vector<MovingBox>& detected, cons
                              track.hits >= kHitsToBeMerged, manager_.givesUpParts(track)});
     }
     return associateDetections(OverlapMatrix(detected, predicted, gate), detected, predicted, authority,
-                               options_.split_merge, options_.part_containment);
+                               options_.split_merge, options_.part_containment, manager_.oneVehicle());
 }
 
 void Tracker::updateTrack(Track& track, const TrackAssociation& association,
@@ -224,7 +225,11 @@ bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Dete
         track.size_streak = std::max(0, track.size_streak - 1);
     }
     // The first boxes are often parts of the object: what was seen last counts half.
-    if (!manager_.established(track)) track.filter.forgetSize(model_.sizeDeviation());
+    if (!manager_.established(track) && !update.by_ends) track.filter.forgetSize(model_.sizeDeviation());
+    track.growth_streak = update.grows ? track.growth_streak + 1 : 0;
+    if (track.growth_streak >= kGrowthsToBelieve) {
+        track.filter.loosenEnds(update.grows_front, update.grows_rear, update.grows_left, update.grows_right);
+    }
     if (update.size_growth > 0) {
         track.filter.forgetSize(update.size_growth);
         track.filter.smear(update.shift);

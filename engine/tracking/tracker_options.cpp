@@ -42,6 +42,15 @@ void describeAssociation(TrackerOptions& o, ParameterVisitor& v) {
             ""});
     v.integer("tracking.size_patience", o.size_patience, 1, 1000,
               {"frames", "After so many such detections in a row the new size is believed.", ""});
+    v.real("tracking.car_length", o.car_length_m, 0, 50,
+           {"m", "Length of a usual car. A first box that is shorter is expected to grow.", ""});
+    v.real("tracking.car_width", o.car_width_m, 0, 20,
+           {"m", "Width of a usual car. A first box that is narrower is expected to grow.", ""});
+    v.real("tracking.one_vehicle", o.one_vehicle_factor, 0, 5,
+           {"",
+            "A box up to this many times a usual car holds one vehicle: it is no merged detection, and tracks that fit "
+            "into it together are one. 0 switches the rule off.",
+            ""});
 }
 
 void describeVectors(TrackerOptions& o, ParameterVisitor& v) {
@@ -152,6 +161,7 @@ TrackerOptions TrackerOptions::thesis() {
     options.max_turn_deg = 180;
     options.split_merge = SplitMergeRule::overlap_matrix;
     options.size_gate = 0;
+    options.one_vehicle_factor = 0;
     options.max_vectors = 20;
     options.min_vectors = 1;
     options.relative_position_gain = 1;

@@ -24,6 +24,9 @@ struct TrackerOptions {
     int split_patience = 8;
     double size_gate = 1.8;
     int size_patience = 10;
+    double car_length_m = 4.5;
+    double car_width_m = 1.8;
+    double one_vehicle_factor = 1.3;
 
     // Association of motion vectors and reconstruction.
     bool use_vectors = true;
