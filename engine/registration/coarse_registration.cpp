@@ -114,7 +114,7 @@ std::optional<HomographyFit> CoarseRegistration::find(const CornerSet& corners, 
             const auto model = level > 0 ? MotionModel::similarity : MotionModel::homography;
             const auto sampled = estimator_.search(found, model, tolerance);
             if (!sampled) return std::nullopt;
-            fit = estimator_.refine(found, *sampled, double(1 << level));
+            fit = estimator_.refine(found, *sampled, double(1 << level), (level > 0 ? 8 : 2.5) * tolerance);
             if (!fit || !plausibleMotion(fit->matrix, from.size())) return std::nullopt;
             guess = fit->matrix;
         }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <limits>
 #include <opencv2/core.hpp>
 #include <random>
 
@@ -86,6 +85,47 @@ double robustSigma(const std::vector<float>& squares, const std::vector<float>& 
     return std::sqrt(double(std::bit_cast<float>(middle))) / kQuantileOfRayleigh;
 }
 
+/// One reweighted Gauss–Newton step in normalised coordinates; returns the largest change of a parameter, or nothing
+/// when no point lies within the cutoff.
+std::optional<double> improve(const Correspondences& points, HomographyParameters& h, double cutoff, double deviation) {
+    // Perspective changes between neighbouring frames bend the borders of the picture by no more than a few px; this
+    // holds the two projective numbers where the points do not (few points, or all in one part of the picture).
+    constexpr double kProjectiveDeviation = 0.004;
+    const NormalSums sums = sumNormalEquations(points, h, static_cast<float>(cutoff));
+    if (!(sums.weight > 0)) return std::nullopt;
+    Matrix8 a = matrixFrom(sums);
+    Vector8 b = rightSideFrom(sums);
+    const double hold = deviation * deviation / (kProjectiveDeviation * kProjectiveDeviation);
+    a(6, 6) += hold;
+    a(7, 7) += hold;
+    b[6] += hold * double(h[6]);
+    b[7] += hold * double(h[7]);
+    // A trace of damping keeps a degenerate system solvable; it then stays where it started.
+    a.diagonal().array() += 1e-9 * sums.weight;
+    const Vector8 change = a.ldlt().solve(b);
+    if (!change.allFinite()) return std::nullopt;
+    for (int i = 0; i < 8; ++i) h[std::size_t(i)] -= static_cast<float>(change[i]);
+    return change.cwiseAbs().maxCoeff();
+}
+
+/// What a hypothesis costs: squared residuals, those beyond the tolerance as much as it.
+struct Cost {
+    double sum = 0;
+    int agreeing = 0;
+};
+
+Cost costOf(const Correspondences& points, const HomographyParameters& h, float tolerance,
+            std::vector<float>& squares) {
+    squaredResiduals(points, h, squares);
+    Cost cost;
+    for (const float square : squares) {
+        const bool agrees = square < tolerance;
+        cost.agreeing += agrees;
+        cost.sum += double(agrees ? square : tolerance);
+    }
+    return cost;
+}
+
 /// The similarity through two pairs; false when they are too close.
 bool similarityThrough(const Correspondences& p, const std::size_t* at, HomographyParameters& h) {
     const std::complex<float> from(p.from_x[at[1]] - p.from_x[at[0]], p.from_y[at[1]] - p.from_y[at[0]]);
@@ -159,13 +199,10 @@ Correspondences HomographyEstimator::normalised(const Correspondences& points) c
 }
 
 std::optional<HomographyFit> HomographyEstimator::refine(const Correspondences& points, const cv::Matx33d& start,
-                                                         double coarseness) const {
+                                                         double coarseness, double first_cutoff_px) const {
     const double farthest_px = options_.inlier_distance_px * coarseness;
     // Residuals below this are interpolation, not motion; the cutoff need not follow them down.
     constexpr double kSmallestCutoffPx = 0.15;
-    // Perspective changes between neighbouring frames bend the borders of the picture by no more than a few px; this
-    // holds the two projective numbers where the points do not (few points, or all in one part of the picture).
-    constexpr double kProjectiveDeviation = 0.004;
     constexpr int kMostSteps = 12;
     constexpr double kConvergedPx = 1e-3;
     if (points.size() < 4) return std::nullopt;
@@ -176,29 +213,16 @@ std::optional<HomographyFit> HomographyEstimator::refine(const Correspondences& 
     std::vector<double> scratch;
     const double converged = kConvergedPx * per_px_;
     double sigma = 0;
-    double cutoff = std::numeric_limits<double>::max();
+    double cutoff = first_cutoff_px * per_px_;
     for (int step = 0; step < kMostSteps; ++step) {
         squaredResiduals(p, h, squares);
         sigma = robustSigma(squares, p.weight, scratch);
         // Never wider again: a wider cutoff lets a crowd of vehicles in, which widens it further.
         cutoff = std::min(cutoff, std::max(kTukey * sigma, kSmallestCutoffPx * coarseness * per_px_));
         if (step > 2) cutoff = std::min(cutoff, 3 * farthest_px * per_px_);
-        const NormalSums sums = sumNormalEquations(p, h, static_cast<float>(cutoff));
-        if (!(sums.weight > 0)) return std::nullopt;
-        Matrix8 a = matrixFrom(sums);
-        Vector8 b = rightSideFrom(sums);
-        const double deviation = std::max(sigma, 0.02 * per_px_);
-        const double hold = deviation * deviation / (kProjectiveDeviation * kProjectiveDeviation);
-        a(6, 6) += hold;
-        a(7, 7) += hold;
-        b[6] += hold * double(h[6]);
-        b[7] += hold * double(h[7]);
-        // A trace of damping keeps a degenerate system solvable; it then stays where it started.
-        a.diagonal().array() += 1e-9 * sums.weight;
-        const Vector8 change = a.ldlt().solve(b);
-        if (!change.allFinite()) return std::nullopt;
-        for (int i = 0; i < 8; ++i) h[std::size_t(i)] -= static_cast<float>(change[i]);
-        if (step > 1 && change.cwiseAbs().maxCoeff() < converged) break;
+        const auto change = improve(p, h, cutoff, std::max(sigma, 0.02 * per_px_));
+        if (!change) return std::nullopt;
+        if (step > 1 && *change < converged) break;
     }
     HomographyFit fit;
     fit.matrix = scaledToOne(to_normalised.inv() * matrixOf(h) * to_normalised);
@@ -258,19 +282,25 @@ std::optional<cv::Matx33d> HomographyEstimator::search(const Correspondences& po
         if (!(model == MotionModel::similarity ? similarityThrough(sample, at, h) : homographyThrough(sample, at, h))) {
             continue;
         }
-        squaredResiduals(sample, h, squares);
-        double cost = 0;
-        int agreeing = 0;
-        for (const float square : squares) {
-            const bool agrees = square < tolerance;
-            agreeing += agrees;
-            cost += agrees ? square : tolerance;
+        Cost cost = costOf(sample, h, tolerance, squares);
+        if (cost.sum >= best_cost) continue;
+        if (model == MotionModel::homography) {
+            // Four noisy points extrapolate badly; the points that agree make a far better map of it.
+            HomographyParameters improved = h;
+            bool sound = true;
+            for (int step = 0; step < 3 && sound; ++step) {
+                sound = improve(sample, improved, 2 * tolerance_px * per_px_, 0.3 * tolerance_px * per_px_).has_value();
+            }
+            const Cost then = sound ? costOf(sample, improved, tolerance, squares) : cost;
+            if (then.sum < cost.sum) {
+                cost = then;
+                h = improved;
+            }
         }
-        if (cost >= best_cost) continue;
-        best_cost = cost;
+        best_cost = cost.sum;
         best = h;
         // Stop once a better sample would have turned up with 99.9 % probability.
-        const double all_good = std::pow(double(agreeing) / double(count), double(sample_size));
+        const double all_good = std::pow(double(cost.agreeing) / double(count), double(sample_size));
         const double needed = all_good >= 0.999 ? 1 : std::log(0.001) / std::log(1 - std::max(all_good, 1e-6));
         rounds = std::min(rounds, std::max(20, static_cast<int>(std::min(needed, 1e6)) + 1));
     }

@@ -42,12 +42,13 @@ class HomographyEstimator {
     HomographyEstimator(const HomographyOptions& options, cv::Size image);
 
     /// Refines `start` on all points. Empty when there are too few. `coarseness` widens all distances, for points that
-    /// were located on a pyramid level.
-    std::optional<HomographyFit> refine(const Correspondences& points, const cv::Matx33d& start,
-                                        double coarseness = 1) const;
+    /// were located on a pyramid level; points farther than `first_cutoff_px` from where `start` takes them never
+    /// count.
+    std::optional<HomographyFit> refine(const Correspondences& points, const cv::Matx33d& start, double coarseness = 1,
+                                        double first_cutoff_px = 1e6) const;
 
     /// Searches with random samples of up to 512 points; `tolerance_px` is the residual that a good point may have. The
-    /// result is not refined. Empty when no sample gives a sensible map.
+    /// result is refined on these points only. Empty when no sample gives a sensible map.
     std::optional<cv::Matx33d> search(const Correspondences& points, MotionModel model, double tolerance_px) const;
 
     /// Whether enough points agree.

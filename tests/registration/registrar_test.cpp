@@ -142,14 +142,17 @@ TEST(Registrar, cornersStayOnTheirSpotOfTheGround) {
 }
 
 TEST(Registrar, movingPatchesNeitherPullTheGroundNorLoseTheirCorners) {
-    // Three textured patches, a third of the picture, drive to the right at 1.3 px/frame over the ground.
+    // Twelve textured patches, a third of the picture, drive to the right at 1.3 px/frame over the ground.
     const test::TexturedGround vehicles(77, 1.5);
     Watch watch;
     Flight flight;
     double sum = 0;
     RegisteredFrame result;
     constexpr int kFrames = 10;
-    const auto placed = [](int index, double moved) { return cv::Rect2d(20 + moved, 15 + 75 * index, 170, 50); };
+    constexpr int kVehicles = 12;
+    const auto placed = [](int k, double moved) {
+        return cv::Rect2d(8 + 80 * (k % 4) + 6 * (k / 4) + moved, 18 + 75 * (k / 4), 50, 42);
+    };
     for (int i = 0; i <= kFrames; ++i) {
         if (i > 0) flight.move(test::cameraMotion(kSize, -0.8, 0.5, 0));
         cv::Mat gray = flight.picture();
@@ -158,7 +161,7 @@ TEST(Registrar, movingPatchesNeitherPullTheGroundNorLoseTheirCorners) {
             for (int x = 0; x < kSize.width; ++x) {
                 const double gx = x + ground_from_picture(0, 2);
                 const double gy = y + ground_from_picture(1, 2);
-                for (int k = 0; k < 3; ++k) {
+                for (int k = 0; k < kVehicles; ++k) {
                     const cv::Rect2d where = placed(k, 1.3 * i);
                     if (!where.contains({gx, gy})) continue;
                     const int noise = int((unsigned(x * 31 + y * 17 + i * 7) * 2654435761U >> 16) % 7) - 3;
@@ -171,9 +174,11 @@ TEST(Registrar, movingPatchesNeitherPullTheGroundNorLoseTheirCorners) {
         result = watch.seePicture(gray);
         if (i == 0) continue;
         ASSERT_EQ(result.registration.state, RegistrationState::registered);
-        sum += watch.error(result);
+        EXPECT_LT(watch.error(result), 0.12);
+        // From five frames on it is known which corners move.
+        if (i >= 5) sum += watch.error(result);
     }
-    EXPECT_LT(sum / kFrames, 0.03);
+    EXPECT_LT(sum / (kFrames - 4), 0.03);
     int on_vehicle = 0;
     int seen_as_moving = 0;
     double speed = 0;
@@ -183,7 +188,7 @@ TEST(Registrar, movingPatchesNeitherPullTheGroundNorLoseTheirCorners) {
         const double gx = double(corner.current.x) + ground_from_picture(0, 2);
         const double gy = double(corner.current.y) + ground_from_picture(1, 2);
         bool inside = false;
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < kVehicles; ++k) {
             const cv::Rect2d where = placed(k, 1.3 * kFrames);
             inside = inside || (gx > where.x + 5 && gx < where.x + where.width - 5 && gy > where.y + 5 &&
                                 gy < where.y + where.height - 5);
