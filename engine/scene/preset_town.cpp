@@ -129,7 +129,7 @@ SceneDescription presetSeq2(std::uint32_t seed) {
     scene.frame_count = 201;
     scene.frame_rate_hz = 25;
     scene.gsd_m_per_px = 0.284;
-    scene.image_size = {768, 576};
+    scene.image_size = {640, 480};
     scene.sun = {{1.5, 1.35}, 0.42};
     scene.sensor.blur_px = 0.45;
     scene.sensor.exposure = 0.25;
@@ -147,9 +147,9 @@ SceneDescription presetSeq2(std::uint32_t seed) {
     camera.image_size = scene.image_size;
     camera.frame_rate_hz = scene.frame_rate_hz;
     camera.shake = {2.2, 0.5, 0.0016, seed + 6};
-    camera.keys = {{0, {-62, -12}, height, degrees(-24), degrees(5), focal},
+    camera.keys = {{0, {-44, -8}, height, degrees(-24), degrees(5), focal},
                    {90, {-6, 4}, height, degrees(-14), degrees(9), focal * 1.015},
-                   {201, {66, 6}, height + 5, degrees(4), degrees(7), focal}};
+                   {201, {46, 4}, height + 5, degrees(4), degrees(7), focal}};
     const cv::Rect2d area = grown(groundSeen(camera, scene.frame_count), scene.map_margin);
     scene.base.seed = seed;
     Town town(scene, area, seed * 37 + 1);
@@ -160,8 +160,8 @@ SceneDescription presetSeq2(std::uint32_t seed) {
     main.tree_distance = 8.5;
     main.tree_overhang = 2.2;
     main.occupancy = 0.8;
-    main.building_share = 0.75;
-    main.storeys = {2, 5};
+    main.building_share = 0.6;
+    main.storeys = {1, 3};
     const int street = town.addStreet(main);
     Street side;
     side.path = Path::rounded({{-12, -380}, {22, -20}, {34, 380}}, 150);
@@ -174,7 +174,7 @@ SceneDescription presetSeq2(std::uint32_t seed) {
     TownTraffic traffic(town, seed * 37 + 2);
     const int east = traffic.straight(street, true);
     const int west = traffic.straight(street, false);
-    traffic.redLight(east, street, cross, true, {{2.5, 99}});
+    traffic.redLight(east, street, cross, true, {{3.5, 99}});
     traffic.redLight(west, street, cross, false, {{-9, 1.0}});
     for (const int route : {east, west}) {
         for (int lane = 0; lane < 2; ++lane) {
@@ -221,6 +221,7 @@ SceneDescription presetDemo(std::uint32_t seed) {
     scene.sensor.level = 122;
     scene.sensor.haze = 0.03;
     scene.sensor.jpeg_quality = 86;
+    scene.sensor.samples = 8;
 
     const double height = 190;
     const double focal = height / 0.17;

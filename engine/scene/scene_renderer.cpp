@@ -214,8 +214,10 @@ cv::Matx33d SceneRenderer::frameFromGround(FrameIndex index) const {
 
 Homography SceneRenderer::firstFromFrame(FrameIndex index) const {
     Homography map;
-    map.matrix = frameFromGround(0) * frameFromGround(index).inv();
-    map.matrix *= 1 / map.matrix(2, 2);
+    if (index > 0) {
+        map.matrix = frameFromGround(0) * frameFromGround(index).inv();
+        map.matrix *= 1 / map.matrix(2, 2);
+    }
     map.from_frame = index;
     map.to_frame = 0;
     return map;

@@ -39,6 +39,22 @@ bool hides(const Face& face, cv::Point3d from, cv::Point3d direction) {
     return true;
 }
 
+/// Whether the line of sight passes the ball around a whole thing.
+bool comesNear(const StandingThing& thing, cv::Point3d from, cv::Point3d direction) {
+    const cv::Point3d offset = cv::Point3d(thing.centre.x, thing.centre.y, thing.height / 2) - from;
+    const double along = offset.dot(direction);
+    const double radius_squared = thing.reach * thing.reach + thing.height * thing.height / 4;
+    return offset.dot(offset) - along * along <= radius_squared;
+}
+
+bool hides(const StandingThing& thing, cv::Point3d from, cv::Point3d direction) {
+    if (!comesNear(thing, from, direction)) return false;
+    return std::any_of(thing.balls.begin(), thing.balls.end(),
+                       [&](const Ball& ball) { return hides(ball, from, direction); }) ||
+           std::any_of(thing.mesh.faces.begin(), thing.mesh.faces.end(),
+                       [&](const Face& face) { return hides(face, from, direction); });
+}
+
 /// Mean speed around a frame, m/s.
 double speedAround(const MovingObject& object, FrameIndex clock, double frame_rate) {
     const FrameIndex last = object.first_frame + static_cast<FrameIndex>(object.poses.size()) - 1;
@@ -130,12 +146,8 @@ double SceneTruth::visibilityOf(const MovingObject& object, const ObjectPose& po
             const cv::Point3d from = placed(local, pose);
             cv::Point3d direction = camera - from;
             direction *= 1 / std::sqrt(direction.dot(direction));
-            const bool covered = std::any_of(near.begin(), near.end(), [&](const StandingThing* thing) {
-                return std::any_of(thing->balls.begin(), thing->balls.end(),
-                                   [&](const Ball& ball) { return hides(ball, from, direction); }) ||
-                       std::any_of(thing->mesh.faces.begin(), thing->mesh.faces.end(),
-                                   [&](const Face& face) { return hides(face, from, direction); });
-            });
+            const bool covered = std::any_of(
+                near.begin(), near.end(), [&](const StandingThing* thing) { return hides(*thing, from, direction); });
             hidden += covered ? 1 : 0;
         }
     }

@@ -60,6 +60,12 @@ void addCabin(Mesh& mesh, const Extent& base, double base_z, const Extent& lid, 
     mesh.solids.push_back(solid);
 }
 
+/// Wheels and sills, all dark; nobody sees them from above.
+void addSkirt(Mesh& mesh, const Extent& e, double bottom, double top) {
+    addPrism(mesh, boxOutline(e), bottom, top, kRubber, kRubber, Finish::matte);
+    mesh.faces.pop_back();
+}
+
 void addLights(Mesh& mesh, double a, double w, double z) {
     for (const double side : {-1.0, 1.0}) {
         addPlate(mesh, {a - 0.42, a - 0.12, 0.13}, side * (w * 0.62), z, {205, 210, 210}, Finish::lacquer);
@@ -75,7 +81,7 @@ void addCar(Mesh& mesh, const ObjectLook& look, Random& random) {
     const std::vector<cv::Point2d> outline{
         {-a, -0.62 * w}, {-a + 0.22, -0.9 * w}, {-a + 0.8, -w}, {a - 0.9, -w}, {a - 0.3, -0.9 * w},  {a, -0.55 * w},
         {a, 0.55 * w},   {a - 0.3, 0.9 * w},    {a - 0.9, w},   {-a + 0.8, w}, {-a + 0.22, 0.9 * w}, {-a, 0.62 * w}};
-    addPrism(mesh, outline, 0.16, 0.38, kRubber, kRubber, Finish::matte);
+    addSkirt(mesh, {-a + 0.05, a - 0.1, w * 0.97}, 0.16, 0.38);
     addPrism(mesh, outline, 0.38, belt, look.colour * 0.92F, look.colour, Finish::lacquer);
     const bool hatchback = random.chance(0.5);
     const double bonnet = look.length * random.uniform(0.22, 0.29);
@@ -96,7 +102,7 @@ void addVan(Mesh& mesh, const ObjectLook& look, Random& random) {
     const double w = look.width / 2;
     const std::vector<cv::Point2d> outline{{-a, -0.95 * w}, {-a + 0.3, -w}, {a - 0.6, -w}, {a, -0.7 * w},
                                            {a, 0.7 * w},    {a - 0.6, w},   {-a + 0.3, w}, {-a, 0.95 * w}};
-    addPrism(mesh, outline, 0.2, 0.45, kRubber, kRubber, Finish::matte);
+    addSkirt(mesh, {-a + 0.05, a - 0.1, w * 0.97}, 0.2, 0.45);
     addPrism(mesh, outline, 0.45, 1.15, look.colour * 0.92F, look.colour, Finish::lacquer);
     const Extent base{-a + 0.02, a - 0.75, 0.96 * w};
     const Extent lid{-a + 0.1, a - 1.55, 0.84 * w};
