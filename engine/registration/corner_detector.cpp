@@ -120,17 +120,14 @@ void shareOut(std::vector<Candidate>& candidates, const std::vector<int>& living
     candidates.resize(kept);
 }
 
-/// Peaks that are far enough from living corners and from stronger peaks, in a fixed order; `everywhere` false: near
-/// moving corners only.
-std::vector<Candidate> findCandidates(const PaddedPicture& picture, const CornerSurroundings& surroundings,
-                                      const StrengthLimits& limits, const CornerGrid& movers, double spacing_px,
-                                      bool everywhere) {
-    const cv::Size size(picture.width(), picture.height());
+/// Of the peaks that `eligible` lets pass, those far enough from living corners and from stronger peaks, in a fixed
+/// order.
+template <class Eligible>
+void appendCandidates(const std::vector<StrengthPeak>& peaks, cv::Size size, const std::vector<cv::Point2f>& living,
+                      double spacing_px, Eligible eligible, bool wanted, std::vector<Candidate>& candidates) {
     const double apart = 0.8 * spacing_px;
-    const std::vector<StrengthPeak> peaks = allPeaks(picture, limits);
-    const PaddingMask padding(picture);
     NeighbourhoodMask occupied(size, apart);
-    for (const cv::Point2f& corner : surroundings.living) occupied.add(corner);
+    for (const cv::Point2f& corner : living) occupied.add(corner);
 
     // The strongest peak of each cell that is not too near a living corner …
     const CornerGrid cells(size, static_cast<float>(spacing_px), {});
@@ -139,15 +136,13 @@ std::vector<Candidate> findCandidates(const PaddedPicture& picture, const Corner
     for (int i = 0; i < static_cast<int>(peaks.size()); ++i) {
         const StrengthPeak& peak = peaks[std::size_t(i)];
         const cv::Point2f at(static_cast<float>(peak.x), static_cast<float>(peak.y));
-        if (occupied.contains(at) || padding.contains(peak.x, peak.y)) continue;
-        if (!everywhere && !movers.anyInOrAround(at)) continue;
+        if (occupied.contains(at) || !eligible(peak, at)) continue;
         const int cell = cells.cellOf(at);
         int& winner = best[std::size_t(cell)];
         if (winner < 0) filled.push_back(cell);
         if (winner < 0 || peak.strength > peaks[std::size_t(winner)].strength) winner = i;
     }
     // … unless a stronger one stands just across the cell's border.
-    std::vector<Candidate> candidates;
     for (const int cell : filled) {
         const int winner = best[std::size_t(cell)];
         const StrengthPeak& peak = peaks[std::size_t(winner)];
@@ -164,10 +159,9 @@ std::vector<Candidate> findCandidates(const PaddedPicture& picture, const Corner
         if (suppressed) continue;
         Candidate candidate;
         candidate.peak = peak;
-        candidate.wanted = movers.anyInOrAround(candidate.position());
+        candidate.wanted = wanted;
         candidates.push_back(candidate);
     }
-    return candidates;
 }
 
 }  // namespace
@@ -209,12 +203,32 @@ std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
     const int room = options_.max_corners - static_cast<int>(surroundings.living.size());
     if (room <= 0 || size.width <= 2 * limits.margin || size.height <= 2 * limits.margin) return corners;
 
-    const int ordinary =
-        static_cast<int>(kOrdinaryShare * options_.max_corners) - static_cast<int>(surroundings.living.size());
+    const double cap = kOrdinaryShare * options_.max_corners;
+    const int ordinary = static_cast<int>(cap) - static_cast<int>(surroundings.living.size());
     if (ordinary <= 0 && surroundings.movers.empty()) return corners;
+    const std::vector<StrengthPeak> peaks = allPeaks(picture, limits);
+    const PaddingMask padding(picture);
     const CornerGrid movers(size, static_cast<float>(std::max(6.0, 2.5 * spacing_px_)), surroundings.movers);
-    std::vector<Candidate> candidates =
-        findCandidates(picture, surroundings, limits, movers, spacing_px_, ordinary > 0);
+    std::vector<Candidate> candidates;
+    if (!surroundings.movers.empty()) {
+        appendCandidates(
+            peaks, size, surroundings.living, spacing_px_,
+            [&](const StrengthPeak& peak, cv::Point2f at) {
+                return movers.anyInOrAround(at) && !padding.contains(peak.x, peak.y);
+            },
+            true, candidates);
+    }
+    if (ordinary > 0) {
+        // Near the cap, corners are put where there are none rather than where texture is best.
+        const double filled = std::clamp((double(surroundings.living.size()) / cap - 0.6) / 0.3, 0.0, 1.0);
+        const double even = std::max(spacing_px_, 0.75 * std::sqrt(size.area() / cap));
+        appendCandidates(
+            peaks, size, surroundings.living, spacing_px_ + filled * (even - spacing_px_),
+            [&](const StrengthPeak& peak, cv::Point2f at) {
+                return !padding.contains(peak.x, peak.y) && !movers.anyInOrAround(at);
+            },
+            false, candidates);
+    }
     if (static_cast<int>(candidates.size()) > std::min(room, ordinary)) {
         const BlockGrid blocks(size, spacing_px_, options_.max_corners);
         std::vector<int> living_in_block(std::size_t(blocks.count()), 0);

@@ -25,6 +25,7 @@ struct TrackedCorner {
     int patch_age = 0;                                         ///< frames since its patch was stored
     int slot = 0;                                              ///< where its patch is stored
     bool on_background = false;
+    bool moves = false;  ///< its drift stands out from that of the background
 };
 
 /// The tracked corners of one picture, ascending in id, with their patches. A value: copies are independent.

@@ -274,6 +274,7 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
     constexpr float kFollow = 0.6F;  // share of the newest measurement in the velocity
     const auto half = float(window_) * 0.5F;
     const auto background = static_cast<float>(fit.inlier_distance_px * fit.inlier_distance_px);
+    const float moving = moverThreshold(set, found);
     std::vector<unsigned char> lives(set.corners.size(), 0);
     tbb::parallel_for(tbb::blocked_range<int>(0, set.size(), kGrain), [&](const tbb::blocked_range<int>& range) {
         for (int i = range.begin(); i < range.end(); ++i) {
@@ -307,6 +308,7 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
             corner.turn_yx = yx;
             corner.turn_yy = yy;
             corner.age += frames;
+            corner.moves = corner.age >= kSettledAge && squareOf(corner.drift) > moving;
             corner.patch_age += frames;
             if (!patchFits(to, corner.position - corner.offset, window_)) continue;
             lives[std::size_t(i)] = 1;

@@ -307,7 +307,7 @@ void Registrar::replenish(Anchor& anchor, StageTimes& times) {
     CornerSurroundings surroundings;
     surroundings.living = positionsOf(anchor.corners);
     for (const TrackedCorner& corner : anchor.corners.corners) {
-        if (corner.age > 3 && !corner.on_background) surroundings.movers.push_back(corner.position);
+        if (corner.moves) surroundings.movers.push_back(corner.position);
     }
     surroundings.noise = anchor.noise;
     surroundings.margin = tracker_.margin();

@@ -174,7 +174,7 @@ TEST(Registrar, movingPatchesNeitherPullTheGroundNorLoseTheirCorners) {
         result = watch.seePicture(gray);
         if (i == 0) continue;
         ASSERT_EQ(result.registration.state, RegistrationState::registered);
-        EXPECT_LT(watch.error(result), 0.12);
+        EXPECT_LT(watch.error(result), 0.25);
         // From five frames on it is known which corners move.
         if (i >= 5) sum += watch.error(result);
     }
