@@ -23,7 +23,7 @@ ChainOptions PresetArguments::options() const {
                     "there is no preset or preset file \"" + preset + "\"; built in are: default, thesis");
     }
     ChainOptions options = builtInPreset(is_built_in ? preset : "default");
-    if (!is_built_in) setParameters(describeOf(options), readPresetFile(preset).parameters);
+    if (!is_built_in) setParameters(describeOf(options), readPreset(preset).values);
     for (const auto& setting : settings) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) {

@@ -40,7 +40,9 @@ class ConsoleObserver : public ChainObserver {
     ConsoleObserver(const Arguments& arguments, const VideoInfo& video) : quiet_(arguments.quiet) {
         if (arguments.annotated.empty()) return;
         const int zoom = annotationZoom(video.size);
-        writer_ = std::make_unique<VideoWriter>(arguments.annotated, video.size * zoom, video.frame_rate_hz);
+        VideoWriterOptions options;
+        options.frame_rate_hz = video.frame_rate_hz;
+        writer_ = std::make_unique<VideoWriter>(arguments.annotated, video.size * zoom, options);
     }
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override {
         if (writer_) writer_->write(annotator_.draw(frame, *result));
@@ -89,8 +91,8 @@ int run(const Arguments& arguments) {
     }
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     const RunStore store(file);
-    if (!arguments.tracks_csv.empty()) writeBoxCsv(arguments.tracks_csv, store.trackBoxes(record.id));
-    if (!arguments.detections_csv.empty()) writeBoxCsv(arguments.detections_csv, store.detectionBoxes(record.id));
+    if (!arguments.tracks_csv.empty()) writeResultCsv(arguments.tracks_csv, store.trackBoxes(record.id));
+    if (!arguments.detections_csv.empty()) writeResultCsv(arguments.detections_csv, store.detectionBoxes(record.id));
     if (!arguments.timing.empty()) writeTiming(arguments.timing, summary);
     std::fputs(summaryText(video, record, summary, store.tracks(record.id), project).c_str(), stdout);
     if (!arguments.annotated.empty()) std::printf("Annotated video: %s\n", arguments.annotated.c_str());
