@@ -14,16 +14,17 @@ namespace eyrie {
 /// A corner that is being tracked.
 struct TrackedCorner {
     CornerId id = 0;
-    cv::Point2f position{0, 0};  ///< px
-    cv::Point2f offset{0, 0};    ///< from the centre of its patch to the corner, px in the present picture
-    cv::Point2f velocity{0, 0};  ///< px/frame relative to the ground, in the axes of the present picture
-    cv::Point2f drift{0, 0};     ///< slow mean of it, to tell movers from the background
-    float turn_xx = 1, turn_xy = 0, turn_yx = 0, turn_yy = 1;  ///< present picture from the picture of the patch
-    float position_variance = 0;                               ///< px² per grey level² of noise, as last tracked
-    float residual = 0;                                        ///< mean square, grey levels, as last tracked
-    int age = 0;                                               ///< frames since detection
-    int patch_age = 0;                                         ///< frames since its patch was stored
-    int slot = 0;                                              ///< where its patch is stored
+    cv::Point2f position{0, 0};   ///< px
+    cv::Point2f offset{0, 0};     ///< from the centre of its patch to the corner, px in the present picture
+    cv::Point2f velocity{0, 0};   ///< px/frame relative to the ground, in the axes of the present picture
+    cv::Point2f drift{0, 0};      ///< slow mean of it, to tell movers from the background
+    LocalTurn turn;               ///< present picture from the picture that its surrounding was stored from
+    LocalTurn patch_turn;         ///< the same as it was when the patch was last made from the surrounding
+    float position_variance = 0;  ///< px² per grey level² of noise, as last tracked
+    float residual = 0;           ///< mean square, grey levels, as last tracked
+    int age = 0;                  ///< frames since detection
+    int patch_age = 0;            ///< frames since its surrounding was stored
+    int slot = 0;                 ///< where patch and surrounding are stored
     bool on_background = false;
     bool moves = false;  ///< its drift stands out from that of the background
 };
@@ -43,6 +44,11 @@ class CornerSet {
         return patches_.data() + std::ptrdiff_t(corner.slot) * patchSamples(window_);
     }
 
+    /// What stood around the corner when it was stored; patches are made from it as the picture turns.
+    std::int16_t* surrounding(const TrackedCorner& corner) {
+        return surroundings_.data() + std::ptrdiff_t(corner.slot) * surroundingSamples(window_);
+    }
+
     /// Asks the memory for a patch that will soon be needed.
     void prefetchPatch(const TrackedCorner& corner) const {
         const auto* bytes = reinterpret_cast<const char*>(patch(corner));
@@ -59,6 +65,7 @@ class CornerSet {
         }
         const int slot = slots_++;
         patches_.resize(std::size_t(slots_) * std::size_t(patchSamples(window_)));
+        surroundings_.resize(std::size_t(slots_) * std::size_t(surroundingSamples(window_)));
         return slot;
     }
     void giveBack(int slot) { free_slots_.push_back(slot); }
@@ -69,6 +76,7 @@ class CornerSet {
     int window_;
     int slots_ = 0;
     std::vector<std::int16_t> patches_;
+    std::vector<std::int16_t> surroundings_;
     std::vector<int> free_slots_;
 };
 

@@ -30,6 +30,17 @@ float squareOf(cv::Point2f d) {
     return d.x * d.x + d.y * d.y;
 }
 
+/// The turn so far, followed by that of one more step.
+LocalTurn composed(const LocalMap& map, const LocalTurn& turn) {
+    return {map.xx * turn.xx + map.xy * turn.yx, map.xx * turn.xy + map.xy * turn.yy,
+            map.yx * turn.xx + map.yy * turn.yx, map.yx * turn.xy + map.yy * turn.yy};
+}
+
+/// How far two turns take a point at distance 1 (in either axis) apart.
+float difference(const LocalTurn& a, const LocalTurn& b) {
+    return std::max(std::abs(a.xx - b.xx) + std::abs(a.xy - b.xy), std::abs(a.yx - b.yx) + std::abs(a.yy - b.yy));
+}
+
 /// Tracks one corner after the other; one for each thread's stretch, as it holds the work space.
 class Follower {
  public:
@@ -140,10 +151,11 @@ bool storePatch(CornerSet& set, TrackedCorner& corner, const PaddedPicture& pict
     const cv::Point2f centre(std::round(corner.position.x), std::round(corner.position.y));
     if (!patchFits(picture, centre, set.window())) return false;
     corner.offset = corner.position - centre;
-    corner.turn_xx = corner.turn_yy = 1;
-    corner.turn_xy = corner.turn_yx = 0;
+    corner.turn = {};
+    corner.patch_turn = {};
     corner.patch_age = 0;
     cutPatch(picture, centre, set.window(), set.patch(corner));
+    cutSurrounding(picture, centre, set.window(), set.surrounding(corner));
     return true;
 }
 
@@ -172,9 +184,8 @@ void TrackingOptions::describe(ParameterVisitor& visitor) {
          "A corner is compared with the patch stored this many frames ago at most. Longer: less drift; 1: from "
          "frame to frame.",
          ""});
-    visitor.real(
-        "registration.patch_deformation", patch_deformation_px, 0.01, 5,
-        {"px", "The patch is renewed when turning or zooming moves the window's corners by more than this.", ""});
+    visitor.real("registration.patch_deformation", patch_deformation_px, 0.01, 5,
+                 {"px", "The patch is turned and scaled with the picture whenever this moves its border by more.", ""});
 }
 
 CornerTracker::CornerTracker(const TrackingOptions& options, const SceneScale& scale)
@@ -299,24 +310,19 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
             corner.offset = now.offset;
             corner.residual = now.residual;
             corner.position_variance = now.position_variance;
-            const float xx = map.xx * corner.turn_xx + map.xy * corner.turn_yx;
-            const float xy = map.xx * corner.turn_xy + map.xy * corner.turn_yy;
-            const float yx = map.yx * corner.turn_xx + map.yy * corner.turn_yx;
-            const float yy = map.yx * corner.turn_xy + map.yy * corner.turn_yy;
-            corner.turn_xx = xx;
-            corner.turn_xy = xy;
-            corner.turn_yx = yx;
-            corner.turn_yy = yy;
+            corner.turn = composed(map, corner.turn);
             corner.age += frames;
             corner.moves = corner.age >= kSettledAge && squareOf(corner.drift) > moving;
             corner.patch_age += frames;
             if (!patchFits(to, corner.position - corner.offset, window_)) continue;
             lives[std::size_t(i)] = 1;
-            const float deformation = half * std::max(std::abs(xx - 1) + std::abs(xy), std::abs(yx) + std::abs(yy - 1));
             const bool faded = now.residual > 0.5 * options_.max_residual * now.contrast;
-            if (corner.patch_age >= options_.patch_life || deformation > options_.patch_deformation_px || faded) {
-                lives[std::size_t(i)] = storePatch(set, corner, to);
+            bool renew = faded || corner.patch_age >= options_.patch_life;
+            if (!renew && half * difference(corner.turn, corner.patch_turn) > options_.patch_deformation_px) {
+                renew = !turnPatch(set.surrounding(corner), window_, corner.turn, set.patch(corner));
+                corner.patch_turn = corner.turn;
             }
+            if (renew) lives[std::size_t(i)] = storePatch(set, corner, to);
         }
     });
 

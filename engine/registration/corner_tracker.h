@@ -19,7 +19,7 @@ struct TrackingOptions {
     double max_speed_mps = 60;
     double max_jerk_px = 0.5;
     int patch_life = 100;
-    double patch_deformation_px = 0.2;
+    double patch_deformation_px = 0.08;
 
     void describe(ParameterVisitor& visitor);
 };
@@ -36,8 +36,8 @@ struct TrackedPosition {
 
 /// Kanade–Lucas–Tomasi tracking of many corners with small windows (Teutsch §4.2; Shi and Tomasi 1994): each starts
 /// where the camera's motion, and its own motion so far, would take it, is aligned with the patch stored when it was
-/// detected, so that errors do not add up from frame to frame, and is tried again at half and quarter resolution when
-/// it does not fit. Results do not depend on the number of threads.
+/// detected (turned and scaled with the picture), so that errors do not add up from frame to frame, and is tried again
+/// at half and quarter resolution when it does not fit. Results do not depend on the number of threads.
 class CornerTracker {
  public:
     CornerTracker(const TrackingOptions& options, const SceneScale& scale);

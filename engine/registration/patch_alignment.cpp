@@ -211,6 +211,51 @@ void cutPatch(const PaddedPicture& picture, cv::Point2f centre, int window, std:
     std::fill(samples + side * side, samples + patchSamples(window), std::int16_t(0));
 }
 
+void cutSurrounding(const PaddedPicture& picture, cv::Point centre, int window, std::int16_t* samples) {
+    const int reach = surroundingReach(window);
+    for (int dy = -reach; dy <= reach; ++dy) {
+        const std::uint8_t* row = picture.row(std::clamp(centre.y + dy, 0, picture.height() - 1));
+        for (int dx = -reach; dx <= reach; ++dx) {
+            *samples++ = static_cast<std::int16_t>(64 * row[std::clamp(centre.x + dx, 0, picture.width() - 1)]);
+        }
+    }
+}
+
+bool turnPatch(const std::int16_t* surrounding, int window, const LocalTurn& present_from_stored,
+               std::int16_t* samples) {
+    const LocalTurn& t = present_from_stored;
+    const float determinant = t.xx * t.yy - t.xy * t.yx;
+    if (!(determinant > 0.25F && determinant < 4)) return false;
+    const float xx = t.yy / determinant;
+    const float xy = -t.xy / determinant;
+    const float yx = -t.yx / determinant;
+    const float yy = t.xx / determinant;
+    const int reach = surroundingReach(window);
+    const int side = window + 2;
+    const int half = side / 2;
+    const auto farthest = float(half) * std::max(std::abs(xx) + std::abs(xy), std::abs(yx) + std::abs(yy));
+    if (!(farthest < float(reach))) return false;
+    const int pitch = 2 * reach + 1;
+    std::int16_t* out = samples;
+    for (int row = -half; row <= half; ++row) {
+        // Stays positive, so that truncation rounds down.
+        float x = float(reach) - xx * float(half) + xy * float(row);
+        float y = float(reach) - yx * float(half) + yy * float(row);
+        for (int column = -half; column <= half; ++column, x += xx, y += yx) {
+            const int ix = static_cast<int>(x);
+            const int iy = static_cast<int>(y);
+            const float fx = x - float(ix);
+            const float fy = y - float(iy);
+            const std::int16_t* at = surrounding + iy * pitch + ix;
+            const float upper = float(at[0]) + fx * float(at[1] - at[0]);
+            const float lower = float(at[pitch]) + fx * float(at[pitch + 1] - at[pitch]);
+            *out++ = static_cast<std::int16_t>(upper + fy * (lower - upper) + 0.5F);
+        }
+    }
+    std::fill(out, samples + patchSamples(window), std::int16_t(0));
+    return true;
+}
+
 PatchTemplate::PatchTemplate(int window)
     : values_{}, weighted_gx_{}, weighted_gy_{}, weights_{}, window_(window), weight_scale_(0) {
     float sum = 0;

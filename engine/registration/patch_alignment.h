@@ -24,6 +24,28 @@ bool patchFits(const PaddedPicture& picture, cv::Point2f centre, int window);
 /// patchSamples(window). The patch must fit.
 void cutPatch(const PaddedPicture& picture, cv::Point2f centre, int window, std::int16_t* samples);
 
+/// A linear map between two pictures of one spot, for directions and distances in px.
+struct LocalTurn {
+    float xx = 1, xy = 0, yx = 0, yy = 1;
+};
+
+/// px that a stored surrounding reaches from its centre: enough for the window in any direction.
+constexpr int surroundingReach(int window) {
+    return (window / 2 + 1) * 3 / 2 + 1;
+}
+/// How many samples a stored surrounding takes.
+constexpr int surroundingSamples(int window) {
+    return (2 * surroundingReach(window) + 1) * (2 * surroundingReach(window) + 1);
+}
+
+/// Stores the surrounding of a whole pixel, in 1/64 grey levels; beyond the picture its border repeats.
+void cutSurrounding(const PaddedPicture& picture, cv::Point centre, int window, std::int16_t* samples);
+
+/// The patch as it looks in a picture that is turned and scaled: `present_from_stored` maps directions of the picture
+/// that the surrounding was taken from. False when the surrounding does not reach as far.
+bool turnPatch(const std::int16_t* surrounding, int window, const LocalTurn& present_from_stored,
+               std::int16_t* samples);
+
 /// A patch made ready for alignment. Reused for many patches of one window size; pixels near the centre of the window
 /// weigh more, so that what lies beside a small vehicle pulls less.
 class alignas(64) PatchTemplate {

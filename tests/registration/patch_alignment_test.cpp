@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "registration/every_target.h"
 #include "registration/textured_ground.h"
@@ -177,6 +178,44 @@ TEST(PatchAlignment, wholePositionsCopyThePixels) {
     for (int y = 0; y < 7; ++y) {
         for (int x = 0; x < 7; ++x) EXPECT_EQ(samples[std::size_t(y * 7 + x)], 64 * picture.row(28 + y)[17 + x]);
     }
+}
+
+TEST(PatchAlignment, turnedPatchesAreThoseOfATurnedPicture) {
+    const test::TexturedGround ground(26);
+    const PaddedPicture before = padded(ground.picture(kSize, cv::Matx33d::eye(), 0, 1));
+    for (const int window : {5, 9, 15}) {
+        std::vector<std::int16_t> surrounding(std::size_t(surroundingSamples(window)));
+        std::vector<std::int16_t> turned(std::size_t(patchSamples(window)));
+        std::vector<std::int16_t> expected(turned.size());
+        cutSurrounding(before, {31, 29}, window, surrounding.data());
+        for (const double degrees : {0.0, 3.0, -40.0, 90.0, 170.0}) {
+            const double zoom = 1.03;
+            const double c = zoom * std::cos(degrees * CV_PI / 180);
+            const double s = zoom * std::sin(degrees * CV_PI / 180);
+            const cv::Matx33d after_from_before(c, -s, 31 - c * 31 + s * 29, s, c, 29 - s * 31 - c * 29, 0, 0, 1);
+            const PaddedPicture after = padded(ground.picture(kSize, after_from_before.inv(), 0, 1));
+            ASSERT_TRUE(
+                turnPatch(surrounding.data(), window, {float(c), float(-s), float(s), float(c)}, turned.data()));
+            cutPatch(after, {31, 29}, window, expected.data());
+            double sum = 0;
+            const int count = (window + 2) * (window + 2);
+            for (int i = 0; i < count; ++i) sum += std::abs(turned[std::size_t(i)] - expected[std::size_t(i)]) / 64.0;
+            EXPECT_LT(sum / count, 1.5) << window << " px, " << degrees << "°";  // interpolation and rounding
+        }
+    }
+}
+
+TEST(PatchAlignment, surroundingsDoNotReachForEver) {
+    std::vector<std::int16_t> surrounding(std::size_t(surroundingSamples(7)), 64);
+    std::vector<std::int16_t> turned(std::size_t(patchSamples(7)));
+    const float undefined = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(turnPatch(surrounding.data(), 7, {0.6F, 0, 0, 0.6F}, turned.data()));
+    EXPECT_FALSE(turnPatch(surrounding.data(), 7, {0, 0, 0, 0}, turned.data()));
+    EXPECT_FALSE(turnPatch(surrounding.data(), 7, {undefined, 0, 0, 1}, turned.data()));
+    // At the picture's border the outermost pixels repeat.
+    const PaddedPicture picture = padded(test::TexturedGround(25).picture(kSize, cv::Matx33d::eye(), 0, 1));
+    cutSurrounding(picture, {4, 4}, 7, surrounding.data());
+    EXPECT_EQ(surrounding[0], 64 * picture.row(0)[0]);
 }
 
 }  // namespace eyrie

@@ -141,6 +141,40 @@ TEST(Registrar, cornersStayOnTheirSpotOfTheGround) {
     EXPECT_LT(late, 1.35 * early);
 }
 
+TEST(Registrar, yawDoesNotSpoilVelocities) {
+    // The scatter of the background's velocity over ten frames must not depend on whether the camera turns.
+    const auto scatter = [](double degrees_per_frame) {
+        Watch watch;
+        Flight flight(kSize, 1);
+        std::map<CornerId, cv::Point2f> start;
+        cv::Matx33d then;
+        std::vector<double> speeds;
+        for (int i = 0; i <= 13; ++i) {
+            flight.move(test::cameraMotion(kSize, 0.7, -0.4, degrees_per_frame));
+            const RegisteredFrame result = watch.see(flight);
+            if (i == 3) {
+                then = flight.pictureFromGround();
+                for (const Corner& corner : result.corners) start[corner.id] = corner.current;
+            }
+            if (i < 13) continue;
+            const cv::Matx33d now_from_then = flight.pictureFromGround() * then.inv();
+            for (const Corner& corner : result.corners) {
+                const auto at = start.find(corner.id);
+                if (at == start.end()) continue;
+                const cv::Vec3d p = now_from_then * cv::Vec3d(at->second.x, at->second.y, 1);
+                speeds.push_back(
+                    std::hypot(p[0] / p[2] - double(corner.current.x), p[1] / p[2] - double(corner.current.y)) / 10);
+            }
+        }
+        EXPECT_GT(speeds.size(), 800U);
+        std::nth_element(speeds.begin(), speeds.begin() + long(speeds.size() / 2), speeds.end());
+        return speeds[speeds.size() / 2];
+    };
+    const double straight = scatter(0);
+    EXPECT_LT(straight, 0.02);
+    EXPECT_LT(scatter(1.0), 1.3 * straight);
+}
+
 TEST(Registrar, movingPatchesNeitherPullTheGroundNorLoseTheirCorners) {
     // Twelve textured patches, a third of the picture, drive to the right at 1.3 px/frame over the ground.
     const test::TexturedGround vehicles(77, 1.5);
