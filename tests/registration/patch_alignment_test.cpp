@@ -209,7 +209,7 @@ TEST(PatchAlignment, surroundingsDoNotReachForEver) {
     std::vector<std::int16_t> surrounding(std::size_t(surroundingSamples(7)), 64);
     std::vector<std::int16_t> turned(std::size_t(patchSamples(7)));
     const float undefined = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_FALSE(turnPatch(surrounding.data(), 7, {0.6F, 0, 0, 0.6F}, turned.data()));
+    EXPECT_FALSE(turnPatch(surrounding.data(), 7, {0.55F, 0, 0, 0.55F}, turned.data()));
     EXPECT_FALSE(turnPatch(surrounding.data(), 7, {0, 0, 0, 0}, turned.data()));
     EXPECT_FALSE(turnPatch(surrounding.data(), 7, {undefined, 0, 0, 1}, turned.data()));
     // At the picture's border the outermost pixels repeat.
