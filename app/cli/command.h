@@ -25,5 +25,8 @@ void addRenderCommand(CLI::App& app, int& exit_code);
 void addParamsCommand(CLI::App& app, int& exit_code);
 void addBenchCommand(CLI::App& app, int& exit_code);
 void addInfoCommand(CLI::App& app, int& exit_code);
+void addTrainCommand(CLI::App& app, int& exit_code);
+void addClassifyCommand(CLI::App& app, int& exit_code);
+void addClassifyTestCommand(CLI::App& app, int& exit_code);
 
 }  // namespace eyrie::cli

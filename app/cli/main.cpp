@@ -43,6 +43,9 @@ int main(int argc, char** argv) {
     eyrie::cli::addParamsCommand(app, exit_code);
     eyrie::cli::addBenchCommand(app, exit_code);
     eyrie::cli::addInfoCommand(app, exit_code);
+    eyrie::cli::addTrainCommand(app, exit_code);
+    eyrie::cli::addClassifyCommand(app, exit_code);
+    eyrie::cli::addClassifyTestCommand(app, exit_code);
     try {
         app.parse(argc, argv);
         return exit_code;

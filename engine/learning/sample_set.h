@@ -51,6 +51,9 @@ struct LabelledImage {
     std::string group;
 };
 
+/// Length and width in the middle of those of all vehicles; nothing (0, 0) where there are none.
+OrientedBox medianVehicle(const std::vector<OrientedBox>& vehicles);
+
 /// Samples from a labelled image: every vehicle whose centre lies in the image, and `others` windows of the vehicles'
 /// median size (or `typical`, where there is none) at random places and headings that touch neither vehicles nor
 /// unclear areas; a quarter of them beside or before a vehicle, overlapping its box by less than 0.3, to teach where a

@@ -18,7 +18,7 @@ struct TrainingOptions {
     int hard_negative_rounds = 2;
     double others_per_vehicle = 1;       ///< of the first round
     double hard_others_per_vehicle = 1;  ///< added by each hard-negative round, at most
-    bool duplicates = true;              ///< use samples that are nearly equal to others, too
+    bool duplicates = false;             ///< use samples that are nearly equal to others, too
     bool mirrored = true;                ///< vehicles also with sides, and front and rear, exchanged
     double contrast_change = 0.4;        ///< contrast of copies is multiplied by 1 − c … 1 + c
     int varied_copies = 1;               ///< copies of each vehicle with another contrast

@@ -13,33 +13,18 @@ namespace {
 
 constexpr int kFinest = 16;              // most samples per window pixel and direction
 constexpr int kAttempts = 40;            // per window wanted, where the image is full of vehicles
-constexpr double kFree = 0.02;           // overlap that still counts as background
+constexpr double kFree = 0.05;           // share of a window's middle that may be covered in the background
 constexpr double kNearestOverlap = 0.3;  // of windows beside a vehicle
 constexpr int kNearEvery = 4;
 
-bool hits(const OrientedBox& box, const std::vector<OrientedBox>& others, double most) {
+bool overlapsMore(const OrientedBox& box, const std::vector<OrientedBox>& others, double most) {
     return std::any_of(others.begin(), others.end(),
                        [&](const OrientedBox& other) { return overlap(box, other) > most; });
 }
 
-double medianOf(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-OrientedBox typicalOf(const std::vector<OrientedBox>& vehicles, const OrientedBox& otherwise) {
-    if (vehicles.empty()) return otherwise;
-    std::vector<double> lengths;
-    std::vector<double> widths;
-    for (const OrientedBox& box : vehicles) {
-        lengths.push_back(box.length);
-        widths.push_back(box.width);
-    }
-    OrientedBox typical;
-    typical.length = medianOf(lengths);
-    typical.width = medianOf(widths);
-    return typical;
+bool covered(const OrientedBox& box, const std::vector<OrientedBox>& by) {
+    return std::any_of(by.begin(), by.end(),
+                       [&](const OrientedBox& other) { return intersectionArea(box, other) > kFree * box.area(); });
 }
 
 /// A vehicle's box pushed away so that it shows only a part of it.
@@ -80,6 +65,21 @@ cv::Mat cutWindow(const cv::Mat& gray, const OrientedBox& vehicle) {
     return window;
 }
 
+OrientedBox medianVehicle(const std::vector<OrientedBox>& vehicles) {
+    OrientedBox median;
+    if (vehicles.empty()) return median;
+    const auto middleOf = [&](double OrientedBox::*side) {
+        std::vector<double> values;
+        for (const OrientedBox& box : vehicles) values.push_back(box.*side);
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    };
+    median.length = middleOf(&OrientedBox::length);
+    median.width = middleOf(&OrientedBox::width);
+    return median;
+}
+
 SampleSet samplesFromImage(const LabelledImage& image, int others, const OrientedBox& typical, std::uint64_t seed) {
     SeededRandom random(seed);
     SampleSet samples;
@@ -92,7 +92,7 @@ SampleSet samplesFromImage(const LabelledImage& image, int others, const Oriente
     for (const OrientedBox& box : image.vehicles) {
         if (in_image(box)) add(box, true);
     }
-    const OrientedBox size = typicalOf(image.vehicles, typical);
+    const OrientedBox size = image.vehicles.empty() ? typical : medianVehicle(image.vehicles);
     int taken = 0;
     for (int attempt = 0; attempt < kAttempts * others && taken < others; ++attempt) {
         const bool near = taken % kNearEvery == 0 && !image.vehicles.empty();
@@ -104,10 +104,8 @@ SampleSet samplesFromImage(const LabelledImage& image, int others, const Oriente
             box.centre = {random.uniform() * image.gray.cols, random.uniform() * image.gray.rows};
             box.heading = random.between(-kPi, kPi);
         }
-        if (!in_image(box) || hits(box, image.vehicles, near ? kNearestOverlap : kFree) ||
-            hits(box, image.unclear, kFree)) {
-            continue;
-        }
+        const bool vehicle = near ? overlapsMore(box, image.vehicles, kNearestOverlap) : covered(box, image.vehicles);
+        if (!in_image(box) || vehicle || covered(box, image.unclear)) continue;
         add(box, false);
         ++taken;
     }

@@ -1,0 +1,209 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/command.h"
+#include "cli/console_progress.h"
+#include "cli/interrupt.h"
+#include "cli/sample_sources.h"
+#include "core/error.h"
+#include "learning/background_mining.h"
+#include "learning/trainer.h"
+
+namespace eyrie::cli {
+namespace {
+
+/// What an image without vehicles is searched for: nothing is known of its scale but that windows fit.
+const OrientedBox kTypicalVehicle{{0, 0}, 21.5, 10, 0};
+constexpr int kOthersPerVehicleInImages = 4;
+
+struct Arguments {
+    std::string descriptor = "chnftrs";
+    std::string classifier = "adaboost";
+    std::vector<std::string> samples;
+    std::vector<std::string> inputs;
+    std::vector<std::string> ground_truths;
+    int every = 10;
+    int rendered = 0;
+    std::string out;
+    std::string seed;
+    std::string rounds;
+    std::string trees;
+    std::vector<std::string> settings;
+    std::string note;
+    bool quiet = false;
+};
+
+TrainingOptions optionsOf(const Arguments& arguments) {
+    TrainingOptions options;
+    options.descriptor = descriptorFromName(arguments.descriptor);
+    options.classifier = classifierFromName(arguments.classifier);
+    const auto set = [&](const std::string& name, const std::string& value) {
+        setParameter(describeOf(options), name, value);
+    };
+    for (const std::string& setting : arguments.settings) {
+        const auto equals = setting.find('=');
+        if (equals == std::string::npos) {
+            throw Error(ErrorKind::parameter, "--set " + setting + ": expected NAME=VALUE");
+        }
+        set(setting.substr(0, equals), setting.substr(equals + 1));
+    }
+    if (!arguments.seed.empty()) set("training.seed", arguments.seed);
+    if (!arguments.rounds.empty()) set("training.hard_negative_rounds", arguments.rounds);
+    if (!arguments.trees.empty()) set("training.trees", arguments.trees);
+    return options;
+}
+
+std::string nowUtc() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+void requireWritable(const std::filesystem::path& path) {
+    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored) || !std::filesystem::is_directory(folder, ignored)) {
+        throw Error(ErrorKind::output, path.string() + ": cannot be written; give a file in a folder that exists");
+    }
+}
+
+/// Shows each phase on its own line of progress.
+class PhaseProgress {
+ public:
+    void show(const TrainingProgress& progress) {
+        if (progress.phase != phase_) {
+            line_.reset();
+            line_.emplace("% " + progress.phase);
+            phase_ = progress.phase;
+            start_ = std::chrono::steady_clock::now();
+        }
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        const double left = progress.share > 0 ? seconds * (1 - progress.share) / progress.share : 0;
+        line_->show(static_cast<int>(std::lround(100 * progress.share)), 100, 100 * progress.share / (seconds + 1e-6),
+                    left);
+    }
+    void end() { line_.reset(); }
+
+ private:
+    std::string phase_;
+    std::optional<ConsoleProgress> line_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+std::vector<LabelledImage> labelledImages(const Arguments& arguments, const TrainingOptions& options,
+                                          const std::stop_token& stop) {
+    std::vector<LabelledImage> images;
+    for (std::size_t i = 0; i < arguments.inputs.size(); ++i) {
+        auto read = readLabelledFrames(arguments.inputs[i], arguments.ground_truths[i], arguments.every, stop);
+        std::move(read.begin(), read.end(), std::back_inserter(images));
+    }
+    if (arguments.rendered > 0) {
+        auto rendered = renderLabelledImages(arguments.rendered, static_cast<std::uint64_t>(options.seed), stop);
+        std::move(rendered.begin(), rendered.end(), std::back_inserter(images));
+    }
+    return images;
+}
+
+int run(const Arguments& arguments) {
+    const TrainingOptions options = optionsOf(arguments);
+    if (arguments.samples.empty() && arguments.inputs.empty() && arguments.rendered == 0) {
+        throw Error(ErrorKind::parameter, "nothing to train with: give --samples, --images or --rendered");
+    }
+    if (arguments.inputs.size() != arguments.ground_truths.size()) {
+        throw Error(ErrorKind::parameter, "--images and --ground-truth: each needs the other, in the same order");
+    }
+    requireWritable(arguments.out);
+    const InterruptGuard interrupt;
+    SampleSet samples = readSampleFolders(arguments.samples);
+    const std::vector<LabelledImage> images = labelledImages(arguments, options, interrupt.token());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const int others = kOthersPerVehicleInImages * std::max<int>(1, static_cast<int>(images[i].vehicles.size()));
+        SampleSet cut =
+            samplesFromImage(images[i], others, kTypicalVehicle, static_cast<std::uint64_t>(options.seed) + i);
+        std::move(cut.begin(), cut.end(), std::back_inserter(samples));
+    }
+    if (interrupt.token().stop_requested()) return exit_stopped;
+    TrainingRecord record;
+    record.data = describeSources(samples) + arguments.note;
+    record.utc_time = nowUtc();
+    TrainingOptions described = options;
+    for (const Parameter& parameter : listParameters(describeOf(described))) {
+        record.settings += parameter.name + " = " + parameter.value + "\n";
+    }
+    std::printf("%s", describeSources(samples).c_str());
+    std::fflush(stdout);
+
+    PhaseProgress progress;
+    TrainingWatch watch;
+    watch.stop = interrupt.token();
+    if (!arguments.quiet) watch.progress = [&](const TrainingProgress& step) { progress.show(step); };
+    HardNegativeSource more;
+    std::uint64_t round = 0;
+    if (!images.empty()) {
+        more = [&](const VehicleModel& model, int wanted) {
+            return mineBackground(model, images, kTypicalVehicle, wanted,
+                                  static_cast<std::uint64_t>(options.seed) + 1000 * ++round, watch);
+        };
+    }
+    const auto model = trainModel(samples, options, record, watch, more);
+    progress.end();
+    if (!model) {
+        std::fprintf(stderr, "stopped; no model was written\n");
+        return exit_stopped;
+    }
+    saveModel(*model, arguments.out);
+    std::printf(
+        "%s + %s, %d features, trained on %d windows of vehicles (with mirrored and varied ones) and %d others: "
+        "%s, %.0f kB\n",
+        nameOf(options.descriptor), nameOf(options.classifier), model->descriptor->dimension(), model->record.vehicles,
+        model->record.others, arguments.out.c_str(),
+        static_cast<double>(std::filesystem::file_size(arguments.out)) / 1000);
+    return exit_ok;
+}
+
+template <class Kinds>
+std::string namesOf(const Kinds& kinds) {
+    std::string list;
+    for (const auto kind : kinds) list += (list.empty() ? "" : ", ") + std::string(nameOf(kind));
+    return list;
+}
+
+}  // namespace
+
+void addTrainCommand(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("train", "Train a classifier of vehicles for the sliding window");
+    command->add_option("--descriptor", arguments->descriptor, "One of " + namesOf(allDescriptors()))
+        ->capture_default_str();
+    command->add_option("--classifier", arguments->classifier, "One of " + namesOf(allClassifiers()))
+        ->capture_default_str();
+    command->add_option("--samples", arguments->samples,
+                        "Folders with patch sheets: pos.png, neg.png, patches.csv; several divided by commas");
+    command->add_option("--images", arguments->inputs,
+                        "Video, image folder or scene:NAME whose labelled vehicles are cut");
+    command->add_option("--ground-truth", arguments->ground_truths, "Table of boxes for each --images");
+    command->add_option("--every", arguments->every, "Use every n-th frame of --images")->capture_default_str();
+    command
+        ->add_option("--rendered", arguments->rendered, "Render so many frames of scenes of its own and use them, too")
+        ->check(CLI::Range(0, 10000));
+    command->add_option("--out", arguments->out, "The model file to write")->required();
+    command->add_option("--seed", arguments->seed, "Chooses everything drawn at random (default 1)");
+    command->add_option("--hard-negative-rounds", arguments->rounds,
+                        "How often false alarms are added and training starts anew (default 2)");
+    command->add_option("--trees", arguments->trees, "Trees of AdaBoost and Random Forest (default 1000)");
+    command->add_option("--set", arguments->settings, "NAME=VALUE of a training parameter, e.g. training.folds=5");
+    command->add_option("--note", arguments->note, "Text kept in the model: where the samples come from, their terms");
+    command->add_flag("--quiet", arguments->quiet, "No progress");
+    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "learning/sample_set.h"
+#include "learning/training_set.h"
+#include "learning/vehicle_model.h"
+
+namespace eyrie {
+
+/// Scans labelled images with a model, upright to a few headings each (those of its vehicles, and random ones), and
+/// cuts the windows that it takes for vehicles but that overlap no labelled one by 0.3 or more and no unclear area: at
+/// most `wanted`, the worst first. Images without vehicles are scanned for vehicles of the size of `typical`. The same
+/// seed finds the same. Ends early, with what it has, when stopped.
+SampleSet mineBackground(const VehicleModel& model, const std::vector<LabelledImage>& images,
+                         const OrientedBox& typical, int wanted, std::uint64_t seed, const TrainingWatch& watch = {});
+
+}  // namespace eyrie

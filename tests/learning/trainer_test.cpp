@@ -1,0 +1,133 @@
+#include "learning/trainer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "evaluation/roc.h"
+#include "learning/drawn_windows.h"
+#include "learning/window_scanner.h"
+#include "support/shared_data.h"
+
+namespace eyrie {
+namespace {
+
+TrainingOptions smallOptions() {
+    TrainingOptions options;
+    options.classifier_options.trees = 40;
+    options.hard_negative_rounds = 1;
+    return options;
+}
+
+double areaUnderRoc(const VehicleModel& model, const SampleSet& samples) {
+    std::vector<cv::Mat> windows;
+    for (const Sample& sample : samples) windows.push_back(sample.window);
+    const auto values = model.decideAll(windows);
+    std::vector<ScoredSample> scored;
+    for (std::size_t i = 0; i < values.size(); ++i) scored.push_back({values[i], samples[i].vehicle});
+    return rocCurve(scored).area;
+}
+
+}  // namespace
+
+TEST(Trainer, learnsDrawnVehiclesWithEveryDescriptor) {
+    const SampleSet train = test::drawnSamples(60, 200, 1);
+    const SampleSet test = test::drawnSamples(100, 300, 2);
+    for (const DescriptorKind kind : allDescriptors()) {
+        TrainingOptions options = smallOptions();
+        options.descriptor = kind;
+        const auto model = trainModel(train, options, {});
+        ASSERT_TRUE(model);
+        EXPECT_GT(areaUnderRoc(*model, test), 0.98) << nameOf(kind);
+    }
+}
+
+TEST(Trainer, countsWhatItUsedAndIsTheSameForTheSameSeed) {
+    SampleSet samples = test::drawnSamples(30, 400, 1);
+    for (std::size_t i = 0; i < 10; ++i) samples[i].duplicate = true;
+    TrainingOptions options = smallOptions();
+    options.duplicates = false;
+    const auto model = trainModel(samples, options, {});
+    EXPECT_EQ(model->record.vehicles, 20 * 5) << "four mirrored and one with another contrast";
+    EXPECT_EQ(model->record.others, 200) << "as many in the first round, as many again in the second";
+    EXPECT_EQ(model->record.hard_negative_rounds, 1);
+    EXPECT_EQ(modelBytes(*model), modelBytes(*trainModel(samples, options, {})));
+    options.seed = 2;
+    EXPECT_NE(modelBytes(*model), modelBytes(*trainModel(samples, options, {})));
+}
+
+TEST(Trainer, asksForHardNegativesAndLearnsThem) {
+    // Short bars are missing from the first set, and look like vehicles.
+    const auto bar = [](SeededRandom& random) {
+        cv::Mat window(kWindowHeight, kWindowWidth, CV_8UC1, cv::Scalar(120));
+        cv::rectangle(window, cv::Rect(3, 2 + random.below(18), 9, 9), cv::Scalar(random.below(2) ? 220 : 40),
+                      cv::FILLED);
+        return window;
+    };
+    TrainingOptions options = smallOptions();
+    options.hard_negative_rounds = 2;
+    int asked = 0;
+    const HardNegativeSource source = [&](const VehicleModel& model, int wanted) {
+        EXPECT_GT(wanted, 0);
+        SeededRandom random(static_cast<std::uint64_t>(++asked));
+        SampleSet found;
+        for (int i = 0; i < 60; ++i) {
+            const cv::Mat window = bar(random);
+            if (model.decide(window) > -10) found.push_back({window, false, "bars", "", false});
+        }
+        return found;
+    };
+    const SampleSet train = test::drawnSamples(60, 200, 1);
+    const auto without = trainModel(train, options, {});
+    const auto with = trainModel(train, options, {}, {}, source);
+    EXPECT_EQ(asked, 2);
+    SeededRandom random(77);
+    double mean_without = 0;
+    double mean_with = 0;
+    for (int i = 0; i < 50; ++i) {
+        const cv::Mat window = bar(random);
+        mean_without += without->decide(window) / 50;
+        mean_with += with->decide(window) / 50;
+    }
+    EXPECT_LT(mean_with, mean_without - 5);
+}
+
+TEST(Trainer, reportsProgressAndStops) {
+    std::stop_source stop;
+    std::vector<std::string> phases;
+    TrainingWatch watch;
+    watch.stop = stop.get_token();
+    watch.progress = [&](const TrainingProgress& progress) {
+        if (phases.empty() || phases.back() != progress.phase) phases.push_back(progress.phase);
+        if (progress.phase.starts_with("boosting") && progress.share > 0.5) stop.request_stop();
+    };
+    EXPECT_FALSE(trainModel(test::drawnSamples(30, 60, 1), smallOptions(), {}, watch));
+    EXPECT_THAT(phases, testing::ElementsAre("describing, round 1 of 2", "boosting, round 1 of 2"));
+}
+
+TEST(Trainer, saysWhenSamplesAreMissing) {
+    EXPECT_THROW(trainModel({}, smallOptions(), {}), Error);
+    EXPECT_THROW(trainModel(test::drawnSamples(30, 0, 1), smallOptions(), {}), Error);
+    EXPECT_THROW(trainModel(test::drawnSamples(0, 30, 1), smallOptions(), {}), Error);
+}
+
+TEST(Trainer, optionsAreDeclared) {
+    TrainingOptions options;
+    const auto parameters = listParameters(describeOf(options));
+    EXPECT_EQ(parameters.size(), 14U);
+    for (const Parameter& parameter : parameters) EXPECT_THAT(parameter.name, testing::StartsWith("training."));
+    EXPECT_THROW(setParameter(describeOf(options), "training.trees", "0"), Error);
+    setParameter(describeOf(options), "training.trees", "77");
+    EXPECT_EQ(options.classifier_options.trees, 77);
+}
+
+TEST(ShippedModel, tellsVehiclesOfACameraItHasNeverSeen) {
+    EYRIE_NEED_SHARED_DATA("patches/cats_madison");
+    const VehicleModel model = loadModel(std::filesystem::path(EYRIE_SOURCE_DIR) /
+                                         "resources/classifiers/vehicle_chnftrs_adaboost.eyriemodel");
+    EXPECT_TRUE(WindowScanner(model).fast());
+    EXPECT_EQ(model.record.data.find("cats_madison"), std::string::npos);
+    EXPECT_GE(areaUnderRoc(model, readPatchSheets(test::sharedData("patches/cats_madison"))), 0.99);
+}
+
+}  // namespace eyrie
