@@ -15,7 +15,7 @@ void printJson(const std::vector<Parameter>& parameters) {
         nlohmann::ordered_json entry{{"name", p.name}, {"value", p.value}, {"unit", p.text.unit}};
         if (p.kind == ParameterKind::choice) {
             entry["choices"] = p.choices;
-        } else if (p.kind != ParameterKind::flag) {
+        } else if (p.kind == ParameterKind::real || p.kind == ParameterKind::integer) {
             entry["min"] = p.min;
             entry["max"] = p.max;
         }

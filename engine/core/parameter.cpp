@@ -41,6 +41,9 @@ class Lister : public ParameterVisitor {
         found.push_back({name, ParameterKind::choice, 0, double(names.size()) - 1, names, text,
                          names.at(static_cast<std::size_t>(index))});
     }
+    void words(const std::string& name, std::string& value, const ParameterText& text) override {
+        found.push_back({name, ParameterKind::words, 0, 0, {}, text, value});
+    }
 };
 
 class Setter : public ParameterVisitor {
@@ -74,6 +77,11 @@ class Setter : public ParameterVisitor {
         const auto at = std::find(names.begin(), names.end(), text_);
         if (at == names.end()) return;
         index = static_cast<int>(at - names.begin());
+        accepted = true;
+    }
+    void words(const std::string& name, std::string& value, const ParameterText&) override {
+        if (!matches(name)) return;
+        value = text_;
         accepted = true;
     }
 
@@ -114,6 +122,8 @@ std::string Parameter::expected() const {
             for (std::size_t i = 0; i < choices.size(); ++i) list += (i ? ", " : "") + choices[i];
             return list;
         }
+        case ParameterKind::words:
+            return "a text";
         case ParameterKind::integer:
         case ParameterKind::real:
             break;

@@ -28,6 +28,8 @@ class ParameterVisitor {
     /// `index` is a position in `names`.
     virtual void choiceIndex(const std::string& name, int& index, const std::vector<std::string>& names,
                              const ParameterText& text) = 0;
+    /// Any text, such as the path of a file; may be empty.
+    virtual void words(const std::string& name, std::string& value, const ParameterText& text) = 0;
 
     /// An enumeration whose enumerators are 0, 1, 2 … in the order of `names`.
     template <class Enum>
@@ -39,7 +41,7 @@ class ParameterVisitor {
     }
 };
 
-enum class ParameterKind { real, integer, flag, choice };
+enum class ParameterKind { real, integer, flag, choice, words };
 
 /// A parameter as data: its declaration and its value as text.
 struct Parameter {
@@ -51,7 +53,7 @@ struct Parameter {
     ParameterText text;
     std::string value;  ///< reals with the shortest text that reads back identically; flags "true" or "false"
 
-    /// "1..500 layers", "one of: clusters, gradient", "true or false".
+    /// "1..500 layers", "one of: clusters, gradient", "true or false", "a text".
     std::string expected() const;
 };
 

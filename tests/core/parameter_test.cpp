@@ -15,12 +15,14 @@ struct ExampleOptions {
     int height = 25;
     bool enabled = true;
     Method method = Method::gradient;
+    std::string model;
 
     void describe(ParameterVisitor& v) {
         v.real("example.quantile", quantile, 0, 1, {"", "Share of pixels kept.", ""});
         v.integer("example.height", height, 1, 500, {"layers", "Stack height.", ""});
         v.flag("example.enabled", enabled, {"", "On or off.", ""});
         v.choice("example.method", method, {"clusters", "gradient"}, {"", "Which.", ""});
+        v.words("example.model", model, {"", "A file.", ""});
     }
 };
 
@@ -42,6 +44,16 @@ TEST(Parameter, listsValuesThatReadBackIdentically) {
     for (const auto& p : listParameters(describeOf(options))) setParameter(describeOf(copy), p.name, p.value);
     EXPECT_EQ(copy.quantile, options.quantile);
     EXPECT_EQ(copy.method, Method::gradient);
+}
+
+TEST(Parameter, takesAnyTextWhereOneIsWanted) {
+    ExampleOptions options;
+    for (const char* path : {"models/a b.model", "true", "12", ""}) {
+        setParameter(describeOf(options), "example.model", path);
+        EXPECT_EQ(options.model, path);
+        EXPECT_EQ(listParameters(describeOf(options)).back().value, path);
+    }
+    EXPECT_EQ(listParameters(describeOf(options)).back().expected(), "a text");
 }
 
 TEST(Parameter, refusesWithNameValueAndRange) {

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QEvent>
 #include <QHBoxLayout>
+#include <QLineEdit>
 #include <QSpinBox>
 
 #include "panels/real_spin_box.h"
@@ -112,6 +113,28 @@ class ChoiceEditor : public ParameterEditor {
     QString shown_;
 };
 
+class WordsEditor : public ParameterEditor {
+ public:
+    explicit WordsEditor(QWidget* parent) : ParameterEditor(parent), field_(new QLineEdit(this)) {
+        fill(this, field_);
+        connect(field_, &QLineEdit::editingFinished, this, [this] {
+            if (value() == shown_) return;
+            shown_ = value();
+            emit edited(shown_);
+        });
+    }
+    QString value() const override { return field_->text(); }
+    void setValue(const QString& value) override {
+        field_->setText(value);
+        shown_ = value;
+    }
+    void setReadOnly(bool read_only) override { field_->setReadOnly(read_only); }
+
+ private:
+    QLineEdit* field_;
+    QString shown_;
+};
+
 }  // namespace
 
 ParameterEditor* makeParameterEditor(const Parameter& parameter, QWidget* parent) {
@@ -122,6 +145,8 @@ ParameterEditor* makeParameterEditor(const Parameter& parameter, QWidget* parent
             return new FlagEditor(parent);
         case ParameterKind::choice:
             return new ChoiceEditor(parameter, parent);
+        case ParameterKind::words:
+            return new WordsEditor(parent);
         case ParameterKind::real:
             break;
     }

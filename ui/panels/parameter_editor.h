@@ -21,7 +21,7 @@ class ParameterEditor : public QWidget {
     void edited(const QString& value);
 };
 
-/// The fitting field: a number with steps, a check box, or a list of choices.
+/// The fitting field: a number with steps, a check box, a list of choices, or a line of text.
 ParameterEditor* makeParameterEditor(const Parameter& parameter, QWidget* parent);
 
 }  // namespace eyrie::ui
