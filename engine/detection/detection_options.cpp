@@ -2,6 +2,34 @@
 
 namespace eyrie {
 
+const char* nameOf(DetectionMethod method) {
+    switch (method) {
+        case DetectionMethod::clusters:
+            return "clusters";
+        case DetectionMethod::gradient:
+            return "gradient";
+        case DetectionMethod::relative_connectivity:
+            return "relative_connectivity";
+        case DetectionMethod::sliding_window:
+            return "sliding_window";
+        case DetectionMethod::tophat_otsu:
+            return "tophat_otsu";
+        case DetectionMethod::mser:
+            return "mser";
+        case DetectionMethod::canny_harris:
+            return "canny_harris";
+    }
+    return "";
+}
+
+const std::vector<DetectionMethod>& allDetectionMethods() {
+    static const std::vector<DetectionMethod> all{
+        DetectionMethod::clusters,       DetectionMethod::gradient,    DetectionMethod::relative_connectivity,
+        DetectionMethod::sliding_window, DetectionMethod::tophat_otsu, DetectionMethod::mser,
+        DetectionMethod::canny_harris};
+    return all;
+}
+
 DetectionOptions DetectionOptions::thesis() {
     DetectionOptions options;
     options.method = DetectionMethod::gradient;
@@ -9,15 +37,20 @@ DetectionOptions DetectionOptions::thesis() {
     options.min_roi_width_m = 0;
     options.cluster_margin_px = 0;
     options.gradient = GradientOptions::thesis();
+    options.sliding_window = SlidingWindowOptions::thesis();
     return options;
 }
 
 void DetectionOptions::describe(ParameterVisitor& visitor) {
-    visitor.choice("detection.method", method, {"clusters", "gradient"},
+    std::vector<std::string> methods;
+    for (const DetectionMethod known : allDetectionMethods()) methods.emplace_back(nameOf(known));
+    visitor.choice("detection.method", method, methods,
                    {"",
-                    "What finds objects in a search area: the motion cluster itself (baseline), or gradient based "
-                    "segmentation.",
-                    "Teutsch §5.4"});
+                    "What finds objects in a search area: the motion cluster itself (baseline), segmentation by "
+                    "gradients, relative connectivity, tophat transforms, stable regions, or edges and corners, or a "
+                    "trained sliding window. What gradient.* says about components and falling back holds for all "
+                    "segmentations.",
+                    "Teutsch §5.4, §7.4.1"});
     visitor.real("detection.extend_along", extend_along, 1, 10,
                  {"", "Search areas are motion clusters extended by this factor along the motion, to catch split ones.",
                   "Teutsch §5.4"});
@@ -30,6 +63,11 @@ void DetectionOptions::describe(ParameterVisitor& visitor) {
         "detection.cluster_margin", cluster_margin_px, 0, 20,
         {"px", "Where a cluster itself is the detection, its box is grown by this on every side of its vectors.", ""});
     gradient.describe(visitor);
+    relative_connectivity.describe(visitor);
+    sliding_window.describe(visitor);
+    tophat_otsu.describe(visitor);
+    mser.describe(visitor);
+    canny_harris.describe(visitor);
 }
 
 }  // namespace eyrie

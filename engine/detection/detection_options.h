@@ -1,12 +1,29 @@
 #pragma once
 
 #include "core/parameter.h"
+#include "detection/canny_harris_segmenter.h"
 #include "detection/gradient_options.h"
+#include "detection/mser_segmenter.h"
+#include "detection/relative_connectivity_segmenter.h"
+#include "detection/sliding_window_options.h"
+#include "detection/tophat_otsu_segmenter.h"
 
 namespace eyrie {
 
-/// The detector in use (Teutsch §5.4). `clusters` is the baseline: the motion clusters themselves.
-enum class DetectionMethod { clusters, gradient };
+/// The detector in use (Teutsch §5.4, §7.4.1).
+enum class DetectionMethod {
+    clusters,               ///< the baseline: the motion clusters themselves
+    gradient,               ///< gradient based segmentation (§5.4.1)
+    relative_connectivity,  ///< pairs of opposing edges (§5.4.2)
+    sliding_window,         ///< a trained classifier (§5.4.3)
+    tophat_otsu,            ///< after Zheng et al. 2013
+    mser,                   ///< after Matas et al. 2002
+    canny_harris            ///< after Cheng et al. 2012
+};
+/// The word used in parameters and tables, e.g. "relative_connectivity".
+const char* nameOf(DetectionMethod method);
+/// All of them, in the order of tables 7.6 and 7.7.
+const std::vector<DetectionMethod>& allDetectionMethods();
 
 /// Parameters of detection in motion ROIs.
 struct DetectionOptions {
@@ -16,7 +33,12 @@ struct DetectionOptions {
     double min_roi_length_m = 7;     ///< a search area is at least this long …
     double min_roi_width_m = 3.2;    ///< … and wide
     double cluster_margin_px = 0.5;  ///< the box of a cluster is grown by this on every side of its vectors
-    GradientOptions gradient;
+    GradientOptions gradient;        ///< what it says about components holds for every segmentation
+    RelativeConnectivityOptions relative_connectivity;
+    SlidingWindowOptions sliding_window;
+    TophatOtsuOptions tophat_otsu;
+    MserOptions mser;
+    CannyHarrisOptions canny_harris;
 
     /// The text to the letter, with the optima of §7.3.
     static DetectionOptions thesis();

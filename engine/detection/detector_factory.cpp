@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "detection/gradient_segmenter.h"
 #include "detection/motion_cluster_detector.h"
+#include "detection/sliding_window_detector.h"
 
 namespace eyrie {
 
@@ -14,6 +15,19 @@ std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const Sc
             return std::make_unique<MotionClusterDetector>(options.cluster_margin_px);
         case DetectionMethod::gradient:
             return std::make_unique<GradientSegmenter>(options.gradient, scale, options.cluster_margin_px);
+        case DetectionMethod::relative_connectivity:
+            return std::make_unique<RelativeConnectivitySegmenter>(options.relative_connectivity, options.gradient,
+                                                                   scale, options.cluster_margin_px);
+        case DetectionMethod::sliding_window:
+            return makeSlidingWindowDetector(options.sliding_window, scale, options.cluster_margin_px);
+        case DetectionMethod::tophat_otsu:
+            return std::make_unique<TophatOtsuSegmenter>(options.tophat_otsu, options.gradient, scale,
+                                                         options.cluster_margin_px);
+        case DetectionMethod::mser:
+            return std::make_unique<MserSegmenter>(options.mser, options.gradient, scale, options.cluster_margin_px);
+        case DetectionMethod::canny_harris:
+            return std::make_unique<CannyHarrisSegmenter>(options.canny_harris, options.gradient, scale,
+                                                          options.cluster_margin_px);
     }
     throw Error(ErrorKind::internal,
                 "there is no detector with number " + std::to_string(static_cast<int>(options.method)));

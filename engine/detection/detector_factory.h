@@ -8,7 +8,7 @@
 
 namespace eyrie {
 
-/// The detector that the options name.
+/// The detector that the options name. Throws Error(input) when it needs a model file that is missing or damaged.
 std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const SceneScale& scale);
 
 }  // namespace eyrie

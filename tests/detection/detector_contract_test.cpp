@@ -1,6 +1,7 @@
 #include "contract/detector_contract.h"
 
 #include "detection/detector_factory.h"
+#include "detection/trained_window_model.h"
 
 namespace eyrie::test {
 namespace {
@@ -23,6 +24,24 @@ DetectionOptions baseline() {
     return options;
 }
 
+DetectionOptions ofKind(DetectionMethod method) {
+    DetectionOptions options;
+    options.method = method;
+    options.gradient.fall_back = false;
+    return options;
+}
+
+DetectorMaker slidingWindow(const std::string& name, WindowRescaling rescaling) {
+    return {name, [rescaling] {
+                DetectionOptions options = ofKind(DetectionMethod::sliding_window);
+                options.sliding_window = drivenSceneWindow();
+                options.sliding_window.rescaling = rescaling;
+                options.sliding_window.smallest_scale = 0.9;
+                options.sliding_window.largest_scale = 1.1;
+                return makeDetector(options, kContractScale);
+            }};
+}
+
 std::string nameOf(const testing::TestParamInfo<DetectorMaker>& info) {
     return info.param.name;
 }
@@ -37,6 +56,18 @@ INSTANTIATE_TEST_SUITE_P(Gradient, DetectorContract,
                                          maker("morphological", withMethod(GradientMethod::morphological)),
                                          maker("thesis", DetectionOptions::thesis()),
                                          maker("defaults", DetectionOptions{})),
+                         nameOf);
+
+INSTANTIATE_TEST_SUITE_P(Literature, DetectorContract,
+                         testing::Values(maker("relative_connectivity", ofKind(DetectionMethod::relative_connectivity)),
+                                         maker("tophat_otsu", ofKind(DetectionMethod::tophat_otsu)),
+                                         maker("mser", ofKind(DetectionMethod::mser)),
+                                         maker("canny_harris", ofKind(DetectionMethod::canny_harris))),
+                         nameOf);
+INSTANTIATE_TEST_SUITE_P(SlidingWindow, DetectorContract,
+                         testing::Values(slidingWindow("joint_11", WindowRescaling::joint_11),
+                                         slidingWindow("length_11", WindowRescaling::length_11),
+                                         slidingWindow("length_3", WindowRescaling::length_3)),
                          nameOf);
 
 }  // namespace eyrie::test

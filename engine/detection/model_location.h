@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace eyrie {
+
+/// Name of the file of the model that comes with Eyrie.
+inline constexpr const char* kShippedModel = "vehicle_chnftrs_adaboost.eyriemodel";
+
+/// Where a model file is: `path` itself, or, when empty, the shipped model: next to the program (in `classifiers/` or
+/// `../share/eyrie/classifiers/`) or in the source tree it was built from. Throws Error(input) naming every place that
+/// was looked at when there is none.
+std::filesystem::path modelLocation(const std::string& path);
+
+}  // namespace eyrie

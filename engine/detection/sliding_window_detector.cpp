@@ -1,0 +1,93 @@
+#include "detection/sliding_window_detector.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "detection/component_boxes.h"
+#include "detection/model_location.h"
+#include "detection/motion_cluster_detector.h"
+#include "imaging/upright_patch.h"
+#include "learning/window.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kSupportMargin = 1.0;  ///< px; corners lie on the outline
+
+/// The decision function laid over the search area, each value at its window's centre.
+cv::Mat overArea(const cv::Mat& decision, cv::Size rescaled, cv::Size area) {
+    double lowest = 0;
+    cv::Mat shown = decision.clone();
+    if (!decision.empty()) {
+        shown.setTo(0, decision < -1e30F);  // given up early
+        cv::minMaxLoc(shown, &lowest);
+        shown.setTo(lowest, decision < -1e30F);
+    }
+    cv::Mat whole(rescaled, CV_32FC1, cv::Scalar(lowest));
+    if (!decision.empty()) {
+        shown.copyTo(whole(cv::Rect({kWindowWidth / 2 - 1, kWindowHeight / 2 - 1}, decision.size())));
+    }
+    cv::Mat resized;
+    cv::resize(whole, resized, area, 0, 0, cv::INTER_LINEAR);
+    return resized;
+}
+
+std::string layerName(double scale) {
+    char text[32];
+    std::snprintf(text, sizeof text, "decision ×%.2f", scale);
+    return text;
+}
+
+}  // namespace
+
+SlidingWindowDetector::SlidingWindowDetector(VehicleModel model, const SlidingWindowOptions& options,
+                                             const SceneScale& scale, double cluster_margin_px)
+    : scanner_(std::move(model)), options_(options), scale_(scale), cluster_margin_px_(cluster_margin_px) {}
+
+bool SlidingWindowDetector::supported(const MotionRoi& roi, const cv::Rect2d& box) const {
+    if (!options_.need_support) return true;
+    const auto inside = static_cast<double>(pointsWithin(box, roi.vectors, kSupportMargin).size());
+    return inside >= std::max(1.0, options_.support_share * static_cast<double>(roi.vectors.size()));
+}
+
+std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, DetectionTrace* trace) const {
+    if (trace != nullptr) trace->add("raw", roi.image);
+    if (roi.image.empty()) return {};
+    std::vector<WindowHypothesis> hypotheses;
+    for (const double scale : options_.scales()) {
+        cv::Mat decision;
+        for (const WindowHypothesis& found : scanAtScale(scanner_, roi.image, scale, options_, scale_, decision)) {
+            const cv::Point centre(cvRound(found.box.x + found.box.width / 2),
+                                   cvRound(found.box.y + found.box.height / 2));
+            const bool in_video =
+                cv::Rect({0, 0}, roi.inside.size()).contains(centre) && roi.inside.at<uchar>(centre) != 0;
+            if (in_video && supported(roi, found.box)) hypotheses.push_back(found);
+        }
+        if (trace != nullptr) {
+            const cv::Size rescaled = rescaledSize(roi.image.size(), scale, options_, scale_);
+            trace->add(layerName(scale), overArea(decision, rescaled, roi.image.size()));
+        }
+    }
+    std::vector<Detection> detections;
+    for (const WindowHypothesis& hypothesis : suppressOverlapping(std::move(hypotheses), options_.overlap_threshold)) {
+        Detection detection;
+        detection.box = boxInImage(roi.image_from_roi, hypothesis.box);
+        detection.score = hypothesis.decision;
+        detection.velocity = roi.velocity;
+        detection.cluster = roi.cluster;
+        detections.push_back(detection);
+    }
+    if (detections.empty() && options_.fall_back) return clusterDetection(roi, cluster_margin_px_);
+    return detections;
+}
+
+std::unique_ptr<Detector> makeSlidingWindowDetector(const SlidingWindowOptions& options, const SceneScale& scale,
+                                                    double cluster_margin_px) {
+    return std::make_unique<SlidingWindowDetector>(loadModel(modelLocation(options.model)), options, scale,
+                                                   cluster_margin_px);
+}
+
+}  // namespace eyrie

@@ -1,0 +1,121 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/error.h"
+#include "detection/global_sliding_window.h"
+#include "detection/model_location.h"
+#include "detection/sliding_window_detector.h"
+#include "detection/trained_window_model.h"
+
+namespace eyrie {
+namespace {
+
+using test::drivenScene;
+using test::drivenSceneWindow;
+using test::kContractScale;
+using test::roiOf;
+
+std::string messageOf(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+}  // namespace
+
+TEST(DecisionPeaks, KeepLocalMaximaOnly) {
+    const float minus_infinity = -std::numeric_limits<float>::infinity();
+    cv::Mat decision(5, 6, CV_32FC1, cv::Scalar(-1));
+    decision.at<float>(1, 1) = 2;
+    decision.at<float>(1, 2) = 1.5F;  // beside a larger one
+    decision.at<float>(3, 4) = 0.5F;
+    decision.at<float>(3, 5) = 0.5F;  // equals the one before it
+    decision.at<float>(4, 0) = 0.2F;
+    decision.at<float>(3, 0) = minus_infinity;
+    EXPECT_THAT(decisionPeaks(decision, 0), testing::ElementsAre(cv::Point(1, 1), cv::Point(4, 3), cv::Point(0, 4)));
+    EXPECT_THAT(decisionPeaks(decision, 0.5), testing::ElementsAre(cv::Point(1, 1), cv::Point(4, 3)));
+    EXPECT_TRUE(decisionPeaks({}, 0).empty());
+    EXPECT_TRUE(decisionPeaks(cv::Mat(3, 3, CV_32FC1, cv::Scalar(minus_infinity)), 0).empty());
+    EXPECT_EQ(decisionPeaks(cv::Mat(3, 3, CV_32FC1, cv::Scalar(1)), 0).size(), 1U);
+}
+
+TEST(SuppressOverlapping, TheSurestStays) {
+    const std::vector<WindowHypothesis> hypotheses{
+        {{0, 0, 10, 20}, 1.0, 1}, {{5, 0, 10, 20}, 2.0, 1}, {{14, 0, 10, 20}, 1.5, 1}, {{40, 0, 10, 20}, 0.5, 1}};
+    // The second overlaps the first by 1/3 and the third by 1/19.
+    const auto kept = suppressOverlapping(hypotheses, 0.1);
+    ASSERT_EQ(kept.size(), 3U);
+    EXPECT_DOUBLE_EQ(kept[0].decision, 2.0);
+    EXPECT_DOUBLE_EQ(kept[1].decision, 1.5);
+    EXPECT_DOUBLE_EQ(kept[2].decision, 0.5);
+    EXPECT_EQ(suppressOverlapping(hypotheses, 0.05).size(), 2U);
+    EXPECT_EQ(suppressOverlapping(hypotheses, 0.5).size(), 4U);
+}
+
+TEST(SlidingWindowOptions, ScalesOfTheThreeCases) {
+    SlidingWindowOptions options;
+    options.smallest_scale = 0.5;
+    options.largest_scale = 2;
+    EXPECT_THAT(options.scales(),
+                testing::ElementsAre(testing::DoubleEq(0.5), testing::DoubleEq(1), testing::DoubleEq(2)));
+    options.rescaling = WindowRescaling::length_11;
+    EXPECT_EQ(options.scales().size(), 11U);
+    EXPECT_NEAR(options.scales()[5], 1, 1e-12);
+    const SceneScale scene{0.2, 25, true};
+    options.car_length_m = 4.3;
+    options.car_width_m = 2;
+    // At 0.2 m/px such a car has the window's own size; longer ones are shrunk, their width stays.
+    EXPECT_EQ(rescaledSize({60, 100}, 1, options, scene), cv::Size(60, 100));
+    EXPECT_EQ(rescaledSize({60, 100}, 2, options, scene), cv::Size(60, 50));
+    options.rescaling = WindowRescaling::joint_11;
+    EXPECT_EQ(rescaledSize({60, 100}, 2, options, scene), cv::Size(30, 50));
+}
+
+TEST(SlidingWindow, ScoresAreDecisionValuesAndTheThresholdHolds) {
+    SlidingWindowOptions options = drivenSceneWindow();
+    const MotionRoi roi = roiOf(drivenScene(0.5));
+    const auto found = makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi);
+    ASSERT_FALSE(found.empty());
+    EXPECT_GE(found[0].score, options.decision_threshold);
+    options.decision_threshold = found[0].score + 1;
+    EXPECT_TRUE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty());
+    options.fall_back = true;
+    EXPECT_EQ(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).size(), 1U);
+}
+
+TEST(SlidingWindow, WithoutVectorsInsideAWindowIsDropped) {
+    SlidingWindowOptions options = drivenSceneWindow();
+    MotionRoi roi = roiOf(drivenScene(0.5));
+    roi.vectors = {{-500, -500}};
+    EXPECT_TRUE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty());
+    options.need_support = false;
+    EXPECT_FALSE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty());
+}
+
+TEST(SlidingWindow, TheGlobalOneFindsTheVehicleWithoutMotion) {
+    const auto scene = drivenScene(0.5);
+    const WindowScanner scanner(loadModel(test::drivenSceneModel()));
+    const auto found = globalSlidingWindow(scanner, scene.frame.gray, drivenSceneWindow(), kContractScale);
+    ASSERT_FALSE(found.empty());
+    EXPECT_GT(overlap(found[0].box, scene.vehicle), 0.5);
+    for (const Detection& detection : found) {
+        EXPECT_GT(detection.box.heading, -kPi / 2);
+        EXPECT_LE(detection.box.heading, kPi / 2 + 1e-9);
+        EXPECT_EQ(detection.cluster, -1);
+    }
+}
+
+TEST(ModelLocation, SaysWhereItLooked) {
+    EXPECT_THAT(messageOf([] { modelLocation("nowhere/at/all.eyriemodel"); }),
+                testing::HasSubstr("nowhere/at/all.eyriemodel: there is no such model"));
+    EXPECT_EQ(modelLocation(test::drivenSceneModel()), test::drivenSceneModel());
+    EXPECT_THAT(messageOf([] { makeSlidingWindowDetector({}, kContractScale, 0.5); }),
+                testing::AnyOf("no error", testing::HasSubstr("eyrie-cli train")));
+}
+
+}  // namespace eyrie
