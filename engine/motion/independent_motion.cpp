@@ -27,6 +27,7 @@ IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, co
       slow_min_speed_(std::max(scale.pxPerFrame(options.slow_min_speed_m_s), options.min_speed_px)),
       max_speed_(scale.gsd_known ? scale.pxPerFrame(options.max_speed_m_s) : 0),
       shadow_test_(options.shadow, scale),
+      shadow_owners_(options.shadow, scale),
       local_background_(options.local_background, scale),
       history_(std::max(options.baseline, options.find_slow ? options.slow_baseline : 0)) {
     options_.baseline = std::max(options_.baseline, options_.min_age);
@@ -116,7 +117,6 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     noise.finish();
     motion.background_speed_sigma = noise.sigma(options_.baseline);
 
-    if (options_.shadow.enabled) shadow_test_.prepare(frame.gray);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Corner& corner = corners[i];
         const auto moves = [&](const Measured& m, double min_speed) {
@@ -133,10 +133,26 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
         }
         if (found == nullptr) {
             if (corner.on_background) motion.stationary_corners.push_back(corner.current);
-        } else if (!options_.shadow.enabled || !shadow_test_.isShadow(corner.current)) {
+        } else {
             motion.motion_vectors.push_back({corner.id, corner.current, found->velocity, corner.age});
         }
     }
+    if (options_.shadow.enabled) leaveOutShadows(frame, motion);
+}
+
+void IndependentMotion::leaveOutShadows(const Frame& frame, FrameMotion& motion) {
+    shadow_test_.prepare(frame.gray);
+    std::vector<MotionVector>& vectors = motion.motion_vectors;
+    std::vector<char> looks_like_shadow;
+    looks_like_shadow.reserve(vectors.size());
+    for (const MotionVector& vector : vectors) looks_like_shadow.push_back(shadow_test_.isShadow(vector.position));
+    const std::vector<char> cast =
+        shadow_owners_.castShadows(vectors, looks_like_shadow, motion.background_speed_sigma);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        if (!cast[i]) vectors[kept++] = vectors[i];
+    }
+    vectors.resize(kept);
 }
 
 FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Frame& frame) {

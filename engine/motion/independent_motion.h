@@ -11,6 +11,7 @@
 #include "motion/background_noise.h"
 #include "motion/corner_history.h"
 #include "motion/independent_motion_options.h"
+#include "motion/shadow_owners.h"
 
 namespace eyrie {
 
@@ -43,6 +44,7 @@ class IndependentMotion {
     bool extendPaths(const Registration& registration);
     void takePicture(const RegisteredFrame& registered);
     Measured measure(std::size_t corner, cv::Point2d now, int longest) const;
+    void leaveOutShadows(const Frame& frame, FrameMotion& motion);
     void sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion);
 
     IndependentMotionOptions options_;
@@ -50,6 +52,7 @@ class IndependentMotion {
     double slow_min_speed_;
     double max_speed_;  ///< px/frame, 0: none
     ShadowTest shadow_test_;
+    ShadowOwners shadow_owners_;
     LocalBackground local_background_;
     CornerHistory history_;
     std::deque<Path> paths_;  ///< [n − 1]: from n usable pictures before the newest

@@ -21,6 +21,14 @@ void ShadowTestOptions::describe(ParameterVisitor& visitor) {
                  {"m", "Side of the window whose median is the ground's brightness.", ""});
     visitor.real("motion.shadow_min_brightness", min_brightness, 0, 255,
                  {"grey", "Where the ground is darker than this (night), the test is not used.", ""});
+    visitor.real("motion.shadow_reach", reach_m, 0, 100,
+                 {"m",
+                  "A shadow ends at most this far from a vehicle that moves like it; what looks like a shadow but lies "
+                  "elsewhere is a dark vehicle. Larger for a low sun.",
+                  ""});
+    visitor.real("motion.shadow_owner_length", owner_length_m, 0, 100,
+                 {"m", "Motion vectors own a shadow when they spread over at least this length …", ""});
+    visitor.real("motion.shadow_owner_width", owner_width_m, 0, 100, {"m", "… and this width.", ""});
 }
 
 ShadowTest::ShadowTest(const ShadowTestOptions& options, const SceneScale& scale)

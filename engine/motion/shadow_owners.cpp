@@ -1,0 +1,108 @@
+#include "motion/shadow_owners.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/oriented_box.h"
+#include "motion/single_linkage.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::size_t kOwnerVectors = 4;
+constexpr double kVelocityFloor = 0.03;  ///< px/frame
+constexpr double kVelocityShare = 0.05;
+constexpr double kNoiseLimit = 0.06;    ///< px/frame; noise beyond this is not trusted
+constexpr double kOwnerAlike = 2.5;     ///< shadow and owner may differ by this many times what members may
+constexpr double kSmallestLinkage = 4;  ///< px; corners are at least 2 px apart
+constexpr double kOwnMargin = 0.5;      ///< px; dark corners within the owner's box are its own
+
+struct Group {
+    OrientedBox box;
+    cv::Point2d velocity{0, 0};
+    std::vector<int> members;
+};
+
+std::vector<Group> groupsOf(const std::vector<MotionVector>& vectors, const std::vector<int>& chosen,
+                            const Linkage& linkage) {
+    std::vector<MotionVector> part;
+    part.reserve(chosen.size());
+    for (const int index : chosen) part.push_back(vectors[static_cast<std::size_t>(index)]);
+    const std::vector<int> numbers = singleLinkage(part, linkage);
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto number = static_cast<std::size_t>(numbers[i]);
+        if (number >= groups.size()) groups.resize(number + 1);
+        groups[number].members.push_back(chosen[i]);
+    }
+    for (Group& group : groups) {
+        std::vector<cv::Point2d> positions;
+        for (const int member : group.members) {
+            const MotionVector& vector = vectors[static_cast<std::size_t>(member)];
+            group.velocity += cv::Point2d(vector.velocity);
+            positions.push_back(vector.position);
+        }
+        group.velocity /= static_cast<double>(group.members.size());
+        group.box = boxAround(positions, std::atan2(group.velocity.y, group.velocity.x));
+    }
+    return groups;
+}
+
+double distanceTo(const OrientedBox& box, cv::Point2d point) {
+    const cv::Point2d in_box = box.toBox(point);
+    return std::hypot(std::max(0.0, std::abs(in_box.x) - box.length / 2),
+                      std::max(0.0, std::abs(in_box.y) - box.width / 2));
+}
+
+}  // namespace
+
+ShadowOwners::ShadowOwners(const ShadowTestOptions& options, const SceneScale& scale)
+    : reach_(scale.px(options.reach_m) + 1),
+      owner_length_(scale.px(options.owner_length_m)),
+      owner_width_(scale.px(options.owner_width_m)),
+      owner_along_(std::max(kSmallestLinkage, scale.px(3.5))),
+      owner_across_(std::max(kSmallestLinkage, scale.px(1.0))),
+      shadow_linkage_(std::max(kSmallestLinkage, scale.px(1.2))) {}
+
+std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vectors,
+                                            const std::vector<char>& looks_like_shadow,
+                                            double background_speed_sigma) const {
+    std::vector<char> cast(vectors.size(), 0);
+    std::vector<int> lit;
+    std::vector<int> dark;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        (looks_like_shadow[i] ? dark : lit).push_back(static_cast<int>(i));
+    }
+    if (lit.size() < kOwnerVectors || dark.empty()) return cast;
+
+    Linkage linkage;
+    linkage.along = owner_along_;
+    linkage.across = owner_across_;
+    linkage.velocity_floor = std::max(kVelocityFloor, std::min(background_speed_sigma, kNoiseLimit));
+    linkage.velocity_share = kVelocityShare;
+    std::vector<Group> owners = groupsOf(vectors, lit, linkage);
+    std::erase_if(owners, [&](const Group& group) {
+        return group.members.size() < kOwnerVectors || group.box.length < owner_length_ ||
+               group.box.width < owner_width_;
+    });
+    linkage.along = linkage.across = shadow_linkage_;
+    for (const Group& shadow : groupsOf(vectors, dark, linkage)) {
+        for (const Group& owner : owners) {
+            const cv::Point2d apart = shadow.velocity - owner.velocity;
+            const double speed = std::hypot(owner.velocity.x, owner.velocity.y);
+            const double allowed = std::max(linkage.velocity_floor, linkage.velocity_share * speed);
+            if (std::hypot(apart.x, apart.y) > kOwnerAlike * allowed) continue;
+            const bool within = std::all_of(shadow.members.begin(), shadow.members.end(), [&](int member) {
+                return distanceTo(owner.box, vectors[static_cast<std::size_t>(member)].position) <= reach_;
+            });
+            if (!within) continue;
+            for (const int member : shadow.members) {
+                const auto at = static_cast<std::size_t>(member);
+                if (distanceTo(owner.box, vectors[at].position) > kOwnMargin) cast[at] = 1;
+            }
+        }
+    }
+    return cast;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "core/motion_vector.h"
+#include "core/scene_scale.h"
+#include "motion/shadow_test.h"
+
+namespace eyrie {
+
+/// Decides which motion vectors that look like a shadow's outline are one. A dark car looks the same, corner by corner;
+/// but a shadow lies beside a vehicle that moves like it and reaches only so far from it, and a dark car stands alone.
+class ShadowOwners {
+ public:
+    ShadowOwners(const ShadowTestOptions& options, const SceneScale& scale);
+
+    /// For every vector whether it belongs to a cast shadow. `looks_like_shadow`: 1 where ShadowTest says so.
+    std::vector<char> castShadows(const std::vector<MotionVector>& vectors, const std::vector<char>& looks_like_shadow,
+                                  double background_speed_sigma) const;
+
+ private:
+    double reach_;           ///< px
+    double owner_length_;    ///< px, shortest box of vectors that owns a shadow
+    double owner_width_;     ///< px
+    double owner_along_;     ///< px, linkage distances of owners …
+    double owner_across_;    ///< px
+    double shadow_linkage_;  ///< px, … and of shadows
+};
+
+}  // namespace eyrie

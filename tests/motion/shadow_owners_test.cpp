@@ -1,0 +1,84 @@
+#include "motion/shadow_owners.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace eyrie {
+namespace {
+
+const SceneScale kScale{0.25, 25, true};  // a car is 18 × 7 px
+
+/// Corners every 3 px over a rectangle whose motion is along +x.
+void addPatch(std::vector<MotionVector>& vectors, cv::Point2f top_left, cv::Size2f size, cv::Point2f velocity) {
+    for (float y = 0; y <= size.height; y += 3) {
+        for (float x = 0; x <= size.width; x += 3) {
+            vectors.push_back({static_cast<CornerId>(vectors.size() + 1), top_left + cv::Point2f(x, y), velocity, 9});
+        }
+    }
+}
+
+struct Scene {
+    std::vector<MotionVector> vectors;
+    std::vector<char> dark;
+
+    void add(cv::Point2f top_left, cv::Size2f size, cv::Point2f velocity, bool is_dark) {
+        addPatch(vectors, top_left, size, velocity);
+        dark.resize(vectors.size(), is_dark ? 1 : 0);
+    }
+    std::ptrdiff_t cast() const {
+        const auto found = ShadowOwners({}, kScale).castShadows(vectors, dark, 0.02);
+        return std::count(found.begin(), found.end(), 1);
+    }
+};
+
+const cv::Point2f kVelocity(1.5F, 0);
+
+TEST(ShadowOwners, AShadowBesideItsVehicleIsOne) {
+    Scene scene;
+    scene.add({100, 100}, {18, 6}, kVelocity, false);
+    scene.add({102, 109}, {18, 6}, kVelocity, true);
+    EXPECT_EQ(scene.cast(), 21);
+}
+
+TEST(ShadowOwners, ADarkCarAloneStays) {
+    Scene scene;
+    scene.add({100, 100}, {18, 6}, kVelocity, true);
+    EXPECT_EQ(scene.cast(), 0);
+}
+
+TEST(ShadowOwners, ADarkCarInTheNextLaneOrBehindStays) {
+    Scene scene;
+    scene.add({100, 100}, {18, 6}, kVelocity, false);
+    scene.add({100, 114}, {18, 6}, kVelocity, true);
+    scene.add({74, 100}, {18, 6}, kVelocity, true);
+    EXPECT_EQ(scene.cast(), 0);
+}
+
+TEST(ShadowOwners, ADarkThingThatMovesOtherwiseIsNoShadow) {
+    Scene scene;
+    scene.add({100, 100}, {18, 6}, kVelocity, false);
+    scene.add({102, 109}, {18, 6}, {-1.5F, 0}, true);
+    EXPECT_EQ(scene.cast(), 0);
+}
+
+TEST(ShadowOwners, AGlintOwnsNoShadow) {
+    Scene scene;
+    scene.add({106, 100}, {3, 3}, kVelocity, false);
+    scene.add({100, 104}, {18, 6}, kVelocity, true);
+    EXPECT_EQ(scene.cast(), 0);
+}
+
+TEST(ShadowOwners, DarkWindowsBelongToTheVehicle) {
+    Scene scene;
+    scene.add({100, 100}, {18, 6}, kVelocity, false);
+    scene.add({104, 101}, {3, 3}, kVelocity, true);
+    EXPECT_EQ(scene.cast(), 0);
+}
+
+TEST(ShadowOwners, TakesNothing) {
+    EXPECT_TRUE(ShadowOwners({}, kScale).castShadows({}, {}, 0.02).empty());
+}
+
+}  // namespace
+}  // namespace eyrie
