@@ -33,6 +33,11 @@ MotionRoi cutMotionRoi(const Frame& frame, const MotionCluster& cluster, int clu
     roi.image_from_roi = patch.image_from_patch;
     roi.cluster = cluster_index;
     roi.velocity = cluster.velocity;
+    if (!cluster.moving_points.empty()) {
+        for (const cv::Point2f& point : cluster.moving_points)
+            roi.vectors.emplace_back(toPatch(roi.image_from_roi, point));
+        return roi;
+    }
     roi.vectors.reserve(cluster.members.size());
     for (const int member : cluster.members) {
         const MotionVector& vector = motion.motion_vectors.at(static_cast<std::size_t>(member));

@@ -39,6 +39,8 @@ inline SlidingWindowOptions drivenSceneWindow() {
     options.model = drivenSceneModel();
     options.car_length_m = 40 * kContractScale.gsd_m_per_px;
     options.car_width_m = 16 * kContractScale.gsd_m_per_px;
+    options.smallest_scale = 0.8;
+    options.largest_scale = 1.25;
     return options;
 }
 

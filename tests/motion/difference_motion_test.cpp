@@ -1,0 +1,245 @@
+#include "motion/difference_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/error.h"
+#include "support/moving_scene.h"
+
+namespace eyrie {
+namespace {
+
+using test::MovingScene;
+
+const SceneScale kScale{0.2, 25, true};
+
+DifferenceOptions optionsOf(MotionMethod method) {
+    DifferenceOptions options;
+    options.method = method;
+    options.gap = 4;
+    options.background_frames = 9;
+    options.background_step = 4;
+    return options;
+}
+
+/// Drawn once for all tests; with or without vehicles.
+Frame frameOf(const MovingScene& scene, int index) {
+    static std::map<std::pair<bool, int>, cv::Mat> drawn;
+    cv::Mat& gray = drawn[{scene.vehicles.empty(), index}];
+    if (gray.empty()) gray = scene.draw(index);
+    Frame frame;
+    frame.index = index;
+    frame.gray = gray;
+    return frame;
+}
+
+/// What registration and motion detection would say, exactly: a vector at each vehicle's centre.
+FrameMotion trueMotion(const MovingScene& scene, int index) {
+    FrameMotion motion;
+    motion.frame = index;
+    motion.image_size = scene.size;
+    motion.registration.state = index == 0 ? RegistrationState::first : RegistrationState::registered;
+    Homography& step = motion.registration.current_from_previous;
+    step.from_frame = index == 0 ? 0 : index - 1;
+    step.to_frame = index;
+    if (index > 0) {
+        step.matrix(0, 2) = -scene.camera_per_frame.x;
+        step.matrix(1, 2) = -scene.camera_per_frame.y;
+    }
+    for (const auto& vehicle : scene.vehicles) {
+        motion.motion_vectors.push_back({static_cast<CornerId>(motion.motion_vectors.size()),
+                                         scene.vehicleAt(vehicle, index), vehicle.velocity, 9});
+    }
+    return motion;
+}
+
+DifferenceResult lastOf(const MovingScene& scene, const DifferenceOptions& options) {
+    DifferenceMotion motion(options, kScale);
+    DifferenceResult result;
+    for (int i = 0; i < scene.frames; ++i) result = motion.next(frameOf(scene, i), trueMotion(scene, i));
+    return result;
+}
+
+double bestOverlap(const std::vector<MotionCluster>& clusters, const OrientedBox& vehicle) {
+    double best = 0;
+    for (const auto& cluster : clusters) best = std::max(best, overlap(cluster.box, vehicle));
+    return best;
+}
+
+class EveryDifference : public testing::TestWithParam<MotionMethod> {};
+
+std::string methodName(const testing::TestParamInfo<MotionMethod>& info) {
+    return nameOf(info.param);
+}
+
+}  // namespace
+
+TEST_P(EveryDifference, FindsTheVehiclesAndNothingElse) {
+    const MovingScene scene;
+    const DifferenceResult result = lastOf(scene, optionsOf(GetParam()));
+    for (const auto& vehicle : scene.vehicles) {
+        const OrientedBox box{scene.vehicleAt(vehicle, scene.frames - 1), vehicle.size.width, vehicle.size.height,
+                              std::atan2(vehicle.velocity.y, vehicle.velocity.x)};
+        // A difference of two pictures also answers where the vehicle was, 8 px behind; that may join its area.
+        for (auto& c : result.clusters)
+            printf("%s %.1f %.1f %.1fx%.1f h%.2f  true %.1f %.1f\n", nameOf(GetParam()), c.box.centre.x, c.box.centre.y,
+                   c.box.length, c.box.width, c.box.heading, box.centre.x, box.centre.y);
+        EXPECT_GT(bestOverlap(result.clusters, box), 0.45);
+    }
+    const bool ghosts = GetParam() == MotionMethod::two_frame_difference;
+    EXPECT_LE(result.clusters.size(), ghosts ? 4U : 2U);
+    for (const auto& cluster : result.clusters) {
+        if (cluster.members.empty()) continue;  // the place a vehicle has left
+        const cv::Point2d velocity = scene.vehicles[static_cast<std::size_t>(cluster.members[0])].velocity;
+        EXPECT_NEAR(cluster.velocity.x, velocity.x, 1e-6);
+        EXPECT_NEAR(cluster.velocity.y, velocity.y, 1e-6);
+        EXPECT_FALSE(cluster.moving_points.empty());
+        for (const cv::Point2f& point : cluster.moving_points) EXPECT_TRUE(cluster.box.contains(point, 1e-3));
+    }
+}
+
+TEST_P(EveryDifference, FindsNothingWhereNothingMoves) {
+    MovingScene scene;
+    scene.vehicles.clear();
+    EXPECT_TRUE(lastOf(scene, optionsOf(GetParam())).clusters.empty());
+}
+
+TEST_P(EveryDifference, HasNoAnswerAfterACutAndRepeatsItInAFrozenPicture) {
+    const MovingScene scene;
+    DifferenceMotion difference(optionsOf(GetParam()), kScale);
+    DifferenceResult before;
+    for (int i = 0; i < 36; ++i) before = difference.next(frameOf(scene, i), trueMotion(scene, i));
+    ASSERT_FALSE(before.clusters.empty());
+    FrameMotion frozen = trueMotion(scene, 36);
+    frozen.registration.state = RegistrationState::frozen;
+    frozen.registration.current_from_previous.matrix = cv::Matx33d::eye();
+    Frame repeated = frameOf(scene, 35);
+    repeated.index = 36;
+    EXPECT_EQ(difference.next(repeated, frozen).clusters.size(), before.clusters.size());
+    FrameMotion failed = trueMotion(scene, 37);
+    failed.registration.state = RegistrationState::failed;
+    EXPECT_TRUE(difference.next(frameOf(scene, 36), failed).clusters.empty());
+    FrameMotion cut = trueMotion(scene, 38);
+    cut.registration.state = RegistrationState::first;
+    EXPECT_TRUE(difference.next(frameOf(scene, 38), cut).clusters.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryDifference,
+                         testing::Values(MotionMethod::two_frame_difference, MotionMethod::three_frame_difference,
+                                         MotionMethod::median_background, MotionMethod::difference_ghosts),
+                         methodName);
+
+TEST(DifferenceImage, OfTwoAndThreePicturesByHand) {
+    const auto row = [](std::initializer_list<int> values) {
+        cv::Mat picture(11, static_cast<int>(values.size()), CV_8UC1);
+        int x = 0;
+        for (const int value : values) picture.col(x++).setTo(value);
+        return picture;
+    };
+    const auto whole = [](const cv::Mat& gray) {
+        return WarpedFrame{gray, cv::Mat(gray.size(), CV_8UC1, cv::Scalar(255))};
+    };
+    const cv::Mat now = row({10, 10, 10, 90, 10, 10, 10, 10, 10});
+    const cv::Mat before = row({10, 10, 10, 10, 90, 10, 10, 10, 10});
+    const cv::Mat long_before = row({10, 10, 10, 10, 10, 60, 10, 10, 10});
+    const DifferenceImage two = twoFrameDifference(now, whole(before), 0);
+    EXPECT_FLOAT_EQ(two.values.at<float>(5, 3), 80);
+    EXPECT_FLOAT_EQ(two.values.at<float>(5, 4), 80);  // the ghost
+    EXPECT_FLOAT_EQ(two.values.at<float>(5, 5), 0);
+    EXPECT_EQ(two.overlap.at<uchar>(5, 1), 0);  // too near the edge
+    const DifferenceImage three = threeFrameDifference(now, whole(before), whole(long_before), 0);
+    // Only where the vehicle was in the middle picture.
+    EXPECT_FLOAT_EQ(three.values.at<float>(5, 3), 0);
+    EXPECT_FLOAT_EQ(three.values.at<float>(5, 4), 80);
+    EXPECT_FLOAT_EQ(three.values.at<float>(5, 5), 0);
+}
+
+TEST(BackgroundModel, MedianIsExact) {
+    cv::RNG random(3);
+    for (const int count : {1, 2, 5, 8, 30}) {
+        std::vector<WarpedFrame> pictures;
+        for (int i = 0; i < count; ++i) {
+            WarpedFrame picture{cv::Mat(17, 23, CV_8UC1), cv::Mat(17, 23, CV_8UC1)};
+            random.fill(picture.gray, cv::RNG::UNIFORM, 0, 256);
+            random.fill(picture.inside, cv::RNG::UNIFORM, 0, 4);
+            picture.inside = picture.inside > 0;
+            pictures.push_back(picture);
+        }
+        const Background background = medianBackground(pictures);
+        for (int y = 0; y < 17; ++y) {
+            for (int x = 0; x < 23; ++x) {
+                std::vector<int> values;
+                for (const auto& picture : pictures) {
+                    if (picture.inside.at<uchar>(y, x) != 0) values.push_back(picture.gray.at<uchar>(y, x));
+                }
+                std::sort(values.begin(), values.end());
+                const int expected = values.empty() ? 0 : values[(values.size() - 1) / 2];
+                ASSERT_EQ(background.gray.at<uchar>(y, x), expected);
+                ASSERT_EQ(background.known.at<uchar>(y, x) != 0,
+                          values.size() >= static_cast<std::size_t>((count + 1) / 2));
+            }
+        }
+    }
+}
+
+TEST(BackgroundModel, GradientsAreTakenOffTheDifference) {
+    cv::Mat ground(40, 40, CV_8UC1, cv::Scalar(50));
+    ground.colRange(20, 40).setTo(150);
+    cv::Mat shifted(40, 40, CV_8UC1, cv::Scalar(50));
+    shifted.colRange(21, 40).setTo(150);  // registered one pixel off
+    const Background background{ground, cv::Mat(40, 40, CV_8UC1, cv::Scalar(255))};
+    EXPECT_FLOAT_EQ(backgroundDifference(shifted, background, 0, 0).values.at<float>(20, 20), 100);
+    EXPECT_FLOAT_EQ(backgroundDifference(shifted, background, 1, 0).values.at<float>(20, 20), 50);
+    EXPECT_FLOAT_EQ(backgroundDifference(shifted, background, 2, 0).values.at<float>(20, 20), 0);
+}
+
+TEST(DifferenceNoise, IsThatOfThePictures) {
+    cv::RNG random(7);
+    cv::Mat a(100, 100, CV_32FC1);
+    cv::Mat b(100, 100, CV_32FC1);
+    random.fill(a, cv::RNG::NORMAL, 100, 6);
+    random.fill(b, cv::RNG::NORMAL, 100, 6);
+    a.convertTo(a, CV_8U);
+    b.convertTo(b, CV_8U);
+    a(cv::Rect(30, 30, 20, 20)).setTo(250);  // a vehicle hardly changes it
+    const WarpedFrame before{b, cv::Mat(100, 100, CV_8UC1, cv::Scalar(255))};
+    EXPECT_NEAR(differenceNoise(twoFrameDifference(a, before, 0)), 6 * std::sqrt(2), 0.7);
+    EXPECT_EQ(differenceNoise({}), 0);
+}
+
+TEST(DifferenceMotion, WithoutVectorsTheLongerAxisGivesTheHeading) {
+    const MovingScene scene;
+    DifferenceMotion difference(optionsOf(MotionMethod::three_frame_difference), kScale);
+    DifferenceResult result;
+    for (int i = 0; i < 30; ++i) {
+        FrameMotion motion = trueMotion(scene, i);
+        motion.motion_vectors.clear();
+        result = difference.next(frameOf(scene, i), motion);
+    }
+    ASSERT_EQ(result.clusters.size(), 2U);
+    for (const auto& cluster : result.clusters) {
+        EXPECT_TRUE(cluster.members.empty());
+        EXPECT_EQ(cluster.velocity, cv::Point2d(0, 0));
+        EXPECT_GE(cluster.box.length, cluster.box.width);
+    }
+}
+
+TEST(DifferenceMotion, ShowsWhatItSaw) {
+    const MovingScene scene;
+    const DifferenceResult result = lastOf(scene, optionsOf(MotionMethod::two_frame_difference));
+    const cv::Mat gray = scene.draw(scene.frames - 1);
+    const cv::Mat view = differenceView(gray, result.difference);
+    EXPECT_EQ(view.size(), gray.size());
+    // The camera moves right and down, so older pictures lack what lies there.
+    EXPECT_EQ(view.at<cv::Vec3b>(scene.size.height - 1, scene.size.width - 1)[2], 255);
+    EXPECT_EQ(differenceView(gray, {}).size(), gray.size());
+}
+
+TEST(DifferenceMotion, RefusesWhatItCannotUse) {
+    EXPECT_THROW(DifferenceMotion(DifferenceOptions{}, kScale), Error);
+    DifferenceMotion difference(optionsOf(MotionMethod::two_frame_difference), kScale);
+    EXPECT_THROW(difference.next(Frame{}, FrameMotion{}), Error);
+}
+
+}  // namespace eyrie
