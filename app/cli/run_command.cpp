@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "chain/run_recorder.h"
+#include "chain/scale_estimation.h"
 #include "cli/annotator.h"
 #include "cli/command.h"
 #include "cli/console_progress.h"
@@ -77,7 +77,11 @@ int run(const Arguments& arguments) {
     const VideoInfo& video = source->info();
     const std::filesystem::path project = projectPath(arguments);
 
-    const SceneScale scale = sceneScale(video, arguments.gsd_m_per_px.value_or(0));
+    if (!arguments.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
+        std::fputs("GSD unknown: looking at the traffic for the scale\n", stderr);
+    }
+    const SceneScale scale =
+        chooseScale(*source, range, options, arguments.gsd_m_per_px.value_or(0), interrupt.token());
     RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
     planned.name = arguments.name;
     RunSummary summary;

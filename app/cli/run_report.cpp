@@ -38,10 +38,13 @@ std::string speedText(const SceneScale& scale, double px_per_frame) {
 
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary,
                         const std::vector<TrackSummary>& tracks, const std::filesystem::path& project) {
-    std::string text = formatted("%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(),
-                                 video.size.width, video.size.height, video.frame_count, video.frame_rate_hz,
-                                 run.scale.gsd_known ? formatted("%.3g m/px", run.scale.gsd_m_per_px).c_str()
-                                                     : "GSD unknown (give --gsd for metres and km/h)");
+    std::string text = formatted(
+        "%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(), video.size.width, video.size.height,
+        video.frame_count, video.frame_rate_hz,
+        run.scale.gsd_known
+            ? formatted("%.3g m/px", run.scale.gsd_m_per_px).c_str()
+            : formatted("GSD unknown, assumed %.2g m/px (give --gsd for metres and km/h)", run.scale.gsd_m_per_px)
+                  .c_str());
     text += formatted("Run %d %s: %d of %d frames in %s (%.1f frames/s)", run.id, nameOf(summary.outcome),
                       summary.frames_done, summary.frames_total, clockText(summary.seconds).c_str(),
                       summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0);

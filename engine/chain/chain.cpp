@@ -8,6 +8,19 @@
 #include "detection/roi_cutter.h"
 
 namespace eyrie {
+namespace {
+
+/// Boxes of a classifier are complete, so that of two the surer one stays; segments may be parts (Teutsch §5.5.1).
+DuplicateRemovalOptions duplicatesFor(const ChainOptions& options) {
+    DuplicateRemovalOptions duplicates = options.duplicates;
+    if (duplicates.strategy == DuplicateStrategy::by_detector) {
+        const bool classifier = options.detection.method == DetectionMethod::sliding_window;
+        duplicates.strategy = classifier ? DuplicateStrategy::suppress : DuplicateStrategy::fuse;
+    }
+    return duplicates;
+}
+
+}  // namespace
 
 MotionHalf::MotionHalf(const ChainOptions& options, const SceneScale& scale)
     : registrar_(options.registration, scale), independent_motion_(options.motion, scale) {}
@@ -23,7 +36,32 @@ TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
       scale_(scale),
       clustering_(options.clustering, scale),
       detector_(makeDetector(options.detection, scale)),
-      tracker_(options.tracking, scale) {}
+      tracker_(options.tracking, scale) {
+    options_.duplicates = duplicatesFor(options);
+    if (options.difference.method != MotionMethod::vectors)
+        difference_ = std::make_unique<DifferenceMotion>(options.difference, scale);
+    if (options.stacking.enabled) stacker_ = std::make_unique<ImageStacker>(options.stacking, scale);
+}
+
+std::vector<StackView> TrackHalf::stackViews(const Frame& frame) const {
+    return stacker_ ? stacker_->views(frame) : std::vector<StackView>{};
+}
+
+std::vector<MotionCluster> TrackHalf::findClusters(const Frame& frame, const FrameMotion& motion) {
+    if (!difference_) return clustering_.cluster(motion);
+    last_difference_ = difference_->next(frame, motion);
+    return last_difference_.clusters;
+}
+
+std::vector<MotionRoi> TrackHalf::searchAreas(const Frame& frame, const FrameMotion& motion,
+                                              const MotionCluster& cluster, int index) const {
+    if (stacker_) {
+        const OrientedBox extended = extendedCluster(cluster, frame.gray.size(), options_.detection, scale_);
+        std::vector<MotionRoi> stacked = stacker_->replace(cluster, index, extended, motion);
+        if (!stacked.empty()) return stacked;
+    }
+    return {cutMotionRoi(frame, cluster, index, motion, options_.detection, scale_)};
+}
 
 std::vector<Detection> TrackHalf::detect(const Frame& frame, const FrameMotion& motion,
                                          const std::vector<MotionCluster>& clusters,
@@ -34,9 +72,10 @@ std::vector<Detection> TrackHalf::detect(const Frame& frame, const FrameMotion& 
     cv::parallel_for_(cv::Range(0, static_cast<int>(clusters.size())), [&](const cv::Range& range) {
         for (int i = range.start; i < range.end; ++i) {
             const auto at = static_cast<std::size_t>(i);
-            const MotionRoi roi = cutMotionRoi(frame, clusters[at], i, motion, options_.detection, scale_);
-            rois[at] = roi.box;
-            per_cluster[at] = detector_->detect(roi);
+            for (const MotionRoi& roi : searchAreas(frame, motion, clusters[at], i)) {
+                rois[at] = roi.box;
+                for (Detection& detection : detector_->detect(roi)) per_cluster[at].push_back(std::move(detection));
+            }
         }
     });
     std::vector<Detection> all;
@@ -51,7 +90,11 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
     result.motion = std::move(motion);
     {
         const Stopwatch watch(times, Stage::clustering);
-        result.clusters = clustering_.cluster(result.motion);
+        result.clusters = findClusters(frame, result.motion);
+    }
+    if (stacker_) {
+        const Stopwatch watch(times, Stage::stacking);
+        stacker_->update(frame, result.motion, result.clusters);
     }
     {
         const Stopwatch watch(times, Stage::detection);
@@ -61,6 +104,10 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
         const Stopwatch watch(times, Stage::removal);
         result.detections = removeDuplicates(std::move(result.detections), result.motion, options_.duplicates, scale_);
         result.detections = removeOutliers(std::move(result.detections), result.motion, options_.outliers, scale_);
+    }
+    if (stacker_) {
+        const Stopwatch watch(times, Stage::stacking);
+        stacker_->remember(result.motion, result.detections);
     }
     {
         const Stopwatch watch(times, Stage::tracking);

@@ -8,6 +8,7 @@
 #include "core/frame.h"
 #include "core/frame_result.h"
 #include "detection/detector.h"
+#include "motion/difference_motion.h"
 
 namespace eyrie {
 
@@ -29,13 +30,24 @@ class TrackHalf {
     /// `frame` gives the pixels that belong to `motion`.
     FrameResult next(const Frame& frame, FrameMotion motion, StageTimes times);
 
+    /// All image stacks as they are after the last frame, which `frame` is; none where stacking is off.
+    std::vector<StackView> stackViews(const Frame& frame) const;
+    /// What the difference images of the last frame showed; null where clusters come from motion vectors.
+    const DifferenceResult* differences() const { return difference_ ? &last_difference_ : nullptr; }
+
  private:
+    std::vector<MotionCluster> findClusters(const Frame& frame, const FrameMotion& motion);
+    std::vector<MotionRoi> searchAreas(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
+                                       int index) const;
     std::vector<Detection> detect(const Frame& frame, const FrameMotion& motion,
                                   const std::vector<MotionCluster>& clusters, std::vector<OrientedBox>& rois) const;
 
     ChainOptions options_;
     SceneScale scale_;
     MotionClustering clustering_;
+    std::unique_ptr<DifferenceMotion> difference_;  ///< null: clusters come from motion vectors
+    DifferenceResult last_difference_;
+    std::unique_ptr<ImageStacker> stacker_;  ///< null: no stacking
     std::unique_ptr<Detector> detector_;
     Tracker tracker_;
 };

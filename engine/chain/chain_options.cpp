@@ -7,7 +7,9 @@ namespace eyrie {
 void ChainOptions::describe(ParameterVisitor& visitor) {
     registration.describe(visitor);
     motion.describe(visitor);
+    difference.describe(visitor);
     clustering.describe(visitor);
+    stacking.describe(visitor);
     detection.describe(visitor);
     duplicates.describe(visitor);
     outliers.describe(visitor);
@@ -26,6 +28,7 @@ ChainOptions builtInPreset(const std::string& name) {
         // Registration stays: the thesis leaves its parameters open (§4.2).
         options.motion = IndependentMotionOptions::thesis();
         options.clustering = MotionClusteringOptions::thesis();
+        options.stacking = StackingOptions::thesis();
         options.detection = DetectionOptions::thesis();
         options.duplicates = DuplicateRemovalOptions::thesis();
         options.outliers = OutlierRemovalOptions::thesis();

@@ -7,11 +7,13 @@
 #include "core/parameter.h"
 #include "core/scene_scale.h"
 #include "detection/detection_options.h"
+#include "motion/difference_options.h"
 #include "motion/independent_motion.h"
 #include "motion/motion_clustering.h"
 #include "registration/registrar.h"
 #include "removal/duplicate_removal.h"
 #include "removal/outlier_removal.h"
+#include "stacking/image_stacker.h"
 #include "tracking/track_finishing.h"
 #include "tracking/tracker.h"
 
@@ -21,7 +23,9 @@ namespace eyrie {
 struct ChainOptions {
     RegistrationOptions registration;
     IndependentMotionOptions motion;
+    DifferenceOptions difference;  ///< in place of clustering, where `difference.method` says so
     MotionClusteringOptions clustering;
+    StackingOptions stacking;
     DetectionOptions detection;
     DuplicateRemovalOptions duplicates;
     OutlierRemovalOptions outliers;

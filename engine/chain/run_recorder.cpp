@@ -70,8 +70,9 @@ RunRecord plannedRun(const VideoInfo& video, const SceneScale& scale, FrameRange
 SceneScale sceneScale(const VideoInfo& video, double gsd_m_per_px) {
     SceneScale scale;
     scale.frame_rate_hz = video.frame_rate_hz;
-    scale.gsd_known = gsd_m_per_px > 0;
-    if (scale.gsd_known) scale.gsd_m_per_px = gsd_m_per_px;
+    const double gsd = gsd_m_per_px > 0 ? gsd_m_per_px : video.gsd_m_per_px;
+    scale.gsd_known = gsd > 0;
+    if (scale.gsd_known) scale.gsd_m_per_px = gsd;
     return scale;
 }
 

@@ -42,7 +42,7 @@ std::string engineVersion();
 /// The record of a run to be made: sequence from the source, scale, planned frames.
 RunRecord plannedRun(const VideoInfo& video, const SceneScale& scale, FrameRange range, const std::string& preset);
 
-/// The scale of a run: `gsd_m_per_px` ≤ 0 means unknown, and an assumed value is used.
+/// The scale of a run: `gsd_m_per_px` ≤ 0 means not given; then the source may know it, else a value is assumed.
 SceneScale sceneScale(const VideoInfo& video, double gsd_m_per_px);
 
 }  // namespace eyrie

@@ -16,6 +16,7 @@ class SceneSource : public FrameSource {
         info_.size = scene.image_size;
         info_.frame_count = scene.frame_count;
         info_.frame_rate_hz = scene.frame_rate_hz;
+        info_.gsd_m_per_px = scene.gsd_m_per_px;
         info_.codec = "rendered";
         info_.container = "scene";
     }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMergedIsLarger = 1.2;   ///< a merged box has at least this many times the area of each of its tracks
 constexpr double kDuplicateTracks = 0.5;  ///< tracks inside each other by this share are not a merge
-constexpr double kBoxMargin = 2;          ///< px by which gradients widen boxes
+constexpr double kBoxMargin = 3;          ///< px by which gradients widen boxes
 constexpr double kFairPart = 0.08;        ///< area of a part, as a share of the track's, that counts as separate
 
 std::size_t at(int index) {

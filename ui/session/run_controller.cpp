@@ -3,12 +3,19 @@
 #include <exception>
 #include <utility>
 
-#include "chain/run_recorder.h"
+#include "chain/scale_estimation.h"
 #include "session/queued_call.h"
 
 namespace eyrie::ui {
 
-RunController::RunController(QObject* parent) : QObject(parent) {}
+namespace {
+constexpr int kPoll_ms = 200;
+}
+
+RunController::RunController(QObject* parent) : QObject(parent) {
+    poll_.setInterval(kPoll_ms);
+    connect(&poll_, &QTimer::timeout, this, &RunController::fetch);
+}
 
 RunController::~RunController() {
     thread_.request_stop();
@@ -17,6 +24,7 @@ RunController::~RunController() {
 
 void RunController::start(RunRequest request) {
     if (running()) return;
+    poll_.start();
     feed_ = std::make_shared<LiveFeed>(request.trail_length, [this] { queuedCall(this, [this] { fetch(); }); });
     thread_ = std::jthread([this, request = std::move(request), feed = feed_](const std::stop_token& stop) {
         work(request, *feed, stop);
@@ -40,7 +48,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const std::s
     int run_id = 0;
     try {
         const auto source = request.media.open({}, stop);
-        const SceneScale scale = sceneScale(source->info(), request.gsd_m_per_px);
+        const SceneScale scale = chooseScale(*source, request.range, request.options, request.gsd_m_per_px, stop);
         RunRecord record = plannedRun(source->info(), scale, request.range, request.preset);
         record.name = request.name;
         record.sequence.path = request.media.identity;
@@ -67,6 +75,7 @@ void RunController::fetch() {
 
 void RunController::end(const RunSummary& summary, int run_id) {
     fetch();
+    poll_.stop();
     thread_.join();
     feed_.reset();
     emit finished(summary, run_id);

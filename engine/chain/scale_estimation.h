@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+
+#include "chain/run_recorder.h"
+#include "io/frame_source.h"
+
+namespace eyrie {
+
+/// What a look at the traffic says about the scale of a video.
+struct ScaleEstimate {
+    double gsd_m_per_px = 0;  ///< metres per pixel at which the vehicles have the length of usual cars
+    int vehicles = 0;         ///< tracks it rests on
+};
+
+/// Guesses the ground sampling distance of a video whose GSD nobody knows: the chain runs over a few dozen frames under
+/// finer to coarser assumptions, and the one under which most vehicles come out as large as cars is taken. Right to
+/// about a third where cars drive; nothing when too few vehicles move or `stop` is requested. Takes some seconds.
+/// Throws Error(input) when frames cannot be read.
+std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
+                                           const ChainOptions& options, double frame_rate_hz,
+                                           const std::stop_token& stop);
+
+/// The scale of a run: the given GSD, or for `gsd_m_per_px` ≤ 0 an estimate, or 0.25 m/px where that fails. An estimate
+/// gives the chain's lengths a footing; `gsd_known` stays false, so that nobody is shown metres that were guessed.
+SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
+                       const std::stop_token& stop);
+
+}  // namespace eyrie
