@@ -86,6 +86,7 @@ class VideoViewTest : public QObject {
         OverlaySettings settings;
         VideoView view(settings);
         view.resize(400, 320);
+        view.show();
         view.setFrame(checkered({50, 40}));  // fitted: exactly 8 screen pixels per pixel
         QCOMPARE(view.transform().zoom(), 8.0);
         const QImage picture = view.picture();
@@ -133,6 +134,7 @@ class VideoViewTest : public QObject {
         OverlaySettings settings;
         VideoView view(settings);
         view.resize(600, 400);
+        view.show();
         view.clear({});
         ViewFrame frame;
         frame.result = oneTrack();

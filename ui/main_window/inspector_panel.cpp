@@ -15,7 +15,7 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr double kSurroundings = 2.2;  ///< the chip shows this many box lengths
+constexpr double kSurroundings = 1.8;  ///< the chip shows this many box lengths
 
 QString registrationText(const Registration& registration) {
     switch (registration.state) {

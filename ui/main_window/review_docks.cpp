@@ -4,6 +4,7 @@
 #include <QMainWindow>
 
 #include "main_window/inspector_panel.h"
+#include "panels/empty_state.h"
 #include "panels/parameter_form.h"
 #include "panels/runs_panel.h"
 #include "panels/stage_times_chart.h"
@@ -26,12 +27,13 @@ ReviewDocks::ReviewDocks(ProjectSession& session, QMainWindow& window)
     QDockWidget* parameters = dock(QStringLiteral("parameters"), tr("Parameters"), form_, Qt::RightDockWidgetArea);
     QDockWidget* chart = dock(QStringLiteral("stage_times"), tr("Stage times"), chart_, Qt::RightDockWidgetArea);
     window_.tabifyDockWidget(inspector, parameters);
+    window_.tabifyDockWidget(parameters, chart);
     inspector->raise();
     window_.resizeDocks({runs, tracks}, {200, 420}, Qt::Vertical);
-    window_.resizeDocks({inspector, chart}, {420, 200}, Qt::Vertical);
-    window_.resizeDocks({runs, inspector}, {300, 310}, Qt::Horizontal);
+    window_.resizeDocks({runs, inspector}, {350, 310}, Qt::Horizontal);
     wireRuns();
     wireTracks();
+    showRuns();
 }
 
 QDockWidget* ReviewDocks::dock(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
@@ -44,6 +46,7 @@ QDockWidget* ReviewDocks::dock(const QString& name, const QString& title, QWidge
 }
 
 void ReviewDocks::wireRuns() {
+    connect(&session_, &ProjectSession::videoChanged, this, &ReviewDocks::showRuns);
     connect(&session_, &ProjectSession::runsChanged, this, &ReviewDocks::showRuns);
     connect(&session_, &ProjectSession::currentRunChanged, this, &ReviewDocks::showRuns);
     connect(&session_, &ProjectSession::currentRunChanged, this, &ReviewDocks::showTracks);
@@ -72,6 +75,13 @@ void ReviewDocks::wireRuns() {
 }
 
 void ReviewDocks::showRuns() {
+    if (session_.video())
+        runs_->emptyState()->setTexts(
+            tr("No run yet. A run finds and follows the moving vehicles of the video; each is "
+               "kept here with its parameters and can be shown again."),
+            tr("Run with these defaults"));
+    else
+        runs_->emptyState()->setTexts(tr("The runs of a video are kept here. Open one to begin."));
     runs_model_->setLiveRun(session_.running() && !session_.runs().empty() ? session_.runs().back().id : 0);
     runs_model_->setRuns(session_.runs());
     runs_->selectId(session_.currentRun().value_or(0));

@@ -31,6 +31,7 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     stop_button_->setToolButtonStyle(Qt::ToolButtonIconOnly);
 
     gsd_ = new QLineEdit(this);
+    gsd_->setObjectName(QStringLiteral("gsd"));
     gsd_->setPlaceholderText(tr("unknown: speeds in px/frame"));
     gsd_->setToolTip(
         tr("Ground sampling distance: metres on the ground per pixel. Without it the chain assumes 0.25 m/px "
@@ -43,9 +44,10 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     connect(gsd_, &QLineEdit::returnPressed, this, &RunBar::editingDone);
 
     frame_rate_ = new QDoubleSpinBox(this);
-    frame_rate_->setRange(0.01, 1000);
+    frame_rate_->setRange(0, 1000);  // 0: no video
     frame_rate_->setDecimals(3);
     frame_rate_->setSuffix(tr(" fps"));
+    frame_rate_->setSpecialValueText(QStringLiteral("–"));
     frame_rate_->setKeyboardTracking(false);
     frame_rate_->setToolTip(tr("Frames per second of the video. Folders of images do not tell: give theirs."));
     frame_rate_->setAccessibleName(tr("Frames per second"));
@@ -99,6 +101,8 @@ void RunBar::refresh() {
         last_frame_->setRange(0, last);
         first_frame_->setValue(settings.range.first);
         last_frame_->setValue(settings.range.last < 0 ? last : settings.range.last);
+    } else {
+        frame_rate_->setValue(0);
     }
     refreshing_ = false;
     enable();
@@ -134,6 +138,10 @@ void RunBar::gsdEdited() {
 void RunBar::frameRateEdited() {
     if (refreshing_ || !session_.video()) return;
     emit editingDone();
+    if (frame_rate_->value() <= 0) {
+        refresh();
+        return;
+    }
     if (std::abs(frame_rate_->value() - session_.video()->frame_rate_hz) < 5e-4) return;
     session_.setFrameRate(frame_rate_->value());
 }

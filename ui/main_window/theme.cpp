@@ -47,12 +47,12 @@ QPalette lightPalette() {
 QPalette darkPalette() {
     QPalette palette(QColor(49, 54, 59));
     const QColor text(236, 238, 240);
-    palette.setColor(QPalette::Window, QColor(42, 46, 50));
+    palette.setColor(QPalette::Window, QColor(49, 54, 59));
     palette.setColor(QPalette::WindowText, text);
-    palette.setColor(QPalette::Base, QColor(30, 33, 36));
-    palette.setColor(QPalette::AlternateBase, QColor(36, 40, 44));
+    palette.setColor(QPalette::Base, QColor(29, 32, 35));
+    palette.setColor(QPalette::AlternateBase, QColor(36, 40, 43));
     palette.setColor(QPalette::Text, text);
-    palette.setColor(QPalette::Button, QColor(54, 60, 66));
+    palette.setColor(QPalette::Button, QColor(62, 68, 75));
     palette.setColor(QPalette::ButtonText, text);
     palette.setColor(QPalette::BrightText, Qt::white);
     palette.setColor(QPalette::ToolTipBase, QColor(54, 60, 66));

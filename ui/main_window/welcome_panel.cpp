@@ -3,6 +3,7 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPainter>
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -13,7 +14,7 @@ namespace eyrie::ui {
 
 namespace {
 constexpr int kMostRecent = 6;
-constexpr int kWidth = 560;
+constexpr int kWidth = 620;
 
 QPushButton* buttonOf(QAction* action, QWidget* parent) {
     auto* button = new QPushButton(action->icon(), action->text().remove(QLatin1Char('&')), parent);
@@ -36,6 +37,7 @@ WelcomePanel::WelcomePanel(const WindowActions& actions, QWidget* parent) : QWid
                    this);
     text->setWordWrap(true);
     text->setAlignment(Qt::AlignCenter);
+    text->setMinimumHeight(text->heightForWidth(kWidth - 48) + 4);
     auto* buttons = new QHBoxLayout;
     buttons->addWidget(buttonOf(actions.open_video, this));
     buttons->addWidget(buttonOf(actions.open_folder, this));
@@ -46,9 +48,10 @@ WelcomePanel::WelcomePanel(const WindowActions& actions, QWidget* parent) : QWid
     recent_layout_->setContentsMargins(0, 18, 0, 0);
     recent_layout_->setSpacing(2);
 
-    auto* column = new QWidget(this);
-    column->setFixedWidth(kWidth);
-    auto* rows = new QVBoxLayout(column);
+    column_ = new QWidget(this);
+    column_->setFixedWidth(kWidth);
+    auto* rows = new QVBoxLayout(column_);
+    rows->setContentsMargins(24, 24, 24, 24);
     rows->setSpacing(12);
     rows->addWidget(title);
     rows->addWidget(text);
@@ -56,9 +59,17 @@ WelcomePanel::WelcomePanel(const WindowActions& actions, QWidget* parent) : QWid
     rows->addWidget(recent_box_);
     auto* layout = new QVBoxLayout(this);
     layout->addStretch(2);
-    layout->addWidget(column, 0, Qt::AlignHCenter);
+    layout->addWidget(column_, 0, Qt::AlignHCenter);
     layout->addStretch(3);
     setRecent({});
+}
+
+void WelcomePanel::paintEvent(QPaintEvent*) {
+    // A dashed frame says that things can be dropped here.
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(palette().color(QPalette::Mid), 2, Qt::DashLine));
+    painter.drawRoundedRect(QRectF(column_->geometry()).adjusted(-12, -12, 12, 12), 10, 10);
 }
 
 void WelcomePanel::setRecent(const QStringList& paths) {

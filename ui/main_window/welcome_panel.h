@@ -18,10 +18,14 @@ class WelcomePanel : public QWidget {
     /// Files opened lately, newest first.
     void setRecent(const QStringList& paths);
 
+ protected:
+    void paintEvent(QPaintEvent* event) override;
+
  signals:
     void recentChosen(const QString& path);
 
  private:
+    QWidget* column_;
     QWidget* recent_box_;
     QVBoxLayout* recent_layout_;
 };

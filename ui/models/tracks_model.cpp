@@ -92,9 +92,9 @@ QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int r
         case id_column:
             return tr("Id");
         case first_column:
-            return tr("First frame");
+            return tr("First");
         case last_column:
-            return tr("Last frame");
+            return tr("Last");
         case life_column:
             return tr("Life (s)");
         case speed_column:

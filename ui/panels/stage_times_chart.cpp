@@ -21,6 +21,8 @@ namespace {
 constexpr int kRefreshMs = 60;
 // Several frames share a point where they would not be told apart anyway; thousands of points would draw for seconds.
 constexpr std::size_t kPixelsPerBin = 3;
+constexpr int kNarrowPx = 480;  ///< below this width the legend goes under the chart
+constexpr int kLegendColumnPx = 150;
 constexpr int kClickPx = 4;
 // The marker follows the canvas at 25 Hz; on a layer of its own the bands need not be drawn again for it.
 const QString kMarkerLayer = QStringLiteral("marker");
@@ -85,15 +87,43 @@ void StageTimesChart::makePlot() {
     budget_->setLayer(kMarkerLayer);
     budget_->setVisible(false);
 
-    // Beside the bands, where it covers nothing.
-    auto* side = new QCPLayoutGrid;
-    plot_->plotLayout()->addElement(0, 1, side);
-    plot_->plotLayout()->setColumnStretchFactor(1, 0.001);
-    side->addElement(0, 0, plot_->legend);
-    side->addElement(1, 0, new QCPLayoutElement(plot_));
-    side->setRowStretchFactor(0, 0.001);
+    side_ = new QCPLayoutGrid;
+    plot_->plotLayout()->addElement(0, 1, side_);
+    side_->addElement(0, 0, plot_->legend);
+    side_->addElement(1, 0, new QCPLayoutElement(plot_));
+    side_->setRowStretchFactor(0, 0.001);
     plot_->legend->setVisible(true);
-    plot_->legend->setFillOrder(QCPLegend::foRowsFirst);
+    placeLegend(false);
+}
+
+/// Beside the bands, where it covers nothing; below them where the chart is narrow.
+void StageTimesChart::placeLegend(bool below) {
+    QCPLayoutGrid* layout = plot_->plotLayout();
+    layout->take(side_);
+    layout->simplify();
+    layout->addElement(below ? 1 : 0, below ? 0 : 1, side_);
+    if (below)
+        layout->setRowStretchFactor(1, 0.001);
+    else
+        layout->setColumnStretchFactor(1, 0.001);
+    legend_below_ = below;
+    arrangeLegend();
+}
+
+void StageTimesChart::arrangeLegend() {
+    const int columns = std::max(1, width() / kLegendColumnPx);
+    plot_->legend->setWrap(legend_below_ ? columns : 0);
+    plot_->legend->setFillOrder(legend_below_ ? QCPLegend::foColumnsFirst : QCPLegend::foRowsFirst, true);
+    refreshLater();
+}
+
+void StageTimesChart::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    const bool below = width() < kNarrowPx;
+    if (below != legend_below_)
+        placeLegend(below);
+    else if (below)
+        arrangeLegend();
 }
 
 void StageTimesChart::connectPlot() {

@@ -8,6 +8,7 @@
 
 class QCPGraph;
 class QCPItemStraightLine;
+class QCPLayoutGrid;
 class QCustomPlot;
 class QLabel;
 class QStackedLayout;
@@ -45,10 +46,13 @@ class StageTimesChart : public QWidget {
     void changeEvent(QEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
  private:
     void makePlot();
     void connectPlot();
+    void placeLegend(bool below);
+    void arrangeLegend();
     void fillGraphs();
     void refreshLater();
     void refresh();
@@ -64,6 +68,8 @@ class StageTimesChart : public QWidget {
     EmptyState* empty_;
     QLabel* readout_;
     QCustomPlot* plot_;
+    QCPLayoutGrid* side_ = nullptr;  ///< holds the legend
+    bool legend_below_ = false;
     std::array<QCPGraph*, kStageCount> graphs_{};
     QCPGraph* peaks_ = nullptr;  ///< the slowest frame where several are drawn as one
     QCPItemStraightLine* marker_ = nullptr;

@@ -1,7 +1,7 @@
 #include "session/media.h"
 
 #include "scene/scene_preset.h"
-#include "scene/scene_source.h"
+#include "session/kept_scene.h"
 
 namespace eyrie::ui {
 
@@ -33,7 +33,7 @@ Media sceneMedia(const std::string& scene) {
     media.name = scene + " scene";
     media.identity = kScenePrefix + scene;
     media.gsd_m_per_px = [scene] { return scenePreset(scene).gsd_m_per_px; };
-    media.open = [scene](const IndexProgress&, std::stop_token) { return openScene(scene); };
+    media.open = [scene](const IndexProgress&, std::stop_token) { return openKeptScene(scene, sceneFolder()); };
     return media;
 }
 

@@ -90,51 +90,47 @@ class ProjectReader::Worker {
     std::unique_ptr<ProjectFile> project_;
 };
 
-ProjectReader::ProjectReader(QObject* parent)
-    : QObject(parent), worker_(std::make_unique<Worker>(*this)), thread_(std::make_unique<TaskThread>()) {}
+ProjectReader::ProjectReader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
 
-ProjectReader::~ProjectReader() {
-    thread_.reset();
-}
+ProjectReader::~ProjectReader() = default;
 
 void ProjectReader::open(const std::filesystem::path& project, Opening opening) {
-    thread_->post(
+    thread_.post(
         [worker = worker_.get(), project, opening](const std::stop_token&) { worker->open(project, opening); });
 }
 
 void ProjectReader::close() {
-    thread_->post([worker = worker_.get()](const std::stop_token&) { worker->close(); });
+    thread_.post([worker = worker_.get()](const std::stop_token&) { worker->close(); });
 }
 
 void ProjectReader::readRuns() {
-    thread_->post([worker = worker_.get()](const std::stop_token&) { worker->readRuns(); });
+    thread_.post([worker = worker_.get()](const std::stop_token&) { worker->readRuns(); });
 }
 
 void ProjectReader::readRun(int run_id) {
-    thread_->postNewest([worker = worker_.get(), run_id](const std::stop_token&) { worker->readRun(run_id); });
+    thread_.postNewest([worker = worker_.get(), run_id](const std::stop_token&) { worker->readRun(run_id); });
 }
 
 void ProjectReader::readTrack(int run_id, TrackId track) {
-    thread_->post(
-        [worker = worker_.get(), run_id, track](const std::stop_token&) { worker->readTrack(run_id, track); });
+    thread_.post([worker = worker_.get(), run_id, track](const std::stop_token&) { worker->readTrack(run_id, track); });
 }
 
 void ProjectReader::renameRun(int run_id, const QString& name) {
-    thread_->post([worker = worker_.get(), run_id, text = name.toStdString()](const std::stop_token&) {
+    thread_.post([worker = worker_.get(), run_id, text = name.toStdString()](const std::stop_token&) {
         worker->guarded([&](RunStore& store) { store.rename(run_id, text); });
         worker->readRuns();
     });
 }
 
 void ProjectReader::removeRun(int run_id) {
-    thread_->post([worker = worker_.get(), run_id](const std::stop_token&) {
+    thread_.post([worker = worker_.get(), run_id](const std::stop_token&) {
         worker->guarded([&](RunStore& store) { store.remove(run_id); });
         worker->readRuns();
     });
 }
 
 void ProjectReader::saveCopy(const std::filesystem::path& target) {
-    thread_->post([worker = worker_.get(), target](const std::stop_token&) { worker->saveCopy(target); });
+    thread_.post([worker = worker_.get(), target](const std::stop_token&) { worker->saveCopy(target); });
 }
 
 }  // namespace eyrie::ui

@@ -47,7 +47,7 @@ class ProjectReader : public QObject {
  private:
     class Worker;
     std::unique_ptr<Worker> worker_;
-    std::unique_ptr<TaskThread> thread_;  ///< last: stops before the worker goes
+    TaskThread thread_;  ///< last: stops before the worker goes
 };
 
 }  // namespace eyrie::ui

@@ -288,6 +288,7 @@ void ProjectSession::liveRunStarted(const RunRecord& record) {
     runs_.push_back(record);
     emit runsChanged();
     useRun(record.id);
+    reader_.readRuns();  // its record as it was stored, with the time it began
     list_refresh_.start();
     emit runStarted(record);
 }

@@ -87,7 +87,7 @@ class ResultLoader::Worker {
     /// Results of the frames to come; the pictures are read ahead by their cache.
     void readAhead(FrameIndex frame, int direction, int left) {
         if (left == 0 || !frames_ || frame < 0) return;
-        owner_.thread_->postIdle([this, frame, direction, left](const std::stop_token&) {
+        owner_.thread_.postIdle([this, frame, direction, left](const std::stop_token&) {
             try {
                 if (!frames_ || !frames_->prepare(frame)) return;
             } catch (const std::exception&) {
@@ -109,18 +109,16 @@ class ResultLoader::Worker {
     std::unique_ptr<StoredFrames> frames_;
 };
 
-ResultLoader::ResultLoader(QObject* parent)
-    : QObject(parent), worker_(std::make_unique<Worker>(*this)), thread_(std::make_unique<TaskThread>()) {}
+ResultLoader::ResultLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
 
 ResultLoader::~ResultLoader() {
     opening_.request_stop();
-    thread_.reset();
 }
 
 void ResultLoader::openMedia(const Media& media, int ticket) {
     opening_.request_stop();
     opening_ = std::stop_source();
-    thread_->post([worker = worker_.get(), media, ticket, stop = opening_.get_token()](const std::stop_token&) {
+    thread_.post([worker = worker_.get(), media, ticket, stop = opening_.get_token()](const std::stop_token&) {
         if (!stop.stop_requested()) worker->open(media, ticket, stop);
     });
 }
@@ -131,17 +129,17 @@ void ResultLoader::cancelOpening() {
 
 void ResultLoader::closeMedia() {
     opening_.request_stop();
-    thread_->post([worker = worker_.get()](const std::stop_token&) { worker->close(); });
+    thread_.post([worker = worker_.get()](const std::stop_token&) { worker->close(); });
 }
 
 void ResultLoader::useRun(std::optional<RunReference> run, int trail_length) {
-    thread_->post([worker = worker_.get(), run = std::move(run), trail_length](const std::stop_token&) {
+    thread_.post([worker = worker_.get(), run = std::move(run), trail_length](const std::stop_token&) {
         worker->useRun(run, trail_length);
     });
 }
 
 void ResultLoader::request(FrameIndex frame, int direction) {
-    thread_->postNewest(
+    thread_.postNewest(
         [worker = worker_.get(), frame, direction](const std::stop_token&) { worker->load(frame, direction); });
 }
 

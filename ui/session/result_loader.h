@@ -45,7 +45,7 @@ class ResultLoader : public QObject {
     /// Answers with frameLoaded(), unless a newer request comes first. `direction` −1, 0 or 1 says what to read ahead.
     void request(FrameIndex frame, int direction);
     /// The thread that does the work, for tests that it is not the window's.
-    std::thread::id workerId() const { return thread_->id(); }
+    std::thread::id workerId() const { return thread_.id(); }
 
  signals:
     void openingProgress(double share);
@@ -60,7 +60,7 @@ class ResultLoader : public QObject {
     class Worker;
     std::unique_ptr<Worker> worker_;
     std::stop_source opening_;
-    std::unique_ptr<TaskThread> thread_;  ///< last: stops before the worker goes
+    TaskThread thread_;  ///< last: stops before the worker goes
 };
 
 }  // namespace eyrie::ui

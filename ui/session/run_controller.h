@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <QTimer>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -60,6 +61,7 @@ class RunController : public QObject {
     void fetch();
     void end(const RunSummary& summary, int run_id);
 
+    QTimer poll_;                     ///< fetches what a run that hangs on a frame has not told yet
     std::shared_ptr<LiveFeed> feed_;  ///< exists while a run works
     std::jthread thread_;
 };

@@ -22,11 +22,12 @@ struct OverlayColours {
     QColor selected_track;
     QColor ground_truth;
     QColor non_vehicle;
-    QColor edge;  ///< thin dark rim that keeps lines readable on any ground
+    /// Thin dark rim that keeps lines readable on any ground. Opaque: blending would cost four times as much.
+    QColor edge;
 };
 
 inline OverlayColours overlayColours(PaletteKind kind) {
-    const QColor edge(0, 0, 0, 150);
+    const QColor edge(12, 12, 14);
     if (kind == PaletteKind::colour_blind)
         return {.stationary_corner = QColor(213, 94, 0),
                 .motion_vector = QColor(240, 228, 66),

@@ -115,7 +115,7 @@ void TimelineView::showAll() {
 }
 
 void TimelineView::layoutAxis() {
-    const double gutter = fontMetrics().horizontalAdvance(tr("Registration")) + 18.0;
+    const double gutter = fontMetrics().horizontalAdvance(tr("vectors ≤ 20000")) + 18.0;
     axis_.setSpan(gutter, width() - gutter - kRightMargin);
 }
 
@@ -147,7 +147,18 @@ void TimelineView::paintEvent(QPaintEvent*) {
     };
     name(row.ruler, tr("Time"));
     name(row.quality, tr("Registration"));
-    name(row.activity, tr("Tracks"));
+    if (frames_.empty()) {
+        name(row.activity, tr("Activity"));
+    } else {
+        // Name, colour and height of both curves.
+        const auto [most_tracks, most_vectors] = highest();
+        const double half = row.activity.height() / 2;
+        painter.setPen(trackCurveColour());
+        name(row.activity.adjusted(0, 0, 0, -half), tr("tracks ≤ %1").arg(most_tracks));
+        painter.setPen(vectorCurveColour());
+        name(row.activity.adjusted(0, half, 0, 0), tr("vectors ≤ %1").arg(most_vectors));
+        painter.setPen(palette().color(QPalette::PlaceholderText));
+    }
     name(row.track, track_life_ ? track_name_ : tr("Selected"));
     paintRuler(painter, row.ruler);
     painter.save();
@@ -221,12 +232,7 @@ void TimelineView::paintQuality(QPainter& painter, const QRectF& row) const {
 
 void TimelineView::paintActivity(QPainter& painter, const QRectF& row) const {
     painter.fillRect(row, palette().color(QPalette::Base));
-    int most_tracks = 1;
-    int most_vectors = 1;
-    for (const TimelineFrame& frame : frames_) {
-        most_tracks = std::max(most_tracks, frame.tracks);
-        most_vectors = std::max(most_vectors, frame.motion_vectors);
-    }
+    const auto [most_tracks, most_vectors] = highest();
     const FrameIndex first = axis_.firstVisible();
     const FrameIndex last = std::min(axis_.lastVisible(), static_cast<FrameIndex>(frames_.size()) - 1);
     QPainterPath tracks;
@@ -259,18 +265,31 @@ void TimelineView::paintActivity(QPainter& painter, const QRectF& row) const {
     QColor area = blend(colours_.track, palette().color(QPalette::Base), 0.45);
     painter.fillPath(tracks, area);
     painter.setRenderHint(QPainter::Antialiasing);
-    const bool dark = palette().color(QPalette::Base).lightness() < 128;
-    painter.setPen(QPen(dark ? colours_.motion_vector.darker(115) : colours_.motion_vector.darker(165), 1.2));
+    painter.setPen(QPen(vectorCurveColour(), 1.2));
     painter.drawPath(vectors);
     painter.setRenderHint(QPainter::Antialiasing, false);
-    if (frames_.empty()) return;
-    painter.setPen(palette().color(QPalette::PlaceholderText));
-    QFont small = font();
-    small.setPointSizeF(font().pointSizeF() * 0.8);
-    painter.setFont(small);
-    painter.drawText(row.adjusted(4, 1, -4, 0), Qt::AlignRight | Qt::AlignTop,
-                     tr("max %1 tracks, %2 vectors").arg(most_tracks).arg(most_vectors));
-    painter.setFont(font());
+}
+
+std::pair<int, int> TimelineView::highest() const {
+    std::pair<int, int> most{1, 1};
+    for (const TimelineFrame& frame : frames_) {
+        most.first = std::max(most.first, frame.tracks);
+        most.second = std::max(most.second, frame.motion_vectors);
+    }
+    return most;
+}
+
+// The overlays' colours are made for video; on the window's ground they are darkened until they read.
+QColor TimelineView::trackCurveColour() const {
+    return darkGround() ? colours_.track.darker(115) : colours_.track.darker(190);
+}
+
+QColor TimelineView::vectorCurveColour() const {
+    return darkGround() ? colours_.motion_vector.darker(115) : colours_.motion_vector.darker(190);
+}
+
+bool TimelineView::darkGround() const {
+    return palette().color(QPalette::Base).lightness() < 128;
 }
 
 void TimelineView::paintTrackLife(QPainter& painter, const QRectF& row) const {

@@ -74,6 +74,11 @@ class TimelineView : public QWidget {
     void paintTrackLife(QPainter& painter, const QRectF& row) const;
     void paintCursor(QPainter& painter) const;
     QString describeFrame(FrameIndex frame) const;
+    /// Most tracks and most motion vectors of any frame, at least 1.
+    std::pair<int, int> highest() const;
+    QColor trackCurveColour() const;
+    QColor vectorCurveColour() const;
+    bool darkGround() const;
 
     TimelineAxis axis_;
     std::vector<std::int64_t> times_us_;

@@ -48,11 +48,10 @@ void TrackLayer::paintTrails(QPainter& painter, const OverlayScene& scene) const
         }
     }
     for (int step = 0; step < kSteps; ++step) {
-        QColor colour = scene.style.colours.track;
-        QColor edge = scene.style.colours.edge;
-        colour.setAlphaF(0.35F + 0.3F * static_cast<float>(step));
-        edge.setAlphaF(edge.alphaF() * (0.2F + 0.3F * static_cast<float>(step)));
-        drawEdgedLines(painter, steps[step], {colour, edge, 1.3});
+        // Darker with age; the rim only under the newest part.
+        const QColor colour = scene.style.colours.track.darker(190 - 40 * step);
+        const QColor edge = step == kSteps - 1 ? scene.style.colours.edge : colour.darker(200);
+        drawEdgedLines(painter, steps[step], {colour, edge, 1.2});
     }
     drawEdgedLines(painter, selected, {scene.style.colours.selected_track, scene.style.colours.edge, 2});
 }

@@ -4,6 +4,10 @@
 
 namespace eyrie::ui {
 
+namespace {
+constexpr double kScaleWithDots = 2;  ///< from this zoom on a dot marks where the corner is
+}
+
 void VectorLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     const auto& vectors = scene.result.motion.motion_vectors;
     const double factor = scene.style.vector_length_factor;
@@ -18,9 +22,12 @@ void VectorLayer::paint(QPainter& painter, const OverlayScene& scene) const {
         lines.append({from, from + along});
         heads.append(from);
     }
-    LineLook look{scene.style.colours.motion_vector, scene.style.colours.edge, 1.2};
+    // Vectors stand close together: a black rim around each would hide the vehicle under them.
+    const QColor colour = scene.style.colours.motion_vector;
+    const LineLook look{colour, colour.darker(330), 1.1};
     drawEdgedLines(painter, lines, look);
-    if (heads.size() <= kFastLines) drawEdgedDots(painter, heads, 2, look.colour, look.edge);
+    if (heads.size() <= kFastLines && scene.transform.scale() >= kScaleWithDots)
+        drawEdgedDots(painter, heads, 3, look.colour, look.edge);
 }
 
 }  // namespace eyrie::ui
