@@ -44,8 +44,11 @@ DuplicateRemovalOptions DuplicateRemovalOptions::thesis() {
 
 void DuplicateRemovalOptions::describe(ParameterVisitor& visitor) {
     visitor.choice(
-        "duplicates.strategy", strategy, {"fuse", "suppress"},
-        {"", "Duplicates are fused into their union, or the one with the higher score stays.", "Teutsch §5.5.1"});
+        "duplicates.strategy", strategy, {"fuse", "suppress", "by_detector"},
+        {"",
+         "Duplicates are fused into their union, or the one with the higher score stays; by_detector: fused for "
+         "segmentations, suppressed for the sliding window.",
+         "Teutsch §5.5.1"});
     visitor.choice("duplicates.measure", measure, {"containment", "overlap"},
                    {"",
                     "How strong two boxes overlap: share of the smaller one inside the other, or intersection over "

@@ -12,8 +12,9 @@ namespace eyrie {
 
 /// What becomes of duplicates (Teutsch §5.5.1).
 enum class DuplicateStrategy {
-    fuse,     ///< union of the boxes, for segmentation
-    suppress  ///< the higher score stays (non-maximum suppression), for classifiers
+    fuse,        ///< union of the boxes, for segmentation
+    suppress,    ///< the higher score stays (non-maximum suppression), for classifiers
+    by_detector  ///< what suits the detector in use: the chain decides; fuse where it did not
 };
 
 /// How strong two boxes overlap.
@@ -24,7 +25,7 @@ enum class DuplicateMeasure {
 
 /// Parameters of duplicate removal (Teutsch §5.5.1).
 struct DuplicateRemovalOptions {
-    DuplicateStrategy strategy = DuplicateStrategy::fuse;
+    DuplicateStrategy strategy = DuplicateStrategy::by_detector;
     DuplicateMeasure measure = DuplicateMeasure::containment;
     double threshold = 0.7;
     double max_turn_deg = 30;         ///< duplicates have similar headings

@@ -16,7 +16,7 @@ cv::Point2d turned(cv::Point2d p, double angle) {
 
 }  // namespace
 
-double medianOf(std::vector<double> values) {
+double lowerMedian(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -29,7 +29,7 @@ double medianHeading(const std::vector<double>& headings) {
     std::vector<double> turns;
     turns.reserve(headings.size());
     for (const double heading : headings) turns.push_back(turnBetween(mean, heading));
-    return wrapPi(mean + medianOf(std::move(turns)));
+    return wrapPi(mean + lowerMedian(std::move(turns)));
 }
 
 std::vector<CornerId> MasterVector::related() const {
@@ -74,9 +74,9 @@ bool MasterVector::update(const std::vector<Suggestion>& present) {
     if (kept.empty()) return false;
     std::sort(kept.begin(), kept.end(), [](const Related& a, const Related& b) { return a.id < b.id; });
     related_ = std::move(kept);
-    pose_ = {{medianOf(std::move(x)), medianOf(std::move(y))},
+    pose_ = {{lowerMedian(std::move(x)), lowerMedian(std::move(y))},
              medianHeading(headings),
-             {medianOf(std::move(vx)), medianOf(std::move(vy))}};
+             {lowerMedian(std::move(vx)), lowerMedian(std::move(vy))}};
     return true;
 }
 

@@ -52,7 +52,7 @@ class MasterVector {
 };
 
 /// Lower median; `values` must not be empty.
-double medianOf(std::vector<double> values);
+double lowerMedian(std::vector<double> values);
 /// Median direction: the median of the turns away from the mean direction. `headings` must not be empty.
 double medianHeading(const std::vector<double>& headings);
 

@@ -82,9 +82,6 @@ TEST_P(EveryDifference, FindsTheVehiclesAndNothingElse) {
         const OrientedBox box{scene.vehicleAt(vehicle, scene.frames - 1), vehicle.size.width, vehicle.size.height,
                               std::atan2(vehicle.velocity.y, vehicle.velocity.x)};
         // A difference of two pictures also answers where the vehicle was, 8 px behind; that may join its area.
-        for (auto& c : result.clusters)
-            printf("%s %.1f %.1f %.1fx%.1f h%.2f  true %.1f %.1f\n", nameOf(GetParam()), c.box.centre.x, c.box.centre.y,
-                   c.box.length, c.box.width, c.box.heading, box.centre.x, box.centre.y);
         EXPECT_GT(bestOverlap(result.clusters, box), 0.45);
     }
     const bool ghosts = GetParam() == MotionMethod::two_frame_difference;
