@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chain/chain.h"
+#include "core/error.h"
 
 namespace eyrie {
 namespace {
@@ -76,7 +77,11 @@ std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first
                                            const std::stop_token& stop) {
     std::vector<Frame> frames;
     for (FrameIndex i = first; i <= last && i < first + kPilotFrames && !stop.stop_requested(); ++i) {
-        frames.push_back(source.read(i, false));
+        try {
+            frames.push_back(source.read(i, false));
+        } catch (const Error&) {
+            break;  // the run will come to this frame and report it
+        }
     }
     SceneScale scale;
     scale.frame_rate_hz = frame_rate_hz;
