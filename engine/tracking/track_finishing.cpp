@@ -91,6 +91,17 @@ void FinishingOptions::describe(ParameterVisitor& v) {
     v.integer(
         "finishing.extend_back", extend_back, 0, 100,
         {"frames", "Extend a track back to where its motion vectors began, before they were old enough to count.", ""});
+    v.real("finishing.extend_entry", extend_entry_s, 0, 60,
+           {"s", "Longest extension of a track back to the border of the image where it came in.", ""});
+    v.real("finishing.min_length", min_length_m, 0, 100,
+           {"m", "Tracks whose boxes stay shorter are no vehicles. Used where the ground sampling distance is known.",
+            ""});
+    v.real("finishing.min_width", min_width_m, 0, 100, {"m", "The same for the width.", ""});
+    v.real("finishing.max_sharing", max_sharing, 0, 1,
+           {"",
+            "Two tracks that on average share more than this of the smaller box are one vehicle: the one detected "
+            "less often gives way. 1: never.",
+            ""});
 }
 
 FinishingOptions FinishingOptions::thesis() {
@@ -100,6 +111,10 @@ FinishingOptions FinishingOptions::thesis() {
     options.constant_size = false;
     options.smooth_path = false;
     options.extend_back = 0;
+    options.extend_entry_s = 0;
+    options.min_length_m = 0;
+    options.min_width_m = 0;
+    options.max_sharing = 1;
     return options;
 }
 
@@ -116,11 +131,13 @@ std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);
+    dropTooSmall(paths, options, scale);
+    dropSharers(paths, options.max_sharing);
     for (TrackPath& path : paths) {
         if (options.constant_size) steadySize(path, ground, framesOf(options.size_window_s / 2, scale));
         if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));
     }
-    extendBack(paths, ground, options.extend_back);
+    extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
 
     std::vector<TimedState> result;
     for (const TrackPath& path : paths) {

@@ -32,6 +32,10 @@ struct FinishingOptions {
     bool smooth_path = true;
     double smooth_window_s = 0.4;
     int extend_back = 5;
+    double extend_entry_s = 0.5;
+    double min_length_m = 1.8;
+    double min_width_m = 0.9;
+    double max_sharing = 0.5;
 
     void describe(ParameterVisitor& visitor);
     /// Confirmed tracks from their first detection on, otherwise unchanged (Teutsch §7.1.2).

@@ -29,8 +29,16 @@ void steadySize(TrackPath& path, const GroundMotion& ground, int half_window);
 /// either side.
 void smoothPath(TrackPath& path, const GroundMotion& ground, int half_window);
 
+/// Drops tracks whose boxes stayed smaller than any vehicle. Nothing is dropped where the GSD is unknown.
+void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale);
+
+/// Two vehicles cannot be in one place: of two tracks that share more than `max_sharing` of the smaller one's area on
+/// average, the one that was detected less often gives way where they meet, or wholly when little of it is left.
+void dropSharers(std::vector<TrackPath>& paths, double max_sharing);
+
 /// Extends paths back over frames in which the motion vectors were too young, by constant velocity over the ground,
-/// while the box stays in the image and off other tracks.
-void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames);
+/// while the box stays in the image and off other tracks. Tracks that came in over the border less than `entry_frames`
+/// before they were found are extended back to it.
+void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, int entry_frames);
 
 }  // namespace eyrie

@@ -240,9 +240,63 @@ TEST(FinishTracks, extensionStopsAtTheBorderAndAtUnreliableFrames) {
     EXPECT_EQ(finishTracks(states, summaries, {}, scene.scale).front().first, 0);
     scene.objects[0].start.x = 8;
     for (auto& [frame, state] : states) state = trueState(scene, 0, frame, 1);
-    EXPECT_EQ(finishTracks(states, summaries, {}, scene.scale).front().first, 1);
+    EXPECT_EQ(finishTracks(states, summaries, {}, scene.scale).front().first, 0)
+        << "four fifths of the car are in the image";
+    scene.objects[0].start.x = -4;
+    for (auto& [frame, state] : states) state = trueState(scene, 0, frame, 1);
+    EXPECT_EQ(finishTracks(states, summaries, {}, scene.scale).front().first, 2) << "half of the car is in the image";
     summaries[3].registration.state = RegistrationState::failed;
     EXPECT_EQ(finishTracks(states, summaries, {}, scene.scale).front().first, 3);
+}
+
+TEST(FinishTracks, vehiclesThatCameInOverTheBorderAreExtendedBackToIt) {
+    MovingScene scene;
+    scene.objects = {{{-10, 200}, {3, 0}, 20, 10, 0}, {{200, 100}, {3, 0}, 20, 10, 0}};
+    std::vector<TimedState> states;
+    for (int frame = 10; frame < 40; ++frame) {
+        states.emplace_back(frame, trueState(scene, 0, frame, 1));
+        states.emplace_back(frame, trueState(scene, 1, frame, 2));
+    }
+    std::map<TrackId, int> first;
+    for (const auto& [frame, state] : finishTracks(states, summariesOf(scene, 40), {}, scene.scale)) {
+        first.emplace(state.id, frame);
+    }
+    EXPECT_EQ(first[1], 4) << "half of it was in the image then";
+    EXPECT_EQ(first[2], 5) << "far from the border nothing is known beyond extend_back";
+}
+
+TEST(FinishTracks, whatStaysSmallerThanAnyVehicleIsDroppedWhereTheScaleIsKnown) {
+    MovingScene scene = oneCar();
+    scene.objects.push_back({{300, 300}, {-1, 0.4}, 4, 2, 0});
+    std::vector<TimedState> states;
+    for (int frame = 0; frame < 30; ++frame) {
+        for (std::size_t i = 0; i < 2; ++i) states.emplace_back(frame, trueState(scene, i, frame, int(i) + 1));
+    }
+    const auto idsAt = [&](SceneScale scale) {
+        std::set<TrackId> ids;
+        for (const auto& [frame, state] : finishTracks(states, summariesOf(scene, 30), {}, scale)) ids.insert(state.id);
+        return ids;
+    };
+    EXPECT_EQ(idsAt({0.25, 25, true}), (std::set<TrackId>{1}));
+    EXPECT_EQ(idsAt({0.25, 25, false}), (std::set<TrackId>{1, 2}));
+}
+
+TEST(FinishTracks, ofTwoTracksInOnePlaceTheOneDetectedLessOftenGivesWay) {
+    MovingScene scene = oneCar();
+    scene.objects.push_back({{256, 182}, {1.5, 0.8}, 16, 9, 0});  // on the same car
+    scene.objects.push_back({{240, 195}, {1.5, 0.8}, 18, 8, 0});  // in the next lane
+    std::vector<TimedState> states;
+    for (int frame = 0; frame < 30; ++frame) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            states.emplace_back(frame, trueState(scene, i, frame, int(i) + 1));
+            if (i == 1 && frame % 2 == 1) states.back().second.origin = StateOrigin::reconstructed;
+        }
+    }
+    std::set<TrackId> ids;
+    for (const auto& [frame, state] : finishTracks(states, summariesOf(scene, 30), {}, scene.scale)) {
+        ids.insert(state.id);
+    }
+    EXPECT_EQ(ids, (std::set<TrackId>{1, 3}));
 }
 
 TEST(FinishTracks, survivesMissingSummariesAndBrokenStates) {
@@ -269,7 +323,7 @@ TEST(FinishTracks, survivesMissingSummariesAndBrokenStates) {
 TEST(FinishingOptions, areAllNamedAfterFinishing) {
     FinishingOptions options;
     const auto parameters = listParameters(describeOf(options));
-    EXPECT_EQ(parameters.size(), 11u);
+    EXPECT_EQ(parameters.size(), 15u);
     for (const Parameter& parameter : parameters) EXPECT_EQ(parameter.name.rfind("finishing.", 0), 0u);
 }
 

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tracking/track_paths.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kFewestShared = 5;          ///< frames two tracks must share to be compared
+constexpr double kSharedOfShorter = 0.3;  ///< … and this share of the shorter one's life
+constexpr double kSizeQuantile = 0.75;    ///< boxes miss parts more often than they exceed the vehicle
+
+double quantileOf(std::vector<double> values, double share) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+bool tooSmall(const TrackPath& path, double length, double width) {
+    std::vector<double> lengths;
+    std::vector<double> widths;
+    for (const auto& [frame, state] : path.states) {
+        lengths.push_back(state.box.length);
+        widths.push_back(state.box.width);
+    }
+    return quantileOf(std::move(lengths), kSizeQuantile) < length ||
+           quantileOf(std::move(widths), kSizeQuantile) < width;
+}
+
+int detectedStates(const TrackPath& path) {
+    return static_cast<int>(std::count_if(path.states.begin(), path.states.end(), [](const TimedState& state) {
+        return state.second.origin == StateOrigin::detected;
+    }));
+}
+
+/// How two tracks lie on each other in the frames they share.
+struct Sharing {
+    int frames = 0;
+    double containment = 0;  ///< mean
+};
+
+Sharing sharingOf(const TrackPath& a, const TrackPath& b) {
+    Sharing sharing;
+    auto at_a = a.states.begin();
+    auto at_b = b.states.begin();
+    while (at_a != a.states.end() && at_b != b.states.end()) {
+        if (at_a->first < at_b->first) {
+            ++at_a;
+        } else if (at_b->first < at_a->first) {
+            ++at_b;
+        } else {
+            sharing.containment += containment(at_a->second.box, at_b->second.box);
+            ++sharing.frames;
+            ++at_a;
+            ++at_b;
+        }
+    }
+    if (sharing.frames > 0) sharing.containment /= sharing.frames;
+    return sharing;
+}
+
+/// Removes the states of `weaker` that lie on `stronger`.
+void giveWay(TrackPath& weaker, const TrackPath& stronger, double allowed) {
+    std::map<FrameIndex, OrientedBox> taken;
+    for (const auto& [frame, state] : stronger.states) taken[frame] = state.box;
+    std::erase_if(weaker.states, [&](const TimedState& state) {
+        const auto there = taken.find(state.first);
+        return there != taken.end() && containment(there->second, state.second.box) > allowed;
+    });
+}
+
+}  // namespace
+
+void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale) {
+    if (!scale.gsd_known) return;
+    const double length = scale.px(options.min_length_m);
+    const double width = scale.px(options.min_width_m);
+    std::erase_if(paths, [&](const TrackPath& path) { return tooSmall(path, length, width); });
+}
+
+void dropSharers(std::vector<TrackPath>& paths, double max_sharing) {
+    if (!(max_sharing < 1)) return;
+    std::vector<std::size_t> order(paths.size());
+    std::vector<int> strength;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        order[i] = i;
+        strength.push_back(detectedStates(paths[i]));
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return strength[a] > strength[b]; });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        TrackPath& weaker = paths[order[k]];
+        for (std::size_t s = 0; s < k && !weaker.states.empty(); ++s) {
+            const TrackPath& stronger = paths[order[s]];
+            if (stronger.states.empty() || stronger.firstFrame() > weaker.lastFrame() ||
+                weaker.firstFrame() > stronger.lastFrame()) {
+                continue;
+            }
+            const Sharing sharing = sharingOf(stronger, weaker);
+            const auto shorter = static_cast<double>(std::min(stronger.states.size(), weaker.states.size()));
+            if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
+            if (sharing.containment <= max_sharing) continue;
+            const std::size_t before = weaker.states.size();
+            giveWay(weaker, stronger, max_sharing / 2);
+            if (2 * weaker.states.size() < before) weaker.states.clear();
+        }
+    }
+    std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
+}
+
+}  // namespace eyrie
