@@ -171,7 +171,7 @@ TEST(Tracker, aTrackThatBeganAsTwoMergedObjectsGivesUp) {
     const MovingScene scene = neighbours();
     Tracker tracker({}, scene.scale);
     std::vector<TrackState> states;
-    for (int frame = 0; frame < 50; ++frame) {
+    for (int frame = 0; frame < 65; ++frame) {
         std::vector<Detection> detections = scene.detections(frame);
         if (frame < 8) {
             detections[0].box = unionBox(detections[0].box, detections[1].box);
@@ -180,7 +180,7 @@ TEST(Tracker, aTrackThatBeganAsTwoMergedObjectsGivesUp) {
         states = tracker.next(scene.motion(frame), detections);
     }
     ASSERT_EQ(states.size(), 2u);
-    for (std::size_t i = 0; i < 2; ++i) EXPECT_GT(overlap(states[i].box, scene.box(i, 49)), 0.8);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_GT(overlap(states[i].box, scene.box(i, 64)), 0.8);
 }
 
 TEST(Tracker, neighboursThatWereMergedForLongComeApart) {
