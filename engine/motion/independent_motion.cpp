@@ -6,6 +6,9 @@
 namespace eyrie {
 namespace {
 
+constexpr double kTurnShare = 0.2;  ///< change of velocity, as a share of the speed, that is surely a turn
+constexpr double kTurnSigmas = 2;   ///< … and in deviations of such a change
+
 bool finite(cv::Point2d p) {
     return std::isfinite(p.x) && std::isfinite(p.y);
 }
@@ -78,6 +81,28 @@ IndependentMotion::Measured IndependentMotion::measure(std::size_t corner, cv::P
     return {path.frames, displacement / path.frames};
 }
 
+cv::Point2d IndependentMotion::presentVelocity(std::size_t corner, cv::Point2d now, cv::Point2d mean,
+                                               double sigma) const {
+    const int half = options_.baseline / 2;
+    if (!options_.follow_turns || half < 3 || history_.steps(corner) < 2 * half) return mean;
+    const Path& recent = paths_[static_cast<std::size_t>(half - 1)];
+    const Path& whole = paths_[static_cast<std::size_t>(2 * half - 1)];
+    if (recent.frames < 3 || whole.frames != 2 * recent.frames || whole.frames > options_.baseline) return mean;
+    const cv::Point2d middle = recent.current_from_past.apply(history_.past(corner, half));
+    const cv::Point2d begin = whole.current_from_past.apply(history_.past(corner, 2 * half));
+    const cv::Point2d late = (now - middle) / recent.frames;
+    const cv::Point2d early = (middle - begin) / recent.frames;
+    const double speed = length(mean);
+    if (!finite(late) || !finite(early) || speed <= 0) return mean;
+    // Across the motion only: along it corners scatter far more.
+    const cv::Point2d across(-mean.y / speed, mean.x / speed);
+    const cv::Point2d change = (late - early).dot(across) * across;
+    // Noise of `change` is 3.5 times that of the mean velocity.
+    const double certain = std::max(kTurnShare * speed, kTurnSigmas * 3.5 * sigma);
+    const double trust = std::clamp(2 * length(change) / certain - 1, 0.0, 1.0);
+    return mean + trust * change;
+}
+
 void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion) {
     const std::vector<Corner>& corners = registered.corners;
     std::vector<Measured> measured(corners.size());
@@ -134,7 +159,9 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
         if (found == nullptr) {
             if (corner.on_background) motion.stationary_corners.push_back(corner.current);
         } else {
-            motion.motion_vectors.push_back({corner.id, corner.current, found->velocity, corner.age});
+            const cv::Point2d velocity =
+                presentVelocity(i, corner.current, found->velocity, motion.background_speed_sigma);
+            motion.motion_vectors.push_back({corner.id, corner.current, velocity, corner.age});
         }
     }
     if (options_.shadow.enabled) leaveOutShadows(frame, motion);

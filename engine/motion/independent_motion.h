@@ -44,6 +44,7 @@ class IndependentMotion {
     bool extendPaths(const Registration& registration);
     void takePicture(const RegisteredFrame& registered);
     Measured measure(std::size_t corner, cv::Point2d now, int longest) const;
+    cv::Point2d presentVelocity(std::size_t corner, cv::Point2d now, cv::Point2d mean, double sigma) const;
     void leaveOutShadows(const Frame& frame, FrameMotion& motion);
     void sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion);
 

@@ -6,6 +6,7 @@ IndependentMotionOptions IndependentMotionOptions::thesis() {
     IndependentMotionOptions options;
     options.min_age = 5;
     options.baseline = 5;
+    options.follow_turns = false;
     options.find_slow = false;
     options.sigma_factor = 0;
     options.shadow.enabled = false;
@@ -38,6 +39,12 @@ void IndependentMotionOptions::describe(ParameterVisitor& visitor) {
                   "Faster corners are tracking errors. Used where the ground sampling distance is known; 0: no "
                   "limit.",
                   ""});
+    visitor.flag(
+        "motion.follow_turns", follow_turns,
+        {"",
+         "The velocity over the baseline is half of it old. Where the path clearly bends, carry the velocity on "
+         "to the present.",
+         ""});
     visitor.flag("motion.find_slow", find_slow,
                  {"", "Test corners that seem to stand still again over a longer baseline.", ""});
     visitor.integer("motion.slow_baseline", slow_baseline, 2, 60,

@@ -23,7 +23,7 @@ struct MotionClusteringOptions {
     double min_density_share = 0.33;        ///< … and this share of those expected on a car at the measured density
     int max_min_members = 12;               ///< however dense the corners are, that many are enough
     double margin_px = 0.5;                 ///< the box around the members is grown by this on every side
-    double split_width_m = 4.0;             ///< wider clusters are linked again, more tightly; 0: never
+    double split_width_m = 3.2;             ///< wider clusters are linked again, more tightly; 0: never
     double split_length_m = 0;              ///< longer clusters, too; 0: never
     double max_length_m = 60;               ///< longer clusters are no vehicles, nor a queue of them; 0: no limit
     double max_width_m = 30;                ///< 0: no limit

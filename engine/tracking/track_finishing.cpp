@@ -132,7 +132,7 @@ std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);
     dropTooSmall(paths, options, scale);
-    dropSharers(paths, options.max_sharing);
+    dropSharers(paths, options.max_sharing, scale);
     for (TrackPath& path : paths) {
         if (options.constant_size) steadySize(path, ground, framesOf(options.size_window_s / 2, scale));
         if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));

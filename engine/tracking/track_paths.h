@@ -33,8 +33,9 @@ void smoothPath(TrackPath& path, const GroundMotion& ground, int half_window);
 void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale);
 
 /// Two vehicles cannot be in one place: of two tracks that share more than `max_sharing` of the smaller one's area on
-/// average, the one that was detected less often gives way where they meet, or wholly when little of it is left.
-void dropSharers(std::vector<TrackPath>& paths, double max_sharing);
+/// average (of the union where the larger box is wider than any vehicle), the one that was detected less often gives way
+/// where they meet, or wholly when little of it is left.
+void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale);
 
 /// Extends paths back over frames in which the motion vectors were too young, by constant velocity over the ground,
 /// while the box stays in the image and off other tracks. Tracks that came in over the border less than `entry_frames`

@@ -9,6 +9,8 @@ namespace {
 
 constexpr int kFewestShared = 5;          ///< frames two tracks must share to be compared
 constexpr double kSharedOfShorter = 0.3;  ///< … and this share of the shorter one's life
+constexpr double kWidestVehicle = 3.2;    ///< m
+constexpr double kBoxMargin = 1;          ///< px
 constexpr double kSizeQuantile = 0.75;    ///< boxes miss parts more often than they exceed the vehicle
 
 double quantileOf(std::vector<double> values, double share) {
@@ -37,10 +39,16 @@ int detectedStates(const TrackPath& path) {
 /// How two tracks lie on each other in the frames they share.
 struct Sharing {
     int frames = 0;
-    double containment = 0;  ///< mean
+    double share = 0;  ///< mean
 };
 
-Sharing sharingOf(const TrackPath& a, const TrackPath& b) {
+/// A box that is wider than a vehicle may hold several: then only boxes of like size share a place.
+double sharedBy(const OrientedBox& a, const OrientedBox& b, double widest) {
+    const double wider = a.area() >= b.area() ? a.width : b.width;
+    return wider > widest ? overlap(a, b) : containment(a, b);
+}
+
+Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
     Sharing sharing;
     auto at_a = a.states.begin();
     auto at_b = b.states.begin();
@@ -50,13 +58,13 @@ Sharing sharingOf(const TrackPath& a, const TrackPath& b) {
         } else if (at_b->first < at_a->first) {
             ++at_b;
         } else {
-            sharing.containment += containment(at_a->second.box, at_b->second.box);
+            sharing.share += sharedBy(at_a->second.box, at_b->second.box, widest);
             ++sharing.frames;
             ++at_a;
             ++at_b;
         }
     }
-    if (sharing.frames > 0) sharing.containment /= sharing.frames;
+    if (sharing.frames > 0) sharing.share /= sharing.frames;
     return sharing;
 }
 
@@ -79,8 +87,9 @@ void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options
     std::erase_if(paths, [&](const TrackPath& path) { return tooSmall(path, length, width); });
 }
 
-void dropSharers(std::vector<TrackPath>& paths, double max_sharing) {
+void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale) {
     if (!(max_sharing < 1)) return;
+    const double widest = scale.px(kWidestVehicle) + kBoxMargin;
     std::vector<std::size_t> order(paths.size());
     std::vector<int> strength;
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -97,10 +106,10 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing) {
                 weaker.firstFrame() > stronger.lastFrame()) {
                 continue;
             }
-            const Sharing sharing = sharingOf(stronger, weaker);
+            const Sharing sharing = sharingOf(stronger, weaker, widest);
             const auto shorter = static_cast<double>(std::min(stronger.states.size(), weaker.states.size()));
             if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
-            if (sharing.containment <= max_sharing) continue;
+            if (sharing.share <= max_sharing) continue;
             const std::size_t before = weaker.states.size();
             giveWay(weaker, stronger, max_sharing / 2);
             if (2 * weaker.states.size() < before) weaker.states.clear();

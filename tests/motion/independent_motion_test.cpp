@@ -209,5 +209,31 @@ TEST(IndependentMotionOptions, ThesisUsesOneThresholdAfterFiveFrames) {
     EXPECT_EQ(after(motion, scene, 12).motion_vectors.size(), 24U);
 }
 
+/// Mean heading of the patch's vectors relative to the last step it really took, radians.
+double headingError(bool follow_turns) {
+    MovingPatch patch{{300, 200}, {1.5, 0}};
+    patch.turn = 0.05;
+    MovingCorners scene({patch}, 0.03);
+    IndependentMotionOptions options = plain();
+    options.follow_turns = follow_turns;
+    IndependentMotion motion(options, kScale);
+    const FrameMotion found = after(motion, scene, 20);
+    cv::Point2d sum(0, 0);
+    for (const MotionVector& v : found.motion_vectors) {
+        if (v.id > scene.backgroundCount()) sum += cv::Point2d(v.velocity);
+    }
+    const cv::Matx33d camera = MovingCorners::camera(19);
+    const cv::Point2d end = patch.centre + patch.way(19);
+    const cv::Point2d expected =
+        MovingCorners::mapped(camera, end) - MovingCorners::mapped(camera, end - patch.velocityAt(18));
+    return std::abs(std::atan2(sum.cross(expected), sum.dot(expected)));
+}
+
+TEST(IndependentMotion, FollowsTurns) {
+    // The mean over 12 frames is 5.5 frames old: 0.05 · 5.5 = 0.275 radians behind.
+    EXPECT_NEAR(headingError(false), 0.275, 0.03);
+    EXPECT_LT(headingError(true), 0.06);
+}
+
 }  // namespace
 }  // namespace eyrie

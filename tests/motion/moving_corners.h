@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <random>
 #include <vector>
@@ -16,6 +17,20 @@ struct MovingPatch {
     double length = 20;          ///< px along x
     double width = 10;           ///< px along y
     int corners = 24;
+    double turn = 0;  ///< radians/frame by which the velocity turns
+
+    /// Way over the ground since frame 0.
+    cv::Point2d way(int frames) const {
+        cv::Point2d sum(0, 0);
+        for (int t = 0; t < frames; ++t) sum += velocityAt(t);
+        return sum;
+    }
+    /// From frame t to the next.
+    cv::Point2d velocityAt(int t) const {
+        const double c = std::cos(turn * t);
+        const double s = std::sin(turn * t);
+        return {c * velocity.x - s * velocity.y, s * velocity.x + c * velocity.y};
+    }
 };
 
 /// Corners of a synthetic scene with known motion under a camera that shifts, turns and zooms; ids ascend: background
@@ -65,7 +80,7 @@ class MovingCorners {
         CornerId id = 1;
         for (const cv::Point2d& p : ground_) add(frame, id++, p, true);
         for (std::size_t k = 0; k < patches_.size(); ++k) {
-            for (const cv::Point2d& p : points_[k]) add(frame, id++, p + patches_[k].velocity * t_, false);
+            for (const cv::Point2d& p : points_[k]) add(frame, id++, p + patches_[k].way(t_), false);
         }
         ++t_;
         return frame;

@@ -299,6 +299,16 @@ TEST(FinishTracks, ofTwoTracksInOnePlaceTheOneDetectedLessOftenGivesWay) {
     EXPECT_EQ(ids, (std::set<TrackId>{1, 3}));
 }
 
+TEST(FinishTracks, aTrackWiderThanAVehicleDoesNotDriveOutThoseInIt) {
+    MovingScene scene;
+    scene.objects = {{{250, 180}, {1.5, 0}, 20, 20, 0}, {{250, 175}, {1.5, 0}, 18, 8, 0}};
+    std::vector<TimedState> states;
+    for (int frame = 0; frame < 30; ++frame) {
+        for (std::size_t i = 0; i < 2; ++i) states.emplace_back(frame, trueState(scene, i, frame, int(i) + 1));
+    }
+    EXPECT_EQ(finishTracks(states, summariesOf(scene, 30), {}, scene.scale).size(), 60u);
+}
+
 TEST(FinishTracks, survivesMissingSummariesAndBrokenStates) {
     const MovingScene scene = oneCar();
     EXPECT_TRUE(finishTracks({}, {}, {}, scene.scale).empty());
