@@ -50,6 +50,12 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     connect(&session_, &ProjectSession::videoChanged, this, &StatusFields::showFrame);
     connect(&session_, &ProjectSession::openingProgress, this, &StatusFields::showOpening);
     connect(&session_, &ProjectSession::openingEnded, this, &StatusFields::hideProgress);
+    connect(&session_, &ProjectSession::runPreparing, this, [this] {
+        work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run …")
+                                                            : tr("reading the scale off the traffic …"));
+        bar_->setRange(0, 0);
+        showProgress();
+    });
     connect(&session_, &ProjectSession::runStarted, this, [this](const RunRecord& run) {
         showRun({0, run.last_frame - run.first_frame + 1, 0, 0});
     });
@@ -113,9 +119,7 @@ void StatusFields::showRun(const RunProgress& progress) {
     work_->setText(text);
     bar_->setRange(0, kProgressSteps);
     bar_->setValue(static_cast<int>(share * kProgressSteps));
-    work_->show();
-    bar_->show();
-    stop_->show();
+    showProgress();
 }
 
 void StatusFields::showOpening(const QString& name, double share) {
@@ -123,6 +127,10 @@ void StatusFields::showOpening(const QString& name, double share) {
     work_->setText(tr("opening %1").arg(shown));
     bar_->setRange(0, share > 0 ? kProgressSteps : 0);
     bar_->setValue(static_cast<int>(share * kProgressSteps));
+    showProgress();
+}
+
+void StatusFields::showProgress() {
     work_->show();
     bar_->show();
     stop_->show();

@@ -28,6 +28,7 @@ class StatusFields : public QObject {
     void showFrame();
     void showRun(const RunProgress& progress);
     void showOpening(const QString& name, double share);
+    void showProgress();
     void hideProgress();
 
     ProjectSession& session_;

@@ -22,7 +22,7 @@ constexpr int kRefreshMs = 60;
 // Several frames share a point where they would not be told apart anyway; thousands of points would draw for seconds.
 constexpr std::size_t kPixelsPerBin = 3;
 constexpr int kNarrowPx = 480;  ///< below this width the legend goes under the chart
-constexpr int kLegendColumnPx = 150;
+constexpr int kLegendColumnPx = 190;
 constexpr int kClickPx = 4;
 // The marker follows the canvas at 25 Hz; on a layer of its own the bands need not be drawn again for it.
 const QString kMarkerLayer = QStringLiteral("marker");

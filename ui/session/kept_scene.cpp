@@ -9,11 +9,13 @@
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <sstream>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "scene/scene_preset.h"
-#include "scene/scene_source.h"
+#include "scene/scene_renderer.h"
 
 namespace eyrie::ui {
 
@@ -27,78 +29,109 @@ std::string buildMark() {
     return QString::number(program.lastModified().toSecsSinceEpoch(), 36).toStdString();
 }
 
-void removeOldFrames(const fs::path& folder, const std::string& scene, const fs::path& kept) {
+void removeFramesOfOtherBuilds(const fs::path& parent, const std::string& scene, const fs::path& kept) {
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    for (const auto& entry : fs::directory_iterator(parent, ignored)) {
         const bool of_this_scene = entry.path().filename().string().starts_with(scene + "-");
         if (of_this_scene && entry.path() != kept) fs::remove_all(entry.path(), ignored);
     }
 }
 
-class KeptScene : public FrameSource {
+/// Writes a file for later, or not: then it is made again.
+void keepFile(const fs::path& file, const std::string& bytes) {
+    try {
+        writeFileAtomically(file, bytes);
+    } catch (const Error&) {
+    }
+}
+
+std::optional<KeptScene::Facts> readFacts(const fs::path& file) {
+    if (!fs::exists(file)) return std::nullopt;
+    std::istringstream text(readWholeFile(file));
+    KeptScene::Facts facts;
+    text >> facts.size.width >> facts.size.height >> facts.frame_count >> facts.frame_rate_hz >> facts.gsd_m_per_px;
+    const bool sound =
+        text && facts.size.width > 0 && facts.size.height > 0 && facts.frame_count > 0 && facts.frame_rate_hz > 0;
+    return sound ? std::optional(facts) : std::nullopt;
+}
+
+class KeptSceneSource : public FrameSource {
  public:
-    KeptScene(std::string scene, const fs::path& folder)
-        : scene_(std::move(scene)), folder_(folder / (scene_ + "-" + buildMark())) {
-        const SceneDescription description = scenePreset(scene_);
-        info_.path = "scene:" + scene_;
-        info_.size = description.image_size;
-        info_.frame_count = description.frame_count;
-        info_.frame_rate_hz = description.frame_rate_hz;
+    KeptSceneSource(std::shared_ptr<KeptScene> scene, const std::string& name) : scene_(std::move(scene)) {
+        const KeptScene::Facts facts = scene_->facts();
+        info_.path = "scene:" + name;
+        info_.size = facts.size;
+        info_.frame_count = facts.frame_count;
+        info_.frame_rate_hz = facts.frame_rate_hz;
         info_.codec = "rendered";
         info_.container = "scene";
-        removeOldFrames(folder, scene_, folder_);
-        std::error_code ignored;  // without the folder every frame is rendered
-        fs::create_directories(folder_, ignored);
     }
-
     const VideoInfo& info() const override { return info_; }
-
     std::int64_t timeOf(FrameIndex index) const override { return std::llround(index * 1e6 / info_.frame_rate_hz); }
-
     Frame read(FrameIndex index, bool with_colour) override {
-        const fs::path file = fileOf(index);
-        Frame frame;
-        frame.index = index;
+        Frame frame = scene_->frame(index);
         frame.time_us = timeOf(index);
-        frame.colour = cv::imread(file.string(), cv::IMREAD_COLOR);
-        if (frame.colour.size() == info_.size) {
-            cv::cvtColor(frame.colour, frame.gray, cv::COLOR_BGR2GRAY);
-        } else {
-            if (!renderer_) renderer_ = openScene(scene_);
-            frame = renderer_->read(index, true);
-            keep(frame.colour, file);
-        }
         if (!with_colour) frame.colour.release();
         return frame;
     }
 
  private:
-    fs::path fileOf(FrameIndex index) const {
-        std::array<char, 24> name{};
-        std::snprintf(name.data(), name.size(), "%06d.png", index);
-        return folder_ / name.data();
-    }
-
-    static void keep(const cv::Mat& colour, const fs::path& file) {
-        std::vector<uchar> png;
-        cv::imencode(".png", colour, png, {cv::IMWRITE_PNG_COMPRESSION, 1});
-        try {
-            writeFileAtomically(file, std::string(png.begin(), png.end()));  // others may read it at the same time
-        } catch (const Error&) {
-            return;  // then it is rendered again
-        }
-    }
-
-    std::string scene_;
-    fs::path folder_;
+    std::shared_ptr<KeptScene> scene_;
     VideoInfo info_;
-    std::unique_ptr<FrameSource> renderer_;  ///< made when the first frame has to be rendered
 };
 
 }  // namespace
 
-std::unique_ptr<FrameSource> openKeptScene(const std::string& scene, const fs::path& folder) {
-    return std::make_unique<KeptScene>(scene, folder);
+KeptScene::KeptScene(std::string scene, const fs::path& folder)
+    : scene_(std::move(scene)), parent_(folder), folder_(folder / (scene_ + "-" + buildMark())) {}
+
+KeptScene::~KeptScene() = default;
+
+std::unique_ptr<FrameSource> KeptScene::open() {
+    removeFramesOfOtherBuilds(parent_, scene_, folder_);
+    std::error_code ignored;  // without the folder every frame is rendered
+    fs::create_directories(folder_, ignored);
+    return std::make_unique<KeptSceneSource>(shared_from_this(), scene_);
+}
+
+KeptScene::Facts KeptScene::facts() {
+    const fs::path file = folder_ / "facts.txt";
+    if (const auto known = readFacts(file)) return *known;
+    const SceneDescription& scene = renderer().scene();
+    const Facts facts{scene.image_size, scene.frame_count, scene.frame_rate_hz, scene.gsd_m_per_px};
+    std::ostringstream text;
+    text << facts.size.width << ' ' << facts.size.height << ' ' << facts.frame_count << ' ' << facts.frame_rate_hz
+         << ' ' << facts.gsd_m_per_px << '\n';
+    keepFile(file, text.str());
+    return facts;
+}
+
+Frame KeptScene::frame(FrameIndex index) {
+    const fs::path file = fileOf(index);
+    Frame frame;
+    if (fs::exists(file)) frame.colour = cv::imread(file.string(), cv::IMREAD_COLOR);
+    if (frame.colour.empty()) {
+        frame = renderer().render(index).frame;
+        std::vector<uchar> png;
+        cv::imencode(".png", frame.colour, png, {cv::IMWRITE_PNG_COMPRESSION, 1});
+        keepFile(file, std::string(png.begin(), png.end()));
+    } else {
+        cv::cvtColor(frame.colour, frame.gray, cv::COLOR_BGR2GRAY);
+    }
+    frame.index = index;
+    return frame;
+}
+
+const SceneRenderer& KeptScene::renderer() {
+    const std::scoped_lock lock(mutex_);
+    if (!renderer_) renderer_ = std::make_unique<const SceneRenderer>(scenePreset(scene_));
+    return *renderer_;
+}
+
+fs::path KeptScene::fileOf(FrameIndex index) const {
+    std::array<char, 24> name{};
+    std::snprintf(name.data(), name.size(), "%06d.png", index);
+    return folder_ / name.data();
 }
 
 fs::path sceneFolder() {

@@ -1,6 +1,5 @@
 #include "session/media.h"
 
-#include "scene/scene_preset.h"
 #include "session/kept_scene.h"
 
 namespace eyrie::ui {
@@ -32,8 +31,9 @@ Media sceneMedia(const std::string& scene) {
     Media media;
     media.name = scene + " scene";
     media.identity = kScenePrefix + scene;
-    media.gsd_m_per_px = [scene] { return scenePreset(scene).gsd_m_per_px; };
-    media.open = [scene](const IndexProgress&, std::stop_token) { return openKeptScene(scene, sceneFolder()); };
+    const auto kept = std::make_shared<KeptScene>(scene, sceneFolder());
+    media.gsd_m_per_px = [kept] { return kept->facts().gsd_m_per_px; };
+    media.open = [kept](const IndexProgress&, std::stop_token) { return kept->open(); };
     return media;
 }
 

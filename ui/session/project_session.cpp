@@ -172,16 +172,20 @@ void ProjectSession::projectOpened(const fs::path& project, const std::vector<Ru
         beginOpening({mediaOfIdentity(run.sequence.path), project, run, false});
         return;
     }
-    const auto newest = std::find_if(runs_.rbegin(), runs_.rend(), [this](const RunRecord& run) {
-        return media_ && run.sequence.path == media_->identity && run.frames_done > 0;
+    const RunRecord* shown = newestRun(true);
+    const bool finished = shown != nullptr;
+    if (!finished) shown = newestRun(false);
+    if (shown != nullptr && shown->scale.gsd_known) settings_.gsd_m_per_px = shown->scale.gsd_m_per_px;
+    useRun(shown != nullptr ? std::optional(shown->id) : std::nullopt);
+    emit ready(finished);
+}
+
+const RunRecord* ProjectSession::newestRun(bool finished) const {
+    const auto found = std::find_if(runs_.rbegin(), runs_.rend(), [&](const RunRecord& run) {
+        const bool of_this_video = media_ && run.sequence.path == media_->identity;
+        return of_this_video && run.frames_done > 0 && (!finished || run.state == RunState::finished);
     });
-    if (newest != runs_.rend()) {
-        if (newest->scale.gsd_known) settings_.gsd_m_per_px = newest->scale.gsd_m_per_px;
-        useRun(newest->id);
-    } else {
-        useRun(std::nullopt);
-    }
-    emit ready(current_run_.has_value());
+    return found == runs_.rend() ? nullptr : &*found;
 }
 
 void ProjectSession::projectFailed(const fs::path&, const QString& message) {
@@ -280,6 +284,7 @@ void ProjectSession::startRun() {
     request.trail_length = kTrailLength;
     run_project_ = project_;
     controller_.start(std::move(request));
+    emit runPreparing();
     setFollowing(true);
 }
 

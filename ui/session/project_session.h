@@ -90,8 +90,8 @@ class ProjectSession : public QObject {
     /// Another video, or none.
     void videoChanged();
     void projectChanged();
-    /// Video and project are open; `has_results` tells whether a run is shown.
-    void ready(bool has_results);
+    /// Video and project are open; `has_finished_run` tells whether the run shown is a finished one.
+    void ready(bool has_finished_run);
     void runsChanged();
     void currentRunChanged();
     void runDataChanged();
@@ -100,6 +100,8 @@ class ProjectSession : public QObject {
     void selectionChanged(std::optional<TrackId> track);
     /// All stored states of the selected track; follows selectionChanged() and grows with a running run.
     void trackStatesRead(TrackId track, const std::vector<TrackFrame>& states);
+    /// A run was asked for; runStarted() follows once it is prepared, which takes some seconds without a GSD.
+    void runPreparing();
     void runStarted(const RunRecord& record);
     void runProgress(const RunProgress& progress);
     void liveFrames(const std::vector<FrameSummary>& frames);
@@ -127,6 +129,8 @@ class ProjectSession : public QObject {
     void showWithoutVideo(const RunRecord& run);
     void useRun(std::optional<int> run_id);
     const RunRecord* findRun(int run_id) const;
+    /// The newest run over this video that finished, or that has any frames; null when there is none.
+    const RunRecord* newestRun(bool finished) const;
     void runRead(const std::shared_ptr<const RunData>& run);
     void runsRead(const std::vector<RunRecord>& runs);
     void liveRunStarted(const RunRecord& record);
