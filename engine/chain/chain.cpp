@@ -47,6 +47,19 @@ std::vector<StackView> TrackHalf::stackViews(const Frame& frame) const {
     return stacker_ ? stacker_->views(frame) : std::vector<StackView>{};
 }
 
+std::vector<SearchTrace> TrackHalf::trace(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
+                                          int index) const {
+    std::vector<SearchTrace> traces;
+    for (MotionRoi& roi : searchAreas(frame, motion, cluster, index)) {
+        SearchTrace traced;
+        traced.roi = std::move(roi);
+        traced.raw = cutMotionRoi(frame, cluster, index, motion, options_.detection, scale_);
+        traced.detections = detector_->detect(traced.roi, &traced.trace);
+        traces.push_back(std::move(traced));
+    }
+    return traces;
+}
+
 std::vector<MotionCluster> TrackHalf::findClusters(const Frame& frame, const FrameMotion& motion) {
     if (!difference_) return clustering_.cluster(motion);
     last_difference_ = difference_->next(frame, motion);

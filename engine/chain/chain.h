@@ -23,6 +23,14 @@ class MotionHalf {
     IndependentMotion independent_motion_;
 };
 
+/// One area that a detector searched, with all steps on the way to its boxes.
+struct SearchTrace {
+    MotionRoi roi;  ///< what was searched: the raw image, or an image stack
+    MotionRoi raw;  ///< the same cluster's area of the raw image
+    DetectionTrace trace;
+    std::vector<Detection> detections;  ///< before duplicates and outliers are removed
+};
+
 /// Second half of the chain, motion vectors → tracks (Teutsch chapters 5 and 6). Frames must come in ascending order.
 class TrackHalf {
  public:
@@ -34,6 +42,9 @@ class TrackHalf {
     std::vector<StackView> stackViews(const Frame& frame) const;
     /// What the difference images of the last frame showed; null where clusters come from motion vectors.
     const DifferenceResult* differences() const { return difference_ ? &last_difference_ : nullptr; }
+    /// Looks once more at what was searched for one cluster of the last frame; several where several stacks fit it.
+    std::vector<SearchTrace> trace(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
+                                   int index) const;
 
  private:
     std::vector<MotionCluster> findClusters(const Frame& frame, const FrameMotion& motion);

@@ -72,7 +72,9 @@ std::vector<cv::Rect2d> GradientSegmenter::segment(const MotionRoi& roi, Detecti
         trace->add("gradient", gradient);
         if (options_.method == GradientMethod::lbp) trace->add("lbp mask", gradient > 0);
     }
-    const auto threshold = quantileThreshold(gradient, quantileMask(roi), options_.quantile);
+    const cv::Mat quantile_mask = quantileMask(roi);
+    if (trace != nullptr) trace->add("quantile area", quantile_mask);
+    const auto threshold = quantileThreshold(gradient, quantile_mask, options_.quantile);
     if (!threshold) return {};
     cv::Mat binary;
     binarise(gradient, roi.inside, *threshold, binary);
@@ -80,14 +82,15 @@ std::vector<cv::Rect2d> GradientSegmenter::segment(const MotionRoi& roi, Detecti
     closeGaps(binary, closed);
     cv::Mat labels;
     const std::vector<Region> regions = findRegions(closed, options_.min_box_area_px, labels);
+    std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors);
     if (trace != nullptr) {
         trace->add("binary", binary);
         trace->add("closed", closed);
         cv::Mat components;
         labels.convertTo(components, CV_8U);
-        trace->add("components", components);
+        trace->add("components", components, boxes);
     }
-    return component_boxes_.select(regions, labels, roi.vectors);
+    return boxes;
 }
 
 std::vector<Detection> GradientSegmenter::detect(const MotionRoi& roi, DetectionTrace* trace) const {

@@ -15,7 +15,7 @@ class GradientSegmenter : public Detector {
     /// `cluster_margin_px`: margin of the cluster's box where that is delivered instead.
     GradientSegmenter(const GradientOptions& options, const SceneScale& scale, double cluster_margin_px);
 
-    /// Trace layers: raw, gradient, lbp mask (LBP only), binary, closed, components.
+    /// Trace layers: raw, gradient, lbp mask (LBP only), quantile area, binary, closed, components.
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;
 
     /// Gradient magnitude of a CV_8UC1 image by the chosen method, CV_32FC1.

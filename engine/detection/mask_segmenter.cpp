@@ -62,12 +62,13 @@ std::vector<cv::Rect2d> MaskSegmenter::segment(const MotionRoi& roi, DetectionTr
     const cv::Mat pixels = objectPixels(roi, trace) & roi.inside;
     cv::Mat labels;
     const std::vector<Region> regions = findRegions(pixels, components_.min_box_area_px, labels);
+    std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors);
     if (trace != nullptr) {
         cv::Mat components;
         labels.convertTo(components, CV_8U);
-        trace->add("components", components);
+        trace->add("components", components, boxes);
     }
-    return component_boxes_.select(regions, labels, roi.vectors);
+    return boxes;
 }
 
 std::vector<Detection> MaskSegmenter::detect(const MotionRoi& roi, DetectionTrace* trace) const {

@@ -35,6 +35,12 @@ cv::Mat overArea(const cv::Mat& decision, cv::Size rescaled, cv::Size area) {
     return resized;
 }
 
+std::vector<cv::Rect2d> boxesOf(const std::vector<WindowHypothesis>& hypotheses) {
+    std::vector<cv::Rect2d> boxes;
+    for (const WindowHypothesis& hypothesis : hypotheses) boxes.push_back(hypothesis.box);
+    return boxes;
+}
+
 std::string layerName(double scale) {
     char text[32];
     std::snprintf(text, sizeof text, "decision ×%.2f", scale);
@@ -71,8 +77,11 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
             trace->add(layerName(scale), overArea(decision, rescaled, roi.image.size()));
         }
     }
+    if (trace != nullptr) trace->add("first suppression", roi.image, boxesOf(hypotheses));
+    hypotheses = suppressOverlapping(std::move(hypotheses), options_.overlap_threshold);
+    if (trace != nullptr) trace->add("second suppression", roi.image, boxesOf(hypotheses));
     std::vector<Detection> detections;
-    for (const WindowHypothesis& hypothesis : suppressOverlapping(std::move(hypotheses), options_.overlap_threshold)) {
+    for (const WindowHypothesis& hypothesis : hypotheses) {
         Detection detection;
         detection.box = boxInImage(roi.image_from_roi, hypothesis.box);
         detection.score = hypothesis.decision;

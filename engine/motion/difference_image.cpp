@@ -30,6 +30,7 @@ DifferenceImage twoFrameDifference(const cv::Mat& now, const WarpedFrame& before
     difference.overlap = withoutBorder(before.inside);
     cv::absdiff(smoothed(now, blur_px), smoothed(before.gray, blur_px), difference.values);
     difference.values.setTo(0, difference.overlap == 0);
+    difference.reference = before.gray;
     return difference;
 }
 

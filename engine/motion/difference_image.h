@@ -11,6 +11,7 @@ namespace eyrie {
 struct DifferenceImage {
     cv::Mat values;   ///< CV_32FC1, grey values ≥ 0; 0 outside the overlap
     cv::Mat overlap;  ///< CV_8UC1, A_o: 255 where all pictures show something
+    cv::Mat reference{};  ///< CV_8UC1, what was compared with: the earlier picture laid over, or the background
 };
 
 /// |I_1 − I_2| of eq. 2.1. `blur_px`: deviation of the Gaussian before it, 0: none.

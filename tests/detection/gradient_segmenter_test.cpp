@@ -29,7 +29,9 @@ TEST(GradientSegmenter, TracesAllItsSteps) {
     segmenter({}).detect(roiOf(drivenScene(0.4)), &trace);
     std::vector<std::string> names;
     for (const auto& layer : trace.layers) names.push_back(layer.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"raw", "gradient", "lbp mask", "binary", "closed", "components"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"raw", "gradient", "lbp mask", "quantile area", "binary", "closed",
+                                               "components"}));
+    EXPECT_EQ(trace.layers.back().boxes.size(), 1U);
 }
 
 TEST(GradientSegmenter, FallsBackToTheClusterWhereNothingIsSeen) {
