@@ -1,0 +1,86 @@
+#pragma once
+
+#include <vector>
+
+#include "annotation/camera_motion.h"
+#include "core/annotation.h"
+
+namespace eyrie {
+
+/// How the box of an object in a frame came about.
+enum class BoxSource {
+    none,      ///< the object does not exist in the frame
+    keyframe,  ///< a keyframe says so
+    ground,    ///< interpolated (or held) on the ground, the camera's motion taken into account
+    image      ///< interpolated (or held) in the image, because the frames are not connected by registration
+};
+/// "none", "keyframe", "ground", "image"
+const char* nameOf(BoxSource source);
+
+/// An object in one frame.
+struct LabelledBox {
+    BoxSource source = BoxSource::none;
+    OrientedBox box;
+    Occlusion occlusion = Occlusion::none;
+    bool outside = false;
+    bool ignore = false;
+    bool heading_from_path = false;  ///< the heading is the direction of motion
+
+    bool exists() const { return source != BoxSource::none; }
+    bool visible() const { return exists() && !outside; }
+};
+
+/// How the path between keyframes is drawn.
+enum class PathShape {
+    straight,  ///< constant speed from keyframe to keyframe
+    smooth     ///< cubic through the keyframes: exact for constant speed and constant acceleration, never overshoots a
+               ///< stop
+};
+
+/// The box of an object in a frame.
+///
+/// The path runs in ground coordinates, that is, in the image of the keyframe before, into which the neighbouring
+/// keyframes are taken through the camera's motion. Sizes grow and shrink with the map's local scale. Where the
+/// keyframes stand at least half a box length apart the heading is the direction of the path, unless a keyframe sets
+/// it: then the turn against the path is interpolated by the shorter arc; elsewhere headings are, by the shorter arc.
+/// After the last keyframe the box stands still on the ground until `last_frame`; before the first there is none.
+/// Flags come from the keyframe before. Takes O(log n) for n frames and keyframes.
+LabelledBox boxAt(const LabelledObject& object, FrameIndex frame, const CameraMotion& camera,
+                  PathShape shape = PathShape::smooth);
+
+/// An object's box with its id.
+struct LabelledBoxOf {
+    ObjectId id = 0;
+    LabelledBox box;
+};
+
+/// All objects that exist in a frame (those outside the image included), ascending ids.
+std::vector<LabelledBoxOf> boxesAt(const AnnotationSet& set, FrameIndex frame, const CameraMotion& camera);
+
+/// First frame of an object (that of its first keyframe).
+FrameIndex firstFrameOf(const LabelledObject& object);
+/// The last keyframe at or before a frame; nothing before the first.
+const Keyframe* keyframeBefore(const LabelledObject& object, FrameIndex frame);
+/// The keyframe of exactly this frame.
+const Keyframe* keyframeAt(const LabelledObject& object, FrameIndex frame);
+/// Next or previous keyframe after or before a frame.
+const Keyframe* nextKeyframe(const LabelledObject& object, FrameIndex frame);
+const Keyframe* previousKeyframe(const LabelledObject& object, FrameIndex frame);
+
+/// The object with a keyframe set (added, or replacing the one of that frame). Before the first keyframe the object
+/// begins earlier, after its end it lasts longer.
+LabelledObject withKeyframe(LabelledObject object, const Keyframe& keyframe);
+/// The object with the box of a frame changed and everything else of that frame kept: a keyframe that is made by it
+/// takes over the flags that hold there.
+LabelledObject withBox(LabelledObject object, FrameIndex frame, const OrientedBox& box, bool heading_set);
+/// The object without its keyframe of that frame. Its last keyframe is never removed (the object is to be deleted
+/// then); `last_frame` stays.
+LabelledObject withoutKeyframe(LabelledObject object, FrameIndex frame);
+
+/// The same point on the ground, or the same pixel where the frames are not connected.
+cv::Point2d carriedPoint(cv::Point2d point, FrameIndex from, FrameIndex to, const CameraMotion& camera);
+/// A box carried on the ground to another frame: centre, local scale, local turn; nothing where not connected.
+std::optional<OrientedBox> carriedBox(const OrientedBox& box, FrameIndex from, FrameIndex to,
+                                      const CameraMotion& camera);
+
+}  // namespace eyrie
