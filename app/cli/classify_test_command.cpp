@@ -43,7 +43,8 @@ SetsBySource readSets(const Arguments& arguments, const std::stop_token& stop) {
     SetsBySource sets;
     for (Sample& sample : readSampleFolders(arguments.samples)) sets[sample.source].push_back(std::move(sample));
     if (arguments.rendered > 0) {
-        const auto images = renderLabelledImages(arguments.rendered, static_cast<std::uint64_t>(arguments.seed), stop);
+        const auto images = renderLabelledImages(arguments.rendered, static_cast<std::uint64_t>(arguments.seed),
+                                                 !arguments.quiet, stop);
         for (std::size_t i = 0; i < images.size(); ++i) {
             for (Sample& sample : samplesFromImage(images[i], kOthersPerRenderedFrame, {}, i)) {
                 sets["rendered"].push_back(std::move(sample));
@@ -88,6 +89,7 @@ TrainingOptions plainOptions(const Arguments& arguments) {
     options.hard_negative_rounds = 0;
     options.mirrored = false;
     options.varied_copies = 0;
+    options.misfit_copies = 0;
     for (const std::string& setting : arguments.settings) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) {

@@ -64,14 +64,17 @@ LabelledImage labelledFrame(const SceneRenderer& renderer, FrameIndex frame, con
 
 class StepProgress {
  public:
-    StepProgress(std::string unit, int total) : progress_(std::move(unit)), total_(total) {}
+    StepProgress(std::string unit, int total, bool shown) : total_(total) {
+        if (shown) progress_.emplace(std::move(unit));
+    }
     void show(int done) {
+        if (!progress_) return;
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() + 1e-6;
-        progress_.show(done, total_, done / seconds, (total_ - done) * seconds / std::max(done, 1));
+        progress_->show(done, total_, done / seconds, (total_ - done) * seconds / std::max(done, 1));
     }
 
  private:
-    ConsoleProgress progress_;
+    std::optional<ConsoleProgress> progress_;
     int total_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
@@ -94,9 +97,10 @@ SampleSet readSampleFolders(const std::vector<std::string>& folders) {
     return samples;
 }
 
-std::vector<LabelledImage> renderLabelledImages(int frames, std::uint64_t seed, std::stop_token stop) {
+std::vector<LabelledImage> renderLabelledImages(int frames, std::uint64_t seed, bool show_progress,
+                                                std::stop_token stop) {
     std::vector<LabelledImage> images;
-    StepProgress progress("frames rendered", frames);
+    StepProgress progress("frames rendered", frames, show_progress);
     for (int scene = 0; static_cast<int>(images.size()) < frames && !stop.stop_requested(); ++scene) {
         const std::string& kind = kKinds[static_cast<std::size_t>(scene) % kKinds.size()];
         const auto scene_seed = static_cast<std::uint32_t>(0x7e570000U + 131 * seed + static_cast<unsigned>(scene));
@@ -112,13 +116,13 @@ std::vector<LabelledImage> renderLabelledImages(int frames, std::uint64_t seed, 
 }
 
 std::vector<LabelledImage> readLabelledFrames(const std::string& input, const std::string& ground_truth, int step,
-                                              std::stop_token stop) {
+                                              bool show_progress, std::stop_token stop) {
     if (step < 1) throw Error(ErrorKind::parameter, "--every " + std::to_string(step) + ": expected 1 or more");
     const BoxesByFrame boxes = readBoxCsv(ground_truth);
     const auto source = openInput(input, 0, stop);
     const std::string name = std::filesystem::path(input).filename().string();
     std::vector<LabelledImage> images;
-    StepProgress progress("frames read", source->info().frame_count);
+    StepProgress progress("frames read", source->info().frame_count, show_progress);
     for (FrameIndex frame = 0; frame < source->info().frame_count && !stop.stop_requested(); frame += step) {
         const auto labelled = boxes.find(frame);
         if (labelled == boxes.end()) continue;  // nobody says that there is nothing

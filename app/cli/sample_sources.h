@@ -14,12 +14,13 @@ SampleSet readSampleFolders(const std::vector<std::string>& folders);
 
 /// Paints `frames` frames of the built-in kinds of scenes, but of other scenes than those that one evaluates on:
 /// `seed` and the frame choose them. All vehicles that are clearly seen are labelled; parked ones, persons and
-/// two-wheelers count neither way. Shows progress; ends early when stopped.
-std::vector<LabelledImage> renderLabelledImages(int frames, std::uint64_t seed, std::stop_token stop);
+/// two-wheelers count neither way. Ends early when stopped.
+std::vector<LabelledImage> renderLabelledImages(int frames, std::uint64_t seed, bool show_progress,
+                                                std::stop_token stop);
 
 /// Frames of a video or image folder with its table of boxes, every `step`-th frame. Boxes to be ignored and those
 /// that are no vehicles count neither way. Throws Error(input).
 std::vector<LabelledImage> readLabelledFrames(const std::string& input, const std::string& ground_truth, int step,
-                                              std::stop_token stop);
+                                              bool show_progress, std::stop_token stop);
 
 }  // namespace eyrie::cli

@@ -103,11 +103,13 @@ std::vector<LabelledImage> labelledImages(const Arguments& arguments, const Trai
                                           const std::stop_token& stop) {
     std::vector<LabelledImage> images;
     for (std::size_t i = 0; i < arguments.inputs.size(); ++i) {
-        auto read = readLabelledFrames(arguments.inputs[i], arguments.ground_truths[i], arguments.every, stop);
+        auto read = readLabelledFrames(arguments.inputs[i], arguments.ground_truths[i], arguments.every,
+                                       !arguments.quiet, stop);
         std::move(read.begin(), read.end(), std::back_inserter(images));
     }
     if (arguments.rendered > 0) {
-        auto rendered = renderLabelledImages(arguments.rendered, static_cast<std::uint64_t>(options.seed), stop);
+        auto rendered =
+            renderLabelledImages(arguments.rendered, static_cast<std::uint64_t>(options.seed), !arguments.quiet, stop);
         std::move(rendered.begin(), rendered.end(), std::back_inserter(images));
     }
     return images;

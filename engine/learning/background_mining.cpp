@@ -12,8 +12,8 @@
 namespace eyrie {
 namespace {
 
-constexpr int kHeadings = 3;             // per image
-constexpr double kVehicleOverlap = 0.3;  // from which a window counts as one of a vehicle
+constexpr int kHeadings = 3;              // per image
+constexpr double kVehicleOverlap = 0.45;  // from which a window counts as one of a vehicle
 constexpr double kUnclearShare = 0.2;
 constexpr double kMargin = 6;  // of the soft cascade
 constexpr int kApart = 3;      // px between windows taken from one scan

@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kMostSteps = 100;
 constexpr double kSettled = 1e-5;
-constexpr double kLeastVariance = 1e-6;  // of the largest one
 
 /// The nearest orthogonal matrix: (W Wᵀ)^(−1/2) W.
 Eigen::MatrixXd orthogonalised(const Eigen::MatrixXd& w) {
@@ -23,15 +22,15 @@ Eigen::MatrixXd orthogonalised(const Eigen::MatrixXd& w) {
 
 }  // namespace
 
-Unmixing fastIca(const Eigen::MatrixXd& samples, std::uint64_t seed) {
+Unmixing fastIca(const Eigen::MatrixXd& samples, std::uint64_t seed, double least_variance) {
     const Eigen::Index dimension = samples.cols();
     const auto count = static_cast<double>(samples.rows());
     Unmixing result;
     result.mean = samples.colwise().mean().transpose();
     const Eigen::MatrixXd centred = samples.rowwise() - result.mean.transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(centred.transpose() * centred / count);
-    const double largest = std::max(solver.eigenvalues().maxCoeff(), 1e-12);
-    const Eigen::VectorXd variances = solver.eigenvalues().cwiseMax(kLeastVariance * largest);
+    const double mean_variance = std::max(solver.eigenvalues().mean(), 1e-12);
+    const Eigen::VectorXd variances = solver.eigenvalues().cwiseMax(least_variance * mean_variance);
     const Eigen::MatrixXd whitening =
         variances.cwiseSqrt().cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
     const Eigen::MatrixXd white = centred * whitening.transpose();

@@ -21,8 +21,8 @@ class GentleAdaBoost : public Classifier {
  public:
     static constexpr int kLeafUnit = 512;
 
-    /// `least_sums[t]` is the lowest sum of the leaves of trees 0 … t that an accepted training vehicle had: the trace
-    /// for rejecting windows early (soft cascade).
+    /// `least_sums[t]` is the lowest sum of the leaves of trees 0 … t that an accepted training vehicle had (without
+    /// the 1 % least sure ones): the trace for rejecting windows early (soft cascade).
     GentleAdaBoost(int dimension, std::vector<BoostedTree> trees, std::vector<float> least_sums);
 
     ClassifierKind kind() const override { return ClassifierKind::adaboost; }

@@ -15,6 +15,10 @@ namespace {
 /// get new weights.
 constexpr double kTrimmedShare = 0.01;
 
+/// Share of the accepted vehicles, those with the lowest sums, that have no say in what is rejected early: a few odd
+/// ones would keep every window alive.
+constexpr double kUnusualShare = 0.01;
+
 struct Weighted {
     float weight;
     float weighted_label;
@@ -196,6 +200,31 @@ class Boosting {
     std::vector<Weighted> weighted_;
 };
 
+/// Lowest sum after each tree among the vehicles that the whole sum accepts (≥ 0), but for those with the very lowest
+/// final sums; all of them where none is accepted.
+std::vector<float> leastSums(const std::vector<std::vector<int>>& vehicle_sums) {
+    const std::vector<int>& final_sums = vehicle_sums.back();
+    std::vector<int> accepted;
+    for (const int sum : final_sums) {
+        if (sum >= 0) accepted.push_back(sum);
+    }
+    int limit = std::numeric_limits<int>::min();
+    if (!accepted.empty()) {
+        const auto unusual = static_cast<std::ptrdiff_t>(kUnusualShare * static_cast<double>(accepted.size()));
+        std::nth_element(accepted.begin(), accepted.begin() + unusual, accepted.end());
+        limit = accepted[static_cast<std::size_t>(unusual)];
+    }
+    std::vector<float> least;
+    for (const auto& sums : vehicle_sums) {
+        int lowest = std::numeric_limits<int>::max();
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            if (final_sums[i] >= limit) lowest = std::min(lowest, sums[i]);
+        }
+        least.push_back(static_cast<float>(lowest) / GentleAdaBoost::kLeafUnit);
+    }
+    return least;
+}
+
 }  // namespace
 
 std::unique_ptr<GentleAdaBoost> trainGentleAdaBoost(const TrainingSet& set, int trees, double feature_share,
@@ -212,18 +241,7 @@ std::unique_ptr<GentleAdaBoost> trainGentleAdaBoost(const TrainingSet& set, int 
         }
         watch.show("boosting", (t + 1.0) / trees);
     }
-    // Vehicles that the whole sum does not accept have no say in what is rejected early.
-    const std::vector<int> final_sums = vehicle_sums.back();
-    const bool any_accepted = std::any_of(final_sums.begin(), final_sums.end(), [](int sum) { return sum >= 0; });
-    std::vector<float> least;
-    for (const auto& sums : vehicle_sums) {
-        int lowest = std::numeric_limits<int>::max();
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            if (final_sums[i] >= 0 || !any_accepted) lowest = std::min(lowest, sums[i]);
-        }
-        least.push_back(static_cast<float>(lowest) / GentleAdaBoost::kLeafUnit);
-    }
-    return std::make_unique<GentleAdaBoost>(set.dimension(), std::move(grown), std::move(least));
+    return std::make_unique<GentleAdaBoost>(set.dimension(), std::move(grown), leastSums(vehicle_sums));
 }
 
 }  // namespace eyrie

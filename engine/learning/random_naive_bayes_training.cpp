@@ -17,6 +17,8 @@ namespace {
 
 /// FastICA sees at most so many samples of a bootstrap: its time grows with them, its result hardly changes.
 constexpr int kIcaSamples = 400;
+/// Directions in which a class hardly varies (bins that are nearly always empty) would drown all others.
+constexpr double kLeastVariance = 0.05;
 constexpr int kMostAttempts = 20;  // per weak classifier, until the training is given up
 
 /// Histogram of `values` over [low, high], smoothed by a binomial kernel and by half a count in every bin.
@@ -71,11 +73,12 @@ class WeakTrainer {
         }
         const std::array<Eigen::MatrixXd, 2> values{rows(bag[0], weak.features), rows(bag[1], weak.features)};
         if (kind_ == ClassifierKind::cc_ica_random_naive_bayes) {
-            for (std::size_t c = 0; c < 2; ++c) weak.unmixing[c] = fastIca(thinned(values[c]), random.next());
+            for (std::size_t c = 0; c < 2; ++c)
+                weak.unmixing[c] = fastIca(thinned(values[c]), random.next(), kLeastVariance);
         } else if (kind_ == ClassifierKind::ica_random_naive_bayes) {
             Eigen::MatrixXd all(values[0].rows() + values[1].rows(), values[0].cols());
             all << values[0], values[1];
-            weak.unmixing[0] = weak.unmixing[1] = fastIca(thinned(all), random.next());
+            weak.unmixing[0] = weak.unmixing[1] = fastIca(thinned(all), random.next(), kLeastVariance);
         }
         fitLikelihoods(weak, values);
         return std::pair(weak, outOfBagError(weak, in_bag));

@@ -56,7 +56,7 @@ OrientedBox medianVehicle(const std::vector<OrientedBox>& vehicles);
 
 /// Samples from a labelled image: every vehicle whose centre lies in the image, and `others` windows of the vehicles'
 /// median size (or `typical`, where there is none) at random places and headings that touch neither vehicles nor
-/// unclear areas; a quarter of them beside or before a vehicle, overlapping its box by less than 0.3, to teach where a
+/// unclear areas; a quarter of them beside or before a vehicle, overlapping its box by less than 0.45, to teach where a
 /// vehicle ends.
 SampleSet samplesFromImage(const LabelledImage& image, int others, const OrientedBox& typical, std::uint64_t seed);
 

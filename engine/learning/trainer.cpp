@@ -4,10 +4,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
 #include "learning/seeded_random.h"
+#include "learning/window.h"
 
 namespace eyrie {
 namespace {
@@ -20,33 +21,72 @@ cv::Mat withContrast(const cv::Mat& window, double factor) {
     return result;
 }
 
+/// A window in which the vehicle no longer fits: moved by 7 … 13 px along or 4 … 8 px across or by less in both, or
+/// stretched along by 1.4 … 1.6. What comes in from outside repeats the window's border.
+cv::Mat misfit(const cv::Mat& window, SeededRandom& random) {
+    const auto side = [&] { return random.below(2) == 0 ? -1 : 1; };
+    int across = 0;
+    int along = 0;
+    switch (random.below(5)) {
+        case 0: {
+            const int rows = 20 + random.below(4);
+            cv::Mat stretched;
+            cv::resize(window.rowRange((kWindowHeight - rows) / 2, (kWindowHeight + rows) / 2), stretched,
+                       window.size(), 0, 0, cv::INTER_LINEAR);
+            return stretched;
+        }
+        case 1:
+            across = side() * (4 + random.below(5));
+            along = random.below(7) - 3;
+            break;
+        case 2:
+            across = side() * (3 + random.below(4));
+            along = side() * (5 + random.below(7));
+            break;
+        default:
+            across = random.below(3) - 1;
+            along = side() * (7 + random.below(7));
+            break;
+    }
+    cv::Mat padded;
+    const int dx = std::abs(across);
+    const int dy = std::abs(along);
+    cv::copyMakeBorder(window, padded, dy, dy, dx, dx, cv::BORDER_REPLICATE);
+    return padded(cv::Rect(cv::Point(dx + across, dy + along), window.size())).clone();
+}
+
 class Trainer {
  public:
     Trainer(const SampleSet& samples, const TrainingOptions& options, const TrainingWatch& watch)
         : options_(options), watch_(watch), random_(static_cast<std::uint64_t>(options.seed)) {
         descriptor_ = makeDescriptor(options.descriptor, static_cast<std::uint64_t>(options.seed));
+        std::vector<cv::Mat> misfits;
         for (const Sample& sample : samples) {
             if (sample.duplicate && !options.duplicates) continue;
             if (sample.vehicle) {
                 ++vehicles_;
                 addVehicle(sample.window);
+                for (int copy = 0; copy < options.misfit_copies; ++copy) {
+                    misfits.push_back(misfit(sample.window, random_));
+                }
             } else {
                 pool_.push_back(sample.window);
             }
         }
+        if (vehicles_ < 2 || pool_.size() < 2) {
+            throw Error(ErrorKind::input, "training: " + std::to_string(vehicles_) + " vehicles and " +
+                                              std::to_string(pool_.size()) +
+                                              " other samples are too few; give more samples");
+        }
         random_.shuffle(pool_);
         positives_ = static_cast<int>(windows_.size());
+        windows_.insert(windows_.end(), misfits.begin(), misfits.end());
         takeFromPool(static_cast<std::size_t>(std::lround(options.others_per_vehicle * positives_)));
     }
 
     std::optional<VehicleModel> train(TrainingRecord record, const HardNegativeSource& more) {
         const int rounds = options_.hard_negative_rounds + 1;
         for (int round = 1;; ++round) {
-            if (windows_.size() - static_cast<std::size_t>(positives_) < 2 || positives_ < 2) {
-                throw Error(ErrorKind::input, "training: " + std::to_string(vehicles_) + " vehicles and " +
-                                                  std::to_string(windows_.size() - std::size_t(positives_)) +
-                                                  " other samples are too few; give more samples");
-            }
             const std::string of = ", round " + std::to_string(round) + " of " + std::to_string(rounds);
             TrainingWatch watch = watch_;
             watch.progress = [&](const TrainingProgress& p) { watch_.show(p.phase + of, p.share); };
@@ -142,6 +182,11 @@ void TrainingOptions::describe(ParameterVisitor& visitor) {
         {"", "Whether vehicles are shown mirrored, too: sides exchanged, front and rear exchanged, both.", ""});
     visitor.integer("training.varied_copies", varied_copies, 0, 20,
                     {"", "Copies of each vehicle with another contrast.", ""});
+    visitor.integer("training.misfit_copies", misfit_copies, 0, 20,
+                    {"",
+                     "Samples of background made of each vehicle by pushing it aside in its window, which teaches "
+                     "where a vehicle ends.",
+                     ""});
     visitor.real("training.contrast_change", contrast_change, 0, 0.95,
                  {"", "How much the copies' contrast differs at most: 0.4 means 60 % to 140 %.", ""});
     classifier_options.describe(visitor);

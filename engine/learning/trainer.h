@@ -22,6 +22,7 @@ struct TrainingOptions {
     bool mirrored = true;                ///< vehicles also with sides, and front and rear, exchanged
     double contrast_change = 0.4;        ///< contrast of copies is multiplied by 1 − c … 1 + c
     int varied_copies = 1;               ///< copies of each vehicle with another contrast
+    int misfit_copies = 1;               ///< others made of each vehicle by moving it aside or stretching it
 
     /// Group "training".
     void describe(ParameterVisitor& visitor);

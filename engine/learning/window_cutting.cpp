@@ -11,10 +11,10 @@
 namespace eyrie {
 namespace {
 
-constexpr int kFinest = 16;              // most samples per window pixel and direction
-constexpr int kAttempts = 40;            // per window wanted, where the image is full of vehicles
-constexpr double kFree = 0.05;           // share of a window's middle that may be covered in the background
-constexpr double kNearestOverlap = 0.3;  // of windows beside a vehicle
+constexpr int kFinest = 16;               // most samples per window pixel and direction
+constexpr int kAttempts = 40;             // per window wanted, where the image is full of vehicles
+constexpr double kFree = 0.05;            // share of a window's middle that may be covered in the background
+constexpr double kNearestOverlap = 0.45;  // of windows beside a vehicle
 constexpr int kNearEvery = 4;
 
 bool overlapsMore(const OrientedBox& box, const std::vector<OrientedBox>& others, double most) {
@@ -31,7 +31,7 @@ bool covered(const OrientedBox& box, const std::vector<OrientedBox>& by) {
 OrientedBox pushedAside(OrientedBox box, SeededRandom& random) {
     const bool along = random.below(2) == 0;
     const double side = random.below(2) == 0 ? 1 : -1;
-    const double share = random.between(0.55, 1.0) * side;
+    const double share = random.between(0.4, 0.9) * side;
     box.centre = box.toImage(along ? cv::Point2d(share * box.length, random.between(-0.2, 0.2) * box.width)
                                    : cv::Point2d(random.between(-0.2, 0.2) * box.length, share * box.width));
     return box;

@@ -30,7 +30,7 @@ class WindowScanner {
     ///
     /// Soft cascade, only with channel features and AdaBoost: a window is given up, with −∞ as its value, as soon as
     /// the sum over the first trees lies more than `rejection_margin` below the lowest such sum of the accepted
-    /// training vehicles. Smaller is faster and may lose unusual vehicles; infinity rejects nothing.
+    /// training vehicles. Smaller, even negative, is faster and may lose unusual vehicles; infinity rejects nothing.
     void scan(const cv::Mat& roi, double rejection_margin, cv::Mat& decision,
               ScanStatistics* statistics = nullptr) const;
 

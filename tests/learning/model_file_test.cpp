@@ -23,6 +23,7 @@ VehicleModel smallModel(DescriptorKind descriptor = DescriptorKind::channel_feat
     options.hard_negative_rounds = 0;
     options.mirrored = false;
     options.varied_copies = 0;
+    options.misfit_copies = 0;
     options.classifier_options.trees = 12;
     options.classifier_options.weak_classifiers = 5;
     options.classifier_options.weak_features = 4;

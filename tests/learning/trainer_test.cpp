@@ -16,6 +16,7 @@ TrainingOptions smallOptions() {
     TrainingOptions options;
     options.classifier_options.trees = 40;
     options.hard_negative_rounds = 1;
+    options.misfit_copies = 0;
     return options;
 }
 
@@ -46,10 +47,10 @@ TEST(Trainer, countsWhatItUsedAndIsTheSameForTheSameSeed) {
     SampleSet samples = test::drawnSamples(30, 400, 1);
     for (std::size_t i = 0; i < 10; ++i) samples[i].duplicate = true;
     TrainingOptions options = smallOptions();
-    options.duplicates = false;
+    options.misfit_copies = 3;
     const auto model = trainModel(samples, options, {});
     EXPECT_EQ(model->record.vehicles, 20 * 5) << "four mirrored and one with another contrast";
-    EXPECT_EQ(model->record.others, 200) << "as many in the first round, as many again in the second";
+    EXPECT_EQ(model->record.others, 20 * 3 + 100 + 100) << "misfits, then as many as vehicles in each of both rounds";
     EXPECT_EQ(model->record.hard_negative_rounds, 1);
     EXPECT_EQ(modelBytes(*model), modelBytes(*trainModel(samples, options, {})));
     options.seed = 2;
@@ -92,6 +93,27 @@ TEST(Trainer, asksForHardNegativesAndLearnsThem) {
     EXPECT_LT(mean_with, mean_without - 5);
 }
 
+TEST(Trainer, misfitsTeachWhereAVehicleEnds) {
+    const SampleSet train = test::drawnSamples(80, 200, 1);
+    TrainingOptions options = smallOptions();
+    const auto without = trainModel(train, options, {});
+    options.misfit_copies = 2;
+    const auto with = trainModel(train, options, {});
+    // How much lower a window lies that shows only a part of the vehicle.
+    double lower_without = 0;
+    double lower_with = 0;
+    for (const int tone : {20, 50, 210, 240}) {
+        cv::Mat ground(60, 40, CV_8UC1, cv::Scalar(120));
+        cv::rectangle(ground, cv::Rect(15, 20, 9, 21), cv::Scalar(tone), cv::FILLED);
+        const cv::Rect middle(12, 15, kWindowWidth, kWindowHeight);
+        for (const cv::Point aside : {cv::Point(0, 10), cv::Point(0, -10), cv::Point(6, 0), cv::Point(-6, 0)}) {
+            lower_without += without->decide(ground(middle)) - without->decide(ground(middle + aside));
+            lower_with += with->decide(ground(middle)) - with->decide(ground(middle + aside));
+        }
+    }
+    EXPECT_GT(lower_with, lower_without + 16 * 2);
+}
+
 TEST(Trainer, reportsProgressAndStops) {
     std::stop_source stop;
     std::vector<std::string> phases;
@@ -114,7 +136,7 @@ TEST(Trainer, saysWhenSamplesAreMissing) {
 TEST(Trainer, optionsAreDeclared) {
     TrainingOptions options;
     const auto parameters = listParameters(describeOf(options));
-    EXPECT_EQ(parameters.size(), 14U);
+    EXPECT_EQ(parameters.size(), 15U);
     for (const Parameter& parameter : parameters) EXPECT_THAT(parameter.name, testing::StartsWith("training."));
     EXPECT_THROW(setParameter(describeOf(options), "training.trees", "0"), Error);
     setParameter(describeOf(options), "training.trees", "77");
