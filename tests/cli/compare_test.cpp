@@ -1,0 +1,111 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "store/project_file.h"
+#include "store/run_store.h"
+#include "support/moving_scene.h"
+#include "support/process.h"
+
+namespace eyrie {
+namespace {
+
+using testing::HasSubstr;
+
+class Compare : public testing::Test {
+ protected:
+    static constexpr int kFrames = 26;
+
+    void SetUp() override {
+        const test::MovingScene scene;
+        std::filesystem::create_directories(folder / "clip");
+        std::ofstream truth(at("truth.csv"));
+        truth << "frame,id,x,y,length,width,heading,class,ignore\n";
+        for (int i = 0; i < kFrames; ++i) {
+            cv::imwrite(at("clip/" + std::to_string(1000 + i) + ".png"), scene.draw(i));
+            for (std::size_t v = 0; v < scene.vehicles.size(); ++v) {
+                const cv::Point2d centre = scene.vehicleAt(scene.vehicles[v], i);
+                truth << i << "," << v + 1 << "," << centre.x << "," << centre.y << "," << scene.vehicles[v].size.width
+                      << "," << scene.vehicles[v].size.height << "," << (v == 0 ? 0 : 90) << ",car,0\n";
+            }
+        }
+    }
+    std::string at(const std::string& name) const { return (folder / name).string(); }
+    test::ProcessResult compare(std::vector<std::string> more) const {
+        std::vector<std::string> arguments{std::string(EYRIE_BIN_DIR) + "/eyrie-cli",
+                                           "compare",
+                                           "--sequence",
+                                           at("clip"),
+                                           "--ground-truth",
+                                           at("truth.csv"),
+                                           "--gsd",
+                                           "0.2",
+                                           "--quiet"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return test::runProcess(arguments);
+    }
+    const test::TemporaryFolder folder;
+};
+
+}  // namespace
+
+TEST_F(Compare, PrintsALineForEveryMethodAndOverlap) {
+    const auto result =
+        compare({"--methods", "clusters", "gradient", "--overlap", "0.1", "0.3", "--csv", at("figures.csv")});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output, HasSubstr("T_ov 0.1"));
+    EXPECT_THAT(result.output, HasSubstr("T_ov 0.3"));
+    EXPECT_THAT(result.output, HasSubstr("clusters + tracking"));
+    EXPECT_THAT(result.output, HasSubstr("against clusters"));
+    std::ifstream csv(at("figures.csv"));
+    std::string line;
+    std::getline(csv, line);
+    EXPECT_THAT(line, HasSubstr("method,stacking,tracking,overlap,tp,fp,fn"));
+    const auto fields = std::count(line.begin(), line.end(), ',');
+    int lines = 0;
+    while (std::getline(csv, line)) {
+        ++lines;
+        EXPECT_EQ(std::count(line.begin(), line.end(), ','), fields) << line;
+    }
+    EXPECT_EQ(lines, 8);
+}
+
+TEST_F(Compare, JsonHasIntervalsAndTheProjectTheRuns) {
+    const auto result =
+        compare({"--methods", "gradient", "mser", "three_frame_difference", "--stacking", "off,on", "--tracking", "on",
+                 "--overlap", "0.1", "--json", "--project", at("p.eyrie"), "--set", "stacking.min_height=5"});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const auto json = nlohmann::json::parse(result.output);
+    ASSERT_EQ(json["results"].size(), 6U);
+    EXPECT_EQ(json["results"][1]["name"], "gradient + stacking + tracking");
+    EXPECT_GT(json["results"][0]["f_score"], 0.5);
+    EXPECT_FALSE(json["results"][0].contains("difference"));
+    const auto difference = json["results"][1]["difference"];
+    EXPECT_EQ(difference["to"], "gradient + tracking");
+    EXPECT_LE(difference["f_score"]["low"], difference["f_score"]["high"]);
+    EXPECT_TRUE(difference.contains("mota"));
+    ProjectFile project = ProjectFile::open(at("p.eyrie"), ProjectFile::Mode::read_only);
+    const auto runs = RunStore(project).runs();
+    ASSERT_EQ(runs.size(), 6U);
+    EXPECT_EQ(runs[1].name, "compare: gradient + stacking");
+    EXPECT_EQ(runs[1].frames_done, kFrames);
+    EXPECT_EQ(runs[1].state, RunState::finished);
+}
+
+TEST_F(Compare, SaysWhatIsWrong) {
+    const auto method = compare({"--methods", "magic"});
+    EXPECT_EQ(method.exit_code, 2);
+    EXPECT_THAT(method.errors, HasSubstr("there is no method \"magic\""));
+    const auto model = compare({"--methods", "sliding_window", "--set", "sliding_window.model=nowhere.eyriemodel"});
+    EXPECT_EQ(model.exit_code, 3);
+    EXPECT_THAT(model.errors, HasSubstr("nowhere.eyriemodel"));
+    const auto range = compare({"--methods", "gradient", "--frames", "0:500"});
+    EXPECT_EQ(range.exit_code, 2);
+    EXPECT_EQ(compare({"--stacking", "maybe"}).exit_code, 2);
+}
+
+}  // namespace eyrie
