@@ -41,6 +41,7 @@ const fs::path source_dir = EYRIE_SOURCE_DIR;
 /// Which engine rooms each engine room may include besides itself (the plan of the house).
 const std::map<std::string, std::set<std::string>> allowed = {
     {"core", {}},
+    {"annotation", {"core"}},
     {"io", {"core"}},
     {"formats", {"core"}},
     {"imaging", {"core"}},

@@ -1,0 +1,109 @@
+#include "annotation/keyframe_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+
+namespace eyrie {
+namespace {
+
+double lengthOf(cv::Point2d v) {
+    return std::hypot(v.x, v.y);
+}
+
+double angleOf(cv::Point2d v) {
+    return std::atan2(v.y, v.x);
+}
+
+cv::Point2d limited(cv::Point2d v, double longest) {
+    const double length = lengthOf(v);
+    return length > longest ? v * (longest / length) : v;
+}
+
+// A tangent up to three times the slope keeps a cubic piece from running back (Fritsch and Carlson 1980).
+constexpr double kLongestTangent = 3;
+
+}  // namespace
+
+cv::Point2d KeyframePath::slope(std::size_t piece) const {
+    return (knots_[piece + 1].point - knots_[piece].point) * (1 / (knots_[piece + 1].time - knots_[piece].time));
+}
+
+bool KeyframePath::moving(std::size_t piece) const {
+    const double length = (knots_[piece].length + knots_[piece + 1].length) / 2;
+    return lengthOf(knots_[piece + 1].point - knots_[piece].point) >= std::max(1.0, length / 2);
+}
+
+cv::Point2d KeyframePath::tangent(std::size_t knot) const {
+    if (count_ == 2) return slope(0);
+    if (knot > 0 && knot + 1 < count_) {
+        const double before = knots_[knot].time - knots_[knot - 1].time;
+        const double after = knots_[knot + 1].time - knots_[knot].time;
+        const cv::Point2d a = slope(knot - 1);
+        const cv::Point2d b = slope(knot);
+        // The parabola through three knots.
+        return limited((a * after + b * before) * (1 / (before + after)),
+                       kLongestTangent * std::min(lengthOf(a), lengthOf(b)));
+    }
+    // At the ends the parabola that meets the tangent of the neighbouring knot.
+    const cv::Point2d own = knot == 0 ? slope(0) : slope(knot - 1);
+    const cv::Point2d neighbour = tangent(knot == 0 ? 1 : knot - 1);
+    const cv::Point2d end = own * 2 - neighbour;
+    if (end.dot(own) <= 0) return {0, 0};
+    return limited(end, kLongestTangent * lengthOf(own));
+}
+
+cv::Point2d KeyframePath::position(std::size_t piece, double share) const {
+    const cv::Point2d a = knots_[piece].point;
+    const cv::Point2d b = knots_[piece + 1].point;
+    if (shape_ == PathShape::straight) return a + (b - a) * share;
+    const double duration = knots_[piece + 1].time - knots_[piece].time;
+    const cv::Point2d leave = tangent(piece) * duration;
+    const cv::Point2d arrive = tangent(piece + 1) * duration;
+    const double s2 = share * share;
+    const double s3 = s2 * share;
+    return a + (b - a) * (3 * s2 - 2 * s3) + leave * (s3 - 2 * s2 + share) + arrive * (s3 - s2);
+}
+
+double KeyframePath::direction(std::size_t piece, double share) const {
+    const cv::Point2d chord = knots_[piece + 1].point - knots_[piece].point;
+    if (shape_ == PathShape::straight) return angleOf(chord);
+    // Where the object stands still for a moment, the direction just inside the piece.
+    const double s = std::clamp(share, 1e-3, 1 - 1e-3);
+    const double duration = knots_[piece + 1].time - knots_[piece].time;
+    const cv::Point2d leave = tangent(piece) * duration;
+    const cv::Point2d arrive = tangent(piece + 1) * duration;
+    const cv::Point2d velocity =
+        chord * (6 * s - 6 * s * s) + leave * (3 * s * s - 4 * s + 1) + arrive * (3 * s * s - 2 * s);
+    return lengthOf(velocity) > 1e-9 ? angleOf(velocity) : angleOf(chord);
+}
+
+std::optional<double> KeyframePath::directionAt(std::size_t knot) const {
+    if (knot + 1 < count_ && moving(knot)) {
+        if (shape_ == PathShape::smooth && knot > 0 && moving(knot - 1)) {
+            const cv::Point2d along = tangent(knot);
+            if (lengthOf(along) > 1e-9) return angleOf(along);
+        }
+        return direction(knot, 0);
+    }
+    if (knot > 0 && moving(knot - 1)) return direction(knot - 1, 1);
+    return std::nullopt;
+}
+
+double KeyframePath::headingAt(std::size_t knot) const {
+    if (knots_[knot].heading_set) return knots_[knot].heading;
+    return directionAt(knot).value_or(knots_[knot].heading);
+}
+
+double KeyframePath::heading(std::size_t piece, double share) const {
+    const double leave = headingAt(piece);
+    const double arrive = headingAt(piece + 1);
+    if (!moving(piece)) return wrapPi(leave + share * turnBetween(leave, arrive));
+    // The turn of the heading against the path, so that a set heading fades into the path's.
+    const double first = turnBetween(direction(piece, 0), leave);
+    const double last = turnBetween(direction(piece, 1), arrive);
+    return wrapPi(direction(piece, share) + first + share * turnBetween(first, last));
+}
+
+}  // namespace eyrie

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "annotation/interpolation.h"
+
+namespace eyrie {
+
+/// A keyframe in the coordinates the path is drawn in.
+struct Knot {
+    double time = 0;  ///< frames
+    cv::Point2d point;
+    double length = 0;
+    double width = 0;
+    double heading = 0;
+    bool heading_set = false;
+};
+
+/// The path through a few neighbouring keyframes. A piece i runs from knot i to knot i + 1; `share` is how far along
+/// it a moment is, 0 … 1.
+class KeyframePath {
+ public:
+    explicit KeyframePath(PathShape shape) : shape_(shape) {}
+    void add(const Knot& knot) { knots_[count_++] = knot; }
+    static constexpr std::size_t kMaxKnots = 6;
+
+    const Knot& knot(std::size_t i) const { return knots_[i]; }
+    std::size_t count() const { return count_; }
+
+    cv::Point2d position(std::size_t piece, double share) const;
+    /// Whether the ends of a piece are far enough apart for its direction to mean anything.
+    bool moving(std::size_t piece) const;
+    double heading(std::size_t piece, double share) const;
+    /// The heading at a knot: as set, or along the path, or as stored where there is no movement.
+    double headingAt(std::size_t knot) const;
+    bool headingFollowsPath(std::size_t knot) const {
+        return !knots_[knot].heading_set && directionAt(knot).has_value();
+    }
+
+ private:
+    cv::Point2d slope(std::size_t piece) const;
+    cv::Point2d tangent(std::size_t knot) const;
+    double direction(std::size_t piece, double share) const;
+    std::optional<double> directionAt(std::size_t knot) const;
+
+    PathShape shape_;
+    std::array<Knot, kMaxKnots> knots_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace eyrie
