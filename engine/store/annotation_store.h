@@ -78,7 +78,7 @@ class AnnotationStore {
     AnnotationSet set_;
     EditJournal journal_;
     std::uint64_t version_ = 0;
-    std::int64_t data_version_ = 0;
+    std::int64_t changes_ = 0;  ///< counter "change" of the project when read or written last
     int undo_count_ = 0;
     int redo_count_ = 0;
     ObjectId next_object_ = 1;

@@ -2,39 +2,12 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <chrono>
-#include <ctime>
-
 #include "store/frame_rows.h"
 #include "store/rows.h"
+#include "store/sequence_rows.h"
 
 namespace eyrie {
 namespace {
-
-std::string nowUtc() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-    return text;
-}
-
-/// The row of the video, new or reused; a reused row takes over what is known of the video now.
-int storeSequence(SQLite::Database& database, const SequenceRecord& sequence) {
-    SQLite::Statement statement(database,
-                                "INSERT INTO sequence (path, width, height, frame_count, frame_rate_hz) "
-                                "VALUES (?, ?, ?, ?, ?) ON CONFLICT (path, width, height) DO UPDATE SET "
-                                "frame_count = excluded.frame_count, frame_rate_hz = excluded.frame_rate_hz "
-                                "RETURNING id");
-    statement.bind(1, sequence.path);
-    statement.bind(2, sequence.size.width);
-    statement.bind(3, sequence.size.height);
-    statement.bind(4, sequence.frame_count);
-    statement.bind(5, sequence.frame_rate_hz);
-    statement.executeStep();
-    return statement.getColumn(0).getInt();
-}
 
 int storeRun(SQLite::Database& database, const RunRecord& run) {
     SQLite::Statement statement(

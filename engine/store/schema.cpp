@@ -133,7 +133,70 @@ CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame);
 )sql");
 }
 
-constexpr std::array<Migration, 1> kMigrations{addRuns};
+// Keyframes, polygons and steps of work as packed bytes: packed_labels.h. Counters: the next number of each kind, never
+// used again ("object", "region"), and how often labels were changed ("change").
+void addLabels(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE label_counter (
+    kind TEXT PRIMARY KEY,
+    value INTEGER NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE labelled_object (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    class TEXT NOT NULL,
+    colour INTEGER NOT NULL,
+    notes TEXT NOT NULL,
+    origin TEXT NOT NULL,
+    last_frame INTEGER NOT NULL,
+    keyframes BLOB NOT NULL
+);
+CREATE INDEX labelled_object_of_sequence ON labelled_object (sequence_id);
+CREATE TABLE ignore_region (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    polygon BLOB NOT NULL,
+    anchor TEXT NOT NULL,
+    reference_frame INTEGER NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    notes TEXT NOT NULL
+);
+CREATE INDEX ignore_region_of_sequence ON ignore_region (sequence_id);
+CREATE TABLE review_mark (
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    object_id INTEGER NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    state TEXT NOT NULL,
+    person TEXT NOT NULL,
+    when_utc TEXT NOT NULL,
+    PRIMARY KEY (sequence_id, position)
+) WITHOUT ROWID;
+CREATE TABLE object_class (
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    vehicle INTEGER NOT NULL,
+    colour INTEGER NOT NULL,
+    length_m REAL,
+    width_m REAL,
+    PRIMARY KEY (sequence_id, position)
+) WITHOUT ROWID;
+CREATE TABLE edit_journal (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    name TEXT NOT NULL,
+    made_utc TEXT NOT NULL,
+    undone INTEGER NOT NULL,
+    data BLOB NOT NULL
+);
+CREATE INDEX edit_journal_of_sequence ON edit_journal (sequence_id, undone, id);
+)sql");
+}
+
+constexpr std::array<Migration, 2> kMigrations{addRuns, addLabels};
 
 }  // namespace
 

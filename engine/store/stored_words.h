@@ -3,6 +3,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/annotation.h"
 #include "core/corner.h"
 #include "core/detection.h"
 #include "core/frame_result.h"
@@ -37,6 +38,16 @@ inline constexpr std::array<Word<TrackStatus>, 3> kTrackStatuses{{{TrackStatus::
 inline constexpr std::array<Word<StateOrigin>, 3> kStateOrigins{{{StateOrigin::detected, "detected"},
                                                                  {StateOrigin::reconstructed, "reconstructed"},
                                                                  {StateOrigin::predicted, "predicted"}}};
+
+inline constexpr std::array<Word<ObjectOrigin>, 4> kObjectOrigins{
+    {{ObjectOrigin::hand, "hand"},
+     {ObjectOrigin::proposal_accepted, "proposal accepted"},
+     {ObjectOrigin::proposal_corrected, "proposal corrected"},
+     {ObjectOrigin::imported, "imported"}}};
+inline constexpr std::array<Word<RegionAnchor>, 2> kRegionAnchors{
+    {{RegionAnchor::image, "image"}, {RegionAnchor::ground, "ground"}}};
+inline constexpr std::array<Word<ReviewState>, 3> kReviewStates{
+    {{ReviewState::unseen, "unseen"}, {ReviewState::checked, "checked"}, {ReviewState::questionable, "questionable"}}};
 
 /// Columns of table `frame`, in the order of `Stage`.
 inline constexpr std::array<const char*, kStageCount> kStageColumns{

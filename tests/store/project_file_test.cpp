@@ -7,6 +7,8 @@
 #include <functional>
 
 #include "core/error.h"
+#include "store/annotation_store.h"
+#include "store/label_samples.h"
 #include "store/result_writer.h"
 #include "store/samples.h"
 #include "store/schema.h"
@@ -208,6 +210,11 @@ TEST_F(ProjectFileTest, AProjectOfSchemaOneOpensToday) {
     EXPECT_EQ(frame->tracks[0].origin, StateOrigin::reconstructed);
     ASSERT_EQ(store.tracks(1).size(), 1U);
     EXPECT_DOUBLE_EQ(store.tracks(1)[0].mean_speed_px, 5);
+    // It can be labelled now.
+    AnnotationStore labels(project, store.runs()[0].sequence.id);
+    EXPECT_TRUE(labels.annotations().objects.empty());
+    labels.apply(test::sampleEdit(labels.newObjectId()));
+    EXPECT_EQ(readAnnotations(project, store.runs()[0].sequence.id).objects.size(), 1U);
 }
 
 }  // namespace

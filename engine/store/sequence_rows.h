@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "store/run_store.h"
+
+namespace SQLite {
+class Database;
+}
+
+namespace eyrie {
+
+/// Now, ISO 8601.
+std::string nowUtc();
+
+/// The row of a video, new or reused; a reused row takes over what is known of the video now. Answers its id. Throws
+/// SQLite::Exception.
+int storeSequence(SQLite::Database& database, const SequenceRecord& sequence);
+
+}  // namespace eyrie
