@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/box_record.h"
+#include "formats/label_file.h"
 
 namespace eyrie {
 
@@ -25,6 +26,9 @@ struct MotOptions {
 /// negative sizes and an id that a line above gave to another counting box of the frame.
 BoxesByFrame readMotTruth(const std::filesystem::path& file, const MotOptions& options = {});
 
+/// The same with the visibility as occlusion: 0 fully, below 1 partly.
+LabelBoxes readMotTruthLabels(const std::filesystem::path& file, const MotOptions& options = {});
+
 /// Reads tracks or detections (id −1 or lower: no id). Column 7 is the score. Throws as readMotTruth().
 BoxesByFrame readMotResult(const std::filesystem::path& file, const MotOptions& options = {});
 
@@ -40,11 +44,15 @@ struct MotWriteOptions {
     MotOptions pixels;
     /// Writes class 1 for every box that counts: TrackEval scores only class 1 when it preprocesses.
     bool every_class_one = false;
+    /// Writes class 8 for every ignored box: TrackEval takes results on these out when it preprocesses.
+    bool ignored_distract = false;
 };
 
-/// Writes ground truth (ignored boxes with flag 0, visibility 1) through a temporary file beside it. Throws
-/// Error(output) when it cannot be written and Error(input) for a box without an id.
+/// Writes ground truth (ignored boxes with flag 0; visibility 1, partly hidden 0.5, fully 0) through a temporary file
+/// beside it. Throws Error(output) when it cannot be written and Error(input) for a box without an id.
 MotLosses writeMotTruth(const std::filesystem::path& file, const BoxesByFrame& boxes,
+                        const MotWriteOptions& options = {});
+MotLosses writeMotTruth(const std::filesystem::path& file, const LabelBoxes& boxes,
                         const MotWriteOptions& options = {});
 /// Writes a result; boxes without id get −1.
 MotLosses writeMotResult(const std::filesystem::path& file, const BoxesByFrame& boxes,

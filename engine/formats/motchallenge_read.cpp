@@ -18,40 +18,34 @@ constexpr std::size_t kWidth = 4;
 constexpr std::size_t kHeight = 5;
 constexpr std::size_t kFlag = 6;
 constexpr std::size_t kClass = 7;
+constexpr std::size_t kVisibility = 8;
 
 /// The columns that ground truth and results share.
-BoxRecord readBox(const TextLine& line, const MotOptions& options) {
+LabelBox readBox(const TextLine& line, const MotOptions& options) {
     if (line.size() < 6 || line.size() > 10) {
         line.fail(0, std::to_string(line.size()) +
                          " columns, expected 6 to 10: frame,id,left,top,width,height,…; is this MOTChallenge text?");
     }
-    BoxRecord record;
-    const int frame = line.integer(kFrame, "frame");
-    if (frame < 1) line.fail(kFrame, "frame " + std::to_string(frame) + "; MOTChallenge counts frames from 1");
-    record.frame = frame - 1;
+    LabelBox record;
+    record.frame = line.frame(kFrame, 1);
     const int id = line.integer(kId, "id");
     if (id >= 0) record.id = id;
-    const double left = line.number(kLeft, "left edge");
-    const double top = line.number(kTop, "top edge");
-    const double width = line.number(kWidth, "width");
-    const double height = line.number(kHeight, "height");
-    if (width < 0) line.fail(kWidth, "the width is negative");
-    if (height < 0) line.fail(kHeight, "the height is negative");
-    const double to_ours = -0.5 - options.first_pixel_edge;
-    record.box = {{left + width / 2 + to_ours, top + height / 2 + to_ours}, width, height, 0};
+    record.box = boxFromEdges({line.pixels(kLeft, "left edge"), line.pixels(kTop, "top edge"),
+                               line.size(kWidth, "width"), line.size(kHeight, "height")},
+                              options.first_pixel_edge);
     return record;
 }
 
 /// Reads all lines; `complete` fills in the columns from the seventh on.
 template <class Complete>
-BoxesByFrame readLines(const std::filesystem::path& file, const MotOptions& options, const Complete& complete) {
-    BoxesByFrame boxes;
+LabelBoxes readLines(const std::filesystem::path& file, const MotOptions& options, const Complete& complete) {
+    LabelBoxes boxes;
     std::map<std::pair<FrameIndex, int>, int> line_of_id;
     int number = 0;
     for (const std::string& text : readTextLines(file)) {
         const TextLine line(file, ++number, text);
         if (line.blank()) continue;
-        BoxRecord record = readBox(line, options);
+        LabelBox record = readBox(line, options);
         complete(line, record);
         if (record.id && !record.ignore) {
             const auto [earlier, is_new] = line_of_id.insert({{record.frame, *record.id}, number});
@@ -84,17 +78,25 @@ std::string trimmed(const std::string& text) {
 
 }  // namespace
 
-BoxesByFrame readMotTruth(const std::filesystem::path& file, const MotOptions& options) {
-    return readLines(file, options, [](const TextLine& line, BoxRecord& record) {
+LabelBoxes readMotTruthLabels(const std::filesystem::path& file, const MotOptions& options) {
+    return readLines(file, options, [](const TextLine& line, LabelBox& record) {
         if (line.size() > kFlag) record.ignore = line.number(kFlag, "flag (0: ignored)") == 0;
         if (line.size() > kClass) record.object_class = classFromMot(line.integer(kClass, "class"));
+        if (line.size() <= kVisibility) return;
+        const double visibility = line.number(kVisibility, "visibility");  // −1 where nobody said
+        if (visibility == 0) record.occlusion = Occlusion::fully;
+        if (visibility > 0 && visibility < 1) record.occlusion = Occlusion::partly;
     });
 }
 
+BoxesByFrame readMotTruth(const std::filesystem::path& file, const MotOptions& options) {
+    return plainBoxes(readMotTruthLabels(file, options));
+}
+
 BoxesByFrame readMotResult(const std::filesystem::path& file, const MotOptions& options) {
-    return readLines(file, options, [](const TextLine& line, BoxRecord& record) {
+    return plainBoxes(readLines(file, options, [](const TextLine& line, LabelBox& record) {
         if (line.size() > kFlag) record.score = line.number(kFlag, "confidence");
-    });
+    }));
 }
 
 MotSequence readMotSequence(const std::filesystem::path& file) {

@@ -28,13 +28,13 @@ std::string boxColumns(const BoxRecord& record, const MotOptions& options, MotLo
 }
 
 /// Writes the lines that `columns` makes of the boxes; the file appears whole or not at all.
-template <class Columns>
-void writeLines(const std::filesystem::path& file, const BoxesByFrame& boxes, const Columns& columns) {
+template <class Boxes, class Columns>
+void writeLines(const std::filesystem::path& file, const Boxes& boxes, const Columns& columns) {
     std::filesystem::path unfinished = file;
     unfinished += ".part";
     std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
     for (const auto& [frame, records] : boxes) {
-        for (const BoxRecord& record : records) stream << frame + 1 << ',' << columns(record) << '\n';
+        for (const auto& record : records) stream << frame + 1 << ',' << columns(record) << '\n';
     }
     stream.close();
     std::error_code error;
@@ -48,6 +48,10 @@ void writeLines(const std::filesystem::path& file, const BoxesByFrame& boxes, co
 }  // namespace
 
 MotLosses writeMotTruth(const std::filesystem::path& file, const BoxesByFrame& boxes, const MotWriteOptions& options) {
+    return writeMotTruth(file, labelBoxes(boxes), options);
+}
+
+MotLosses writeMotTruth(const std::filesystem::path& file, const LabelBoxes& boxes, const MotWriteOptions& options) {
     for (const auto& [frame, records] : boxes) {
         for (const BoxRecord& record : records) {
             if (record.id) continue;
@@ -56,12 +60,15 @@ MotLosses writeMotTruth(const std::filesystem::path& file, const BoxesByFrame& b
         }
     }
     MotLosses losses;
-    writeLines(file, boxes, [&](const BoxRecord& record) {
+    writeLines(file, boxes, [&](const LabelBox& record) {
         MotClass known = motFromClass(record.object_class);
         if (options.every_class_one && !record.ignore) known = {1, record.object_class == "person"};
+        if (options.ignored_distract && record.ignore) known = {8, record.object_class == "other"};
         if (!known.exact) ++losses.classes;
+        const char* visibility[] = {"1", "0.5", "0"};
         return std::to_string(*record.id) + "," + boxColumns(record, options.pixels, losses) + "," +
-               (record.ignore ? "0" : "1") + "," + std::to_string(known.number) + ",1";
+               (record.ignore ? "0" : "1") + "," + std::to_string(known.number) + "," +
+               visibility[static_cast<int>(record.occlusion)];
     });
     return losses;
 }

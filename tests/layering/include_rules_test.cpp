@@ -43,7 +43,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"core", {}},
     {"annotation", {"core"}},
     {"io", {"core"}},
-    {"formats", {"core"}},
+    {"formats", {"core", "io"}},
     {"imaging", {"core"}},
     {"registration", {"core"}},
     {"motion", {"core"}},

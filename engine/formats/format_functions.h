@@ -1,0 +1,83 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/label_formats.h"
+#include "formats/text_fields.h"
+
+/// How one format is read, written and recognised; inside of this room only. Readers leave classes, frames and lengths
+/// as the file has them (in our coordinates); writers get every box with an id where the format needs one.
+namespace eyrie {
+
+/// The beginning of a file, for recognising it.
+struct FileHead {
+    std::filesystem::path path;
+    bool folder = false;
+    std::string text;                ///< first 64 KiB without a byte order mark
+    std::vector<std::string> lines;  ///< the first whole ones that are not blank, at most 20
+    std::string name() const { return path.filename().string(); }
+};
+
+struct LabelFormat {
+    LabelFormatInfo info;
+    bool needs_id = false;
+    LabelFile (*read)(const std::filesystem::path&, const ImportOptions&) = nullptr;
+    void (*write)(const LabelFile&, const std::filesystem::path&, const ExportOptions&, ExportReport&) = nullptr;
+    bool (*fits)(const FileHead&) = nullptr;
+};
+
+/// All formats; the order is the order of sniffing.
+const std::vector<LabelFormat>& formatTable();
+
+LabelFormat nativeFormat();
+LabelFormat nativeResultFormat();
+LabelFormat motFormat();
+LabelFormat motResultFormat();
+LabelFormat trackEvalFormat();
+LabelFormat cvatFormat();
+LabelFormat cocoFormat();
+LabelFormat kwcocoFormat();
+LabelFormat dotaFormat();
+LabelFormat yoloObbFormat();
+LabelFormat visDroneFormat();
+LabelFormat uavdtFormat();
+LabelFormat kw18Format();
+LabelFormat viratFormat();
+LabelFormat viameFormat();
+LabelFormat vividFormat();
+LabelFormat columnsFormat();
+
+/// A box by the fields left, top, width, height from `first` on.
+OrientedBox boxByEdges(const TextLine& line, std::size_t first, double first_pixel_edge);
+/// A box by the fields left, top, right, bottom from `first` on.
+OrientedBox boxByCorners(const TextLine& line, std::size_t first, double first_pixel_edge);
+
+/// Boxes by id, each in ascending frames; boxes without id are left out.
+std::map<int, std::vector<const LabelBox*>> boxesById(const LabelBoxes& boxes);
+
+/// Calls `take(line)` for every line that is neither blank nor begins with `comment`.
+void forEachLine(const std::filesystem::path& file, char separator, char comment,
+                 const std::function<void(const TextLine&)>& take);
+
+/// The fields of a line as far as they are numbers; for recognising formats.
+std::vector<double> leadingNumbers(const std::string& line, char separator);
+
+/// "000041" and the like; images are named so where nobody says otherwise.
+std::string numberedName(FrameIndex frame);
+
+/// The size of the image, or Error(parameter) saying that the format needs it.
+cv::Size neededSize(const std::optional<cv::Size>& size, const std::filesystem::path& path, const char* format);
+
+/// How many frames an export covers: what is known, at least up to the last box.
+int framesToWrite(const LabelFile& labels);
+
+/// A count with its noun: "1 box", "3 boxes".
+std::string counted(int count, const char* one, const char* many);
+
+/// The beginning of a text in quotes, for messages.
+std::string inQuotes(std::string_view text);
+
+}  // namespace eyrie

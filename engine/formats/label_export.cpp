@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "formats/format_functions.h"
+
+namespace eyrie {
+namespace {
+
+/// Gives ids above all others to boxes that have none, or one that another box of the frame has.
+int numberBoxes(LabelBoxes& boxes) {
+    int next = 1;
+    for (const auto& [frame, records] : boxes) {
+        for (const LabelBox& record : records) next = std::max(next, record.id.value_or(0) + 1);
+    }
+    int numbered = 0;
+    for (auto& [frame, records] : boxes) {
+        std::set<int> taken;
+        for (LabelBox& record : records) {
+            if (record.id && taken.insert(*record.id).second) continue;
+            record.id = next++;
+            ++numbered;
+        }
+    }
+    return numbered;
+}
+
+/// Cuts upright boxes at the image's border.
+int clipBoxes(LabelBoxes& boxes, cv::Size size) {
+    int cut = 0;
+    for (auto& [frame, records] : boxes) {
+        for (LabelBox& record : records) {
+            const BoxEdges e = edgesOf(record.box, 0);
+            const double left = std::clamp(e.left, 0.0, double(size.width));
+            const double top = std::clamp(e.top, 0.0, double(size.height));
+            const double right = std::clamp(e.left + e.width, 0.0, double(size.width));
+            const double bottom = std::clamp(e.top + e.height, 0.0, double(size.height));
+            const double moved = std::abs(left - e.left) + std::abs(top - e.top) + std::abs(right - e.left - e.width) +
+                                 std::abs(bottom - e.top - e.height);
+            if (moved < 1e-6) continue;
+            record.box = boxFromEdges({left, top, right - left, bottom - top}, 0);
+            ++cut;
+        }
+    }
+    return cut;
+}
+
+/// What the format has no place for, before anything format-specific.
+void reportLosses(const LabelFile& labels, const Carries& carries, ExportReport& report) {
+    int turned = 0, headings = 0, ids = 0, classes = 0, occluded = 0, ignored = 0, scores = 0, velocities = 0;
+    for (const auto& [frame, records] : labels.boxes) {
+        for (const LabelBox& record : records) {
+            ++report.boxes;
+            const bool is_turned = isTurned(record.box);
+            turned += is_turned;
+            headings += !is_turned && std::abs(std::sin(record.box.heading / 2)) > 1e-6;
+            ids += record.id.has_value();
+            classes += !record.object_class.empty();
+            occluded += record.occlusion != Occlusion::none;
+            ignored += record.ignore;
+            scores += record.score != 1;
+            velocities += record.velocity != cv::Point2d(0, 0);
+        }
+    }
+    if (!carries.rotation) {
+        report.add(LossKind::rotation, turned, "lost their rotation: the enclosing upright boxes were written");
+        report.add(LossKind::heading, headings, "lost their heading");
+    }
+    if (!carries.id) report.add(LossKind::id, ids, "lost their id");
+    if (!carries.object_class) report.add(LossKind::class_name, classes, "lost their class");
+    if (!carries.occlusion) report.add(LossKind::occlusion, occluded, "are occluded, which was not carried");
+    if (!carries.ignore) report.add(LossKind::ignore, ignored, "are ignored, which was not carried: they count there");
+    if (!carries.score) report.add(LossKind::score, scores, "lost their score");
+    report.add(LossKind::velocity, velocities, "lost their velocity");
+}
+
+}  // namespace
+
+void ExportReport::add(LossKind kind, int count, const std::string& remark_after_number) {
+    if (count == 0) return;
+    losses.push_back({kind, count, counted(count, "box", "boxes") + ' ' + remark_after_number});
+}
+
+int ExportReport::lost(LossKind kind) const {
+    int count = 0;
+    for (const ExportLoss& loss : losses) count += loss.kind == kind ? loss.boxes : 0;
+    return count;
+}
+
+ExportReport writeLabels(const LabelFile& labels, const std::filesystem::path& path, const std::string& format,
+                         const ExportOptions& options) {
+    const auto& table = formatTable();
+    const auto known =
+        std::find_if(table.begin(), table.end(), [&](const LabelFormat& entry) { return entry.info.name == format; });
+    if (known == table.end() || !known->write) {
+        std::string names;
+        for (const LabelFormat& entry : table) {
+            if (entry.write) names += (names.empty() ? "" : ", ") + entry.info.name;
+        }
+        throw Error(ErrorKind::parameter, "format \"" + format + "\" cannot be written; there are " + names);
+    }
+    ExportReport report;
+    report.format = format;
+    LabelFile prepared = labels;
+    if (options.image_size) prepared.image_size = options.image_size;
+    if (options.frame_count) prepared.frame_count = options.frame_count;
+    if (options.frame_rate_hz) prepared.frame_rate_hz = options.frame_rate_hz;
+    std::erase_if(prepared.boxes, [](const auto& entry) { return entry.second.empty(); });
+    const Carries& carries = known->info.carries;
+    reportLosses(prepared, carries, report);
+    if (known->needs_id) {
+        report.add(LossKind::id, numberBoxes(prepared.boxes), "had no id of their own in a frame and got one");
+    }
+    if (options.clip.value_or(false) && !carries.rotation) {
+        const cv::Size size = neededSize(prepared.image_size, path, "cutting boxes at the border");
+        report.add(LossKind::clipped, clipBoxes(prepared.boxes, size), "were cut at the image's border");
+    }
+    known->write(prepared, path, options, report);
+    return report;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/label_file.h"
+
+/// Import and export of labels in every format that peers use; columns and conventions of each are told beside its
+/// functions. Reading ends with labels or an Error(input) that names file and place, whatever the bytes are.
+namespace eyrie {
+
+struct ImportOptions {
+    std::map<std::string, std::string> class_map;  ///< from a class of the file to one of ours
+    int frame_shift = 0;                           ///< added to every frame
+    double scale = 1;                              ///< multiplies all lengths, about the corner of the first pixel
+    std::optional<cv::Size> image_size;            ///< before scaling; for formats relative to the image (YOLO)
+    /// Columns of the user's own table (format "columns"), such as "frame,id,cname,x1,y1,x2,y2".
+    std::string columns;
+    std::optional<int> first_frame_number;   ///< "columns" only: number of a video's first frame, otherwise 0
+    std::optional<double> first_pixel_edge;  ///< "columns" (otherwise 0) and MOTChallenge (otherwise 1)
+    std::string sequence;                    ///< which video of a KWCOCO file with several
+};
+
+struct ExportOptions {
+    std::optional<cv::Size> image_size;  ///< instead of LabelFile's
+    std::optional<int> frame_count;
+    std::optional<double> frame_rate_hz;
+    std::string sequence = "sequence";  ///< name of the video or sequence
+    std::string columns;                ///< as in ImportOptions
+    std::optional<int> first_frame_number;
+    std::optional<double> first_pixel_edge;
+    std::optional<bool> clip;         ///< cut corners at the image's border: otherwise only YOLO-OBB does, which must
+    bool unrotated_bounds = false;    ///< COCO, KWCOCO: `bbox` is the unrotated box, as DIVE reads it
+    std::string benchmark = "EYRIE";  ///< TrackEval tree: <benchmark>-<split>
+    std::string split = "train";
+    std::string tracker;  ///< TrackEval tree: write the boxes as this tracker's result instead of as truth
+};
+
+enum class LossKind { rotation, heading, class_name, occlusion, ignore, score, velocity, id, clipped, rounded, other };
+
+/// Something an export could not carry.
+struct ExportLoss {
+    LossKind kind = LossKind::other;
+    int boxes = 0;
+    std::string remark;  ///< a whole sentence, number included
+};
+
+struct ExportReport {
+    std::string format;
+    int boxes = 0;
+    std::vector<std::filesystem::path> files;  ///< written; of folders with a file per frame the folder
+    std::vector<ExportLoss> losses;
+    std::vector<std::string> notes;  ///< worth knowing, one sentence each
+
+    void add(LossKind kind, int count, const std::string& remark_after_number);
+    int lost(LossKind kind) const;
+};
+
+/// What a format can say of a box.
+struct Carries {
+    bool rotation = false;
+    bool id = false;
+    bool object_class = false;
+    bool occlusion = false;
+    bool ignore = false;
+    bool score = false;
+};
+
+/// A format as lists and menus show it.
+struct LabelFormatInfo {
+    std::string name;   ///< word for the command line
+    std::string title;  ///< for people
+    std::vector<std::string> extensions;
+    bool folder = false;  ///< export makes a folder
+    bool reads = true;
+    bool writes = true;
+    Carries carries;
+};
+
+const std::vector<LabelFormatInfo>& labelFormats();
+
+/// The format that a file or folder seems to have. Throws Error(input) when it is missing or none fits, naming what was
+/// looked at.
+std::string sniffLabelFormat(const std::filesystem::path& path);
+
+/// Reads labels; format "auto" sniffs. Then classes are mapped, frames shifted and lengths scaled. Throws Error(input)
+/// "file:place: …" for anything malformed and Error(parameter) for an unknown format or a missing option.
+LabelFile readLabels(const std::filesystem::path& path, const std::string& format = "auto",
+                     const ImportOptions& options = {});
+
+/// Writes labels and says what the format could not carry. Existing folders of labels are refused, existing files
+/// replaced whole. Throws Error(output), and Error(parameter) for an unknown format or a missing option.
+ExportReport writeLabels(const LabelFile& labels, const std::filesystem::path& path, const std::string& format,
+                         const ExportOptions& options = {});
+
+}  // namespace eyrie

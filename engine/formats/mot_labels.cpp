@@ -1,0 +1,113 @@
+#include "core/error.h"
+#include "formats/format_functions.h"
+#include "formats/mot_tree.h"
+#include "io/box_csv.h"
+
+namespace eyrie {
+namespace {
+
+MotOptions pixelsOf(const std::optional<double>& first_pixel_edge) {
+    MotOptions options;
+    if (first_pixel_edge) options.first_pixel_edge = *first_pixel_edge;
+    return options;
+}
+
+/// The text of a sequence's folder, or the file itself.
+std::filesystem::path textIn(const std::filesystem::path& path) {
+    return std::filesystem::is_directory(path) ? path / "gt" / "gt.txt" : path;
+}
+
+LabelFile withSequence(LabelFile labels, const std::filesystem::path& file) {
+    labels.first_frame_number = 1;
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    for (const auto& place : {folder, folder.parent_path()}) {
+        if (!std::filesystem::is_regular_file(place / "seqinfo.ini")) continue;
+        const MotSequence sequence = readMotSequence(place / "seqinfo.ini");
+        labels.image_size = sequence.image_size;
+        labels.frame_count = sequence.frame_count;
+        labels.frame_rate_hz = sequence.frame_rate_hz;
+        labels.further_files.push_back(place / "seqinfo.ini");
+        break;
+    }
+    return labels;
+}
+
+LabelFile readTruth(const std::filesystem::path& path, const ImportOptions& options) {
+    LabelFile labels;
+    const std::filesystem::path file = textIn(path);
+    labels.boxes = readMotTruthLabels(file, pixelsOf(options.first_pixel_edge));
+    return withSequence(std::move(labels), file);
+}
+
+LabelFile readResult(const std::filesystem::path& path, const ImportOptions& options) {
+    LabelFile labels;
+    labels.boxes = labelBoxes(readMotResult(path, pixelsOf(options.first_pixel_edge)));
+    return withSequence(std::move(labels), path);
+}
+
+void reportClasses(const MotLosses& losses, ExportReport& report) {
+    report.add(LossKind::class_name, losses.classes, "have a class that MOTChallenge has no number for");
+}
+
+void writeTruth(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
+                ExportReport& report) {
+    MotWriteOptions write;
+    write.pixels = pixelsOf(options.first_pixel_edge);
+    reportClasses(writeMotTruth(path, labels.boxes, write), report);
+    report.files.push_back(path);
+    writeOrientedSidecar(labels, path, report);
+}
+
+void writeResult(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
+                 ExportReport& report) {
+    MotWriteOptions write;
+    write.pixels = pixelsOf(options.first_pixel_edge);
+    writeMotResult(path, plainBoxes(labels.boxes), write);
+    report.files.push_back(path);
+}
+
+std::size_t columnsOf(const FileHead& head) {
+    if (head.lines.empty() || head.lines.front().find(',') == std::string::npos) return 0;
+    const std::vector<double> numbers = leadingNumbers(head.lines.front(), ',');
+    const std::size_t fields = TextLine(head.path, 1, head.lines.front()).size();
+    return numbers.size() == fields && numbers[0] >= 1 ? fields : 0;
+}
+
+}  // namespace
+
+void writeOrientedSidecar(const LabelFile& labels, const std::filesystem::path& path, ExportReport& report) {
+    if (report.lost(LossKind::rotation) == 0) return;
+    std::filesystem::path sidecar = path;
+    sidecar.replace_extension(".oriented.csv");
+    writeGroundTruthCsv(sidecar, plainBoxes(labels.boxes));
+    report.files.push_back(sidecar);
+    report.notes.push_back("the exact boxes are in " + sidecar.string());
+}
+
+LabelFormat motFormat() {
+    LabelFormat format;
+    format.info = {"mot", "MOTChallenge ground truth", {"txt"}, false, true, true, {}};
+    format.info.carries = {.id = true, .object_class = true, .occlusion = true, .ignore = true};
+    format.needs_id = true;
+    format.read = readTruth;
+    format.write = writeTruth;
+    format.fits = [](const FileHead& head) {
+        if (head.folder) return std::filesystem::is_regular_file(head.path / "gt" / "gt.txt");
+        return columnsOf(head) == 8 || columnsOf(head) == 9;
+    };
+    return format;
+}
+
+LabelFormat motResultFormat() {
+    LabelFormat format;
+    format.info = {"mot-result", "MOTChallenge result", {"txt"}, false, true, true, {}};
+    format.info.carries = {.id = true, .score = true};
+    format.read = readResult;
+    format.write = writeResult;
+    format.fits = [](const FileHead& head) {
+        return columnsOf(head) == 6 || columnsOf(head) == 7 || columnsOf(head) == 10;
+    };
+    return format;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <map>
+
+#include "core/error.h"
+#include "formats/format_functions.h"
+#include "formats/mot_tree.h"
+#include "io/atomic_file.h"
+#include "io/number_text.h"
+
+/// The tree that TrackEval runs on as it is:
+///   gt/mot_challenge/<benchmark>-<split>/<sequence>/gt/gt.txt     class 1 what counts, class 8 what is ignored
+///   gt/mot_challenge/<benchmark>-<split>/<sequence>/seqinfo.ini
+///   gt/mot_challenge/seqmaps/<benchmark>-<split>.txt               grows by one line per sequence
+///   trackers/mot_challenge/<benchmark>-<split>/<tracker>/data/<sequence>.txt
+namespace eyrie {
+namespace {
+
+namespace fs = std::filesystem;
+
+void makeFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        throw Error(ErrorKind::output, folder.string() + ": cannot be made (" + error.message() + "); choose another");
+    }
+}
+
+/// TrackEval uses ids as indices of arrays.
+bool numberDensely(LabelBoxes& boxes) {
+    std::map<int, int> number;
+    for (const auto& [frame, records] : boxes) {
+        for (const LabelBox& record : records) number[record.id.value_or(0)] = 0;
+    }
+    int next = 1;
+    bool changed = false;
+    for (auto& [id, dense] : number) {
+        dense = next++;
+        changed = changed || dense != id;
+    }
+    for (auto& [frame, records] : boxes) {
+        for (LabelBox& record : records) record.id = number.at(record.id.value_or(0));
+    }
+    return changed;
+}
+
+void listSequence(const fs::path& seqmap, const std::string& sequence, ExportReport& report) {
+    std::vector<std::string> lines{"name"};
+    if (fs::exists(seqmap)) lines = readTextLines(seqmap);
+    if (std::find(lines.begin(), lines.end(), sequence) == lines.end()) lines.push_back(sequence);
+    std::string text;
+    for (const std::string& line : lines) text += line + '\n';
+    writeFileAtomically(seqmap, text);
+    report.files.push_back(seqmap);
+}
+
+std::string seqinfo(const LabelFile& labels, const std::string& sequence) {
+    std::string text = "[Sequence]\nname=" + sequence + "\nimDir=img1\n";
+    text += "frameRate=" + fixedText(labels.frame_rate_hz.value_or(25), 6) + '\n';
+    text += "seqLength=" + std::to_string(std::max(1, framesToWrite(labels))) + '\n';
+    if (labels.image_size) {
+        text += "imWidth=" + std::to_string(labels.image_size->width) + '\n';
+        text += "imHeight=" + std::to_string(labels.image_size->height) + '\n';
+    }
+    return text + "imExt=.png\n";
+}
+
+void writeTree(const LabelFile& labels, const fs::path& root, const ExportOptions& options, ExportReport& report) {
+    const std::string sequence = pathWord(options.sequence);
+    const std::string benchmark = pathWord(options.benchmark) + '-' + pathWord(options.split);
+    LabelFile dense = labels;
+    if (numberDensely(dense.boxes))
+        report.notes.push_back("ids were renumbered from 1 without gaps, as TrackEval needs");
+    if (!options.tracker.empty()) {
+        const fs::path folder = root / "trackers" / "mot_challenge" / benchmark / pathWord(options.tracker) / "data";
+        makeFolder(folder);
+        writeMotResult(folder / (sequence + ".txt"), plainBoxes(dense.boxes));
+        report.files.push_back(folder / (sequence + ".txt"));
+    } else {
+        const fs::path truth = root / "gt" / "mot_challenge";
+        makeFolder(truth / benchmark / sequence / "gt");
+        makeFolder(truth / "seqmaps");
+        MotWriteOptions write;
+        write.every_class_one = true;
+        write.ignored_distract = true;
+        const fs::path file = truth / benchmark / sequence / "gt" / "gt.txt";
+        const MotLosses losses = writeMotTruth(file, dense.boxes, write);
+        report.add(LossKind::class_name, losses.classes, "became class 1, the only one that TrackEval scores");
+        report.files.push_back(file);
+        writeOrientedSidecar(labels, file, report);
+        writeFileAtomically(truth / benchmark / sequence / "seqinfo.ini", seqinfo(labels, sequence));
+        report.files.push_back(truth / benchmark / sequence / "seqinfo.ini");
+        listSequence(truth / "seqmaps" / (benchmark + ".txt"), sequence, report);
+    }
+    report.notes.push_back("run_mot_challenge.py --GT_FOLDER " + (root / "gt/mot_challenge").string() +
+                           " --TRACKERS_FOLDER " + (root / "trackers/mot_challenge").string() + " --BENCHMARK " +
+                           pathWord(options.benchmark) + " --SPLIT_TO_EVAL " + pathWord(options.split));
+}
+
+std::vector<fs::path> sequencesOf(const fs::path& root) {
+    std::vector<fs::path> found;
+    for (const fs::path& top : {root / "gt" / "mot_challenge", root / "data" / "gt" / "mot_challenge"}) {
+        if (!fs::is_directory(top)) continue;
+        for (const auto& benchmark : fs::directory_iterator(top)) {
+            if (!benchmark.is_directory()) continue;
+            for (const auto& sequence : fs::directory_iterator(benchmark)) {
+                if (fs::is_regular_file(sequence.path() / "gt" / "gt.txt")) found.push_back(sequence.path());
+            }
+        }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+LabelFile readTree(const fs::path& root, const ImportOptions& options) {
+    const std::vector<fs::path> sequences = sequencesOf(root);
+    if (sequences.empty()) {
+        throw Error(ErrorKind::input, root.string() + ": holds no gt/mot_challenge/<benchmark>/<sequence>/gt/gt.txt");
+    }
+    if (sequences.size() > 1) {
+        throw Error(ErrorKind::input, root.string() + ": holds " + std::to_string(sequences.size()) +
+                                          " sequences; name the folder of one, such as " + sequences.front().string());
+    }
+    return motFormat().read(sequences.front(), options);
+}
+
+}  // namespace
+
+std::string pathWord(const std::string& name) {
+    std::string word = name;
+    for (char& c : word) {
+        const bool fine = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                          c == '_' || c == '.';
+        if (!fine) c = '_';
+    }
+    const bool only_dots = word.find_first_not_of('.') == std::string::npos;
+    return only_dots ? "_" + word : word;
+}
+
+LabelFormat trackEvalFormat() {
+    LabelFormat format;
+    format.info = {"trackeval", "TrackEval tree (MOTChallenge)", {}, true, true, true, {}};
+    format.info.carries = {.id = true, .object_class = true, .occlusion = true, .ignore = true, .score = true};
+    format.needs_id = true;
+    format.read = readTree;
+    format.write = writeTree;
+    format.fits = [](const FileHead& head) { return head.folder && !sequencesOf(head.path).empty(); };
+    return format;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,161 @@
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "formats/format_functions.h"
+#include "io/atomic_file.h"
+
+/// UAVDT: three texts per sequence, whole pixels from 0, frames from 1.
+///   <name>_gt.txt         frame,id,left,top,width,height,score,-1,-1
+///   <name>_gt_whole.txt   frame,id,left,top,width,height,out of view,occlusion,category
+///   <name>_gt_ignore.txt  frame,id,left,top,width,height,1,-1,-1: areas that count neither way
+/// Category 1 car, 2 truck, 3 bus; occlusion 1 none, 2 large, 3 medium, 4 small. Of the first two, the second says all
+/// that the first does and is read where it is there.
+namespace eyrie {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 4> kCategories{"", "car", "truck", "bus"};
+const char* const kWhole = "_gt_whole.txt";
+const char* const kIgnore = "_gt_ignore.txt";
+const char* const kPlain = "_gt.txt";
+
+/// The name without its ending, when it has one of the three.
+std::optional<std::string> stemOf(const fs::path& path) {
+    const std::string name = path.filename().string();
+    for (const char* ending : {kWhole, kIgnore, kPlain}) {
+        if (name.ends_with(ending)) return name.substr(0, name.size() - std::string(ending).size());
+    }
+    return std::nullopt;
+}
+
+LabelBox boxOf(const TextLine& line) {
+    if (line.size() != 9) line.fail(0, std::to_string(line.size()) + " columns, expected the 9 of UAVDT");
+    LabelBox record;
+    record.frame = line.frame(0, 1);
+    record.id = line.identity(1);
+    record.box = boxByEdges(line, 2, 0);
+    return record;
+}
+
+void readPlain(const fs::path& path, LabelFile& labels) {
+    forEachLine(path, ',', '\0', [&](const TextLine& line) {
+        LabelBox record = boxOf(line);
+        record.ignore = line.number(6, "score (1 or 0)") == 0;
+        labels.boxes[record.frame].push_back(std::move(record));
+    });
+}
+
+void readWhole(const fs::path& path, LabelFile& labels) {
+    forEachLine(path, ',', '\0', [&](const TextLine& line) {
+        LabelBox record = boxOf(line);
+        const int occlusion = line.integer(7, "occlusion");
+        if (occlusion < 1 || occlusion > 4)
+            line.fail(7, "occlusion " + std::to_string(occlusion) + ", expected 1 to 4");
+        const int category = line.integer(8, "category");
+        if (category < 1 || category > 3) line.fail(8, "category " + std::to_string(category) + ", expected 1 to 3");
+        if (occlusion != 1) record.occlusion = Occlusion::partly;
+        record.object_class = kCategories[static_cast<std::size_t>(category)];
+        labels.boxes[record.frame].push_back(std::move(record));
+    });
+}
+
+/// The ids of ignored areas are of another count than those of the objects.
+void readAreas(const fs::path& path, LabelFile& labels) {
+    forEachLine(path, ',', '\0', [&](const TextLine& line) {
+        LabelBox record = boxOf(line);
+        record.id.reset();
+        record.ignore = true;
+        labels.boxes[record.frame].push_back(std::move(record));
+    });
+}
+
+LabelFile readUavdt(const fs::path& path, const ImportOptions&) {
+    LabelFile labels;
+    labels.first_frame_number = 1;
+    const std::optional<std::string> stem = stemOf(path);
+    if (!stem) {
+        readPlain(path, labels);
+        return labels;
+    }
+    const fs::path folder = path.parent_path();
+    const auto beside = [&](const char* ending) {
+        const fs::path file = folder / (*stem + ending);
+        const bool there = file != path && fs::is_regular_file(file);
+        if (there) labels.further_files.push_back(file);
+        return there ? file : fs::path();
+    };
+    const std::string name = path.filename().string();
+    if (name.ends_with(kIgnore)) {
+        readAreas(path, labels);
+        return labels;
+    }
+    const fs::path whole = name.ends_with(kWhole) ? path : beside(kWhole);
+    whole.empty() ? readPlain(path, labels) : readWhole(whole, labels);
+    if (const fs::path areas = beside(kIgnore); !areas.empty()) readAreas(areas, labels);
+    return labels;
+}
+
+std::string beginning(FrameIndex frame, int id, const OrientedBox& box, int& rounded) {
+    const BoxEdges e = edgesOf(box, 0);
+    const long left = std::lround(e.left), top = std::lround(e.top);
+    const long right = std::lround(e.left + e.width), bottom = std::lround(e.top + e.height);
+    rounded += std::abs(left - e.left) + std::abs(top - e.top) + std::abs(right - e.left - e.width) +
+                   std::abs(bottom - e.top - e.height) >
+               1e-6;
+    return std::to_string(frame + 1) + ',' + std::to_string(id) + ',' + std::to_string(left) + ',' +
+           std::to_string(top) + ',' + std::to_string(right - left) + ',' + std::to_string(bottom - top) + ',';
+}
+
+void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptions&, ExportReport& report) {
+    std::string plain, whole, areas;
+    int rounded = 0, strange = 0, fully = 0, classes_of_areas = 0;
+    for (const auto& [frame, records] : labels.boxes) {
+        for (const LabelBox& record : records) {
+            const std::string begin = beginning(frame, *record.id, record.box, rounded);
+            if (record.ignore) {
+                areas += begin + "1,-1,-1\n";
+                classes_of_areas += !record.object_class.empty();
+                continue;
+            }
+            std::size_t category = 3;
+            while (category > 0 && record.object_class != kCategories[category]) --category;
+            strange += category == 0;
+            fully += record.occlusion == Occlusion::fully;
+            const char* occlusion = record.occlusion == Occlusion::none     ? "1"
+                                    : record.occlusion == Occlusion::partly ? "3"
+                                                                            : "2";
+            plain += begin + "1,-1,-1\n";
+            whole += begin + "1," + occlusion + ',' + std::to_string(category == 0 ? 1 : category) + '\n';
+        }
+    }
+    const std::string stem = stemOf(path).value_or(path.stem().string());
+    for (const auto& [ending, text] : {std::pair{kPlain, plain}, {kWhole, whole}, {kIgnore, areas}}) {
+        const fs::path file = path.parent_path() / (stem + ending);
+        writeFileAtomically(file, text);
+        report.files.push_back(file);
+    }
+    report.add(LossKind::rounded, rounded, "were rounded to whole pixels");
+    report.add(LossKind::class_name, strange, "have a class that UAVDT does not know and became cars");
+    report.add(LossKind::class_name, classes_of_areas, "are ignored and lost their class and id");
+    report.add(LossKind::occlusion, fully, "are fully hidden, which UAVDT only calls a large occlusion");
+}
+
+}  // namespace
+
+LabelFormat uavdtFormat() {
+    LabelFormat format;
+    format.info = {"uavdt", "UAVDT", {"txt"}, false, true, true, {}};
+    format.info.carries = {.id = true, .object_class = true, .occlusion = true, .ignore = true};
+    format.needs_id = true;
+    format.read = readUavdt;
+    format.write = writeUavdt;
+    format.fits = [](const FileHead& head) {
+        return !head.folder && stemOf(head.path) && !head.lines.empty() &&
+               leadingNumbers(head.lines.front(), ',').size() == 9;
+    };
+    return format;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,184 @@
+#include <cmath>
+
+#include "core/angle.h"
+#include "formats/format_functions.h"
+#include "io/atomic_file.h"
+#include "io/csv_reader.h"
+#include "io/number_text.h"
+
+/// VIAME CSV, as DIVE writes it too: lines that begin with "#" are comments or metadata; pixels and frames from 0.
+///   id, image or time, frame, left, top, right, bottom, confidence, length (-1), [class, score]…, then attributes:
+///   (atr) key value · (trk-atr) key value · (note) text · (kp) name x y · (poly) x y … · (hole) …
+/// DIVE's attribute "rotation" turns the bounds about their centre, in radians; in its code positive is clockwise on
+/// screen, whatever its text says. `occluded` and `ignore` are attributes of ours.
+namespace eyrie {
+namespace {
+
+constexpr double kLeastRotation = 0.001;  ///< smaller ones are not written
+constexpr std::size_t kClassField = 9;
+
+/// "(atr) key value" → key and value; false for anything else.
+bool attributeIn(std::string_view text, std::string_view& key, std::string_view& value) {
+    constexpr std::string_view kMark = "(atr)";
+    if (!text.starts_with(kMark)) return false;
+    text = trimmed(text.substr(kMark.size()));
+    const std::size_t blank = text.find(' ');
+    key = text.substr(0, blank);
+    value = blank == std::string_view::npos ? std::string_view() : trimmed(text.substr(blank));
+    return true;
+}
+
+void takeAttribute(const TextLine& line, std::size_t field, LabelBox& record, int& passed_over) {
+    std::string_view key, value;
+    if (!attributeIn(line.text(field), key, value)) {
+        ++passed_over;
+        return;
+    }
+    if (key == "rotation") {
+        const std::optional<double> turn = parseReal(value);
+        if (!turn || std::abs(*turn) > 1000) line.fail(field, "the rotation is no angle in radians");
+        record.box.heading = wrapPi(*turn);
+    } else if (key == "occluded") {
+        record.occlusion = value == "fully"                       ? Occlusion::fully
+                           : value == "partly" || value == "true" ? Occlusion::partly
+                                                                  : Occlusion::none;
+    } else if (key == "ignore") {
+        record.ignore = value == "true";
+    } else {
+        ++passed_over;
+    }
+}
+
+LabelBox boxOf(const TextLine& line, int& passed_over) {
+    if (line.size() < 9) {
+        line.fail(0, std::to_string(line.size()) +
+                         " columns, expected 9 or more: id,image,frame,left,top,right,bottom,confidence,length");
+    }
+    LabelBox record;
+    record.id = line.identity(0);
+    record.frame = line.frame(2, 0);
+    record.box = boxByCorners(line, 3, 0);
+    const double confidence = line.number(7, "confidence");
+    record.score = confidence < 0 ? 1 : confidence;  // −1 where nobody said
+    line.number(8, "length");
+    double surest = -1;
+    for (std::size_t field = kClassField; field < line.size(); ++field) {
+        if (line.text(field).empty()) continue;
+        if (line.text(field).front() == '(') {
+            takeAttribute(line, field, record, passed_over);
+            continue;
+        }
+        const std::string name = line.word(field, "class");
+        const double score = line.number(++field, "score of the class");
+        if (score <= surest) continue;
+        surest = score;
+        record.object_class = name;
+    }
+    return record;
+}
+
+void readMetadata(const std::string& text, LabelFile& labels) {
+    const std::size_t rate = text.find("fps:");
+    if (rate == std::string::npos) return;
+    const std::size_t end = text.find_first_of(",\r", rate);
+    const auto value =
+        parseReal(std::string_view(text).substr(rate + 4, end == std::string::npos ? end : end - rate - 4));
+    if (value && *value > 0) labels.frame_rate_hz = *value;
+}
+
+LabelFile readViame(const std::filesystem::path& path, const ImportOptions&) {
+    LabelFile labels;
+    int number = 0, passed_over = 0;
+    std::map<int, std::string> last_class;
+    for (const std::string& text : readTextLines(path)) {
+        ++number;
+        const std::size_t first = text.find_first_not_of(" \t\r");
+        if (first == std::string::npos) continue;
+        if (text[first] == '#') {
+            readMetadata(text, labels);
+            continue;
+        }
+        const TextLine line(path, number, text);
+        LabelBox record = boxOf(line, passed_over);
+        if (!line.text(1).empty()) labels.image_names[record.frame] = line.word(1, "image");
+        if (!record.object_class.empty()) last_class[*record.id] = record.object_class;
+        labels.boxes[record.frame].push_back(std::move(record));
+    }
+    // The classes of a track's last row count for the whole track.
+    for (auto& [frame, records] : labels.boxes) {
+        for (LabelBox& record : records) {
+            const auto found = last_class.find(*record.id);
+            if (found != last_class.end()) record.object_class = found->second;
+        }
+    }
+    if (passed_over > 0) {
+        labels.notes.push_back(counted(passed_over, "entry", "entries") +
+                               " of other kinds (key points, polygons, notes, attributes) were passed over");
+    }
+    return labels;
+}
+
+void writeViame(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions&,
+                ExportReport& report) {
+    std::string text =
+        "# 1: Detection or Track-id,2: Video or Image Identifier,3: Unique Frame Identifier,4-7: Img-bbox(TL_x,TL_y,"
+        "BR_x,BR_y),8: Detection or Length Confidence,9: Target Length (0 or -1 if invalid),10-11+: Repeated Species,"
+        "Confidence Pairs or Attributes\n";
+    if (labels.frame_rate_hz) text += "# metadata,fps: " + shortestText(*labels.frame_rate_hz) + '\n';
+    for (const auto& [id, track] : boxesById(labels.boxes)) {
+        for (const LabelBox* record : track) {
+            const OrientedBox& box = record->box;
+            const double turn = wrapPi(box.heading);
+            const BoxEdges e = edgesOf({box.centre, box.length, box.width, 0}, 0);
+            const auto name = labels.image_names.find(record->frame);
+            text += std::to_string(id) + ',' +
+                    (name == labels.image_names.end() ? numberedName(record->frame) : csvField(name->second)) + ',' +
+                    std::to_string(record->frame);
+            for (const double value : {e.left, e.top, e.left + e.width, e.top + e.height, record->score}) {
+                text += ',' + fixedText(value, 4);
+            }
+            text += ",-1";
+            if (!record->object_class.empty()) {
+                text += ',' + csvField(record->object_class) + ',' + fixedText(record->score, 4);
+            }
+            if (std::abs(turn) > kLeastRotation) text += ",(atr) rotation " + fixedText(turn, 6);
+            if (record->occlusion == Occlusion::partly) text += ",(atr) occluded partly";
+            if (record->occlusion == Occlusion::fully) text += ",(atr) occluded fully";
+            if (record->ignore) text += ",(atr) ignore true";
+            text += '\n';
+        }
+    }
+    writeFileAtomically(path, text);
+    report.files.push_back(path);
+    if (report.boxes > 0) {
+        report.notes.push_back("rotations are DIVE's attribute \"rotation\": other readers see the unrotated boxes");
+    }
+}
+
+}  // namespace
+
+LabelFormat viameFormat() {
+    LabelFormat format;
+    format.info = {"viame", "VIAME CSV (DIVE)", {"csv"}, false, true, true, {}};
+    format.info.carries = {
+        .rotation = true, .id = true, .object_class = true, .occlusion = true, .ignore = true, .score = true};
+    format.needs_id = true;
+    format.read = readViame;
+    format.write = writeViame;
+    format.fits = [](const FileHead& head) {
+        for (const std::string& line : head.lines) {
+            if (line[line.find_first_not_of(" \t")] == '#') continue;
+            const std::size_t second = line.find(',');
+            if (second == std::string::npos || leadingNumbers(line, ',').empty()) return false;
+            const std::size_t third = line.find(',', second + 1);
+            if (third == std::string::npos) return false;
+            const bool commented = head.lines.front().starts_with('#');
+            const bool named = leadingNumbers(line, ',').size() == 1;
+            return (commented || named) && leadingNumbers(line.substr(third + 1), ',').size() >= 7;
+        }
+        return false;
+    };
+    return format;
+}
+
+}  // namespace eyrie
