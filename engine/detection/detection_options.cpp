@@ -12,6 +12,8 @@ const char* nameOf(DetectionMethod method) {
             return "relative_connectivity";
         case DetectionMethod::sliding_window:
             return "sliding_window";
+        case DetectionMethod::window_and_gradient:
+            return "window_and_gradient";
         case DetectionMethod::tophat_otsu:
             return "tophat_otsu";
         case DetectionMethod::mser:
@@ -23,11 +25,19 @@ const char* nameOf(DetectionMethod method) {
 }
 
 const std::vector<DetectionMethod>& allDetectionMethods() {
-    static const std::vector<DetectionMethod> all{
-        DetectionMethod::clusters,       DetectionMethod::gradient,    DetectionMethod::relative_connectivity,
-        DetectionMethod::sliding_window, DetectionMethod::tophat_otsu, DetectionMethod::mser,
-        DetectionMethod::canny_harris};
+    static const std::vector<DetectionMethod> all{DetectionMethod::clusters,
+                                                  DetectionMethod::gradient,
+                                                  DetectionMethod::relative_connectivity,
+                                                  DetectionMethod::sliding_window,
+                                                  DetectionMethod::window_and_gradient,
+                                                  DetectionMethod::tophat_otsu,
+                                                  DetectionMethod::mser,
+                                                  DetectionMethod::canny_harris};
     return all;
+}
+
+bool looksThroughWindows(DetectionMethod method) {
+    return method == DetectionMethod::sliding_window || method == DetectionMethod::window_and_gradient;
 }
 
 DetectionOptions DetectionOptions::thesis() {
@@ -47,8 +57,9 @@ void DetectionOptions::describe(ParameterVisitor& visitor) {
     visitor.choice("detection.method", method, methods,
                    {"",
                     "What finds objects in a search area: the motion cluster itself (baseline), segmentation by "
-                    "gradients, relative connectivity, tophat transforms, stable regions, or edges and corners, or a "
-                    "trained sliding window. What gradient.* says about components and falling back holds for all "
+                    "gradients, relative connectivity, tophat transforms, stable regions, or edges and corners, a "
+                    "trained sliding window, or that one where it is sure and gradients elsewhere. What gradient.* "
+                    "says about components and falling back holds for all "
                     "segmentations.",
                     "Teutsch §5.4, §7.4.1"});
     visitor.real("detection.extend_along", extend_along, 1, 10,
@@ -65,6 +76,7 @@ void DetectionOptions::describe(ParameterVisitor& visitor) {
     gradient.describe(visitor);
     relative_connectivity.describe(visitor);
     sliding_window.describe(visitor);
+    window_and_gradient.describe(visitor);
     tophat_otsu.describe(visitor);
     mser.describe(visitor);
     canny_harris.describe(visitor);

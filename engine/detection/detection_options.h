@@ -7,6 +7,7 @@
 #include "detection/relative_connectivity_segmenter.h"
 #include "detection/sliding_window_options.h"
 #include "detection/tophat_otsu_segmenter.h"
+#include "detection/window_and_gradient_detector.h"
 
 namespace eyrie {
 
@@ -16,18 +17,21 @@ enum class DetectionMethod {
     gradient,               ///< gradient based segmentation (§5.4.1)
     relative_connectivity,  ///< pairs of opposing edges (§5.4.2)
     sliding_window,         ///< a trained classifier (§5.4.3)
+    window_and_gradient,    ///< the sliding window where it is sure, gradients elsewhere
     tophat_otsu,            ///< after Zheng et al. 2013
     mser,                   ///< after Matas et al. 2002
     canny_harris            ///< after Cheng et al. 2012
 };
 /// The word used in parameters and tables, e.g. "relative_connectivity".
 const char* nameOf(DetectionMethod method);
+/// Whether a trained classifier takes part.
+bool looksThroughWindows(DetectionMethod method);
 /// All of them, in the order of tables 7.6 and 7.7.
 const std::vector<DetectionMethod>& allDetectionMethods();
 
 /// Parameters of detection in motion ROIs.
 struct DetectionOptions {
-    DetectionMethod method = DetectionMethod::gradient;
+    DetectionMethod method = DetectionMethod::window_and_gradient;
     double extend_along = 2.0;       ///< a cluster is extended by this factor along its motion
     double extend_across = 1.25;     ///< … and by this one across it
     double min_roi_length_m = 7;     ///< a search area is at least this long …
@@ -36,6 +40,7 @@ struct DetectionOptions {
     GradientOptions gradient;        ///< what it says about components holds for every segmentation
     RelativeConnectivityOptions relative_connectivity;
     SlidingWindowOptions sliding_window;
+    WindowAndGradientOptions window_and_gradient;
     TophatOtsuOptions tophat_otsu;
     MserOptions mser;
     CannyHarrisOptions canny_harris;

@@ -20,6 +20,14 @@ std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const Sc
                                                                    scale, options.cluster_margin_px);
         case DetectionMethod::sliding_window:
             return makeSlidingWindowDetector(options.sliding_window, scale, options.cluster_margin_px);
+        case DetectionMethod::window_and_gradient: {
+            SlidingWindowOptions window = options.sliding_window;
+            window.fall_back = false;
+            return std::make_unique<WindowAndGradientDetector>(
+                makeSlidingWindowDetector(window, scale, options.cluster_margin_px),
+                std::make_unique<GradientSegmenter>(options.gradient, scale, options.cluster_margin_px),
+                options.window_and_gradient, cvFloor(scale.px(window.context_m)));
+        }
         case DetectionMethod::tophat_otsu:
             return std::make_unique<TophatOtsuSegmenter>(options.tophat_otsu, options.gradient, scale,
                                                          options.cluster_margin_px);

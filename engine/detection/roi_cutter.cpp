@@ -13,8 +13,7 @@ OrientedBox extendedCluster(const MotionCluster& cluster, cv::Size image, const 
     constexpr double kSmallest = 3;  // px, the reach of the smallest pattern
     const double largest = std::max(kSmallest, 2 * std::hypot(image.width, image.height));
     OrientedBox area = cluster.box.scaled(options.extend_along, options.extend_across);
-    const double context =
-        options.method == DetectionMethod::sliding_window ? 2 * scale.px(options.sliding_window.context_m) : 0;
+    const double context = looksThroughWindows(options.method) ? 2 * scale.px(options.sliding_window.context_m) : 0;
     area.length = std::clamp(context + std::max(area.length, scale.px(options.min_roi_length_m)), kSmallest, largest);
     area.width = std::clamp(context + std::max(area.width, scale.px(options.min_roi_width_m)), kSmallest, largest);
     return area;
@@ -44,6 +43,22 @@ MotionRoi cutMotionRoi(const Frame& frame, const MotionCluster& cluster, int clu
         roi.vectors.emplace_back(toPatch(roi.image_from_roi, vector.position));
     }
     return roi;
+}
+
+MotionRoi narrowed(const MotionRoi& roi, int margin) {
+    const int across = std::clamp(margin, 0, (roi.image.cols - 1) / 2);
+    const int along = std::clamp(margin, 0, (roi.image.rows - 1) / 2);
+    if (roi.image.empty() || (across == 0 && along == 0)) return roi;
+    const cv::Rect middle(across, along, roi.image.cols - 2 * across, roi.image.rows - 2 * along);
+    MotionRoi inner = roi;
+    inner.image = roi.image(middle);
+    inner.inside = roi.inside(middle);
+    for (int row = 0; row < 2; ++row)
+        inner.image_from_roi(row, 2) += roi.image_from_roi(row, 0) * across + roi.image_from_roi(row, 1) * along;
+    inner.box.length -= 2 * along;
+    inner.box.width -= 2 * across;
+    for (cv::Point2f& vector : inner.vectors) vector -= cv::Point2f(middle.tl());
+    return inner;
 }
 
 }  // namespace eyrie

@@ -18,4 +18,7 @@ OrientedBox extendedCluster(const MotionCluster& cluster, cv::Size image, const 
 MotionRoi cutMotionRoi(const Frame& frame, const MotionCluster& cluster, int cluster_index, const FrameMotion& motion,
                        const DetectionOptions& options, const SceneScale& scale);
 
+/// The middle of a search area, without `margin` px on every side.
+MotionRoi narrowed(const MotionRoi& roi, int margin);
+
 }  // namespace eyrie

@@ -85,6 +85,7 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
         Detection detection;
         detection.box = boxInImage(roi.image_from_roi, hypothesis.box);
         detection.score = hypothesis.decision;
+        detection.complete = true;
         detection.velocity = roi.velocity;
         detection.cluster = roi.cluster;
         detections.push_back(detection);

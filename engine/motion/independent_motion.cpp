@@ -32,6 +32,7 @@ IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, co
       shadow_test_(options.shadow, scale),
       shadow_owners_(options.shadow, scale),
       local_background_(options.local_background, scale),
+      parallax_test_(options.parallax),
       history_(std::max(options.baseline, options.find_slow ? options.slow_baseline : 0)) {
     options_.baseline = std::max(options_.baseline, options_.min_age);
     if (options_.baseline > history_.depth()) history_ = CornerHistory(options_.baseline);
@@ -142,6 +143,16 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     noise.finish();
     motion.background_speed_sigma = noise.sigma(options_.baseline);
 
+    parallax_test_.clear();
+    if (options_.parallax.enabled) {
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            // Slower than what counts as moving: else vehicles that go one way would vote, too.
+            const bool below = measured[i].baseline > 0 && length(measured[i].velocity) < min_speed_;
+            if (corners[i].on_background && below && measured[i].baseline >= options_.baseline / 2)
+                parallax_test_.add(corners[i].current, measured[i].velocity);
+        }
+        parallax_test_.finish(motion.background_speed_sigma);
+    }
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Corner& corner = corners[i];
         const auto moves = [&](const Measured& m, double min_speed) {
@@ -156,6 +167,7 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
         } else if (options_.find_slow && moves(slow[i], slow_min_speed_)) {
             found = &slow[i];
         }
+        if (found != nullptr && parallax_test_.explains(corner.current, found->velocity)) found = nullptr;
         if (found == nullptr) {
             if (corner.on_background) motion.stationary_corners.push_back(corner.current);
         } else {

@@ -55,6 +55,7 @@ class IndependentMotion {
     ShadowTest shadow_test_;
     ShadowOwners shadow_owners_;
     LocalBackground local_background_;
+    ParallaxTest parallax_test_;
     CornerHistory history_;
     std::deque<Path> paths_;  ///< [n − 1]: from n usable pictures before the newest
     Path newest_;             ///< from the newest usable picture to the last frame

@@ -2,6 +2,7 @@
 
 #include "core/parameter.h"
 #include "motion/local_background.h"
+#include "motion/parallax_test.h"
 #include "motion/shadow_test.h"
 
 namespace eyrie {
@@ -21,6 +22,7 @@ struct IndependentMotionOptions {
     double slow_min_speed_m_s = 0.7;
     ShadowTestOptions shadow;
     LocalBackgroundOptions local_background;
+    ParallaxTestOptions parallax;
 
     /// The text to the letter: one threshold on the speed of corners at least 5 frames old.
     static IndependentMotionOptions thesis();

@@ -97,7 +97,9 @@ std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const
             }
         }
         if (first == nullptr) return detections;
-        if (options.strategy == DuplicateStrategy::suppress) {
+        if (first->complete != second->complete) {
+            (first->complete ? second : first)->rejection = Rejection::duplicate;
+        } else if (first->complete || options.strategy == DuplicateStrategy::suppress) {
             (first->score >= second->score ? second : first)->rejection = Rejection::duplicate;
         } else if (first->box.area() >= second->box.area()) {
             fuse(*first, *second, motion, options);

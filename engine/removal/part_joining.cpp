@@ -46,7 +46,8 @@ void PartJoiningOptions::describe(ParameterVisitor& visitor) {
                  {"m", "Parts are joined when together they are no longer than this.", ""});
     visitor.real("duplicates.part_length", part_length_m, 0, 100,
                  {"m", "Two parts both shorter than this are joined up to the length of a long vehicle.", ""});
-    visitor.real("duplicates.part_vehicle_length", vehicle_length_m, 0, 100, {"m", "Longest vehicle that two short parts may make up.", ""});
+    visitor.real("duplicates.part_vehicle_length", vehicle_length_m, 0, 100,
+                 {"m", "Longest vehicle that two short parts may make up.", ""});
     visitor.real("duplicates.part_vehicle_width", vehicle_width_m, 0, 100,
                  {"m", "Parts are not joined into anything wider than this.", ""});
     visitor.real("duplicates.part_velocity_floor", velocity_floor_px, 0, 10,
@@ -72,7 +73,7 @@ std::vector<Detection> joinParts(std::vector<Detection> detections, const PartJo
             if (a.rejection != Rejection::none) continue;
             for (std::size_t k = i + 1; k < detections.size(); ++k) {
                 Detection& b = detections[k];
-                if (b.rejection != Rejection::none) continue;
+                if (b.rejection != Rejection::none || a.complete || b.complete) continue;
                 const cv::Point2d apart = a.box.centre - b.box.centre;
                 const double distance = std::hypot(apart.x, apart.y);
                 if (distance >= closest || distance > std::max(limits.vehicle_length, limits.car_length)) continue;

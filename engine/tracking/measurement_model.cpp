@@ -10,6 +10,7 @@ namespace eyrie {
 namespace {
 
 constexpr double kSmallestSigma = 0.01;  ///< px/frame; no registration is better
+constexpr double kLengthStep = 0.1;      ///< deviation of a classifier's few lengths, relative
 constexpr double kBorderMargin = 4;      ///< px; corners cannot be tracked up to the very edge
 
 bool nearBorder(cv::Point2d point, cv::Size image, double margin) {
@@ -98,12 +99,17 @@ BoxMeasurement MeasurementModel::first(const Detection& detection) const {
     BoxMeasurement m;
     m.box = detection.box;
     m.along = m.across = position_;
-    // The first box is often a part of the object only, and either end may be missing.
-    const double end =
-        std::hypot(size_ / 2, std::max(detection.box.length / 6, (car_length_ - detection.box.length) / 2));
-    const double side =
-        std::hypot(size_ / 2, std::max(detection.box.width / 6, (car_width_ - detection.box.width) / 2));
-    m.setEnds(end, end, side, side);
+    if (detection.complete) {
+        const double end = completeDeviation(detection.box.length);
+        m.setEnds(end, end, size_ / 2, size_ / 2);
+    } else {
+        // The first box is often a part of the object only, and either end may be missing.
+        const double end =
+            std::hypot(size_ / 2, std::max(detection.box.length / 6, (car_length_ - detection.box.length) / 2));
+        const double side =
+            std::hypot(size_ / 2, std::max(detection.box.width / 6, (car_width_ - detection.box.width) / 2));
+        m.setEnds(end, end, side, side);
+    }
     m.heading = headingDeviation(std::hypot(detection.velocity.x, detection.velocity.y));
     if (velocityKnown(detection)) {
         m.velocity = detection.velocity;
@@ -112,10 +118,12 @@ BoxMeasurement MeasurementModel::first(const Detection& detection) const {
     return m;
 }
 
-MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, cv::Point2d velocity, bool velocity_known,
+MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, const Detection& detection,
                                                   const OrientedBox& predicted, bool size_known) const {
     Update result;
     BoxMeasurement& m = result.measurement;
+    const cv::Point2d velocity = detection.velocity;
+    const bool velocity_known = velocityKnown(detection);
     const double speed = std::hypot(velocity.x, velocity.y);
     const bool heading_known = !velocity_known || speed >= slow_speed_;
     const OrientedBox seen = heading_known ? box : inHeading(box, predicted.heading);
@@ -139,7 +147,11 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, cv::Po
     const bool size_measured = !(size_known && result.size_differs);
     // What lies outside the image cannot be measured.
     // Parts of one vehicle miss an end; a box that may hold several vehicles may as well be merged or fall apart.
-    if (size_measured && !at_border && one_vehicle_.holds(predicted) && one_vehicle_.holds(m.box)) {
+    if (size_measured && !at_border && detection.complete) {
+        const double end = completeDeviation(m.box.length);
+        m.setEnds(end, end, size_ / 2, size_ / 2);
+        result.by_ends = true;
+    } else if (size_measured && !at_border && one_vehicle_.holds(predicted) && one_vehicle_.holds(m.box)) {
         measureEnds(predicted, result);
     } else {
         if (size_measured && !(completed.length_cut && longer <= 0)) m.length = size_;
@@ -158,6 +170,10 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, cv::Po
         result.shift += cv::Point2d(-along.y, along.x) * wider;
     }
     return result;
+}
+
+double MeasurementModel::completeDeviation(double length) const {
+    return std::hypot(size_ / 2, kLengthStep * length / std::numbers::sqrt2);
 }
 
 void MeasurementModel::measureEnds(const OrientedBox& predicted, Update& update) const {

@@ -46,8 +46,8 @@ class MeasurementModel {
         /// Whether any end reaches beyond the prediction by more than noise does.
         bool grows = false;
     };
-    /// `size_known`: the size gate applies.
-    Update update(const OrientedBox& box, cv::Point2d velocity, bool velocity_known, const OrientedBox& predicted,
+    /// `detection` with `box` in place of its own; `size_known`: the size gate applies.
+    Update update(const OrientedBox& box, const Detection& detection, const OrientedBox& predicted,
                   bool size_known) const;
     BoxMeasurement reconstructed(const Reconstruction& reconstruction) const;
     BoxProcessNoise processNoise() const { return process_; }
@@ -61,6 +61,7 @@ class MeasurementModel {
  private:
     bool atBorder(const OrientedBox& box) const;
     void measureEnds(const OrientedBox& predicted, Update& update) const;
+    double completeDeviation(double length) const;
     double headingDeviation(double speed) const;
     double velocityDeviation() const;
 

@@ -216,8 +216,7 @@ void Tracker::updateTrack(Track& track, const TrackAssociation& association,
 
 bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Detection& detection) {
     const bool size_known = manager_.established(track) && track.size_streak < options_.size_patience;
-    const MeasurementModel::Update update =
-        model_.update(box, detection.velocity, velocityKnown(detection), track.filter.box(), size_known);
+    const MeasurementModel::Update update = model_.update(box, detection, track.filter.box(), size_known);
     if (update.size_differs) {
         ++track.size_streak;
         if (!size_known && manager_.established(track)) track.filter.forgetSize(track.filter.box().width / 2);
