@@ -91,10 +91,10 @@ class MainWindowTest : public QObject {
         window.show();
         QVERIFY(QTest::qWaitForWindowActive(&window));
         const std::pair<Qt::Key, OverlayKind> keys[] = {
-            {Qt::Key_C, OverlayKind::corners},     {Qt::Key_V, OverlayKind::vectors},
-            {Qt::Key_M, OverlayKind::clusters},    {Qt::Key_R, OverlayKind::rois},
-            {Qt::Key_D, OverlayKind::detections},  {Qt::Key_T, OverlayKind::tracks},
-            {Qt::Key_U, OverlayKind::ground_truth}};
+            {Qt::Key_C, OverlayKind::corners},      {Qt::Key_V, OverlayKind::vectors},
+            {Qt::Key_M, OverlayKind::clusters},     {Qt::Key_R, OverlayKind::rois},
+            {Qt::Key_D, OverlayKind::detections},   {Qt::Key_T, OverlayKind::tracks},
+            {Qt::Key_U, OverlayKind::ground_truth}, {Qt::Key_S, OverlayKind::stacks}};
         for (const auto& [key, kind] : keys) {
             const bool before = window.overlays().isVisible(kind);
             QTest::keyClick(&window, key);

@@ -24,6 +24,7 @@
 #include "panels/message_bar.h"
 #include "panels/parameter_form.h"
 #include "panels/stage_times_chart.h"
+#include "session/inspection.h"
 #include "view/timeline_view.h"
 #include "view/video_view.h"
 
@@ -50,7 +51,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildCentre();
     buildToolBar();
     resize(kFirstSize);
-    docks_ = new ReviewDocks(session_, *this);
+    inspection_ = new Inspection(session_, this);
+    docks_ = new ReviewDocks(session_, *inspection_, *this);
     parameters_ = new ParameterBinding(session_, docks_->parameterForm(), this);
     timeline_binding_ = new TimelineBinding(session_, *timeline_, docks_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
@@ -59,6 +61,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     wirePlaybackActions();
     wireViewActions();
     wireSession();
+    wireInspection();
     default_layout_ = saveState();
     restoreGeometry(settings_.geometry());
     restoreState(settings_.layout());
