@@ -23,6 +23,8 @@ cv::Point2d limited(cv::Point2d v, double longest) {
 
 // A tangent up to three times the slope keeps a cubic piece from running back (Fritsch and Carlson 1980).
 constexpr double kLongestTangent = 3;
+// Between the heading and the direction of the path, radians.
+constexpr double kLargestSlip = 0.6;
 
 }  // namespace
 
@@ -33,6 +35,18 @@ cv::Point2d KeyframePath::slope(std::size_t piece) const {
 bool KeyframePath::moving(std::size_t piece) const {
     const double length = (knots_[piece].length + knots_[piece + 1].length) / 2;
     return lengthOf(knots_[piece + 1].point - knots_[piece].point) >= std::max(1.0, length / 2);
+}
+
+cv::Point2d KeyframePath::velocityAt(std::size_t piece, std::size_t knot) const {
+    const cv::Point2d free = tangent(knot);
+    const double speed = lengthOf(free);
+    const bool headed = knots_[piece].heading_set && knots_[piece + 1].heading_set && moving(piece);
+    if (!along_headings_ || !headed || speed < 1e-9) return free;
+    const double heading = knots_[knot].heading;
+    const double turn = std::abs(turnBetween(angleOf(free), heading));
+    // What skids or is pushed does not drive where it heads.
+    if (turn > kLargestSlip && turn < kPi - kLargestSlip) return free;
+    return cv::Point2d(std::cos(heading), std::sin(heading)) * (turn <= kLargestSlip ? speed : -speed);
 }
 
 cv::Point2d KeyframePath::tangent(std::size_t knot) const {
@@ -59,8 +73,8 @@ cv::Point2d KeyframePath::position(std::size_t piece, double share) const {
     const cv::Point2d b = knots_[piece + 1].point;
     if (shape_ == PathShape::straight) return a + (b - a) * share;
     const double duration = knots_[piece + 1].time - knots_[piece].time;
-    const cv::Point2d leave = tangent(piece) * duration;
-    const cv::Point2d arrive = tangent(piece + 1) * duration;
+    const cv::Point2d leave = velocityAt(piece, piece) * duration;
+    const cv::Point2d arrive = velocityAt(piece, piece + 1) * duration;
     const double s2 = share * share;
     const double s3 = s2 * share;
     return a + (b - a) * (3 * s2 - 2 * s3) + leave * (s3 - 2 * s2 + share) + arrive * (s3 - s2);
@@ -72,8 +86,8 @@ double KeyframePath::direction(std::size_t piece, double share) const {
     // Where the object stands still for a moment, the direction just inside the piece.
     const double s = std::clamp(share, 1e-3, 1 - 1e-3);
     const double duration = knots_[piece + 1].time - knots_[piece].time;
-    const cv::Point2d leave = tangent(piece) * duration;
-    const cv::Point2d arrive = tangent(piece + 1) * duration;
+    const cv::Point2d leave = velocityAt(piece, piece) * duration;
+    const cv::Point2d arrive = velocityAt(piece, piece + 1) * duration;
     const cv::Point2d velocity =
         chord * (6 * s - 6 * s * s) + leave * (3 * s * s - 4 * s + 1) + arrive * (3 * s * s - 2 * s);
     return lengthOf(velocity) > 1e-9 ? angleOf(velocity) : angleOf(chord);
@@ -103,7 +117,11 @@ double KeyframePath::heading(std::size_t piece, double share) const {
     // The turn of the heading against the path, so that a set heading fades into the path's.
     const double first = turnBetween(direction(piece, 0), leave);
     const double last = turnBetween(direction(piece, 1), arrive);
-    return wrapPi(direction(piece, share) + first + share * turnBetween(first, last));
+    const double change = turnBetween(first, last);
+    // Set headings that have little to do with the path turn by themselves.
+    const bool both_set = knots_[piece].heading_set && knots_[piece + 1].heading_set;
+    if (both_set && std::abs(change) > kLargestSlip / 2) return wrapPi(leave + share * turnBetween(leave, arrive));
+    return wrapPi(direction(piece, share) + first + share * change);
 }
 
 }  // namespace eyrie
