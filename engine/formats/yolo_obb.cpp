@@ -162,7 +162,7 @@ void writeYolo(const LabelFile& labels, const fs::path& path, const ExportOption
 
     makeTextFolder(path / kFolder);
     int cut = 0;
-    const int frames = framesToWrite(labels);
+    const int frames = imagesToWrite(labels, path);
     for (FrameIndex frame = 0; frame < frames; ++frame) {
         std::string text;
         const auto records = labels.boxes.find(frame);

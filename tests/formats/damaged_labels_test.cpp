@@ -154,12 +154,11 @@ TEST_F(DamagedLabels, CvatNamesTheLine) {
     EXPECT_THAT(refusal("cvat", ""), HasSubstr("labels.txt:1"));
     EXPECT_THAT(refusal("cvat", "<annotations><image id=\"0\"/></annotations>"), HasSubstr("CVAT for video 1.1"));
     EXPECT_THAT(refusal("cvat", head + "\xc3\x28" + end), HasSubstr("UTF-8"));
-    // a hundred million frames from two keyframes
+    // millions of frames from two keyframes
     EXPECT_THAT(refusal("cvat", "<annotations><track id=\"1\" label=\"a\"><box " + good +
-                                    "/></track><track id=\"2\" label=\"a\"><box " + good +
-                                    "/><box frame=\"9999999\" keyframe=\"1\" xtl=\"1\" ytl=\"1\" xbr=\"20000000\" "
-                                    "ybr=\"2\"/></track></annotations>"),
-                HasSubstr("xbr"));
+                                    "/><box frame=\"9999999\" keyframe=\"1\" xtl=\"1\" ytl=\"1\" xbr=\"2\" ybr=\"2\"/>"
+                                    "</track></annotations>"),
+                HasSubstr("span more frames than can be meant"));
 }
 
 TEST_F(DamagedLabels, EntitiesThatGrowAreRefused) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/frame_offset.h"
 #include "formats/sample_labels.h"
 #include "support/shared_data.h"
 
@@ -284,6 +285,20 @@ TEST_F(RoundTripLosses, IgnoredAreasBecomeRegions) {
     EXPECT_EQ(imported.annotations.regions.at(1).last_frame, 3);
     EXPECT_EQ(imported.annotations.regions.at(2).first_frame, 4);
     EXPECT_EQ(imported.left_out, 6);
+}
+
+TEST_F(RoundTripLosses, AShiftInTimeIsFoundAgainstTracks) {
+    const BoxesByFrame tracks = plainBoxes(sampleLabels().boxes);
+    BoxesByFrame late;
+    for (const auto& [frame, records] : tracks) late[frame + 2] = records;
+    const auto guess = guessFrameOffset(late, tracks);
+    ASSERT_TRUE(guess);
+    EXPECT_EQ(guess->shift, -2);
+    EXPECT_NEAR(guess->overlap, 1, 1e-6);
+    EXPECT_LT(guess->overlap_as_is, 0.9);
+    EXPECT_EQ(guessFrameOffset(tracks, tracks)->shift, 0);
+    EXPECT_FALSE(guessFrameOffset({}, tracks));
+    EXPECT_FALSE(guessFrameOffset(tracks, {}));
 }
 
 TEST_F(RoundTripLosses, RealUavdtIsReadWithClassesAndIgnoredAreas) {
