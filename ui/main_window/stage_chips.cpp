@@ -30,32 +30,32 @@ QString titleOf(const std::string& layer) {
     };
     static constexpr Title kTitles[] = {
         {"raw", QT_TRANSLATE_NOOP("StageChips", "Motion ROI")},
-        {"gradient", QT_TRANSLATE_NOOP("StageChips", "Gradient magnitude")},
+        {"gradient", QT_TRANSLATE_NOOP("StageChips", "Gradient")},
         {"lbp mask", QT_TRANSLATE_NOOP("StageChips", "LBP filter mask")},
-        {"quantile area", QT_TRANSLATE_NOOP("StageChips", "Area of the quantile")},
+        {"quantile area", QT_TRANSLATE_NOOP("StageChips", "Quantile area")},
         {"binary", QT_TRANSLATE_NOOP("StageChips", "Binary image")},
-        {"closed", QT_TRANSLATE_NOOP("StageChips", "Morphological closing")},
-        {"components", QT_TRANSLATE_NOOP("StageChips", "Connected components")},
+        {"closed", QT_TRANSLATE_NOOP("StageChips", "Closing")},
+        {"components", QT_TRANSLATE_NOOP("StageChips", "Components")},
         {"bright lines", QT_TRANSLATE_NOOP("StageChips", "Accumulator, bright")},
-        {"bright areas", QT_TRANSLATE_NOOP("StageChips", "Hysteresis and closing, bright")},
+        {"bright areas", QT_TRANSLATE_NOOP("StageChips", "Bright areas")},
         {"dark lines", QT_TRANSLATE_NOOP("StageChips", "Accumulator, dark")},
-        {"dark areas", QT_TRANSLATE_NOOP("StageChips", "Hysteresis and closing, dark")},
-        {"fused", QT_TRANSLATE_NOOP("StageChips", "Fusion by maximum")},
+        {"dark areas", QT_TRANSLATE_NOOP("StageChips", "Dark areas")},
+        {"fused", QT_TRANSLATE_NOOP("StageChips", "Fused (max)")},
         {"first suppression", QT_TRANSLATE_NOOP("StageChips", "First NMS")},
         {"second suppression", QT_TRANSLATE_NOOP("StageChips", "Second NMS")},
-        {"smoothed", QT_TRANSLATE_NOOP("StageChips", "Closing and opening")},
+        {"smoothed", QT_TRANSLATE_NOOP("StageChips", "Smoothed")},
         {"white tophat", QT_TRANSLATE_NOOP("StageChips", "White tophat")},
         {"black tophat", QT_TRANSLATE_NOOP("StageChips", "Black tophat")},
         {"regions", QT_TRANSLATE_NOOP("StageChips", "MSER regions")},
         {"edges", QT_TRANSLATE_NOOP("StageChips", "Canny edges")},
         {"corners", QT_TRANSLATE_NOOP("StageChips", "Harris corners")},
-        {"clustered", QT_TRANSLATE_NOOP("StageChips", "Clustered corners")},
+        {"clustered", QT_TRANSLATE_NOOP("StageChips", "Clustered")},
     };
     for (const Title& title : kTitles)
         if (title.layer == layer) return tr(title.title);
     static const std::string kDecision = "decision ";
     if (layer.starts_with(kDecision))
-        return tr("Decision function %1").arg(QString::fromStdString(layer.substr(kDecision.size())));
+        return tr("Decision %1").arg(QString::fromStdString(layer.substr(kDecision.size())));
     return QString::fromStdString(layer);
 }
 
@@ -148,7 +148,7 @@ std::optional<Chip> quantileChip(const DetectionTrace& trace) {
     const cv::Mat* area = layerNamed(trace, "quantile area");
     if (gradient == nullptr || area == nullptr || gradient->empty()) return std::nullopt;
     Chip chip;
-    chip.title = tr("Histogram, quantile");
+    chip.title = tr("Histogram");
     chip.values = *gradient;
     ChipHistogram histogram;
     double largest = 0;
@@ -167,7 +167,7 @@ std::optional<Chip> quantileChip(const DetectionTrace& trace) {
         double threshold = 0;
         cv::minMaxLoc(*gradient, &threshold, nullptr, nullptr, nullptr, *binary);
         histogram.threshold = threshold;
-        chip.note = tr("from %1").arg(number(threshold));
+        chip.note = tr("quantile %1").arg(number(threshold));
     }
     chip.histogram = std::move(histogram);
     return chip;
@@ -208,7 +208,7 @@ cv::Mat middleOf(const cv::Mat& picture, cv::Size size) {
 }
 
 QString referenceTitle(MotionMethod method) {
-    return method == MotionMethod::median_background ? tr("Median background") : tr("Earlier frame, registered");
+    return method == MotionMethod::median_background ? tr("Background") : tr("Earlier frame");
 }
 
 void addDifferences(std::vector<ChipCard>& cards, const ReplayView& view, const MotionRoi* roi) {
@@ -216,7 +216,7 @@ void addDifferences(std::vector<ChipCard>& cards, const ReplayView& view, const 
     if (result.difference.values.empty()) return;
     const auto cut = [roi](const cv::Mat& picture) { return roi != nullptr ? cutLike(*roi, picture) : picture; };
     cards.push_back(card(greyChip(referenceTitle(view.options.difference.method), cut(result.difference.reference))));
-    Chip difference = realChip(tr("Difference image"), cut(result.difference.values));
+    Chip difference = realChip(tr("Difference"), cut(result.difference.values));
     difference.unit = tr("grey");
     cards.push_back(card(std::move(difference)));
     Chip moving = greyChip(tr("Moving pixels"), cut(result.moving));
@@ -226,7 +226,7 @@ void addDifferences(std::vector<ChipCard>& cards, const ReplayView& view, const 
 }
 
 Chip keptChip(const ReplayView& view, const SearchTrace& traced) {
-    Chip chip = greyChip(tr("Detections kept"), traced.roi.image);
+    Chip chip = greyChip(tr("Kept"), traced.roi.image);
     std::vector<OrientedBox> kept;
     for (const Detection& detection : view.result.detections)
         if (detection.cluster == view.wish.cluster && detection.rejection == Rejection::none)
@@ -278,7 +278,7 @@ std::vector<ChipCard> differenceChips(const ReplayView& view) {
     addDifferences(cards, view, nullptr);
     if (cards.empty()) return cards;
     Chip over;
-    over.title = tr("Difference over the frame");
+    over.title = tr("Over the frame");
     over.values = differenceView(view.frame.gray, view.differences->difference);
     over.image = wrapImage(over.values);
     cards.insert(cards.begin(), card(std::move(over)));

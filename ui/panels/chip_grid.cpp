@@ -16,8 +16,9 @@ namespace {
 constexpr double kGap = 8;                ///< between cards and around them, logical px
 constexpr double kChipGap = 4;            ///< between the chips of one card
 constexpr double kNarrowestChip = 76;     ///< even if all titles are short
-constexpr double kWidestTitle = 150;      ///< longer ones are cut
+constexpr double kWidestTitle = 124;      ///< longer ones are cut
 constexpr double kSmallestPicture = 130;  ///< longer side of a fitted picture
+constexpr double kTallestShare = 0.45;    ///< of the view's height, if they have to be scrolled
 constexpr int kFitSteps = 12;             ///< of halving
 constexpr double kSmallestZoom = 0.1;
 constexpr double kLargestZoom = 32;
@@ -133,6 +134,14 @@ double ChipGrid::fittingZoom() const {
     for (int i = 0; i < kFitSteps; ++i) {
         const double middle = (small + large) / 2;
         (arrange(middle, nullptr) <= viewport()->height() ? small : large) = middle;
+    }
+    if (arrange(small, nullptr) > viewport()->height()) {
+        // They have to be scrolled anyway: the columns there are fill the width.
+        const double card = side_by_side * std::max(title_width_, small * widest) + (side_by_side - 1) * kChipGap;
+        const double columns = std::max(1.0, std::floor((viewport()->width() - kGap) / (card + kGap)));
+        const double wider = (viewport()->width() - kGap) / columns - kGap - 1;
+        const double filling = (wider - (side_by_side - 1) * kChipGap) / side_by_side / widest;
+        small = std::max(small, std::min(filling, kTallestShare * viewport()->height() / tallest));
     }
     return std::clamp(small, kSmallestZoom, kLargestZoom);
 }

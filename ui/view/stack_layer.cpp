@@ -9,7 +9,7 @@ namespace eyrie::ui {
 namespace {
 constexpr double kGoldenRatio = 0.618033988749895;
 constexpr double kArm = 9;      ///< of the cross, logical px; the one that points ahead is longer
-constexpr double kDotSize = 5;  ///< logical px
+constexpr double kDotSize = 4;  ///< logical px
 constexpr double kLineWidth = 2.2;
 }  // namespace
 
