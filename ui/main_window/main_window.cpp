@@ -10,6 +10,7 @@
 #include <QMimeData>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QToolBar>
 #include <QVBoxLayout>
 
@@ -65,6 +66,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     default_layout_ = saveState();
     restoreGeometry(settings_.geometry());
     restoreState(settings_.layout());
+    showTabTitles();
     showRecent();
     enableActions();
     updateTitle();
@@ -206,6 +208,14 @@ void MainWindow::wireSession() {
         actions_->follow->setChecked(following);
         enableActions();
     });
+}
+
+void MainWindow::showTabTitles() {
+    // Narrow docks scroll their tabs; cut down to a letter nobody knows which is which.
+    for (QTabBar* bar : findChildren<QTabBar*>()) {
+        bar->setElideMode(Qt::ElideNone);
+        bar->setUsesScrollButtons(true);
+    }
 }
 
 void MainWindow::enableActions() {
@@ -356,6 +366,7 @@ void MainWindow::showRecent() {
 void MainWindow::restoreView() {
     const ProjectView view = settings_.projectView(session_.project());
     if (!view.layout.isEmpty()) restoreState(view.layout);
+    showTabTitles();
     if (view.zoom > 0)
         canvas_->restore(view.zoom, view.centre);
     else

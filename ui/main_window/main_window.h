@@ -75,6 +75,7 @@ class MainWindow : public QMainWindow {
     void becameReady(bool has_results);
     void runEnded(const RunSummary& summary);
     void enableActions();
+    void showTabTitles();
     void updateTitle();
     void showRecent();
     void restoreView();

@@ -96,7 +96,10 @@ void StacksPanel::refresh() {
     } else if (!session_.viewFrame().result) {
         why = tr("The run has not done this frame.");
     }
-    if (why.isEmpty()) return;
+    if (why.isEmpty()) {  // pictures that are shown stay until others come
+        if (pages_->currentWidget() == empty_) empty_->setTexts(tr("This frame is being replayed …"));
+        return;
+    }
     empty_->setTexts(why, action);
     pages_->setCurrentWidget(empty_);
     summary_->clear();

@@ -132,7 +132,8 @@ Chip layerChip(const DetectionTrace::Layer& layer) {
     }
     for (const cv::Rect2d& box : layer.boxes) chip.boxes.push_back(rectangle(box));
     if (!layer.boxes.empty())
-        chip.note = tr("%n box(es)").replace(QStringLiteral("%n"), QString::number(layer.boxes.size()));
+        chip.note = layer.boxes.size() == 1 ? tr("1 box") : tr("%1 boxes").arg(layer.boxes.size());
+    if (layer.name.starts_with("decision") && cv::countNonZero(layer.image) == 0) chip.note = tr("all given up early");
     return chip;
 }
 

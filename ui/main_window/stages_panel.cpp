@@ -159,7 +159,10 @@ void StagesPanel::refresh() {
     else
         title_->setText(any ? tr("%1 clusters").arg(result->clusters.size()) : tr("No cluster"));
     const auto [why, action] = whyEmpty();
+    if (why.isEmpty() && pages_->currentWidget() == empty_)  // pictures that are shown stay until others come
+        empty_->setTexts(tr("This frame is being replayed …"));
     const bool whole_frame = view_ && view_->differences && !cluster && view_->wish.frame == session_.viewFrame().index;
+    general_->setVisible(result != nullptr);
     if (!why.isEmpty() && !whole_frame) {
         empty_->setTexts(why, action);
         pages_->setCurrentWidget(empty_);
