@@ -41,11 +41,6 @@ ChipGrid::ChipGrid(QWidget* parent) : QAbstractScrollArea(parent) {
 
 void ChipGrid::setCards(std::vector<ChipCard> cards) {
     cards_ = std::move(cards);
-    title_width_ = kNarrowestChip;
-    for (const ChipCard& card : cards_)
-        for (const Chip& chip : card.chips)
-            title_width_ = std::max({title_width_, textWidth(chip.title), textWidth(chip.note)});
-    title_width_ = std::min(title_width_, kWidestTitle);
     layoutCards();
 }
 
@@ -147,6 +142,13 @@ double ChipGrid::fittingZoom() const {
 }
 
 void ChipGrid::layoutCards() {
+    title_width_ = kNarrowestChip;
+    for (const ChipCard& card : cards_)
+        for (const Chip& chip : card.chips)
+            title_width_ = std::max({title_width_, textWidth(chip.title), textWidth(chip.note)});
+    // Two in a row rather than whole titles, where it is narrow.
+    const double half = std::max(kNarrowestChip, (viewport()->width() - 3 * kGap) / 2);
+    title_width_ = std::min({title_width_, kWidestTitle, half});
     if (fitted_) zoom_ = fittingZoom();
     placed_.clear();
     const double height = arrange(zoom_, &placed_);
