@@ -128,6 +128,15 @@ class Follower {
             lengthOf(movementTo(step.box, map) - expected) > options_.max_speed_change_px) {
             return FollowEnd::jump;
         }
+        // A vehicle does not stop or set off at once; a box that sticks to the ground does.
+        const cv::Point2d usual = map.applyToVector(box_.centre, usual_velocity_);
+        constexpr int kUsualSpeedSteps = 6;
+        const double change = lengthOf((movementTo(step.box, map) + expected) * 0.5 - usual);
+        if (steps_ >= kUsualSpeedSteps &&
+            change > std::max(options_.max_speed_change_px * 0.35, 0.5 * lengthOf(usual))) {
+            return FollowEnd::jump;
+        }
+        if (likeness.start < options_.min_start_likeness) return FollowEnd::appearance;
         if (likeness.recent < 0.5) return flow.agreeing < 2 ? FollowEnd::few_corners : FollowEnd::appearance;
         if (step.certainty < options_.min_certainty) {
             return flow.agreeing < 2 ? FollowEnd::few_corners : FollowEnd::appearance;
@@ -139,6 +148,9 @@ class Follower {
         const cv::Point2d movement = movementTo(step.box, map);
         const cv::Point2d before = map.applyToVector(box_.centre, velocity_);
         velocity_ = steps_ == 0 ? movement : before + (movement - before) * 0.5;
+        const cv::Point2d usual = map.applyToVector(box_.centre, usual_velocity_);
+        const double share = std::max(0.12, 1.0 / (steps_ + 1));
+        usual_velocity_ = usual + (movement - usual) * share;
         box_ = step.box;
         ++steps_;
         // What is hidden in part must not become the look of the object.
@@ -150,7 +162,8 @@ class Follower {
     cv::Size samples_;
     BoxPatch start_;
     BoxPatch recent_;
-    cv::Point2d velocity_{0, 0};  ///< px per step against the ground, in the current picture
+    cv::Point2d velocity_{0, 0};        ///< px per step against the ground, in the current picture
+    cv::Point2d usual_velocity_{0, 0};  ///< the same over the last ten steps or so
     int steps_ = 0;
 };
 
