@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
+#include "annotation/ignore_regions.h"
 #include "annotation/interpolation.h"
 #include "annotation/keyframe_reduction.h"
 #include "core/error.h"
@@ -116,28 +118,13 @@ AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
     return edit;
 }
 
-void addRegion(const IgnoreRegion& region, const CameraMotion& camera, FrameIndex last, LabelFile& labels, int& grown) {
-    for (FrameIndex frame = region.first_frame; frame <= std::min(region.last_frame, last); ++frame) {
-        std::vector<cv::Point2d> corners;
-        for (const cv::Point2d& corner : region.polygon) {
-            corners.push_back(region.anchor == RegionAnchor::ground
-                                  ? carriedPoint(corner, region.reference_frame, frame, camera)
-                                  : corner);
-        }
-        LabelBox area;
-        area.frame = frame;
-        area.ignore = true;
-        area.box = boxAround(corners, 0);
-        if (corners.size() == 4) {
-            const CornerBox fitted = boxFromCorners({corners[1], corners[2], corners[3], corners[0]});
-            if (fitted.departure < 0.5) area.box = fitted.box;
-        }
-        double polygon_area = 0;
-        for (std::size_t i = 0; i < corners.size(); ++i)
-            polygon_area += corners[i].cross(corners[(i + 1) % corners.size()]);
-        grown += area.box.area() > 1.02 * std::abs(polygon_area) / 2 + 1;
-        labels.boxes[frame].push_back(std::move(area));
+/// A region as ignored boxes: one where it is a rectangle, otherwise rows that cover it.
+std::vector<OrientedBox> boxesOf(const std::vector<cv::Point2d>& polygon) {
+    if (polygon.size() == 4) {
+        const CornerBox fitted = boxFromCorners({polygon[1], polygon[2], polygon[3], polygon[0]});
+        if (fitted.departure < 0.5) return {fitted.box};
     }
+    return coveringBoxes(polygon);
 }
 
 }  // namespace
@@ -203,11 +190,22 @@ LabelFile labelsOfProject(ProjectFile& project, const SequenceRecord& sequence) 
             labels.boxes[frame].push_back(std::move(box));
         }
     }
-    int grown = 0;
-    for (const auto& [id, region] : annotations.regions) addRegion(region, camera, last, labels, grown);
-    if (grown > 0) {
-        labels.notes.push_back("ignore regions became boxes; " + std::to_string(grown) +
-                               " of them cover more than the region");
+    std::set<FrameIndex> with_regions;
+    for (const auto& [id, region] : annotations.regions) {
+        for (FrameIndex frame = region.first_frame; frame <= std::min(region.last_frame, last); ++frame) {
+            with_regions.insert(frame);
+        }
+    }
+    for (const FrameIndex frame : with_regions) {
+        for (const RegionInFrame& region : regionsAt(annotations, frame, camera)) {
+            for (const OrientedBox& box : boxesOf(region.polygon)) {
+                LabelBox area;
+                area.frame = frame;
+                area.ignore = true;
+                area.box = box;
+                labels.boxes[frame].push_back(std::move(area));
+            }
+        }
     }
     if (camera.empty()) {
         labels.notes.push_back("the video was never registered, so boxes between keyframes run straight in the image");

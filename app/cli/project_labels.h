@@ -21,7 +21,6 @@ std::optional<RunRecord> lastRunOver(const RunStore& store, int sequence_id);
 CameraMotion cameraMotionOf(const RunStore& store, int sequence_id);
 
 /// Labels of a video as a file would have them: objects frame by frame, ignore regions as ignored boxes without id.
-/// What regions had to grow for it is in `notes`.
 LabelFile labelsOfProject(ProjectFile& project, const SequenceRecord& sequence);
 /// Tracks of a run, or its detections.
 LabelFile labelsOfRun(const RunStore& store, const RunRecord& run, bool detections);

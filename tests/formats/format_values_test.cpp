@@ -101,6 +101,15 @@ TEST_F(FormatValues, YoloNamesComeFromDataYaml) {
     }
 }
 
+TEST_F(FormatValues, PlainYoloIsReadToo) {
+    ImportOptions options;
+    options.image_size = cv::Size(200, 100);
+    const LabelFile labels = read("y.txt", "0 0.1 0.5 0.05 0.2\n1 0.1 0.5 0.05 0.2 0.75\n", "auto", options);
+    EXPECT_EQ(labels.format, "yolo-obb");
+    expectBox(labels.boxes.at(0)[0].box, 19.5, 49.5, 10, 20, 0);
+    EXPECT_EQ(labels.boxes.at(0)[1].score, 0.75);
+}
+
 TEST_F(FormatValues, CvatTurnsClockwiseAboutTheCentreAndInterpolatesByTheShorterArc) {
     const LabelFile labels =
         read("a.xml",
