@@ -7,6 +7,8 @@
 #include "cli/label_arguments.h"
 #include "cli/project_labels.h"
 #include "core/error.h"
+#include "exchange/project_labels.h"
+#include "store/annotation_store.h"
 
 namespace eyrie::cli {
 namespace {
@@ -53,12 +55,13 @@ LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
         if (arguments.labels) {
             const SequenceRecord sequence = chosenSequence(project, arguments.sequence);
             source = sequence.path;
-            labels = labelsOfProject(project, sequence);
+            labels = labelsOf(readAnnotations(project, sequence.id), sequence,
+                              cameraMotionOf(RunStore(project), sequence.id));
         } else {
             const RunStore store(project);
             const RunRecord run = chosenRun(store, arguments);
             source = run.sequence.path;
-            labels = labelsOfRun(store, run, arguments.detections);
+            labels = labelsOf(store, run, arguments.detections);
         }
     }
     if (options.sequence.empty()) options.sequence = std::filesystem::path(source).stem().string();

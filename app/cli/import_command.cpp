@@ -7,6 +7,8 @@
 #include "cli/label_arguments.h"
 #include "cli/project_labels.h"
 #include "core/error.h"
+#include "exchange/label_import.h"
+#include "exchange/project_labels.h"
 #include "formats/frame_offset.h"
 #include "store/annotation_store.h"
 
@@ -88,7 +90,11 @@ void importLabels(const Arguments& arguments) {
         arguments.video.empty() ? ProjectFile::open(arguments.project) : ProjectFile::openOrCreate(arguments.project);
     const SequenceRecord sequence = sequenceFor(project, arguments);
     printNotes(doubtsAbout(labels, project, sequence));
-    const LabelImport done = importIntoProject(project, sequence, labels, arguments.tolerance_px);
+    AnnotationStore store(project, sequence.id);
+    if (store.readOnly()) throw Error(ErrorKind::output, store.readOnlyReason());
+    const CameraMotion camera = cameraMotionOf(RunStore(project), sequence.id);
+    const LabelImport done = planImport(labels, sequence, camera, store, arguments.tolerance_px);
+    store.apply(done.edit);
     std::printf("%d objects with %d keyframes for %d boxes, and %d ignore regions, added to %s\n", done.objects,
                 done.keyframes, done.boxes, done.regions, arguments.project.c_str());
     printNotes(done.notes);
