@@ -25,6 +25,9 @@ cv::Point2d limited(cv::Point2d v, double longest) {
 constexpr double kLongestTangent = 3;
 // Between the heading and the direction of the path, radians.
 constexpr double kLargestSlip = 0.6;
+// Curves that are driven: headings against the chord, and their difference, radians.
+constexpr double kSharpestHalfTurn = 1.2;
+constexpr double kLeastTurn = 0.1;
 
 }  // namespace
 
@@ -68,10 +71,55 @@ cv::Point2d KeyframePath::tangent(std::size_t knot) const {
     return limited(end, kLongestTangent * lengthOf(own));
 }
 
+/// Where on its way a vehicle is that drives a curve: a cubic through place and heading at both ends, passed at a speed
+/// that changes smoothly from end to end. How it turns and how it brakes are then told apart.
+std::optional<KeyframePath::Drive> KeyframePath::driven(std::size_t piece, double share) const {
+    if (shape_ == PathShape::straight || !along_headings_) return std::nullopt;
+    if (!knots_[piece].heading_set || !knots_[piece + 1].heading_set || !moving(piece)) return std::nullopt;
+    const cv::Point2d chord = knots_[piece + 1].point - knots_[piece].point;
+    const double length = lengthOf(chord);
+    const double along = angleOf(chord);
+    const double leave = turnBetween(along, knots_[piece].heading);
+    const double arrive = turnBetween(along, knots_[piece + 1].heading);
+    const double turn = arrive - leave;
+    if (std::abs(leave) > kSharpestHalfTurn || std::abs(arrive) > kSharpestHalfTurn || std::abs(turn) < kLeastTurn) {
+        return std::nullopt;
+    }
+    // The cubic that is nearest to an arc of this turn.
+    const double pull = length / std::pow(std::cos(turn / 4), 2);
+    const cv::Point2d first = cv::Point2d(std::cos(along + leave), std::sin(along + leave)) * pull;
+    const cv::Point2d last = cv::Point2d(std::cos(along + arrive), std::sin(along + arrive)) * pull;
+    const auto pointAt = [&](double s) {
+        return chord * (s * s * (3 - 2 * s)) + first * (s * (s - 1) * (s - 1)) + last * (s * s * (s - 1));
+    };
+    constexpr int kSteps = 16;
+    std::array<double, kSteps + 1> way{};
+    cv::Point2d before(0, 0);
+    for (int i = 1; i <= kSteps; ++i) {
+        const cv::Point2d point = pointAt(static_cast<double>(i) / kSteps);
+        way[static_cast<std::size_t>(i)] = way[static_cast<std::size_t>(i) - 1] + lengthOf(point - before);
+        before = point;
+    }
+    const double whole = way[kSteps];
+    const double duration = knots_[piece + 1].time - knots_[piece].time;
+    const double start = std::min(lengthOf(tangent(piece)) * duration, kLongestTangent * whole);
+    const double end = std::min(lengthOf(tangent(piece + 1)) * duration, kLongestTangent * whole);
+    const double t = share;
+    const double gone = whole * t * t * (3 - 2 * t) + start * t * (t - 1) * (t - 1) + end * t * t * (t - 1);
+    const auto next = std::upper_bound(way.begin() + 1, way.end() - 1, gone);
+    const auto i = static_cast<std::size_t>(next - way.begin());
+    const double s = (static_cast<double>(i) - 1 + (gone - way[i - 1]) / std::max(1e-9, way[i] - way[i - 1])) / kSteps;
+    Drive drive;
+    drive.point = knots_[piece].point + pointAt(s);
+    drive.direction = angleOf(chord * (6 * s * (1 - s)) + first * ((s - 1) * (3 * s - 1)) + last * (s * (3 * s - 2)));
+    return drive;
+}
+
 cv::Point2d KeyframePath::position(std::size_t piece, double share) const {
     const cv::Point2d a = knots_[piece].point;
     const cv::Point2d b = knots_[piece + 1].point;
     if (shape_ == PathShape::straight) return a + (b - a) * share;
+    if (const auto drive = driven(piece, share)) return drive->point;
     const double duration = knots_[piece + 1].time - knots_[piece].time;
     const cv::Point2d leave = velocityAt(piece, piece) * duration;
     const cv::Point2d arrive = velocityAt(piece, piece + 1) * duration;
@@ -83,6 +131,7 @@ cv::Point2d KeyframePath::position(std::size_t piece, double share) const {
 double KeyframePath::direction(std::size_t piece, double share) const {
     const cv::Point2d chord = knots_[piece + 1].point - knots_[piece].point;
     if (shape_ == PathShape::straight) return angleOf(chord);
+    if (const auto drive = driven(piece, share)) return drive->direction;
     // Where the object stands still for a moment, the direction just inside the piece.
     const double s = std::clamp(share, 1e-3, 1 - 1e-3);
     const double duration = knots_[piece + 1].time - knots_[piece].time;

@@ -46,6 +46,11 @@ class KeyframePath {
     cv::Point2d tangent(std::size_t knot) const;
     /// The same for one piece: where both its headings are set, vehicles drive along them.
     cv::Point2d velocityAt(std::size_t piece, std::size_t knot) const;
+    struct Drive {
+        cv::Point2d point;
+        double direction = 0;
+    };
+    std::optional<Drive> driven(std::size_t piece, double share) const;
     double direction(std::size_t piece, double share) const;
     std::optional<double> directionAt(std::size_t knot) const;
 
