@@ -1,6 +1,7 @@
 #include "annotation/proposals.h"
 
 #include <algorithm>
+#include <opencv2/core/utility.hpp>
 
 #include "annotation/object_pieces.h"
 
@@ -35,23 +36,34 @@ ObjectId labelledAlready(const DenseTrack& track, const AnnotationSet& labelled,
     return most >= min_overlap ? best : 0;
 }
 
+Proposal propose(const DenseTrack& track, const AnnotationSet& labelled, const CameraMotion& camera,
+                 const ProposalOptions& options) {
+    Proposal proposal;
+    proposal.track = track.id;
+    proposal.object.object_class = options.object_class;
+    proposal.object.origin = ObjectOrigin::proposal_accepted;
+    proposal.object.keyframes = reduceToKeyframes(track.boxes, camera, options.reduction);
+    proposal.object.last_frame = track.boxes.back().frame;
+    proposal.max_corner_px = reductionError(proposal.object, track.boxes, camera).corner_px;
+    proposal.same_as = labelledAlready(track, labelled, camera, options.min_overlap_with_object);
+    return proposal;
+}
+
 }  // namespace
 
 std::vector<Proposal> proposeTracks(const std::vector<DenseTrack>& tracks, const AnnotationSet& labelled,
                                     const CameraMotion& camera, const ProposalOptions& options) {
-    std::vector<Proposal> proposals;
+    std::vector<const DenseTrack*> offered;
     for (const DenseTrack& track : tracks) {
-        if (static_cast<int>(track.boxes.size()) < options.min_frames || track.boxes.empty()) continue;
-        Proposal proposal;
-        proposal.track = track.id;
-        proposal.object.object_class = options.object_class;
-        proposal.object.origin = ObjectOrigin::proposal_accepted;
-        proposal.object.keyframes = reduceToKeyframes(track.boxes, camera, options.reduction);
-        proposal.object.last_frame = track.boxes.back().frame;
-        proposal.max_corner_px = reductionError(proposal.object, track.boxes, camera).corner_px;
-        proposal.same_as = labelledAlready(track, labelled, camera, options.min_overlap_with_object);
-        proposals.push_back(std::move(proposal));
+        if (static_cast<int>(track.boxes.size()) >= std::max(1, options.min_frames)) offered.push_back(&track);
     }
+    std::vector<Proposal> proposals(offered.size());
+    cv::parallel_for_({0, static_cast<int>(offered.size())}, [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            const auto place = static_cast<std::size_t>(i);
+            proposals[place] = propose(*offered[place], labelled, camera, options);
+        }
+    });
     return proposals;
 }
 

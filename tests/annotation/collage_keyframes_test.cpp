@@ -47,7 +47,7 @@ Effort effortOf(const std::map<int, std::vector<FrameBox>>& tracks, const Camera
 /// wanted in reports.
 TEST(CollageKeyframes, TheGroundNeedsFarFewerThanTheImage) {
     EYRIE_NEED_SHARED_DATA("collage_day");
-    for (const char* name : {"collage_day", "collage_small"}) {
+    for (const char* name : {"collage_day"}) {
         const auto folder = test::sharedData(name);
         const auto tracks = tracksOf(readBoxCsv(folder / "ground_truth.csv"));
         const CameraMotion camera = CameraMotion::fromCommonFrame(readHomographyCsv(folder / "homography.csv"));
