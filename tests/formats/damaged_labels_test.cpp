@@ -125,6 +125,8 @@ TEST_F(DamagedLabels, WrongColumnsOfOneFormatAreToldApart) {
     EXPECT_THAT(refusal("viame", "1,\"a\"b,0,0,0,1,1,1,-1\n"), HasSubstr("closing quote"));
     EXPECT_THAT(refusal("columns", "1,3,1,2,3,4\n", "frame,n,[x,y,w,h]"),
                 HasSubstr("3 boxes are announced and 1 follow"));
+    EXPECT_THAT(refusal("native", "frame,id,x,y,length,width,heading,class,ignore\n0,1,1,1,1,1,0,c\x1b[2Jar,0\n"),
+                HasSubstr("frame 0 has a class with control characters"));
     EXPECT_THAT(refusal("columns", "1,1,2,3\n", "frame,[x,y,w,h]"), HasSubstr(":1:1"));
 }
 

@@ -18,6 +18,7 @@ inline std::string textOf(const std::filesystem::path& path) {
 
 inline std::filesystem::path writeText(const std::filesystem::path& path, const std::string& text) {
     std::filesystem::create_directories(path.parent_path());
+    std::filesystem::remove(path);  // file systems flush a file that is cut and written anew, which takes milliseconds
     std::ofstream(path, std::ios::binary) << text;
     return path;
 }
