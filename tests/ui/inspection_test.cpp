@@ -4,6 +4,7 @@
 #include <QTest>
 
 #include "session/cluster_choice.h"
+#include "session/vector_lives.h"
 #include "ui/ui_support.h"
 
 namespace eyrie::ui {
@@ -100,6 +101,44 @@ class InspectionTest : public QObject {
         QCOMPARE(cornersOf(result, 7), std::vector<CornerId>());
         QCOMPARE(clusterWith(result, {12, 13, 14}), std::optional(1));
         QCOMPARE(clusterWith(result, {77}), std::nullopt);
+    }
+
+    void livesOfMotionVectorsFallIntoTheThesisBins() {
+        QCOMPARE(lifeBin(1), 0);
+        QCOMPARE(lifeBin(10), 0);
+        QCOMPARE(lifeBin(11), 1);
+        QCOMPARE(lifeBin(50), 1);
+        QCOMPARE(lifeBin(51), 2);
+        QCOMPARE(lifeBin(100), 2);
+        QCOMPARE(lifeBinText(1), QStringLiteral("11–50"));
+        QCOMPARE(lifeBinText(2), QStringLiteral("51–100"));
+        // One vector for 60 frames, of which 12 in a track's box; another for 5 frames, beside it.
+        VectorLifeCounter counter;
+        for (int frame = 0; frame < 60; ++frame) {
+            FrameResult result;
+            MotionVector followed;
+            followed.id = 1;
+            followed.position = {50, 50};
+            result.motion.motion_vectors.push_back(followed);
+            if (frame < 5) {
+                MotionVector other;
+                other.id = 2;
+                other.position = {90, 90};
+                result.motion.motion_vectors.push_back(other);
+            }
+            TrackState track;
+            track.box = {{50, 50}, 20, 10, 0};
+            track.status = frame < 12 ? TrackStatus::coasting : TrackStatus::tentative;
+            result.tracks.push_back(track);
+            counter.add(result);
+        }
+        const VectorLives lives = counter.lives();
+        QCOMPARE(lives.vectors, 2);
+        QCOMPARE(lives.life, (std::vector<int>{1, 0, 1}));
+        QCOMPARE(lives.association, (std::vector<int>{0, 1, 0}));
+        QCOMPARE(lives.mean_life, 32.5);
+        QCOMPARE(lives.mean_association, 12.0);
+        QCOMPARE(VectorLifeCounter().lives().vectors, 0);
     }
 
     void theChosenClusterIsFollowedAndItsStepsAreReplayed() {

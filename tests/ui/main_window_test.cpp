@@ -11,6 +11,7 @@
 #include <QTest>
 
 #include "main_window/key_sheet.h"
+#include "main_window/motion_statistics_panel.h"
 #include "main_window/review_docks.h"
 #include "main_window/stacks_panel.h"
 #include "main_window/stages_panel.h"
@@ -172,7 +173,7 @@ class MainWindowTest : public QObject {
         window->session().goToFrame(30);
         QVERIFY(showsFrame(*window, 30));
         StagesPanel& stages = window->docks().stages();
-        QVERIFY(waitFor([&] { return stages.isVisible() && !stages.explanation().isEmpty(); }));
+        QVERIFY(waitFor([&] { return !stages.explanation().isEmpty(); }));
         const FrameResult& result = *window->canvas().frame().result;
         QVERIFY(!result.clusters.empty());
         const OrientedBox& box = result.clusters.front().box;
@@ -197,8 +198,7 @@ class MainWindowTest : public QObject {
         QVERIFY(window);
         window->findChild<QDockWidget*>(QStringLiteral("stacks"))->raise();
         StacksPanel& stacks = window->docks().stacks();
-        QVERIFY(
-            waitFor([&] { return stacks.isVisible() && stacks.explanation().contains(QStringLiteral("without")); }));
+        QVERIFY(waitFor([&] { return stacks.explanation().contains(QStringLiteral("without")); }));
         QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
         for (auto* button : stacks.findChildren<QAbstractButton*>())
             if (button->isVisible() && button->text().contains(QStringLiteral("stacking"))) button->click();
@@ -221,11 +221,45 @@ class MainWindowTest : public QObject {
         QVERIFY(!window->canvas().frame().stacks.front().related.empty());
         window->findChild<QDockWidget*>(QStringLiteral("stacks"))->raise();
         StacksPanel& stacks = window->docks().stacks();
-        QVERIFY(waitFor([&] { return stacks.isVisible() && stacks.explanation().isEmpty(); }));
+        QVERIFY(waitFor([&] { return stacks.explanation().isEmpty(); }));
         QCOMPARE(stacks.grid().cards().size(), window->canvas().frame().stacks.size());
         QTest::mouseClick(stacks.grid().viewport(), Qt::LeftButton, {},
                           stacks.grid().pictureRect(0, 0).center().toPoint());
         QVERIFY(window->inspection().cluster());
+    }
+
+    void speedsAreCountedInRoundBins() {
+        std::vector<MotionVector> vectors(100);
+        for (int i = 0; i < 100; ++i) vectors[static_cast<size_t>(i)].velocity = {0.01F * static_cast<float>(i), 0};
+        vectors.back().velocity = {50, 0};  // a wild one
+        const HistogramData data = speedHistogram(vectors, {});
+        QVERIFY(data.value_label.contains(QStringLiteral("px/frame")));
+        QCOMPARE(data.bin_width, 0.05);
+        const auto& counts = data.series.front().counts;
+        QVERIFY(counts.size() <= 26);
+        double sum = 0;
+        for (const double count : counts) sum += count;
+        QCOMPARE(sum, 100.0);
+        QCOMPARE(counts.back(), 1.0);
+        QVERIFY(data.text().startsWith(QStringLiteral("speed (px/frame)\tmotion vectors\n0\t")));
+        QVERIFY(speedHistogram({}, {}).series.front().counts.empty());
+        const SceneScale metres{0.25, 25, true};
+        QVERIFY(speedHistogram(vectors, metres).value_label.contains(QStringLiteral("km/h")));
+    }
+
+    void statisticsAreReadWhenTheyAreLookedAt() {
+        const auto window = windowWithRun(30);
+        QVERIFY(window);
+        window->session().goToFrame(25);
+        QVERIFY(showsFrame(*window, 25));
+        const MotionStatisticsPanel& statistics = window->docks().statistics();
+        QVERIFY(statistics.lives().data().series.empty());
+        window->findChild<QDockWidget*>(QStringLiteral("statistics"))->raise();
+        QVERIFY(waitFor([&] { return !statistics.lives().data().series.empty(); }));
+        QCOMPARE(statistics.lives().data().series.size(), std::size_t(2));
+        double shown = 0;
+        for (const double count : statistics.speeds().data().series.front().counts) shown += count;
+        QCOMPARE(shown, static_cast<double>(window->canvas().frame().result->motion.motion_vectors.size()));
     }
 
     void errorsStandInABarAndBlockNothing() {

@@ -14,6 +14,7 @@ namespace eyrie::ui {
 
 class Inspection;
 class InspectorPanel;
+class MotionStatisticsPanel;
 class ParameterForm;
 class RunsPanel;
 class StacksPanel;
@@ -34,6 +35,7 @@ class ReviewDocks : public QObject {
     StageTimesChart& stageTimes() { return *chart_; }
     StagesPanel& stages() { return *stages_; }
     StacksPanel& stacks() { return *stacks_; }
+    MotionStatisticsPanel& statistics() { return *statistics_; }
 
  signals:
     void runRequested();
@@ -57,6 +59,7 @@ class ReviewDocks : public QObject {
     StageTimesChart* chart_;
     StagesPanel* stages_;
     StacksPanel* stacks_;
+    MotionStatisticsPanel* statistics_;
     QList<QDockWidget*> docks_;
     std::optional<int> parameters_wanted_of_;  ///< run whose parameters are taken over once they are read
 };

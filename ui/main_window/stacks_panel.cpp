@@ -42,7 +42,7 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
     connect(&inspection_, &Inspection::changed, this, &StacksPanel::refresh);
     connect(&inspection_, &Inspection::replayed, this, &StacksPanel::showView);
     connect(&inspection_, &Inspection::working, this, [this](int left) {
-        if (isVisible()) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
+        if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
     });
     connect(whole_area_, &QCheckBox::toggled, this, &StacksPanel::showCards);
     connect(empty_, &EmptyState::actionTriggered, this, &StacksPanel::stackingRunRequested);
@@ -55,15 +55,10 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
     refresh();
 }
 
-void StacksPanel::showEvent(QShowEvent* event) {
-    QWidget::showEvent(event);
-    inspection_.wantStacks(true);
+void StacksPanel::setLookedAt(bool looked_at) {
+    looked_at_ = looked_at;
+    inspection_.wantStacks(looked_at);
     refresh();
-}
-
-void StacksPanel::hideEvent(QHideEvent* event) {
-    QWidget::hideEvent(event);
-    inspection_.wantStacks(false);
 }
 
 QString StacksPanel::explanation() const {
@@ -77,7 +72,7 @@ bool StacksPanel::stackingOff() const {
 }
 
 void StacksPanel::refresh() {
-    if (!isVisible()) return;
+    if (!looked_at_) return;
     QString why;
     QString action;
     if (!session_.currentRun()) {
@@ -107,7 +102,7 @@ void StacksPanel::refresh() {
 }
 
 void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {
-    if (!isVisible() || view->wish.frame != session_.viewFrame().index || stackingOff()) return;
+    if (!looked_at_ || view->wish.frame != session_.viewFrame().index || stackingOff()) return;
     view_ = view;
     const StackingOptions& options = view->options.stacking;
     const auto used = std::count_if(view->stacks.begin(), view->stacks.end(),

@@ -14,7 +14,8 @@ class ChipGrid;
 class EmptyState;
 
 /// All image stacks of the frame shown (fig. 5.5–5.9): raw chip beside stacked image, height, and the colour that the
-/// stack has in the video. Replays nothing while it is not visible.
+/// stack has in the video. Replays nothing
+/// while nobody looks at it.
 class StacksPanel : public QWidget {
     Q_OBJECT
 
@@ -22,6 +23,8 @@ class StacksPanel : public QWidget {
     /// Both must outlive the panel.
     StacksPanel(ProjectSession& session, Inspection& inspection, QWidget* parent = nullptr);
 
+    /// Whether the user sees the panel. A dock behind other tabs counts as visible for Qt.
+    void setLookedAt(bool looked_at);
     ChipGrid& grid() { return *grid_; }
     /// What stands there while there is nothing to see; empty while there is.
     QString explanation() const;
@@ -32,10 +35,6 @@ class StacksPanel : public QWidget {
     /// Run again with the same parameters, but with stacking.
     void stackingRunRequested();
 
- protected:
-    void showEvent(QShowEvent* event) override;
-    void hideEvent(QHideEvent* event) override;
-
  private:
     void refresh();
     void showView(const std::shared_ptr<const ReplayView>& view);
@@ -44,6 +43,7 @@ class StacksPanel : public QWidget {
 
     ProjectSession& session_;
     Inspection& inspection_;
+    bool looked_at_ = false;
     std::shared_ptr<const ReplayView> view_;
     QLabel* summary_;
     QCheckBox* whole_area_;

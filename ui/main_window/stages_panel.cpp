@@ -48,7 +48,7 @@ StagesPanel::StagesPanel(ProjectSession& session, Inspection& inspection, QWidge
     connect(&inspection_, &Inspection::changed, this, &StagesPanel::refresh);
     connect(&inspection_, &Inspection::replayed, this, &StagesPanel::showView);
     connect(&inspection_, &Inspection::working, this, [this](int left) {
-        if (isVisible()) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
+        if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
     });
     refresh();
 }
@@ -102,15 +102,10 @@ QWidget* StagesPanel::buildHeader() {
     return header;
 }
 
-void StagesPanel::showEvent(QShowEvent* event) {
-    QWidget::showEvent(event);
-    inspection_.wantStages(true);
+void StagesPanel::setLookedAt(bool looked_at) {
+    looked_at_ = looked_at;
+    inspection_.wantStages(looked_at);
     refresh();
-}
-
-void StagesPanel::hideEvent(QHideEvent* event) {
-    QWidget::hideEvent(event);
-    inspection_.wantStages(false);
 }
 
 QString StagesPanel::explanation() const {
@@ -172,7 +167,7 @@ void StagesPanel::refresh() {
 }
 
 void StagesPanel::showView(const std::shared_ptr<const ReplayView>& view) {
-    if (!isVisible() || view->wish.frame != session_.viewFrame().index) return;
+    if (!looked_at_ || view->wish.frame != session_.viewFrame().index) return;
     view_ = view;
     refresh();
     summary_->setText(summaryOf(*view));

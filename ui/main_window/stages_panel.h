@@ -15,8 +15,8 @@ namespace eyrie::ui {
 class ChipGrid;
 class EmptyState;
 
-/// The stage inspector: every step from the motion ROI of the chosen cluster to its detections. Replays nothing while
-/// it is not visible.
+/// The stage inspector: every step from the motion ROI of the chosen cluster to its detections. Replays nothing
+/// while nobody looks at it.
 class StagesPanel : public QWidget {
     Q_OBJECT
 
@@ -24,13 +24,11 @@ class StagesPanel : public QWidget {
     /// Both must outlive the panel.
     StagesPanel(ProjectSession& session, Inspection& inspection, QWidget* parent = nullptr);
 
+    /// Whether the user sees the panel. A dock behind other tabs counts as visible for Qt.
+    void setLookedAt(bool looked_at);
     ChipGrid& grid() { return *grid_; }
     /// What stands there while there is nothing to see; empty while there is.
     QString explanation() const;
-
- protected:
-    void showEvent(QShowEvent* event) override;
-    void hideEvent(QHideEvent* event) override;
 
  private:
     QWidget* buildHeader();
@@ -43,6 +41,7 @@ class StagesPanel : public QWidget {
 
     ProjectSession& session_;
     Inspection& inspection_;
+    bool looked_at_ = false;
     std::shared_ptr<const ReplayView> view_;
     QLabel* title_;
     QLabel* summary_;
