@@ -47,6 +47,8 @@ int main(int argc, char** argv) {
     eyrie::cli::addTrainCommand(app, exit_code);
     eyrie::cli::addClassifyCommand(app, exit_code);
     eyrie::cli::addClassifyTestCommand(app, exit_code);
+    eyrie::cli::addImportCommand(app, exit_code);
+    eyrie::cli::addExportCommand(app, exit_code);
     try {
         app.parse(argc, argv);
         return exit_code;

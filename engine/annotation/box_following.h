@@ -38,6 +38,7 @@ struct FollowResult {
 
 struct FollowOptions {
     double min_certainty = 0.45;
+    double min_start_likeness = 0.3;  ///< correlation with how it looked at the start, −1 … 1
     int max_corners = 40;
     double max_forward_backward_px = 0.7;
     double max_speed_change_px = 4;  ///< px/frame, against the speed of the frames before

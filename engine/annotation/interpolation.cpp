@@ -43,6 +43,8 @@ class KnotMaker {
                     keyframe.heading_set};
     }
 
+    bool onGround() const { return camera_ != nullptr; }
+
  private:
     FrameIndex reference_;
     const CameraMotion* camera_;
@@ -66,7 +68,7 @@ std::optional<LocalPath> pathAround(const Keyframes& keyframes, std::size_t here
     }
     const auto own = maker.make(keyframes[here]);
     if (!own) return std::nullopt;
-    LocalPath local{KeyframePath(shape), earlier};
+    LocalPath local{KeyframePath(shape, maker.onGround()), earlier};
     for (std::size_t i = earlier; i-- > 0;) local.path.add(before[i]);
     local.path.add(*own);
     for (std::size_t i = here + 1; i < keyframes.size() && i <= here + 1 + reach; ++i) {

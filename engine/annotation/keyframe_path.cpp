@@ -23,6 +23,11 @@ cv::Point2d limited(cv::Point2d v, double longest) {
 
 // A tangent up to three times the slope keeps a cubic piece from running back (Fritsch and Carlson 1980).
 constexpr double kLongestTangent = 3;
+// Between the heading and the direction of the path, radians.
+constexpr double kLargestSlip = 0.6;
+// Curves that are driven: headings against the chord, and their difference, radians.
+constexpr double kSharpestHalfTurn = 1.2;
+constexpr double kLeastTurn = 0.1;
 
 }  // namespace
 
@@ -33,6 +38,18 @@ cv::Point2d KeyframePath::slope(std::size_t piece) const {
 bool KeyframePath::moving(std::size_t piece) const {
     const double length = (knots_[piece].length + knots_[piece + 1].length) / 2;
     return lengthOf(knots_[piece + 1].point - knots_[piece].point) >= std::max(1.0, length / 2);
+}
+
+cv::Point2d KeyframePath::velocityAt(std::size_t piece, std::size_t knot) const {
+    const cv::Point2d free = tangent(knot);
+    const double speed = lengthOf(free);
+    const bool headed = knots_[piece].heading_set && knots_[piece + 1].heading_set && moving(piece);
+    if (!along_headings_ || !headed || speed < 1e-9) return free;
+    const double heading = knots_[knot].heading;
+    const double turn = std::abs(turnBetween(angleOf(free), heading));
+    // What skids or is pushed does not drive where it heads.
+    if (turn > kLargestSlip && turn < kPi - kLargestSlip) return free;
+    return cv::Point2d(std::cos(heading), std::sin(heading)) * (turn <= kLargestSlip ? speed : -speed);
 }
 
 cv::Point2d KeyframePath::tangent(std::size_t knot) const {
@@ -54,13 +71,58 @@ cv::Point2d KeyframePath::tangent(std::size_t knot) const {
     return limited(end, kLongestTangent * lengthOf(own));
 }
 
+/// Where on its way a vehicle is that drives a curve: a cubic through place and heading at both ends, passed at a speed
+/// that changes smoothly from end to end. How it turns and how it brakes are then told apart.
+std::optional<KeyframePath::Drive> KeyframePath::driven(std::size_t piece, double share) const {
+    if (shape_ == PathShape::straight || !along_headings_) return std::nullopt;
+    if (!knots_[piece].heading_set || !knots_[piece + 1].heading_set || !moving(piece)) return std::nullopt;
+    const cv::Point2d chord = knots_[piece + 1].point - knots_[piece].point;
+    const double length = lengthOf(chord);
+    const double along = angleOf(chord);
+    const double leave = turnBetween(along, knots_[piece].heading);
+    const double arrive = turnBetween(along, knots_[piece + 1].heading);
+    const double turn = arrive - leave;
+    if (std::abs(leave) > kSharpestHalfTurn || std::abs(arrive) > kSharpestHalfTurn || std::abs(turn) < kLeastTurn) {
+        return std::nullopt;
+    }
+    // The cubic that is nearest to an arc of this turn.
+    const double pull = length / std::pow(std::cos(turn / 4), 2);
+    const cv::Point2d first = cv::Point2d(std::cos(along + leave), std::sin(along + leave)) * pull;
+    const cv::Point2d last = cv::Point2d(std::cos(along + arrive), std::sin(along + arrive)) * pull;
+    const auto pointAt = [&](double s) {
+        return chord * (s * s * (3 - 2 * s)) + first * (s * (s - 1) * (s - 1)) + last * (s * s * (s - 1));
+    };
+    constexpr int kSteps = 16;
+    std::array<double, kSteps + 1> way{};
+    cv::Point2d before(0, 0);
+    for (int i = 1; i <= kSteps; ++i) {
+        const cv::Point2d point = pointAt(static_cast<double>(i) / kSteps);
+        way[static_cast<std::size_t>(i)] = way[static_cast<std::size_t>(i) - 1] + lengthOf(point - before);
+        before = point;
+    }
+    const double whole = way[kSteps];
+    const double duration = knots_[piece + 1].time - knots_[piece].time;
+    const double start = std::min(lengthOf(tangent(piece)) * duration, kLongestTangent * whole);
+    const double end = std::min(lengthOf(tangent(piece + 1)) * duration, kLongestTangent * whole);
+    const double t = share;
+    const double gone = whole * t * t * (3 - 2 * t) + start * t * (t - 1) * (t - 1) + end * t * t * (t - 1);
+    const auto next = std::upper_bound(way.begin() + 1, way.end() - 1, gone);
+    const auto i = static_cast<std::size_t>(next - way.begin());
+    const double s = (static_cast<double>(i) - 1 + (gone - way[i - 1]) / std::max(1e-9, way[i] - way[i - 1])) / kSteps;
+    Drive drive;
+    drive.point = knots_[piece].point + pointAt(s);
+    drive.direction = angleOf(chord * (6 * s * (1 - s)) + first * ((s - 1) * (3 * s - 1)) + last * (s * (3 * s - 2)));
+    return drive;
+}
+
 cv::Point2d KeyframePath::position(std::size_t piece, double share) const {
     const cv::Point2d a = knots_[piece].point;
     const cv::Point2d b = knots_[piece + 1].point;
     if (shape_ == PathShape::straight) return a + (b - a) * share;
+    if (const auto drive = driven(piece, share)) return drive->point;
     const double duration = knots_[piece + 1].time - knots_[piece].time;
-    const cv::Point2d leave = tangent(piece) * duration;
-    const cv::Point2d arrive = tangent(piece + 1) * duration;
+    const cv::Point2d leave = velocityAt(piece, piece) * duration;
+    const cv::Point2d arrive = velocityAt(piece, piece + 1) * duration;
     const double s2 = share * share;
     const double s3 = s2 * share;
     return a + (b - a) * (3 * s2 - 2 * s3) + leave * (s3 - 2 * s2 + share) + arrive * (s3 - s2);
@@ -69,11 +131,12 @@ cv::Point2d KeyframePath::position(std::size_t piece, double share) const {
 double KeyframePath::direction(std::size_t piece, double share) const {
     const cv::Point2d chord = knots_[piece + 1].point - knots_[piece].point;
     if (shape_ == PathShape::straight) return angleOf(chord);
+    if (const auto drive = driven(piece, share)) return drive->direction;
     // Where the object stands still for a moment, the direction just inside the piece.
     const double s = std::clamp(share, 1e-3, 1 - 1e-3);
     const double duration = knots_[piece + 1].time - knots_[piece].time;
-    const cv::Point2d leave = tangent(piece) * duration;
-    const cv::Point2d arrive = tangent(piece + 1) * duration;
+    const cv::Point2d leave = velocityAt(piece, piece) * duration;
+    const cv::Point2d arrive = velocityAt(piece, piece + 1) * duration;
     const cv::Point2d velocity =
         chord * (6 * s - 6 * s * s) + leave * (3 * s * s - 4 * s + 1) + arrive * (3 * s * s - 2 * s);
     return lengthOf(velocity) > 1e-9 ? angleOf(velocity) : angleOf(chord);
@@ -103,7 +166,11 @@ double KeyframePath::heading(std::size_t piece, double share) const {
     // The turn of the heading against the path, so that a set heading fades into the path's.
     const double first = turnBetween(direction(piece, 0), leave);
     const double last = turnBetween(direction(piece, 1), arrive);
-    return wrapPi(direction(piece, share) + first + share * turnBetween(first, last));
+    const double change = turnBetween(first, last);
+    // Set headings that have little to do with the path turn by themselves.
+    const bool both_set = knots_[piece].heading_set && knots_[piece + 1].heading_set;
+    if (both_set && std::abs(change) > kLargestSlip / 2) return wrapPi(leave + share * turnBetween(leave, arrive));
+    return wrapPi(direction(piece, share) + first + share * change);
 }
 
 }  // namespace eyrie

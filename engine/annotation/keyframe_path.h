@@ -22,7 +22,8 @@ struct Knot {
 /// it a moment is, 0 … 1.
 class KeyframePath {
  public:
-    explicit KeyframePath(PathShape shape) : shape_(shape) {}
+    /// `along_headings`: directions of movement are headings, which they are on the ground, not in a moving picture.
+    KeyframePath(PathShape shape, bool along_headings) : shape_(shape), along_headings_(along_headings) {}
     void add(const Knot& knot) { knots_[count_++] = knot; }
     static constexpr std::size_t kMaxKnots = 6;
 
@@ -41,11 +42,20 @@ class KeyframePath {
 
  private:
     cv::Point2d slope(std::size_t piece) const;
+    /// Velocity at a knot: of the parabola through it and its neighbours.
     cv::Point2d tangent(std::size_t knot) const;
+    /// The same for one piece: where both its headings are set, vehicles drive along them.
+    cv::Point2d velocityAt(std::size_t piece, std::size_t knot) const;
+    struct Drive {
+        cv::Point2d point;
+        double direction = 0;
+    };
+    std::optional<Drive> driven(std::size_t piece, double share) const;
     double direction(std::size_t piece, double share) const;
     std::optional<double> directionAt(std::size_t knot) const;
 
     PathShape shape_;
+    bool along_headings_;
     std::array<Knot, kMaxKnots> knots_;
     std::size_t count_ = 0;
 };

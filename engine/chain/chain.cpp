@@ -98,6 +98,10 @@ std::vector<Detection> TrackHalf::detect(const Frame& frame, const FrameMotion& 
     return all;
 }
 
+void TrackHalf::remember(const Frame& frame, const FrameMotion& motion) {
+    if (difference_) difference_->remember(frame, motion);
+}
+
 FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes times) {
     FrameResult result;
     result.motion = std::move(motion);

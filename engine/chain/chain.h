@@ -37,6 +37,8 @@ class TrackHalf {
     TrackHalf(const ChainOptions& options, const SceneScale& scale);
     /// `frame` gives the pixels that belong to `motion`.
     FrameResult next(const Frame& frame, FrameMotion motion, StageTimes times);
+    /// Takes a frame in which nothing is to be found, for the difference images of later ones. Not for stacks.
+    void remember(const Frame& frame, const FrameMotion& motion);
 
     /// All image stacks as they are after the last frame, which `frame` is; none where stacking is off.
     std::vector<StackView> stackViews(const Frame& frame) const;

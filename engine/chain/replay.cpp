@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kSpareFrames = 8;       ///< for frames that could not be registered and count for nothing
 constexpr int kLongestReach = 200;    ///< beyond that nobody wants to wait
+constexpr int kWholeFrames = 2;       ///< done as a whole before the wanted one, which may repeat their answer
 constexpr int kStackGenerations = 2;  ///< a stack is full after one capacity, and rests on detections made with others
 
 /// How many frames before play a part in what is found in one.
@@ -60,11 +61,16 @@ void Replay::restart(FrameIndex first) {
     present_valid_ = false;
 }
 
-bool Replay::advance() {
+bool Replay::advance(FrameIndex wanted) {
     std::optional<FrameMotion> motion = source_.motion_of(next_);
     if (!motion) return false;
     present_valid_ = false;
     present_.frame = source_.pixels(next_);
+    if (!source_.options.stacking.enabled && next_ < wanted - kWholeFrames) {
+        half_.remember(present_.frame, *motion);
+        ++next_;
+        return true;
+    }
     present_.result = half_.next(present_.frame, std::move(*motion), {});
     present_valid_ = true;
     ++next_;
@@ -78,7 +84,7 @@ const ReplayedFrame* Replay::at(FrameIndex frame, const std::stop_token& stop) {
         // Going on is right only while it is no longer than starting anew.
         if (next_ > frame || next_ < frame - reach_) restart(std::max(source_.first_frame, frame - reach_));
         while (next_ <= frame) {
-            if (stop.stop_requested() || !advance()) return nullptr;
+            if (stop.stop_requested() || !advance(frame)) return nullptr;
         }
     }
     present_.stacks = half_.stackViews(present_.frame);

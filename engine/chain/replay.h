@@ -57,7 +57,7 @@ class Replay {
 
  private:
     void restart(FrameIndex first);
-    bool advance();
+    bool advance(FrameIndex wanted);
 
     ReplaySource source_;
     int reach_;

@@ -54,8 +54,8 @@ std::map<ObjectId, LabelledObject> objectsOfBoxes(const LabelBoxes& boxes, std::
 }
 
 /// Ids of a project count from 1.
-void numberFromOne(std::map<ObjectId, LabelledObject>& objects, std::vector<std::string>& notes) {
-    if (objects.empty() || objects.begin()->first > 0) return;
+int numberFromOne(std::map<ObjectId, LabelledObject>& objects, std::vector<std::string>& notes) {
+    if (objects.empty() || objects.begin()->first > 0) return 0;
     std::map<ObjectId, LabelledObject> moved;
     const int step = 1 - objects.begin()->first;
     for (auto& [id, object] : objects) {
@@ -64,6 +64,7 @@ void numberFromOne(std::map<ObjectId, LabelledObject>& objects, std::vector<std:
     }
     objects = std::move(moved);
     notes.push_back("ids were raised by " + std::to_string(step) + ": ours count from 1");
+    return step;
 }
 
 /// Ignored boxes without id, merged while they stay as they are from frame to frame.
@@ -112,7 +113,7 @@ ImportedLabels annotationsOf(const LabelFile& labels) {
     } else {
         for (const LabelledObject& object : labels.objects) objects[object.id] = object;
     }
-    numberFromOne(objects, imported.notes);
+    imported.id_step = numberFromOne(objects, imported.notes);
     for (auto& [id, object] : objects) {
         object.origin = ObjectOrigin::imported;
         if (object.object_class.empty()) object.object_class = "other";

@@ -22,9 +22,8 @@ std::string px(double value) {
     return fixedText(value, kDecimals);
 }
 
-std::string imagesText(const LabelFile& labels, bool video) {
+std::string imagesText(const LabelFile& labels, int frames, bool video) {
     std::string text;
-    const int frames = framesToWrite(labels);
     for (FrameIndex frame = 0; frame < frames; ++frame) {
         const auto named = labels.image_names.find(frame);
         text += frame == 0 ? "\n" : ",\n";
@@ -97,7 +96,7 @@ void write(const LabelFile& labels, const std::filesystem::path& path, const Exp
                 ", \"name\": " + jsonString(names[i]) +
                 ", \"supercategory\": " + (vehicle ? "\"vehicle\"}" : "\"object\"}");
     }
-    text += "],\n\"images\": [" + imagesText(labels, video) + "],\n\"annotations\": [";
+    text += "],\n\"images\": [" + imagesText(labels, imagesToWrite(labels, path), video) + "],\n\"annotations\": [";
     int number = 0;
     for (const auto& [frame, records] : labels.boxes) {
         for (const LabelBox& record : records) {

@@ -13,7 +13,10 @@
 namespace eyrie {
 namespace {
 
-constexpr std::int64_t kMostBoxes = 12'000'000;  ///< between keyframes, before a file is taken for damaged
+/// How many frames the keyframes may span before the file is taken for damaged: CVAT lists every frame, so few elements
+/// with very many frames between them are no labels.
+constexpr std::int64_t kMostBoxes = 1'000'000;
+constexpr std::int64_t kMostBoxesPerElement = 1000;
 
 /// Names places in the text and reads attributes that nobody vouched for.
 class CvatText {
@@ -180,6 +183,7 @@ class CvatReader {
                 other_shapes_ += std::string_view(node.name()) != "attribute";
                 continue;
             }
+            ++elements_;
             if (text_.whole(node, "keyframe") != 0)
                 boxes.push_back(readBox(text_, node));
             else
@@ -239,7 +243,8 @@ class CvatReader {
             const bool last = i + 1 == boxes.size();
             const FrameIndex end = last ? object.last_frame + 1 : boxes[i + 1].keyframe.frame;
             count_ += end - boxes[i].keyframe.frame;
-            if (count_ > kMostBoxes) text_.fail(track, "the keyframes span more frames than can be meant");
+            if (count_ > kMostBoxes + kMostBoxesPerElement * elements_)
+                text_.fail(track, "the keyframes span more frames than can be meant");
             const bool moves = !last;
             for (FrameIndex frame = boxes[i].keyframe.frame; frame < end; ++frame) {
                 FileBox box = moves ? between(boxes[i], boxes[i + 1], frame) : boxes[i];
@@ -273,7 +278,7 @@ class CvatReader {
     std::optional<int> stop_;
     std::set<int> ids_;
     int next_id_ = 0;
-    std::int64_t count_ = 0;
+    std::int64_t count_ = 0, elements_ = 0;
     int running_on_ = 0, other_shapes_ = 0, empty_tracks_ = 0, renumbered_ = 0;
 };
 

@@ -61,7 +61,7 @@ void writeDota(const LabelFile& labels, const std::filesystem::path& path, const
     const std::filesystem::path folder = path / kFolder;
     makeTextFolder(folder);
     int cut = 0, blanks = 0;
-    const int frames = framesToWrite(labels);
+    const int frames = imagesToWrite(labels, path);
     for (FrameIndex frame = 0; frame < frames; ++frame) {
         std::string text = "imagesource:" + options.sequence.substr(0, options.sequence.find('\n')) +
                            "\ngsd:" + (labels.gsd_m ? shortestText(*labels.gsd_m) : "null") + '\n';

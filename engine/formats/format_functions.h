@@ -74,6 +74,9 @@ cv::Size neededSize(const std::optional<cv::Size>& size, const std::filesystem::
 /// How many frames an export covers: what is known, at least up to the last box.
 int framesToWrite(const LabelFile& labels);
 
+/// The same for formats that list every image. Throws Error(parameter) when that cannot be meant.
+int imagesToWrite(const LabelFile& labels, const std::filesystem::path& path);
+
 /// A count with its noun: "1 box", "3 boxes".
 std::string counted(int count, const char* one, const char* many);
 

@@ -5,6 +5,11 @@
 #include "io/number_text.h"
 
 namespace eyrie {
+namespace {
+
+constexpr int kMostImages = 1'000'000;  ///< half a day of video
+
+}  // namespace
 
 OrientedBox boxByEdges(const TextLine& line, std::size_t first, double first_pixel_edge) {
     return boxFromEdges({line.pixels(first, "left edge"), line.pixels(first + 1, "top edge"),
@@ -63,6 +68,13 @@ std::vector<double> leadingNumbers(const std::string& line, char separator) {
 std::string numberedName(FrameIndex frame) {
     const std::string digits = std::to_string(frame);
     return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
+}
+
+int imagesToWrite(const LabelFile& labels, const std::filesystem::path& path) {
+    const int frames = framesToWrite(labels);
+    if (frames <= kMostImages) return frames;
+    throw Error(ErrorKind::parameter, path.string() + ": would list " + std::to_string(frames) +
+                                          " images; is the last frame meant? Shift the frames (--shift)");
 }
 
 cv::Size neededSize(const std::optional<cv::Size>& size, const std::filesystem::path& path, const char* format) {

@@ -95,8 +95,8 @@ LabelReport reportOn(const LabelFile& labels) {
     }
     for (const LabelledObject& object : labels.objects) report.keyframes += static_cast<int>(object.keyframes.size());
     if (report.outside > 0) {
-        report.notes.push_back(std::to_string(report.outside) +
-                               " boxes have their centre outside the image; is the scale right?");
+        report.notes.push_back(std::to_string(report.outside) + " boxes have their centre outside the image" +
+                               (report.outside > report.boxes / 4 ? "; is the scale right?" : ""));
     }
     if (report.frame_count && report.last_frame >= *report.frame_count) {
         report.notes.push_back("the last box is in frame " + std::to_string(report.last_frame) + ", but only " +

@@ -95,6 +95,7 @@ std::array<cv::Point2d, 4> frontFirstCorners(const OrientedBox& box);
 struct ImportedLabels {
     AnnotationSet annotations;
     int left_out = 0;
+    int id_step = 0;  ///< added to the file's ids, so that they count from 1
     std::vector<std::string> notes;
 };
 ImportedLabels annotationsOf(const LabelFile& labels);

@@ -62,6 +62,10 @@ void checkLabels(const LabelFile& labels, const std::filesystem::path& path) {
                 if (std::isfinite(value) && std::abs(value) <= 2 * kLargestCoordinate) continue;
                 throw Error(ErrorKind::input, place + " has a box that lies outside any image");
             }
+            for (const char c : record.object_class) {
+                if (static_cast<unsigned char>(c) >= 0x20) continue;
+                throw Error(ErrorKind::input, place + " has a class with control characters in its name");
+            }
             if (record.id && !record.ignore && !ids.insert(*record.id).second) {
                 throw Error(ErrorKind::input, place + " has two boxes of id " + std::to_string(*record.id) +
                                                   "; an object has one box in a frame");

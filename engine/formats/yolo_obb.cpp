@@ -9,7 +9,8 @@
 #include "io/number_text.h"
 
 /// YOLO-OBB: labels/<image>.txt, one per image, "class x1 y1 x2 y2 x3 y3 x4 y4" with corners divided by the image's
-/// width and height, clockwise from the front left; predictions append a confidence. data.yaml names the classes. We
+/// width and height, clockwise from the front left; predictions append a confidence. Plain YOLO, "class cx cy w h", is
+/// read too. data.yaml names the classes. We
 /// add "image_size: [width, height]" to it, which others pass over.
 namespace eyrie {
 namespace {
@@ -85,6 +86,13 @@ std::optional<fs::path> yamlFor(const fs::path& path) {
     return std::nullopt;
 }
 
+/// A line of plain YOLO: class, centre and size by the image's.
+OrientedBox uprightBox(const TextLine& line, cv::Size image) {
+    const double width = line.size(3, "width") * image.width, height = line.size(4, "height") * image.height;
+    const double x = line.pixels(1, "centre's x") * image.width, y = line.pixels(2, "centre's y") * image.height;
+    return boxFromEdges({x - width / 2, y - height / 2, width, height}, 0);
+}
+
 LabelFile readYolo(const fs::path& path, const ImportOptions& options) {
     LabelFile labels;
     const std::vector<ImageText> texts = findImageTexts(path, kFolder, labels);
@@ -104,7 +112,8 @@ LabelFile readYolo(const fs::path& path, const ImportOptions& options) {
     std::set<int> unnamed;
     for (const ImageText& text : texts) {
         forEachLine(text.file, ' ', '#', [&](const TextLine& line) {
-            if (line.size() < 9 || line.size() > 10) {
+            const bool upright = line.size() == 5 || line.size() == 6;
+            if (!upright && line.size() != 9 && line.size() != 10) {
                 line.fail(0,
                           std::to_string(line.size()) + " columns, expected class and 8 corners, or a confidence more");
             }
@@ -115,9 +124,10 @@ LabelFile readYolo(const fs::path& path, const ImportOptions& options) {
             const auto name = yaml.names.find(number);
             record.object_class = name == yaml.names.end() ? "class " + std::to_string(number) : name->second;
             if (name == yaml.names.end()) unnamed.insert(number);
-            record.box = boxByFourCorners(line, 1, cv::Point2d(size.width, size.height), departures);
-            if (line.size() == 10) record.score = line.number(9, "confidence");
-            across += record.box.length < record.box.width;
+            record.box = upright ? uprightBox(line, size)
+                                 : boxByFourCorners(line, 1, cv::Point2d(size.width, size.height), departures);
+            if (line.size() % 2 == 0) record.score = line.number(line.size() - 1, "confidence");
+            across += !upright && record.box.length < record.box.width;
             labels.boxes[text.frame].push_back(std::move(record));
         });
     }
@@ -162,7 +172,7 @@ void writeYolo(const LabelFile& labels, const fs::path& path, const ExportOption
 
     makeTextFolder(path / kFolder);
     int cut = 0;
-    const int frames = framesToWrite(labels);
+    const int frames = imagesToWrite(labels, path);
     for (FrameIndex frame = 0; frame < frames; ++frame) {
         std::string text;
         const auto records = labels.boxes.find(frame);
@@ -196,8 +206,10 @@ bool looksLike(const FileHead& head) {
     for (const std::string& line : lines) {
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
         const std::vector<double> n = leadingNumbers(line, ' ');
-        if (n.size() < 9 || n.size() > 10 || n[0] < 0 || n[0] != std::floor(n[0])) return false;
-        return std::all_of(n.begin() + 1, n.begin() + 9, [](double value) { return std::abs(value) <= 3; });
+        const bool fits = n.size() == 5 || n.size() == 6 || n.size() == 9 || n.size() == 10;
+        if (!fits || n[0] < 0 || n[0] != std::floor(n[0])) return false;
+        const auto end = n.begin() + (n.size() < 9 ? 5 : 9);
+        return std::all_of(n.begin() + 1, end, [](double value) { return std::abs(value) <= 3; });
     }
     return false;
 }

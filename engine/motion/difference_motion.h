@@ -32,6 +32,8 @@ class DifferenceMotion {
 
     /// Frames must come in ascending order. `motion` gives the registration and the motion vectors of the frame.
     DifferenceResult next(const Frame& frame, const FrameMotion& motion);
+    /// Takes a frame that nobody asks about: later ones are compared with it.
+    void remember(const Frame& frame, const FrameMotion& motion) { frames_.add(frame, motion.registration); }
 
  private:
     DifferenceImage compare() const;

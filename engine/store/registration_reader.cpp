@@ -28,4 +28,24 @@ std::vector<Homography> RunStore::homographies(int run_id, FrameIndex from) cons
     });
 }
 
+std::vector<Registration> RunStore::registrations(int run_id) const {
+    std::vector<Homography> maps = homographies(run_id);
+    return guarded(project_.path(), "reading the registration of run " + std::to_string(run_id), [&] {
+        SQLite::Statement statement(project_.database(),
+                                    "SELECT registration_state, reason FROM frame WHERE run_id = ? ORDER BY frame");
+        statement.bind(1, run_id);
+        std::vector<Registration> registrations;
+        // A run that works may have come further meanwhile.
+        while (registrations.size() < maps.size() && statement.executeStep()) {
+            RowReader row(statement);
+            Registration registration;
+            registration.state = row.word(stored::kRegistrationStates);
+            registration.reason = row.text();
+            registration.current_from_previous = maps[registrations.size()];
+            registrations.push_back(std::move(registration));
+        }
+        return registrations;
+    });
+}
+
 }  // namespace eyrie

@@ -88,6 +88,8 @@ class RunStore {
     std::vector<FrameSummary> frameSummaries(int run_id) const;  ///< ascending frames
     /// How each frame from `from` on was registered onto the one before it, ascending frames; for trails.
     std::vector<Homography> homographies(int run_id, FrameIndex from = 0) const;
+    /// The same of all frames, with how each registration ended; for labelling over a moving camera.
+    std::vector<Registration> registrations(int run_id) const;
     /// All a finished run knows of a frame; nothing when the run has no such frame.
     std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
     std::vector<TrackSummary> tracks(int run_id) const;                    ///< ascending id

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <opencv2/core.hpp>
 #include <vector>
 
 #include "annotation/camera_motion.h"

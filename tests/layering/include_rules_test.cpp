@@ -53,6 +53,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"removal", {"core"}},
     {"tracking", {"core"}},
     {"evaluation", {"core"}},
+    {"exchange", {"core", "annotation", "formats", "store"}},
     {"scene", {"core", "io"}},
     {"store", {"core"}},
     {"chain",

@@ -122,7 +122,8 @@ TEST(KilledLabelling, WhileAnotherProcessLabelsTheSecondReadsAndSaysWho) {
     // Closing files of the project in this process frees nobody's lock.
     { ProjectFile another = ProjectFile::open(path); }
     EXPECT_FALSE(store.tryToWrite());
-    child.waitFor(6);
+    // Until it has done more than was read.
+    child.waitFor(store.undoCount() + 2);
     EXPECT_TRUE(store.refresh());
     EXPECT_GE(store.annotations().objects.size(), 2U);
     child.killNow();

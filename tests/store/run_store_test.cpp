@@ -142,6 +142,20 @@ std::vector<FrameResult> twoTracks() {
     return frames;
 }
 
+TEST_F(RunStoreTest, RegistrationsSayHowTheyEnded) {
+    const int run = test::writeSampleProject(path_, 6);
+    ProjectFile project = ProjectFile::open(path_);
+    const auto registrations = RunStore(project).registrations(run);
+    ASSERT_EQ(registrations.size(), 6U);
+    for (int i = 0; i < 6; ++i) {
+        const Registration& read = registrations[static_cast<std::size_t>(i)];
+        const Registration written = test::sampleFrame(i).motion.registration;
+        EXPECT_EQ(read.state, written.state);
+        EXPECT_EQ(read.reason, written.reason);
+        EXPECT_EQ(read.current_from_previous.matrix, written.current_from_previous.matrix);
+    }
+}
+
 TEST_F(RunStoreTest, TracksAreSummed) {
     ProjectFile project = ProjectFile::create(path_);
     ResultWriter writer(path_, sampleRun(), {});

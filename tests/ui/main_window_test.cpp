@@ -1,6 +1,7 @@
 #include "main_window/main_window.h"
 
 #include <QAbstractButton>
+#include <QDockWidget>
 #include <QDropEvent>
 #include <QLabel>
 #include <QLineEdit>
@@ -10,8 +11,14 @@
 #include <QTest>
 
 #include "main_window/key_sheet.h"
+#include "main_window/motion_statistics_panel.h"
+#include "main_window/review_docks.h"
+#include "main_window/stacks_panel.h"
+#include "main_window/stages_panel.h"
 #include "main_window/window_actions.h"
+#include "panels/chip_grid.h"
 #include "panels/message_bar.h"
+#include "session/inspection.h"
 #include "ui/ui_support.h"
 #include "view/timeline_view.h"
 #include "view/video_view.h"
@@ -31,10 +38,11 @@ class MainWindowTest : public QObject {
             [&] { return window.canvas().frame().index == frame && !window.canvas().frame().image.isNull(); });
     }
     /// A window with a finished run over a small folder of images.
-    std::unique_ptr<MainWindow> windowWithRun(int frames) {
+    std::unique_ptr<MainWindow> windowWithRun(int frames, const ChainOptions& chain = {}) {
         const auto folder = test::writeScene(*home_ / "images", frames);
         auto window = std::make_unique<MainWindow>();
         window->show();
+        window->session().settings().options = chain;
         QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
         StartOptions options;
         options.input = folder;
@@ -91,10 +99,10 @@ class MainWindowTest : public QObject {
         window.show();
         QVERIFY(QTest::qWaitForWindowActive(&window));
         const std::pair<Qt::Key, OverlayKind> keys[] = {
-            {Qt::Key_C, OverlayKind::corners},     {Qt::Key_V, OverlayKind::vectors},
-            {Qt::Key_M, OverlayKind::clusters},    {Qt::Key_R, OverlayKind::rois},
-            {Qt::Key_D, OverlayKind::detections},  {Qt::Key_T, OverlayKind::tracks},
-            {Qt::Key_U, OverlayKind::ground_truth}};
+            {Qt::Key_C, OverlayKind::corners},      {Qt::Key_V, OverlayKind::vectors},
+            {Qt::Key_M, OverlayKind::clusters},     {Qt::Key_R, OverlayKind::rois},
+            {Qt::Key_D, OverlayKind::detections},   {Qt::Key_T, OverlayKind::tracks},
+            {Qt::Key_U, OverlayKind::ground_truth}, {Qt::Key_S, OverlayKind::stacks}};
         for (const auto& [key, kind] : keys) {
             const bool before = window.overlays().isVisible(kind);
             QTest::keyClick(&window, key);
@@ -154,6 +162,104 @@ class MainWindowTest : public QObject {
         window->canvas().setFocus();
         QTest::keyClick(window.get(), Qt::Key_Escape);
         QVERIFY(!session.selectedTrack());
+    }
+
+    void theStagesOfWhatIsClickedAreShown() {
+        const auto window = windowWithRun(40);
+        QVERIFY(window);
+        auto* dock = window->findChild<QDockWidget*>(QStringLiteral("stages"));
+        QVERIFY(dock);
+        dock->raise();
+        window->session().goToFrame(30);
+        QVERIFY(showsFrame(*window, 30));
+        StagesPanel& stages = window->docks().stages();
+        QVERIFY(waitFor([&] { return !stages.explanation().isEmpty(); }));
+        const FrameResult& result = *window->canvas().frame().result;
+        QVERIFY(!result.clusters.empty());
+        const OrientedBox& box = result.clusters.front().box;
+        QTest::mouseClick(&window->canvas(), Qt::LeftButton, {},
+                          window->canvas().transform().viewFromImage({box.centre.x, box.centre.y}).toPoint());
+        QVERIFY(window->inspection().hasChoice());
+        QVERIFY(waitFor([&] { return stages.explanation().isEmpty(); }));
+        QStringList titles;
+        for (const ChipCard& card : stages.grid().cards())
+            for (const Chip& chip : card.chips) titles << chip.title;
+        for (const char* title :
+             {"Motion ROI", "Gradient", "Histogram", "Binary image", "Closing", "Components", "Kept"})
+            QVERIFY2(titles.contains(QString::fromLatin1(title)), title);
+        window->canvas().setFocus();
+        QTest::keyClick(window.get(), Qt::Key_Escape);
+        QVERIFY(!window->inspection().hasChoice());
+        QVERIFY(!stages.explanation().isEmpty());
+    }
+
+    void withoutStackingTheDockOffersIt() {
+        const auto window = windowWithRun(12);
+        QVERIFY(window);
+        window->findChild<QDockWidget*>(QStringLiteral("stacks"))->raise();
+        StacksPanel& stacks = window->docks().stacks();
+        QVERIFY(waitFor([&] { return stacks.explanation().contains(QStringLiteral("without")); }));
+        QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
+        for (auto* button : stacks.findChildren<QAbstractButton*>())
+            if (button->isVisible() && button->text().contains(QStringLiteral("stacking"))) button->click();
+        QVERIFY(finished.wait(kPatience_ms));
+        QVERIFY(window->session().settings().options.stacking.enabled);
+        QCOMPARE(window->session().runs().size(), std::size_t(2));
+    }
+
+    void stacksAreListedAndDrawnOverTheVideo() {
+        ChainOptions chain;
+        chain.stacking.enabled = true;
+        chain.stacking.capacity = 12;
+        chain.stacking.min_height = 5;
+        const auto window = windowWithRun(40, chain);
+        QVERIFY(window);
+        window->session().goToFrame(30);
+        QVERIFY(showsFrame(*window, 30));
+        QTest::keyClick(window.get(), Qt::Key_S);
+        QVERIFY(waitFor([&] { return !window->canvas().frame().stacks.empty(); }));
+        QVERIFY(!window->canvas().frame().stacks.front().related.empty());
+        window->findChild<QDockWidget*>(QStringLiteral("stacks"))->raise();
+        StacksPanel& stacks = window->docks().stacks();
+        QVERIFY(waitFor([&] { return stacks.explanation().isEmpty(); }));
+        QCOMPARE(stacks.grid().cards().size(), window->canvas().frame().stacks.size());
+        QTest::mouseClick(stacks.grid().viewport(), Qt::LeftButton, {},
+                          stacks.grid().pictureRect(0, 0).center().toPoint());
+        QVERIFY(window->inspection().cluster());
+    }
+
+    void speedsAreCountedInRoundBins() {
+        std::vector<MotionVector> vectors(100);
+        for (int i = 0; i < 100; ++i) vectors[static_cast<size_t>(i)].velocity = {0.01F * static_cast<float>(i), 0};
+        vectors.back().velocity = {50, 0};  // a wild one
+        const HistogramData data = speedHistogram(vectors, {});
+        QVERIFY(data.value_label.contains(QStringLiteral("px/frame")));
+        QCOMPARE(data.bin_width, 0.05);
+        const auto& counts = data.series.front().counts;
+        QVERIFY(counts.size() <= 26);
+        double sum = 0;
+        for (const double count : counts) sum += count;
+        QCOMPARE(sum, 100.0);
+        QCOMPARE(counts.back(), 1.0);
+        QVERIFY(data.text().startsWith(QStringLiteral("speed (px/frame)\tmotion vectors\n0\t")));
+        QVERIFY(speedHistogram({}, {}).series.front().counts.empty());
+        const SceneScale metres{0.25, 25, true};
+        QVERIFY(speedHistogram(vectors, metres).value_label.contains(QStringLiteral("km/h")));
+    }
+
+    void statisticsAreReadWhenTheyAreLookedAt() {
+        const auto window = windowWithRun(30);
+        QVERIFY(window);
+        window->session().goToFrame(25);
+        QVERIFY(showsFrame(*window, 25));
+        const MotionStatisticsPanel& statistics = window->docks().statistics();
+        QVERIFY(statistics.lives().data().series.empty());
+        window->findChild<QDockWidget*>(QStringLiteral("statistics"))->raise();
+        QVERIFY(waitFor([&] { return !statistics.lives().data().series.empty(); }));
+        QCOMPARE(statistics.lives().data().series.size(), std::size_t(2));
+        double shown = 0;
+        for (const double count : statistics.speeds().data().series.front().counts) shown += count;
+        QCOMPARE(shown, static_cast<double>(window->canvas().frame().result->motion.motion_vectors.size()));
     }
 
     void errorsStandInABarAndBlockNothing() {

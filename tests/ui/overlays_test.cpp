@@ -64,6 +64,36 @@ class OverlaysTest : public QObject {
         settings_.setPalette(PaletteKind::thesis);
     }
 
+    void stacksAppearInColoursOfTheirOwn() {
+        ViewFrame frame = frameWith(empty());
+        frame.index = 7;
+        view_->setFrame(frame);
+        const QColor first = stackColour(1);
+        const QColor second = stackColour(2);
+        const std::vector<StackMark> stacks{{1, {100, 100}, 0, 30, {{90, 95}, {108, 104}}},
+                                            {2, {300, 200}, 1, 12, {{310, 190}}}};
+        showOnly(OverlayKind::stacks);
+        view_->setStacks(6, stacks);  // of another frame: too late
+        QCOMPARE(count(view_->picture(), first), 0);
+        view_->setStacks(7, stacks);
+        QVERIFY(count(view_->picture(), first) > 40);
+        QVERIFY(count(view_->picture(), second) > 40);
+        showOnly(std::nullopt);
+        QCOMPARE(count(view_->picture(), first), 0);
+        for (int id = 1; id < 60; ++id) QVERIFY(stackColour(id) != stackColour(id + 1));
+    }
+
+    void theInspectedAreaIsOutlinedWhateverIsSwitchedOn() {
+        view_->setFrame(frameWith(empty()));
+        showOnly(std::nullopt);
+        const QColor colour = settings_.style().colours.stack;
+        QCOMPARE(count(view_->picture(), colour), 0);
+        view_->setInspectedArea(OrientedBox{{200, 150}, 80, 30, 0.4});
+        QVERIFY(count(view_->picture(), colour) > 200);
+        view_->setInspectedArea(std::nullopt);
+        QCOMPARE(count(view_->picture(), colour), 0);
+    }
+
     void everyKindAppearsInItsColourOnlyWhenSwitchedOn() {
         auto result = empty();
         for (int i = 0; i < 40; ++i) result->motion.stationary_corners.emplace_back(20 + 9 * i, 40);

@@ -10,6 +10,7 @@
 #include <QMimeData>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QToolBar>
 #include <QVBoxLayout>
 
@@ -24,6 +25,7 @@
 #include "panels/message_bar.h"
 #include "panels/parameter_form.h"
 #include "panels/stage_times_chart.h"
+#include "session/inspection.h"
 #include "view/timeline_view.h"
 #include "view/video_view.h"
 
@@ -50,7 +52,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildCentre();
     buildToolBar();
     resize(kFirstSize);
-    docks_ = new ReviewDocks(session_, *this);
+    inspection_ = new Inspection(session_, this);
+    docks_ = new ReviewDocks(session_, *inspection_, *this);
     parameters_ = new ParameterBinding(session_, docks_->parameterForm(), this);
     timeline_binding_ = new TimelineBinding(session_, *timeline_, docks_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
@@ -59,9 +62,11 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     wirePlaybackActions();
     wireViewActions();
     wireSession();
+    wireInspection();
     default_layout_ = saveState();
     restoreGeometry(settings_.geometry());
     restoreState(settings_.layout());
+    showTabTitles();
     showRecent();
     enableActions();
     updateTitle();
@@ -203,6 +208,14 @@ void MainWindow::wireSession() {
         actions_->follow->setChecked(following);
         enableActions();
     });
+}
+
+void MainWindow::showTabTitles() {
+    // Narrow docks scroll their tabs; cut down to a letter nobody knows which is which.
+    for (QTabBar* bar : findChildren<QTabBar*>()) {
+        bar->setElideMode(Qt::ElideNone);
+        bar->setUsesScrollButtons(true);
+    }
 }
 
 void MainWindow::enableActions() {
@@ -353,6 +366,7 @@ void MainWindow::showRecent() {
 void MainWindow::restoreView() {
     const ProjectView view = settings_.projectView(session_.project());
     if (!view.layout.isEmpty()) restoreState(view.layout);
+    showTabTitles();
     if (view.zoom > 0)
         canvas_->restore(view.zoom, view.centre);
     else

@@ -14,6 +14,7 @@ class QStackedWidget;
 
 namespace eyrie::ui {
 
+class Inspection;
 class MessageBar;
 class ParameterBinding;
 class ReviewDocks;
@@ -44,6 +45,8 @@ class MainWindow : public QMainWindow {
     MessageBar& messages() { return *messages_; }
     WindowActions& actions() { return *actions_; }
     OverlaySettings& overlays() { return overlays_; }
+    Inspection& inspection() { return *inspection_; }
+    ReviewDocks& docks() { return *docks_; }
 
  protected:
     void closeEvent(QCloseEvent* event) override;
@@ -60,6 +63,7 @@ class MainWindow : public QMainWindow {
     void wirePlaybackActions();
     void wireViewActions();
     void wireSession();
+    void wireInspection();
     void openVideo();
     void openFolder();
     void openProject();
@@ -71,6 +75,7 @@ class MainWindow : public QMainWindow {
     void becameReady(bool has_results);
     void runEnded(const RunSummary& summary);
     void enableActions();
+    void showTabTitles();
     void updateTitle();
     void showRecent();
     void restoreView();
@@ -94,6 +99,7 @@ class MainWindow : public QMainWindow {
     TimelineView* timeline_;
     RunBar* run_bar_;
     StatusFields* status_;
+    Inspection* inspection_;
     ReviewDocks* docks_;
     ParameterBinding* parameters_;
     TimelineBinding* timeline_binding_;

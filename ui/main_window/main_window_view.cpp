@@ -13,8 +13,13 @@
 #include "chain/run_recorder.h"
 #include "main_window/key_sheet.h"
 #include "main_window/main_window.h"
+#include "main_window/parameter_binding.h"
+#include "main_window/review_docks.h"
+#include "main_window/stacks_panel.h"
+#include "main_window/stage_chips.h"
 #include "main_window/status_fields.h"
 #include "main_window/window_actions.h"
+#include "session/inspection.h"
 #include "view/timeline_view.h"
 #include "view/video_view.h"
 
@@ -70,6 +75,7 @@ QMenu* MainWindow::buildOverlayMenu() {
         colour(OverlayKind::rois, colours.roi);
         colour(OverlayKind::detections, colours.detection);
         colour(OverlayKind::tracks, colours.track);
+        colour(OverlayKind::stacks, colours.stack);
         colour(OverlayKind::ground_truth, colours.ground_truth);
         timeline_->setPalette(overlays_.palette());
     };
@@ -89,6 +95,27 @@ QWidget* MainWindow::overlayButton(QMenu* menu) {
     return button;
 }
 
+void MainWindow::wireInspection() {
+    connect(canvas_, &VideoView::placeClicked, inspection_, [this](QPointF place, double margin) {
+        if (!session_.selectedTrack()) inspection_->choose(place, margin);
+    });
+    connect(inspection_, &Inspection::changed, canvas_, [this] { canvas_->setInspectedArea(inspection_->area()); });
+    connect(inspection_, &Inspection::replayed, canvas_, [this](const std::shared_ptr<const ReplayView>& view) {
+        canvas_->setStacks(view->wish.frame, stackMarks(*view));
+    });
+    connect(&overlays_, &OverlaySettings::changed, inspection_,
+            [this] { inspection_->wantStackOverlay(overlays_.isVisible(OverlayKind::stacks)); });
+    connect(&docks_->stacks(), &StacksPanel::placeChosen, this, [this](QPointF place) {
+        canvas_->centreOn(place);
+        inspection_->choose(place);
+    });
+    connect(&docks_->stacks(), &StacksPanel::stackingRunRequested, this, [this] {
+        parameters_->adoptRunParameters();
+        parameters_->setValue("stacking.enabled", "true");
+        session_.startRun();
+    });
+}
+
 void MainWindow::wireViewActions() {
     connect(actions_->fit, &QAction::triggered, canvas_, &VideoView::fit);
     connect(actions_->one_to_one, &QAction::triggered, canvas_, &VideoView::showOneToOne);
@@ -101,8 +128,8 @@ void MainWindow::wireViewActions() {
         // Escape goes one step back: out of a field, out of the selection, out of the full screen.
         if (!canvas_->hasFocus())
             focusCanvas();
-        else if (session_.selectedTrack())
-            session_.selectTrack(std::nullopt);
+        else if (inspection_->hasChoice())
+            inspection_->clear();
         else if (isFullScreen())
             actions_->full_screen->trigger();
     });

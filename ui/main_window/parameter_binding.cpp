@@ -2,6 +2,7 @@
 
 #include <QInputDialog>
 
+#include "chain/replay.h"
 #include "core/error.h"
 #include "panels/parameter_form.h"
 
@@ -56,21 +57,20 @@ void ParameterBinding::savePreset() {
     show();
 }
 
+void ParameterBinding::setValue(const std::string& name, const std::string& value) {
+    setParameter(describeOf(session_.settings().options), name, value);
+    show();
+}
+
 void ParameterBinding::adoptRunParameters() {
     if (!session_.runData()) return;
     try {
         // Parameters that this version does not know any more would make the run's values unusable as a whole; they are
         // named, the others taken.
+        std::vector<std::string> names;
+        session_.settings().options = storedOptions(session_.runData()->parameters, &names);
         QStringList unknown;
-        ChainOptions options;
-        for (const auto& [name, value] : session_.runData()->parameters) {
-            try {
-                setParameter(describeOf(options), name, value);
-            } catch (const Error&) {
-                unknown << QString::fromStdString(name);
-            }
-        }
-        session_.settings().options = options;
+        for (const std::string& name : names) unknown << QString::fromStdString(name);
         const std::string preset = session_.runData()->record.preset;
         session_.settings().preset = preset;
         defaults_ = presets_.load(preset);

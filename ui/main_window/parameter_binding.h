@@ -19,6 +19,8 @@ class ParameterBinding : public QObject {
 
     /// Takes over the parameters of the current run, which were read with it.
     void adoptRunParameters();
+    /// Sets one parameter of the next run; its name and value must be right.
+    void setValue(const std::string& name, const std::string& value);
 
  signals:
     void problem(const QString& message);

@@ -4,6 +4,9 @@
 #include <QMainWindow>
 
 #include "main_window/inspector_panel.h"
+#include "main_window/motion_statistics_panel.h"
+#include "main_window/stacks_panel.h"
+#include "main_window/stages_panel.h"
 #include "panels/empty_state.h"
 #include "panels/parameter_form.h"
 #include "panels/runs_panel.h"
@@ -12,7 +15,7 @@
 
 namespace eyrie::ui {
 
-ReviewDocks::ReviewDocks(ProjectSession& session, QMainWindow& window)
+ReviewDocks::ReviewDocks(ProjectSession& session, Inspection& inspection, QMainWindow& window)
     : QObject(&window), session_(session), window_(window) {
     runs_model_ = new RunsModel(this);
     tracks_model_ = new TracksModel(this);
@@ -21,16 +24,29 @@ ReviewDocks::ReviewDocks(ProjectSession& session, QMainWindow& window)
     inspector_ = new InspectorPanel(session_);
     form_ = new ParameterForm;
     chart_ = new StageTimesChart;
+    stages_ = new StagesPanel(session_, inspection);
+    stacks_ = new StacksPanel(session_, inspection);
+    statistics_ = new MotionStatisticsPanel(session_);
     QDockWidget* runs = dock(QStringLiteral("runs"), tr("Runs"), runs_, Qt::LeftDockWidgetArea);
     QDockWidget* tracks = dock(QStringLiteral("tracks"), tr("Tracks"), tracks_, Qt::LeftDockWidgetArea);
     QDockWidget* inspector = dock(QStringLiteral("inspector"), tr("Inspector"), inspector_, Qt::RightDockWidgetArea);
     QDockWidget* parameters = dock(QStringLiteral("parameters"), tr("Parameters"), form_, Qt::RightDockWidgetArea);
-    QDockWidget* chart = dock(QStringLiteral("stage_times"), tr("Stage times"), chart_, Qt::RightDockWidgetArea);
-    window_.tabifyDockWidget(inspector, parameters);
+    QDockWidget* chart = dock(QStringLiteral("stage_times"), tr("Times"), chart_, Qt::RightDockWidgetArea);
+    QDockWidget* stages = dock(QStringLiteral("stages"), tr("Stages"), stages_, Qt::RightDockWidgetArea);
+    QDockWidget* stacks = dock(QStringLiteral("stacks"), tr("Stacks"), stacks_, Qt::RightDockWidgetArea);
+    window_.tabifyDockWidget(inspector, stages);
+    window_.tabifyDockWidget(stages, stacks);
+    window_.tabifyDockWidget(stacks, parameters);
+    QDockWidget* statistics =
+        dock(QStringLiteral("statistics"), tr("Statistics"), statistics_, Qt::RightDockWidgetArea);
     window_.tabifyDockWidget(parameters, chart);
+    window_.tabifyDockWidget(chart, statistics);
     inspector->raise();
     window_.resizeDocks({runs, tracks}, {200, 420}, Qt::Vertical);
-    window_.resizeDocks({runs, inspector}, {350, 310}, Qt::Horizontal);
+    window_.resizeDocks({runs, inspector}, {350, 440}, Qt::Horizontal);
+    connect(stages, &QDockWidget::visibilityChanged, stages_, &StagesPanel::setLookedAt);
+    connect(stacks, &QDockWidget::visibilityChanged, stacks_, &StacksPanel::setLookedAt);
+    connect(statistics, &QDockWidget::visibilityChanged, statistics_, &MotionStatisticsPanel::setLookedAt);
     wireRuns();
     wireTracks();
     showRuns();

@@ -12,10 +12,14 @@ class QMainWindow;
 
 namespace eyrie::ui {
 
+class Inspection;
 class InspectorPanel;
+class MotionStatisticsPanel;
 class ParameterForm;
 class RunsPanel;
+class StacksPanel;
 class StageTimesChart;
+class StagesPanel;
 class TracksPanel;
 
 /// The docks of the review workspace and how their lists follow the session.
@@ -23,12 +27,15 @@ class ReviewDocks : public QObject {
     Q_OBJECT
 
  public:
-    /// Docks into `window`, which owns the widgets. The session must outlive them.
-    ReviewDocks(ProjectSession& session, QMainWindow& window);
+    /// Docks into `window`, which owns the widgets. Session and inspection must outlive them.
+    ReviewDocks(ProjectSession& session, Inspection& inspection, QMainWindow& window);
 
     const QList<QDockWidget*>& docks() const { return docks_; }
     ParameterForm& parameterForm() { return *form_; }
     StageTimesChart& stageTimes() { return *chart_; }
+    StagesPanel& stages() { return *stages_; }
+    StacksPanel& stacks() { return *stacks_; }
+    MotionStatisticsPanel& statistics() { return *statistics_; }
 
  signals:
     void runRequested();
@@ -50,6 +57,9 @@ class ReviewDocks : public QObject {
     InspectorPanel* inspector_;
     ParameterForm* form_;
     StageTimesChart* chart_;
+    StagesPanel* stages_;
+    StacksPanel* stacks_;
+    MotionStatisticsPanel* statistics_;
     QList<QDockWidget*> docks_;
     std::optional<int> parameters_wanted_of_;  ///< run whose parameters are taken over once they are read
 };

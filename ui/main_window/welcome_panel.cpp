@@ -85,7 +85,7 @@ void WelcomePanel::setRecent(const QStringList& paths) {
     for (const QString& path : paths.mid(0, kMostRecent)) {
         auto* button = new QToolButton(recent_box_);
         const QString full = tr("%1  –  %2").arg(QFileInfo(path).fileName(), QFileInfo(path).path());
-        button->setText(button->fontMetrics().elidedText(full, Qt::ElideMiddle, kWidth - 24));
+        button->setText(button->fontMetrics().elidedText(full, Qt::ElideMiddle, kWidth - 64));
         button->setToolTip(path);
         button->setAutoRaise(true);
         button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);

@@ -93,6 +93,7 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
                              {OverlayKind::rois, tr("Motion &ROIs"), Qt::Key_R},
                              {OverlayKind::detections, tr("&Detections"), Qt::Key_D},
                              {OverlayKind::tracks, tr("&Tracks"), Qt::Key_T},
+                             {OverlayKind::stacks, tr("Image &stacks"), Qt::Key_S},
                              {OverlayKind::ground_truth, tr("&Ground truth"), Qt::Key_U}};
     for (const Entry& entry : entries) {
         QAction* action = addToggle(entry.text, {nullptr, {QKeySequence(entry.key)}}, overlays.isVisible(entry.kind));

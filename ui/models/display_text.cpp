@@ -56,7 +56,11 @@ QString durationText(double seconds) {
 QString localTimeText(const std::string& utc) {
     const QString text = QString::fromStdString(utc);
     const QDateTime time = QDateTime::fromString(text, Qt::ISODate);
-    return time.isValid() ? QLocale().toString(time.toLocalTime(), QLocale::ShortFormat) : text;
+    if (!time.isValid()) return text;
+    const QDateTime local = time.toLocalTime();
+    const QString clock = QLocale().toString(local.time(), QLocale::ShortFormat);
+    if (local.date() == QDate::currentDate()) return clock;
+    return QLocale().toString(local.date(), QStringLiteral("d MMM yyyy ")) + clock;
 }
 
 }  // namespace eyrie::ui

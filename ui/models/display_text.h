@@ -25,7 +25,8 @@ QString speedText(double px_per_frame, const SceneScale& scale);
 QString lengthText(double px, const SceneScale& scale);
 /// "4.9 s", "2:04.9", "1:02:04".
 QString durationText(double seconds);
-/// "2026-11-21T08:00:00Z" as a short local date and time; the text itself if it is no time.
+/// "2026-11-21T08:00:00Z" as a short local date and time, today as the time alone; the text itself if it is no
+/// time.
 QString localTimeText(const std::string& utc);
 
 }  // namespace eyrie::ui

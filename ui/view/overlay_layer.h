@@ -14,8 +14,8 @@ class QPainter;
 namespace eyrie::ui {
 
 /// The kinds of overlay, in the order they are painted.
-enum class OverlayKind { rois, corners, vectors, clusters, ground_truth, detections, tracks };
-inline constexpr int kOverlayKindCount = 7;
+enum class OverlayKind { rois, corners, vectors, clusters, ground_truth, detections, tracks, stacks };
+inline constexpr int kOverlayKindCount = 8;
 
 /// How overlays are drawn, whichever frame they belong to.
 struct OverlayStyle {

@@ -9,7 +9,9 @@
 #include "view/cluster_layer.h"
 #include "view/corner_layer.h"
 #include "view/detection_layer.h"
+#include "view/edged_painter.h"
 #include "view/roi_layer.h"
+#include "view/stack_layer.h"
 #include "view/track_layer.h"
 #include "view/truth_layer.h"
 #include "view/vector_layer.h"
@@ -21,7 +23,8 @@ const QColor kGround(34, 36, 40);          ///< around the picture, in both them
 const QColor kMissingPicture(58, 61, 66);  ///< where a picture should be and is not
 constexpr double kWheelStep = 1.25;
 constexpr double kDragThreshold = 4;
-constexpr double kHitMargin = 4;  ///< logical px around a track's box that still count as hit
+constexpr double kHitMargin = 4;  ///< logical px around a box that still count as hit
+constexpr double kInspectedWidth = 2.2;
 }  // namespace
 
 VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(parent), settings_(settings) {
@@ -32,6 +35,7 @@ VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(paren
     layers_.push_back(std::make_unique<TruthLayer>());
     layers_.push_back(std::make_unique<DetectionLayer>());
     layers_.push_back(std::make_unique<TrackLayer>());
+    layers_.push_back(std::make_unique<StackLayer>());
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setAttribute(Qt::WA_OpaquePaintEvent);
@@ -66,6 +70,18 @@ void VideoView::adoptSize() {
 void VideoView::setSelectedTrack(std::optional<TrackId> track) {
     if (selected_track_ == track) return;
     selected_track_ = track;
+    update();
+}
+
+void VideoView::setStacks(FrameIndex frame, std::vector<StackMark> stacks) {
+    if (frame != frame_.index) return;
+    frame_.stacks = std::move(stacks);
+    update();
+}
+
+void VideoView::setInspectedArea(std::optional<OrientedBox> area) {
+    if (!area && !inspected_area_) return;
+    inspected_area_ = area;
     update();
 }
 
@@ -135,6 +151,15 @@ void VideoView::paint(QPainter& painter) const {
         frame_, *frame_.result, transform_, settings_.style(), selected_track_, QRectF(rect()).adjusted(-8, -8, 8, 8)};
     for (const auto& layer : layers_)
         if (settings_.isVisible(layer->kind())) layer->paint(painter, scene);
+    paintInspectedArea(painter);
+}
+
+void VideoView::paintInspectedArea(QPainter& painter) const {
+    if (!inspected_area_) return;
+    QVector<QLineF> lines;
+    appendBox(lines, *inspected_area_, transform_, rect());
+    appendHeading(lines, *inspected_area_, transform_, rect());
+    drawEdgedLines(painter, lines, {settings_.style().colours.stack, settings_.style().colours.edge, kInspectedWidth});
 }
 
 void VideoView::paintImage(QPainter& painter) const {
@@ -220,6 +245,7 @@ void VideoView::mouseReleaseEvent(QMouseEvent* event) {
     emit trackClicked(settings_.isVisible(OverlayKind::tracks)
                           ? trackAt(*frame_.result, settings_.style(), point, margin)
                           : std::nullopt);
+    emit placeClicked(point, margin);
 }
 
 void VideoView::mouseDoubleClickEvent(QMouseEvent* event) {

@@ -27,6 +27,10 @@ class VideoView : public QWidget {
     /// Empties the canvas and announces the size of the frames to come.
     void clear(QSize image_size);
     void setSelectedTrack(std::optional<TrackId> track);
+    /// The image stacks of a frame, which come later than the frame itself; ignored when another one is shown.
+    void setStacks(FrameIndex frame, std::vector<StackMark> stacks);
+    /// The search area that is looked at more closely, image coordinates.
+    void setInspectedArea(std::optional<OrientedBox> area);
 
     const ViewTransform& transform() const { return transform_; }
     void fit();
@@ -48,6 +52,9 @@ class VideoView : public QWidget {
     void cursorMoved(std::optional<QPointF> image_point);
     void transformChanged();
     void trackClicked(std::optional<TrackId> track);
+    /// The user pointed at a place, image coordinates; `margin`: px of the image within which something is meant. Comes
+    /// after trackClicked().
+    void placeClicked(QPointF image_point, double margin);
     /// The space bar was tapped while the canvas had the focus.
     void playToggled();
 
@@ -67,6 +74,7 @@ class VideoView : public QWidget {
  private:
     void paint(QPainter& painter) const;
     void paintImage(QPainter& painter) const;
+    void paintInspectedArea(QPainter& painter) const;
     void adoptSize();
     void transformWasChanged();
     void reportCursor(QPointF view_point);
@@ -78,6 +86,7 @@ class VideoView : public QWidget {
     ViewFrame frame_;
     ViewTransform transform_;
     std::optional<TrackId> selected_track_;
+    std::optional<OrientedBox> inspected_area_;
     std::optional<QPointF> drag_from_;  ///< view point of the last drag step
     QPointF pressed_at_;
     bool dragged_ = false;

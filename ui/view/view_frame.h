@@ -6,6 +6,7 @@
 
 #include "core/box_record.h"
 #include "core/frame_result.h"
+#include "view/stack_mark.h"
 #include "view/trail.h"
 
 namespace eyrie::ui {
@@ -19,6 +20,7 @@ struct ViewFrame {
     std::shared_ptr<const FrameResult> result;  ///< null when the run has no such frame
     std::vector<Trail> trails;                  ///< ascending track id
     std::vector<BoxRecord> ground_truth;
+    std::vector<StackMark> stacks;  ///< empty until somebody asked for them: they are not stored
 };
 
 }  // namespace eyrie::ui

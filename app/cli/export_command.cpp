@@ -1,0 +1,125 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/evaluation_files.h"
+#include "cli/label_arguments.h"
+#include "cli/project_labels.h"
+#include "core/error.h"
+#include "exchange/project_labels.h"
+#include "store/annotation_store.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct Arguments {
+    std::string project;
+    std::optional<int> run;
+    bool labels = false;
+    bool detections = false;
+    std::optional<int> sequence;
+    std::string from;
+    LabelArguments from_labels;
+    std::string format;
+    std::string out;
+    ExportOptions options;
+    bool clip = false;
+    bool keep = false;
+};
+
+RunRecord chosenRun(const RunStore& store, const Arguments& arguments) {
+    const std::vector<RunRecord> runs = store.runs();
+    if (runs.empty())
+        throw Error(ErrorKind::project, arguments.project + ": holds no run; --labels exports its labels");
+    if (!arguments.run) return runs.back();
+    if (const auto run = store.run(*arguments.run)) return *run;
+    std::string known;
+    for (const RunRecord& run : runs) known += (known.empty() ? "" : ", ") + std::to_string(run.id);
+    throw Error(ErrorKind::parameter,
+                "--run " + std::to_string(*arguments.run) + ": " + arguments.project + " holds the runs " + known);
+}
+
+/// What is to be exported; names the sequence after its video where nobody did.
+LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
+    std::string source = arguments.from;
+    LabelFile labels;
+    if (!arguments.from.empty()) {
+        labels = readLabels(arguments.from, arguments.from_labels.format, importOptionsOf(arguments.from_labels));
+        const MotSequence described = describedBeside(arguments.from);
+        if (!labels.image_size) labels.image_size = described.image_size;
+        if (!labels.frame_count) labels.frame_count = described.frame_count;
+        if (!labels.frame_rate_hz) labels.frame_rate_hz = described.frame_rate_hz;
+    } else {
+        ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+        if (arguments.labels) {
+            const SequenceRecord sequence = chosenSequence(project, arguments.sequence);
+            source = sequence.path;
+            labels = labelsOf(readAnnotations(project, sequence.id), sequence,
+                              cameraMotionOf(RunStore(project), sequence.id));
+        } else {
+            const RunStore store(project);
+            const RunRecord run = chosenRun(store, arguments);
+            source = run.sequence.path;
+            labels = labelsOf(store, run, arguments.detections);
+        }
+    }
+    if (options.sequence.empty()) options.sequence = std::filesystem::path(source).stem().string();
+    if (options.sequence.empty()) options.sequence = "sequence";
+    return labels;
+}
+
+void exportLabels(const Arguments& arguments) {
+    ExportOptions options = arguments.options;
+    if (arguments.clip) options.clip = true;
+    if (arguments.keep) options.clip = false;
+    const LabelFile labels = gathered(arguments, options);
+    std::fputs(reportText(writeLabels(labels, arguments.out, arguments.format, options)).c_str(), stdout);
+    for (const std::string& note : labels.notes) std::printf("  note        %s\n", note.c_str());
+}
+
+}  // namespace
+
+void addExportCommand(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<Arguments>();
+    arguments->options.sequence.clear();
+    CLI::App* command =
+        app.add_subcommand("export", "Write labels or tracks for other programs; says what their format cannot carry");
+    CLI::Option* project = command->add_option("--project", arguments->project, "Project with the labels or runs");
+    CLI::Option* run =
+        command->add_option("--run", arguments->run, "Tracks of this run (default: the last)")->needs(project);
+    command->add_flag("--labels", arguments->labels, "What people labelled instead of a run")
+        ->needs(project)
+        ->excludes(run);
+    command->add_flag("--detections", arguments->detections, "The run's detections instead of its tracks")
+        ->needs(project);
+    command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
+        ->needs(project);
+    command->add_option("--from", arguments->from, "File or folder of labels to convert")->excludes(project);
+    addLabelOptions(*command, arguments->from_labels, "--from-format", "--from-columns");
+    command->add_option("--format", arguments->format, "One of " + formatNames(true))->required();
+    command->add_option("--out", arguments->out, "File, or folder for formats with a text per image")->required();
+    command->add_option("--columns", arguments->options.columns, "Columns of a table of one's own, for format columns");
+    command->add_option("--out-first-frame", arguments->options.first_frame_number,
+                        "Number of a video's first frame in such a table (else 0)");
+    command->add_option("--out-pixel-origin", arguments->options.first_pixel_edge,
+                        "Where the first pixel begins in such a table (else 0) and in MOTChallenge text (else 1)");
+    CLI::Option* clip = command->add_flag("--clip", arguments->clip, "Cut boxes at the image's border");
+    command->add_flag("--keep-outside", arguments->keep, "Do not cut, not even for YOLO-OBB")->excludes(clip);
+    command->add_flag("--unrotated-bounds", arguments->options.unrotated_bounds,
+                      "COCO and KWCOCO: bbox is the unrotated box, as DIVE reads it");
+    command->add_option("--name", arguments->options.sequence, "Name of the sequence (default: the video's)");
+    command->add_option("--benchmark", arguments->options.benchmark, "TrackEval: name of the benchmark")
+        ->capture_default_str();
+    command->add_option("--split", arguments->options.split, "TrackEval: name of the split")->capture_default_str();
+    command->add_option("--tracker", arguments->options.tracker, "TrackEval: write a tracker's result of this name");
+    command->callback([arguments, &exit_code] {
+        if (arguments->from.empty() == arguments->project.empty()) {
+            throw Error(ErrorKind::parameter, "export needs what to write: --project P.eyrie or --from FILE");
+        }
+        exportLabels(*arguments);
+        exit_code = exit_ok;
+    });
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+
+#include "store/project_file.h"
+#include "store/run_store.h"
+
+namespace eyrie::cli {
+
+/// The video of a project that labels belong to: the only one, or that of number `id`. Throws Error(parameter) saying
+/// which there are, Error(project) when there is none.
+SequenceRecord chosenSequence(ProjectFile& project, std::optional<int> id);
+
+}  // namespace eyrie::cli

@@ -1,0 +1,158 @@
+#include "exchange/label_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "annotation/keyframe_reduction.h"
+
+namespace eyrie {
+namespace {
+
+/// Colours apart from each other for any number of objects, by golden steps around the circle of hues.
+std::uint32_t colourOf(ObjectId id) {
+    const double hue = std::fmod(id * 0.61803398875, 1.0) * 6;
+    const auto channel = [&](double shift) {
+        const double distance = std::abs(std::fmod(hue + shift, 6.0) - 3.0);
+        return static_cast<std::uint32_t>(std::lround(70 + 170 * std::clamp(distance - 1.0, 0.0, 1.0)));
+    };
+    return channel(0) << 16 | channel(4) << 8 | channel(2);
+}
+
+/// The boxes of one object, ascending frames.
+using Track = std::vector<const LabelBox*>;
+
+bool sameFlags(const LabelBox& a, const LabelBox& b) {
+    return a.ignore == b.ignore && a.occlusion == b.occlusion;
+}
+
+std::vector<FrameBox> frameBoxes(const Track& track, std::size_t begin, std::size_t end) {
+    std::vector<FrameBox> boxes;
+    for (std::size_t i = begin; i < end; ++i) boxes.push_back({track[i]->frame, track[i]->box});
+    return boxes;
+}
+
+/// Few keyframes for dense boxes: by stretches with the same flags, outside over gaps.
+void reduceObject(LabelledObject& object, const Track& track, const CameraMotion& camera,
+                  const ReductionOptions& options) {
+    object.keyframes.clear();
+    object.last_frame = track.back()->frame;
+    std::size_t begin = 0;
+    for (std::size_t i = 1; i <= track.size(); ++i) {
+        const bool over = i == track.size();
+        const bool gap = !over && track[i]->frame != track[i - 1]->frame + 1;
+        if (!over && !gap && sameFlags(*track[i], *track[begin])) continue;
+        for (const Keyframe& keyframe : reduceToKeyframes(frameBoxes(track, begin, i), camera, options)) {
+            object.keyframes.push_back(keyframe);
+        }
+        if (gap) {
+            Keyframe outside;
+            outside.frame = track[i - 1]->frame + 1;
+            outside.box = track[i - 1]->box;
+            outside.heading_set = true;
+            outside.outside = true;
+            object.keyframes.push_back(outside);
+        }
+        begin = i;
+    }
+    object = refined(std::move(object), frameBoxes(track, 0, track.size()), camera, options);
+    object.last_frame = std::max(object.last_frame, object.keyframes.back().frame);
+    for (Keyframe& keyframe : object.keyframes) {
+        const auto found = std::lower_bound(track.begin(), track.end(), keyframe.frame,
+                                            [](const LabelBox* box, FrameIndex frame) { return box->frame < frame; });
+        if (found == track.end() || (*found)->frame != keyframe.frame) continue;
+        keyframe.outside = false;
+        keyframe.ignore = (*found)->ignore;
+        keyframe.occlusion = (*found)->occlusion;
+    }
+}
+
+/// What lies behind the end of the video is left out.
+int cutAtEnd(LabelFile& labels, int frame_count) {
+    int left_out = 0;
+    if (frame_count <= 0) return 0;
+    for (auto entry = labels.boxes.lower_bound(frame_count); entry != labels.boxes.end();) {
+        left_out += static_cast<int>(entry->second.size());
+        entry = labels.boxes.erase(entry);
+    }
+    if (left_out > 0) labels.objects.clear();  // the boxes are cut, so they make the objects
+    return left_out;
+}
+
+AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
+    AnnotationEdit edit;
+    const auto& objects = imported.annotations.objects;
+    edit.name = "Import " + std::to_string(objects.size()) + (objects.size() == 1 ? " object" : " objects");
+    const ObjectId first_free = store.newObjectId();
+    const bool keep_ids = first_free == 1;
+    ObjectId next = first_free;
+    for (const auto& [id, object] : objects) {
+        LabelledObject added = object;
+        added.id = keep_ids ? id : next++;
+        added.colour = colourOf(added.id);
+        edit.objects.push_back({std::nullopt, std::move(added)});
+    }
+    for (const auto& [id, region] : imported.annotations.regions) {
+        IgnoreRegion added = region;
+        added.id = store.newRegionId();
+        edit.regions.push_back({std::nullopt, std::move(added)});
+    }
+    std::vector<ObjectClass> classes = store.annotations().classes;
+    for (const ObjectClass& wanted : imported.annotations.classes) {
+        const bool known = std::any_of(classes.begin(), classes.end(),
+                                       [&](const ObjectClass& entry) { return entry.name == wanted.name; });
+        if (!known) classes.push_back(wanted);
+    }
+    if (classes.size() != store.annotations().classes.size()) {
+        Change<std::vector<ObjectClass>> change;
+        change.before = store.annotations().classes;
+        change.after = classes;
+        edit.classes = change;
+    }
+    return edit;
+}
+
+}  // namespace
+
+LabelImport planImport(const LabelFile& file, const SequenceRecord& sequence, const CameraMotion& camera,
+                       AnnotationStore& store, double tolerance_px) {
+    LabelFile labels = file;
+    LabelImport result;
+    const int behind = cutAtEnd(labels, sequence.frame_count);
+    for (const auto& [frame, records] : labels.boxes) result.boxes += static_cast<int>(records.size());
+
+    ImportedLabels imported = annotationsOf(labels);
+    result.notes = imported.notes;
+    if (behind > 0) {
+        result.notes.push_back(std::to_string(behind) + " boxes lie behind the video's last frame, " +
+                               std::to_string(sequence.frame_count - 1) + ", and were left out; is the shift right?");
+    }
+    if (imported.left_out > 0) {
+        result.notes.push_back(std::to_string(imported.left_out) +
+                               " boxes have no id and belong to no object; they were left out");
+    }
+    if (tolerance_px > 0) {
+        const int step = labels.boxes.empty() || imported.annotations.objects.empty() ? 0 : imported.id_step;
+        std::map<int, Track> tracks;
+        for (const auto& [frame, records] : labels.boxes) {
+            for (const LabelBox& record : records) {
+                if (!record.id) continue;
+                Track& track = tracks[*record.id + step];
+                if (track.empty() || track.back()->frame != frame) track.push_back(&record);
+            }
+        }
+        ReductionOptions options;
+        options.tolerance_px = tolerance_px;
+        for (auto& [id, object] : imported.annotations.objects) reduceObject(object, tracks.at(id), camera, options);
+        if (camera.empty()) {
+            result.notes.push_back("the video was never registered, so keyframes were chosen for motion in the image");
+        }
+    }
+    result.edit = editFor(imported, store);
+    for (const auto& change : result.edit.objects) result.keyframes += static_cast<int>(change.after->keyframes.size());
+    result.objects = static_cast<int>(result.edit.objects.size());
+    result.regions = static_cast<int>(result.edit.regions.size());
+    return result;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "annotation/camera_motion.h"
+#include "core/annotation_edit.h"
+#include "formats/label_file.h"
+#include "store/annotation_store.h"
+
+namespace eyrie {
+
+/// What an import would do to a project: one edit, to be looked at and applied, or not.
+struct LabelImport {
+    AnnotationEdit edit;
+    int objects = 0;
+    int boxes = 0;      ///< of the file
+    int keyframes = 0;  ///< made of them
+    int regions = 0;
+    std::vector<std::string> notes;
+};
+
+/// Labels of a file as an edit of the video's labels. Few keyframes are chosen whose interpolation over the ground
+/// stays within `tolerance_px` of every box; 0 makes every box a keyframe. Nothing that is there is touched. Ids of the
+/// file are kept in a project that never had an object; otherwise `store` hands out new ones. Boxes behind the video's
+/// last frame are left out, and boxes that belong to no object; notes say how many.
+LabelImport planImport(const LabelFile& labels, const SequenceRecord& sequence, const CameraMotion& camera,
+                       AnnotationStore& store, double tolerance_px);
+
+}  // namespace eyrie

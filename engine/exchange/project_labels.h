@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "annotation/camera_motion.h"
+#include "core/annotation.h"
+#include "formats/label_file.h"
+#include "store/run_store.h"
+
+/// Labels and runs of a project in the words of the formats.
+namespace eyrie {
+
+/// The last run over a video with more than one frame.
+std::optional<RunRecord> lastRunOver(const RunStore& store, int sequence_id);
+/// How the camera moved, as the last run over the video found it; knows nothing without one.
+CameraMotion cameraMotionOf(const RunStore& store, int sequence_id);
+
+/// Labels of a video as a file would have them: objects frame by frame where they are in the image, ignore regions as
+/// ignored boxes without id.
+LabelFile labelsOf(const AnnotationSet& annotations, const SequenceRecord& sequence, const CameraMotion& camera);
+/// Tracks of a run, or its detections.
+LabelFile labelsOf(const RunStore& store, const RunRecord& run, bool detections);
+
+}  // namespace eyrie

@@ -1,0 +1,99 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "annotation/ignore_regions.h"
+#include "core/error.h"
+#include "exchange/label_import.h"
+#include "exchange/project_labels.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+class LabelExchange : public testing::Test {
+ protected:
+    LabelExchange() : project_(ProjectFile::create(folder_ / "p.eyrie")) {
+        sequence_.path = "/nowhere/clip.mp4";
+        sequence_.size = {160, 120};
+        sequence_.frame_count = 20;
+        sequence_.frame_rate_hz = 25;
+        sequence_.id = ensureSequence(project_, sequence_);
+    }
+    /// Drives to the right at 2 px/frame in the image; hidden from frame 8 on.
+    static LabelFile car(int frames) {
+        LabelFile labels;
+        for (int frame = 0; frame < frames; ++frame) {
+            LabelBox box;
+            box.frame = frame;
+            box.id = 4;
+            box.object_class = "tram";
+            box.box = {{30.0 + 2 * frame, 40}, 20, 8, 0};
+            box.occlusion = frame < 8 ? Occlusion::none : Occlusion::partly;
+            labels.boxes[frame].push_back(box);
+        }
+        return labels;
+    }
+    test::TemporaryFolder folder_;
+    ProjectFile project_;
+    SequenceRecord sequence_;
+};
+
+TEST_F(LabelExchange, APlanChangesNothingUntilItIsApplied) {
+    AnnotationStore store(project_, sequence_.id);
+    const LabelImport plan = planImport(car(24), sequence_, {}, store, 0.5);
+    EXPECT_TRUE(store.annotations().objects.empty());
+    EXPECT_EQ(plan.objects, 1);
+    EXPECT_EQ(plan.boxes, 20);
+    EXPECT_THAT(plan.notes, Contains(HasSubstr("4 boxes lie behind the video's last frame, 19")));
+    EXPECT_THAT(plan.notes, Contains(HasSubstr("never registered")));
+    store.apply(plan.edit);
+    ASSERT_TRUE(store.annotations().objects.contains(4));
+    EXPECT_LE(store.annotations().objects.at(4).keyframes.size(), 4u);
+    ASSERT_EQ(store.annotations().classes.size(), 1u);
+    EXPECT_EQ(store.annotations().classes[0].name, "tram");
+
+    const LabelFile back = labelsOf(store.annotations(), sequence_, {});
+    const LabelFile before = car(20);
+    ASSERT_EQ(back.boxes.size(), 20u);
+    for (const auto& [frame, records] : before.boxes) {
+        const LabelBox& found = back.boxes.at(frame)[0];
+        EXPECT_NEAR(cv::norm(found.box.centre - records[0].box.centre), 0, 0.5);
+        EXPECT_EQ(found.occlusion, records[0].occlusion) << frame;
+        EXPECT_EQ(found.object_class, "tram");
+    }
+}
+
+TEST_F(LabelExchange, RegionsLeaveAsBoxesThatCoverThem) {
+    AnnotationSet annotations;
+    IgnoreRegion square;
+    square.id = 1;
+    square.polygon = {{10, 10}, {30, 10}, {30, 30}, {10, 30}};
+    square.first_frame = 2;
+    square.last_frame = 3;
+    annotations.regions[1] = square;
+    IgnoreRegion triangle = square;
+    triangle.id = 2;
+    triangle.polygon = {{60, 20}, {120, 20}, {60, 80}};
+    triangle.last_frame = 1'000'000;  // behind the video
+    annotations.regions[2] = triangle;
+    const LabelFile labels = labelsOf(annotations, sequence_, {});
+    EXPECT_EQ(labels.boxes.rbegin()->first, 19);
+    const OrientedBox first = labels.boxes.at(2)[0].box;
+    EXPECT_NEAR(first.centre.x, 20, 1e-9);
+    EXPECT_NEAR(first.area(), 400, 1e-9);
+    EXPECT_GT(labels.boxes.at(2).size(), 2u);
+    double covered = 0;
+    for (const LabelBox& box : labels.boxes.at(5)) {
+        EXPECT_TRUE(box.ignore);
+        EXPECT_FALSE(box.id);
+        covered += box.box.area();
+    }
+    EXPECT_GE(covered, 1800);  // the triangle
+    EXPECT_LT(covered, 2600);  // and not its square of 3600
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <optional>
+#include <vector>
+
+#include "panels/chip_grid.h"
+#include "session/replay_loader.h"
+#include "view/stack_mark.h"
+
+/// A replayed frame as pictures to look at, titled in the thesis' words. Pure functions.
+namespace eyrie::ui {
+
+/// Every step of one search (index into ReplayView::traces): raw chip, stacked image, what the method in use did with
+/// it, what was kept; difference images and background where clusters come from them; general segmentation if asked
+/// for.
+std::vector<ChipCard> stageChips(const ReplayView& view, std::size_t trace);
+
+/// Difference images and background of the whole frame; nothing where clusters come from motion vectors.
+std::vector<ChipCard> differenceChips(const ReplayView& view);
+
+/// Every stack of the frame: raw chip beside stacked image, under number, colour and height. `part`: only this much of
+/// the middle, where the vehicle is, px.
+std::vector<ChipCard> stackChips(const ReplayView& view, std::optional<cv::Size> part = std::nullopt);
+
+/// The stacks as they are drawn over the video.
+std::vector<StackMark> stackMarks(const ReplayView& view);
+
+}  // namespace eyrie::ui
