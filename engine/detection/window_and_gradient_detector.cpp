@@ -16,11 +16,31 @@ void WindowAndGradientOptions::describe(ParameterVisitor& visitor) {
                  {"", "Segments with more than this share inside such a window belong to its vehicle.", ""});
 }
 
+namespace {
+
+/// Adds the layers of a search area's middle, laid into the whole area.
+void addWidened(DetectionTrace& trace, const DetectionTrace& inner, cv::Size whole) {
+    for (const DetectionTrace::Layer& layer : inner.layers) {
+        if (layer.name == "raw") continue;
+        const cv::Point offset((whole.width - layer.image.cols) / 2, (whole.height - layer.image.rows) / 2);
+        cv::Mat image(whole, layer.image.type(), cv::Scalar(0));
+        layer.image.copyTo(image(cv::Rect(offset, layer.image.size())));
+        std::vector<cv::Rect2d> boxes = layer.boxes;
+        for (cv::Rect2d& box : boxes) box += cv::Point2d(offset);
+        trace.layers.push_back({layer.name, image, std::move(boxes)});
+    }
+}
+
+}  // namespace
+
 std::vector<Detection> WindowAndGradientDetector::detect(const MotionRoi& roi, DetectionTrace* trace) const {
     std::vector<Detection> found = window_->detect(roi, trace);
     std::erase_if(found, [&](const Detection& d) { return !d.complete || d.score < options_.sure_decision; });
     const auto windows = static_cast<std::ptrdiff_t>(found.size());
-    for (Detection& segment : gradient_->detect(narrowed(roi, context_), trace)) {
+    DetectionTrace inner;
+    std::vector<Detection> segments = gradient_->detect(narrowed(roi, context_), trace != nullptr ? &inner : nullptr);
+    if (trace != nullptr) addWidened(*trace, inner, roi.image.size());
+    for (Detection& segment : segments) {
         const double area = segment.box.area();
         const bool covered = std::any_of(found.begin(), found.begin() + windows, [&](const Detection& window) {
             return intersectionArea(window.box, segment.box) > options_.most_covered * area;

@@ -31,9 +31,11 @@ DetectionOptions ofKind(DetectionMethod method) {
     return options;
 }
 
-DetectorMaker slidingWindow(const std::string& name, WindowRescaling rescaling) {
-    return {name, [rescaling] {
-                DetectionOptions options = ofKind(DetectionMethod::sliding_window);
+DetectorMaker slidingWindow(const std::string& name, WindowRescaling rescaling,
+                            DetectionMethod method = DetectionMethod::sliding_window) {
+    return {name, [rescaling, method] {
+                DetectionOptions options = ofKind(method);
+                options.window_and_gradient.sure_decision = 1;
                 options.sliding_window = drivenSceneWindow();
                 options.sliding_window.rescaling = rescaling;
                 options.sliding_window.smallest_scale = 0.9;
@@ -55,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Gradient, DetectorContract,
                                          maker("canny", withMethod(GradientMethod::canny)),
                                          maker("morphological", withMethod(GradientMethod::morphological)),
                                          maker("thesis", DetectionOptions::thesis()),
-                                         maker("defaults", DetectionOptions{})),
+                                         maker("defaults", ofKind(DetectionMethod::gradient))),
                          nameOf);
 
 INSTANTIATE_TEST_SUITE_P(Literature, DetectorContract,
@@ -67,7 +69,9 @@ INSTANTIATE_TEST_SUITE_P(Literature, DetectorContract,
 INSTANTIATE_TEST_SUITE_P(SlidingWindow, DetectorContract,
                          testing::Values(slidingWindow("joint_11", WindowRescaling::joint_11),
                                          slidingWindow("length_11", WindowRescaling::length_11),
-                                         slidingWindow("length_3", WindowRescaling::length_3)),
+                                         slidingWindow("length_3", WindowRescaling::length_3),
+                                         slidingWindow("with_gradient", WindowRescaling::length_3,
+                                                       DetectionMethod::window_and_gradient)),
                          nameOf);
 
 }  // namespace eyrie::test

@@ -11,18 +11,42 @@ namespace {
 using test::drivenScene;
 using test::kContractScale;
 
+DetectionOptions segmentation() {
+    DetectionOptions options;
+    options.method = DetectionMethod::gradient;
+    return options;
+}
+
 TEST(RoiCutter, ExtendsTheClusterAlongAndAcross) {
     MotionCluster cluster;
     cluster.box = {{100, 80}, 70, 40, 0.4};
-    const OrientedBox area = extendedCluster(cluster, {320, 240}, {}, kContractScale);
+    const OrientedBox area = extendedCluster(cluster, {320, 240}, segmentation(), kContractScale);
     EXPECT_DOUBLE_EQ(area.length, 140);
     EXPECT_DOUBLE_EQ(area.width, 50);
     EXPECT_DOUBLE_EQ(area.heading, 0.4);
     cluster.box = {{100, 80}, 3, 1, 0.4};
-    const OrientedBox smallest = extendedCluster(cluster, {320, 240}, {}, kContractScale);
+    const OrientedBox smallest = extendedCluster(cluster, {320, 240}, segmentation(), kContractScale);
     EXPECT_DOUBLE_EQ(smallest.length, 7 / 0.11);
     EXPECT_DOUBLE_EQ(smallest.width, 3.2 / 0.11);
     EXPECT_DOUBLE_EQ(extendedCluster(cluster, {320, 240}, DetectionOptions::thesis(), kContractScale).length, 6);
+}
+
+TEST(RoiCutter, WindowsGetTheirContextAndSegmentsAreLeftTheMiddle) {
+    const auto scene = drivenScene(0.8);
+    DetectionOptions options = segmentation();
+    const MotionRoi roi = cutMotionRoi(scene.frame, scene.cluster, 0, scene.motion, options, kContractScale);
+    options.method = DetectionMethod::window_and_gradient;
+    options.sliding_window.context_m = 5 * 0.11;
+    const MotionRoi wide = cutMotionRoi(scene.frame, scene.cluster, 0, scene.motion, options, kContractScale);
+    EXPECT_NEAR(wide.box.length, roi.box.length + 10, 1e-9);
+    const MotionRoi middle = narrowed(wide, 5);
+    EXPECT_EQ(middle.image.size(), wide.image.size() - cv::Size(10, 10));
+    EXPECT_NEAR(middle.box.width, roi.box.width, 1e-9);
+    for (std::size_t i = 0; i < middle.vectors.size(); ++i) {
+        const cv::Vec2d back = middle.image_from_roi * cv::Vec3d(middle.vectors[i].x, middle.vectors[i].y, 1);
+        EXPECT_NEAR(back[0], scene.motion.motion_vectors[i].position.x, 1e-3);
+        EXPECT_NEAR(back[1], scene.motion.motion_vectors[i].position.y, 1e-3);
+    }
 }
 
 TEST(RoiCutter, PlacesTheVectorsInTheRoi) {
