@@ -18,23 +18,28 @@ using Json = nlohmann::json;
 
 constexpr int kDeepest = 32;  ///< nesting; labels need about six
 
-/// A value together with where it stands.
+/// A value together with where it stands. Places refer to the place they are in, which must outlive them.
 class Place {
  public:
-    Place(const std::filesystem::path& file, const Json& value, std::string name)
-        : file_(file), value_(value), name_(std::move(name)) {}
+    Place(const std::filesystem::path& file, const Json& value) : file_(file), value_(value) {}
 
     const Json& value() const { return value_; }
     [[noreturn]] void fail(const std::string& message) const {
-        throw Error(ErrorKind::input, file_.string() + ": " + (name_.empty() ? "the file" : name_) + ": " + message);
+        const std::string place = name();
+        throw Error(ErrorKind::input, file_.string() + ": " + (place.empty() ? "the file" : place) + ": " + message);
     }
-    bool has(const char* key) const { return value_.is_object() && value_.contains(key) && !value_.at(key).is_null(); }
+    bool has(const char* key) const {
+        if (!value_.is_object()) return false;
+        const auto found = value_.find(key);
+        return found != value_.end() && !found->is_null();
+    }
     Place at(const char* key) const {
         if (!value_.is_object()) fail("is no object");
-        if (!has(key)) fail(std::string("\"") + key + "\" is missing");
-        return {file_, value_.at(key), (name_.empty() ? "" : name_ + ".") + key};
+        const auto found = value_.find(key);
+        if (found == value_.end() || found->is_null()) fail(std::string("\"") + key + "\" is missing");
+        return {*this, *found, key, 0};
     }
-    Place at(std::size_t index) const { return {file_, value_.at(index), name_ + "[" + std::to_string(index) + "]"}; }
+    Place at(std::size_t index) const { return {*this, value_.at(index), nullptr, index}; }
     std::size_t size() const {
         if (!value_.is_array()) fail("is no list");
         return value_.size();
@@ -68,21 +73,49 @@ class Place {
     }
 
  private:
+    Place(const Place& within, const Json& value, const char* key, std::size_t index)
+        : file_(within.file_), value_(value), within_(&within), key_(key), index_(index) {}
+    std::string name() const {
+        if (within_ == nullptr) return {};
+        const std::string before = within_->name();
+        if (key_ == nullptr) return before + "[" + std::to_string(index_) + "]";
+        return before.empty() ? key_ : before + "." + key_;
+    }
+
     const std::filesystem::path& file_;
     const Json& value_;
-    std::string name_;
+    const Place* within_ = nullptr;
+    const char* key_ = nullptr;  ///< none: `index_` counts
+    std::size_t index_ = 0;
 };
+
+/// How deep brackets nest outside of texts.
+int depthOf(const std::string& bytes) {
+    int depth = 0, deepest = 0;
+    bool in_text = false;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        const char c = bytes[i];
+        if (in_text) {
+            if (c == '\\') ++i;
+            if (c == '"') in_text = false;
+        } else if (c == '"') {
+            in_text = true;
+        } else if (c == '[' || c == '{') {
+            deepest = std::max(deepest, ++depth);
+        } else if (c == ']' || c == '}') {
+            --depth;
+        }
+    }
+    return deepest;
+}
 
 Json parse(const std::filesystem::path& path) {
     const std::string bytes = readWholeFile(path);
-    const auto shallow = [&](int depth, Json::parse_event_t event, Json&) {
-        const bool opens = event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
-        if (opens && depth > kDeepest)
-            throw Error(ErrorKind::input, path.string() + ": is nested deeper than labels ever are");
-        return true;
-    };
+    if (depthOf(bytes) > kDeepest) {
+        throw Error(ErrorKind::input, path.string() + ": is nested deeper than labels ever are");
+    }
     try {
-        return Json::parse(bytes, shallow);
+        return Json::parse(bytes);
     } catch (const Json::exception& error) {
         throw Error(ErrorKind::input, path.string() + ": is no valid JSON: " + error.what());
     }
@@ -96,7 +129,7 @@ struct Image {
 class CocoReader {
  public:
     CocoReader(const std::filesystem::path& path, const ImportOptions& options)
-        : path_(path), options_(options), json_(parse(path)), root_(path_, json_, "") {}
+        : path_(path), options_(options), json_(parse(path)), root_(path_, json_) {}
 
     LabelFile read() {
         if (json_.is_array()) {
@@ -256,10 +289,13 @@ class CocoReader {
         if (e.width < 0 || e.height < 0) bounds.fail("the size is negative");
         const OrientedBox upright = boxFromEdges(e, 0);
         std::optional<double> rotation;
-        if (annotation.has("dive_detection_attributes") && annotation.at("dive_detection_attributes").has("rotation")) {
-            const Place turn = annotation.at("dive_detection_attributes").at("rotation");
-            if (std::abs(turn.real()) > 1000) turn.fail("is no angle in radians");
-            rotation = wrapPi(turn.real());
+        if (annotation.has("dive_detection_attributes")) {
+            const Place attributes = annotation.at("dive_detection_attributes");
+            if (attributes.has("rotation")) {
+                const Place turn = attributes.at("rotation");
+                if (std::abs(turn.real()) > 1000) turn.fail("is no angle in radians");
+                rotation = wrapPi(turn.real());
+            }
         }
         const auto corners = outlineOf(annotation);
         if (!corners) {

@@ -10,7 +10,6 @@
 #include <QMimeData>
 #include <QStackedWidget>
 #include <QStatusBar>
-#include <QTabBar>
 #include <QToolBar>
 #include <QVBoxLayout>
 
@@ -210,14 +209,6 @@ void MainWindow::wireSession() {
     });
 }
 
-void MainWindow::showTabTitles() {
-    // Narrow docks scroll their tabs; cut down to a letter nobody knows which is which.
-    for (QTabBar* bar : findChildren<QTabBar*>()) {
-        bar->setElideMode(Qt::ElideNone);
-        bar->setUsesScrollButtons(true);
-    }
-}
-
 void MainWindow::enableActions() {
     const bool has_video = session_.video().has_value();
     const bool running = session_.running();
@@ -251,7 +242,7 @@ void MainWindow::focusCanvas() {
 }
 
 // ---- opening and closing
-// ----------------------------------------------------------------------------------------------
+// ---------------------------------------------------------------------------------------------
 
 void MainWindow::start(const StartOptions& options) {
     start_ = options;

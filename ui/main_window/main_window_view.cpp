@@ -7,6 +7,7 @@
 #include <QMessageBox>
 #include <QPainter>
 #include <QSignalBlocker>
+#include <QTabBar>
 #include <QToolButton>
 #include <QWidgetAction>
 
@@ -93,6 +94,14 @@ QWidget* MainWindow::overlayButton(QMenu* menu) {
     button->setFocusPolicy(Qt::NoFocus);
     button->setMenu(menu);
     return button;
+}
+
+void MainWindow::showTabTitles() {
+    // Narrow docks scroll their tabs; cut down to a letter nobody knows which is which.
+    for (QTabBar* bar : findChildren<QTabBar*>()) {
+        bar->setElideMode(Qt::ElideNone);
+        bar->setUsesScrollButtons(true);
+    }
 }
 
 void MainWindow::wireInspection() {

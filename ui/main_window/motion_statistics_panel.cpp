@@ -132,7 +132,8 @@ void MotionStatisticsPanel::readLives() {
 }
 
 void MotionStatisticsPanel::showLives(const VectorLives& lives) {
-    life_title_->setText(tr("<b>Life</b> of the %1 motion vectors of the run, mean %2 frames; in a track %3 frames")
+    life_title_->setText(tr("<b>Life</b> of the %1 motion vectors of the run, mean %2 frames; those of tracks belong "
+                            "to one for %3 frames")
                              .arg(QLocale().toString(lives.vectors))
                              .arg(numberText(lives.mean_life, 1))
                              .arg(numberText(lives.mean_association, 1)));
