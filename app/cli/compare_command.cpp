@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "detection/model_location.h"
 #include "io/atomic_file.h"
+#include "store/comparison_store.h"
 
 namespace eyrie::cli {
 namespace {
@@ -153,7 +154,14 @@ std::vector<ComparisonRow> rowsAt(double overlap, const Arguments& arguments, co
             tallies.push_back(pairedTallies(truth, matchFrames(truth, boxes, options), tracks, frames,
                                             std::max(1, cvRound(frame_rate_hz))));
             row.f_score = fScoreInterval(tallies.back());
-            if (!rows.empty()) row.against_first = methodDifference(tallies.back(), tallies.front());
+            if (!rows.empty()) {
+                // Like with like: tracks with the first method's tracks, those themselves with its detections.
+                const auto like = std::find_if(rows.begin(), rows.end(),
+                                               [&](const ComparisonRow& other) { return other.tracking == tracking; });
+                const auto reference = static_cast<std::size_t>(like == rows.end() ? 0 : like - rows.begin());
+                row.compared_with = rows[reference].name();
+                row.difference = methodDifference(tallies.back(), tallies[reference]);
+            }
             rows.push_back(std::move(row));
         }
     }
@@ -223,6 +231,10 @@ int compare(const Arguments& arguments) {
         report.blocks.push_back(rowsAt(overlap, arguments, report.options, truth.boxes, planned, results,
                                        {range.first, reached}, scale.frame_rate_hz));
     }
+    if (!arguments.project.empty()) {
+        ProjectFile project = ProjectFile::open(arguments.project);
+        addComparison(project, video.path.string(), jsonText(report));
+    }
     if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(report));
     std::fputs((arguments.json ? jsonText(report) : tableText(report)).c_str(), stdout);
     return whole ? exit_ok : exit_stopped;
@@ -263,7 +275,8 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     command->add_option("--mot-origin", arguments->mot_origin,
                         "Where the first pixel begins in MOTChallenge text: 1 by its rules, 0 in UAVDT and VisDrone");
     arguments->preset.addTo(*command);
-    command->add_option("--project", arguments->project, "Store every method as a run of this project");
+    command->add_option("--project", arguments->project,
+                        "Store every method as a run of this project, and the figures beside them");
     command->add_option("--csv", arguments->csv, "Write the figures as CSV, too");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--quiet", arguments->quiet, "No progress");

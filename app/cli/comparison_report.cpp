@@ -103,12 +103,13 @@ void addBlock(std::string& text, const std::vector<ComparisonRow>& rows) {
     }
     if (rows.size() < 2) return;
     text += '\n';
-    text += left("against " + rows.front().name(), width) + "  f-score [95 %]              MOTA [95 %]\n";
+    text += left("difference", width + 2) + left("f-score [95 %]", 28) + left("MOTA [95 %]", 28) + "to\n";
     for (const ComparisonRow& row : rows) {
-        if (!row.against_first) continue;
+        if (!row.difference) continue;
         text += left(row.name(), width + 2);
-        text += left(intervalText(row.against_first->f_score), 28);
-        text += (row.against_first->mota ? intervalText(*row.against_first->mota) : "-") + "\n";
+        text += left(intervalText(row.difference->f_score), 28);
+        text += left(row.difference->mota ? intervalText(*row.difference->mota) : "-", 28);
+        text += row.compared_with + "\n";
     }
 }
 
@@ -158,8 +159,8 @@ std::string csvText(const ComparisonReport& report) {
             }
             text += number(",%.3f", row.ms_per_frame) + number(",%.6g", row.f_score.low) +
                     number(",%.6g", row.f_score.high);
-            text += row.against_first ? interval(row.against_first->f_score) : ",,,";
-            text += row.against_first && row.against_first->mota ? interval(*row.against_first->mota) : ",,,";
+            text += row.difference ? interval(row.difference->f_score) : ",,,";
+            text += row.difference && row.difference->mota ? interval(*row.difference->mota) : ",,,";
             text += "\n";
         }
     }
@@ -192,9 +193,9 @@ std::string jsonText(const ComparisonReport& report) {
                 }
             }
             entry["f_score_interval"] = jsonOf(row.f_score);
-            if (row.against_first) {
-                Json difference{{"to", rows.front().name()}, {"f_score", jsonOf(row.against_first->f_score)}};
-                if (row.against_first->mota) difference["mota"] = jsonOf(*row.against_first->mota);
+            if (row.difference) {
+                Json difference{{"to", row.compared_with}, {"f_score", jsonOf(row.difference->f_score)}};
+                if (row.difference->mota) difference["mota"] = jsonOf(*row.difference->mota);
                 entry["difference"] = difference;
             }
             json["results"].push_back(std::move(entry));

@@ -17,7 +17,8 @@ struct ComparisonRow {
     double ms_per_frame = 0;  ///< median, of everything after the motion vectors
     Measures measures;
     BootstrapInterval f_score;
-    std::optional<MethodDifference> against_first;  ///< this − the first row; empty for the first row itself
+    std::string compared_with;                   ///< name of the row that `difference` refers to
+    std::optional<MethodDifference> difference;  ///< this − that row; empty for the first row
 
     /// "gradient + stacking + tracking".
     std::string name() const;

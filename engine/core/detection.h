@@ -21,10 +21,10 @@ struct Detection {
     OrientedBox box;
     double score = 0;            ///< classifier value, or motion vectors per expected motion vector; higher is surer
     cv::Point2d velocity{0, 0};  ///< px/frame relative to the ground, of the motion vectors inside
-    bool complete = false;       ///< the box of a whole vehicle (classifier); other boxes may lack or join parts
     int cluster = -1;            ///< index of the motion cluster it came from
     std::vector<int> vectors;    ///< indices into FrameMotion::motion_vectors of those that make or lie in the box
     Rejection rejection = Rejection::none;
+    bool complete = false;  ///< the box of a whole vehicle (classifier); other boxes may lack or join parts
 };
 
 }  // namespace eyrie

@@ -88,19 +88,21 @@ std::vector<MotionCluster> readClusters(SQLite::Database& database, int run_id, 
 }
 
 std::vector<Detection> readDetections(SQLite::Database& database, int run_id, FrameIndex frame, std::size_t vectors) {
-    return readItems<Detection>(database,
-                                "SELECT x, y, length, width, heading_rad, vx, vy, score, cluster, rejection, vectors "
-                                "FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
-                                run_id, frame, [&](RowReader& row) {
-                                    Detection detection;
-                                    detection.box = row.box();
-                                    detection.velocity = row.point();
-                                    detection.score = row.real();
-                                    detection.cluster = row.integer();
-                                    detection.rejection = row.word(stored::kRejections);
-                                    detection.vectors = readIndices(row, vectors);
-                                    return detection;
-                                });
+    return readItems<Detection>(
+        database,
+        "SELECT x, y, length, width, heading_rad, vx, vy, score, cluster, rejection, vectors, complete "
+        "FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
+        run_id, frame, [&](RowReader& row) {
+            Detection detection;
+            detection.box = row.box();
+            detection.velocity = row.point();
+            detection.score = row.real();
+            detection.cluster = row.integer();
+            detection.rejection = row.word(stored::kRejections);
+            detection.vectors = readIndices(row, vectors);
+            detection.complete = row.integer() != 0;
+            return detection;
+        });
 }
 
 }  // namespace

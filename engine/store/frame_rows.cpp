@@ -78,7 +78,7 @@ FrameRows::FrameRows(SQLite::Database& database)
       roi_(database, insertInto("roi", "run_id, frame, number, x, y, length, width, heading_rad")),
       detection_(database, insertInto("detection",
                                       "run_id, frame, number, x, y, length, width, heading_rad, vx, vy, score, "
-                                      "cluster, rejection, vectors")),
+                                      "cluster, rejection, vectors, complete")),
       tracks_(database) {}
 
 void FrameRows::insert(int run_id, const FrameResult& result) {
@@ -142,6 +142,7 @@ void FrameRows::insert(int run_id, const FrameResult& result) {
             .integer(detection.cluster)
             .word(stored::kRejections, detection.rejection)
             .bytes(members)
+            .integer(detection.complete ? 1 : 0)
             .run();
     }
     for (const TrackState& state : result.tracks) tracks_.insert(run_id, frame, state);

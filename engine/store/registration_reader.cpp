@@ -8,9 +8,10 @@ namespace eyrie {
 
 std::vector<Homography> RunStore::homographies(int run_id, FrameIndex from) const {
     return guarded(project_.path(), "reading the registration of run " + std::to_string(run_id), [&] {
-        SQLite::Statement statement(project_.database(),
-                                    "SELECT from_frame, to_frame, h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, "
-                                    "rms_px FROM frame WHERE run_id = ? AND frame >= ? ORDER BY frame");
+        SQLite::Statement statement(
+            project_.database(),
+            "SELECT from_frame, to_frame, h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, "
+            "rms_px FROM frame WHERE run_id = ? AND frame >= ? ORDER BY frame");
         statement.bind(1, run_id);
         statement.bind(2, from);
         std::vector<Homography> homographies;

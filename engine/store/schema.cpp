@@ -196,7 +196,19 @@ CREATE INDEX edit_journal_of_sequence ON edit_journal (sequence_id, undone, id);
 )sql");
 }
 
-constexpr std::array<Migration, 2> kMigrations{addRuns, addLabels};
+void addComparisonsAndCompleteBoxes(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE comparison (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    made_utc TEXT NOT NULL,
+    sequence TEXT NOT NULL,
+    report TEXT NOT NULL
+);
+ALTER TABLE detection ADD COLUMN complete INTEGER NOT NULL DEFAULT 0;
+)sql");
+}
+
+constexpr std::array<Migration, 3> kMigrations{addRuns, addLabels, addComparisonsAndCompleteBoxes};
 
 }  // namespace
 

@@ -35,8 +35,8 @@ OrientedBox trueBox(const test::MovingScene& scene, std::size_t vehicle, int fra
 
 TEST(MethodVariants, WordsAndGroups) {
     EXPECT_THAT(methodsNamed("detectors"),
-                testing::ElementsAre("clusters", "gradient", "relative_connectivity", "sliding_window", "tophat_otsu",
-                                     "mser", "canny_harris"));
+                testing::ElementsAre("clusters", "gradient", "relative_connectivity", "sliding_window",
+                                     "window_and_gradient", "tophat_otsu", "mser", "canny_harris"));
     EXPECT_EQ(methodsNamed("gradients").size(), 4U);
     EXPECT_EQ(methodsNamed("rescaling").size(), 3U);
     EXPECT_EQ(methodsNamed("motion").size(), 4U);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "store/project_file.h"
+#include "store/comparison_store.h"
 #include "store/run_store.h"
 #include "support/moving_scene.h"
 #include "support/process.h"
@@ -60,7 +61,7 @@ TEST_F(Compare, PrintsALineForEveryMethodAndOverlap) {
     EXPECT_THAT(result.output, HasSubstr("T_ov 0.1"));
     EXPECT_THAT(result.output, HasSubstr("T_ov 0.3"));
     EXPECT_THAT(result.output, HasSubstr("clusters + tracking"));
-    EXPECT_THAT(result.output, HasSubstr("against clusters"));
+    EXPECT_THAT(result.output, HasSubstr("difference"));
     std::ifstream csv(at("figures.csv"));
     std::string line;
     std::getline(csv, line);
@@ -94,6 +95,9 @@ TEST_F(Compare, JsonHasIntervalsAndTheProjectTheRuns) {
     EXPECT_EQ(runs[1].name, "compare: gradient + stacking");
     EXPECT_EQ(runs[1].frames_done, kFrames);
     EXPECT_EQ(runs[1].state, RunState::finished);
+    const auto kept = comparisons(project);
+    ASSERT_EQ(kept.size(), 1U);
+    EXPECT_EQ(nlohmann::json::parse(kept[0].report), json);
 }
 
 TEST_F(Compare, SaysWhatIsWrong) {

@@ -71,7 +71,8 @@ FrameResult sampleFrame(FrameIndex frame, const SampleSize& size) {
                                      {dice.real(-5, 5), dice.real(-5, 5)},
                                      dice.whole(-1, 5),
                                      dice.indices(size.motion_vectors),
-                                     static_cast<Rejection>(i % 4)});
+                                     static_cast<Rejection>(i % 4),
+                                     i % 3 == 0});
     }
     for (int i = 0; i < size.tracks; ++i) {
         result.tracks.push_back({i + 1,
@@ -172,6 +173,7 @@ void expectSame(const FrameResult& read, const FrameResult& written) {
         EXPECT_EQ(read.detections[i].cluster, written.detections[i].cluster);
         EXPECT_EQ(read.detections[i].vectors, written.detections[i].vectors);
         EXPECT_EQ(read.detections[i].rejection, written.detections[i].rejection);
+        EXPECT_EQ(read.detections[i].complete, written.detections[i].complete);
     }
     ASSERT_EQ(read.tracks.size(), written.tracks.size());
     for (std::size_t i = 0; i < read.tracks.size(); ++i) expectSameTrack(read.tracks[i], written.tracks[i]);
