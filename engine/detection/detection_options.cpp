@@ -47,6 +47,7 @@ DetectionOptions DetectionOptions::thesis() {
     options.min_roi_width_m = 0;
     options.cluster_margin_px = 0;
     options.gradient = GradientOptions::thesis();
+    options.relative_connectivity = RelativeConnectivityOptions::thesis();
     options.sliding_window = SlidingWindowOptions::thesis();
     return options;
 }

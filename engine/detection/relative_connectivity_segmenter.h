@@ -7,12 +7,14 @@ namespace eyrie {
 
 /// Parameters of segmentation by relative connectivity (Teutsch §5.4.2; optima of §7.3.2).
 struct RelativeConnectivityOptions {
-    double deviations = 1.2;         ///< a of T_rc = μ + a·σ
-    int min_points = 3;              ///< T_m
-    double low = 40;                 ///< T_l, at the thesis' 0.345 m/px
-    double high_factor = 2.0;        ///< b of T_u = b·T_l
-    bool follow_scale = false;       ///< T_l grows with the size of vehicles in pixels
-    double reference_gsd_m = 0.345;  ///< m/px at which `low` holds
+    double deviations = 0.6;    ///< a of T_rc = μ + a·σ
+    int min_points = 3;         ///< T_m
+    double low = 8;             ///< T_l
+    double high_factor = 2.0;   ///< b of T_u = b·T_l
+    double car_length_px = 24;  ///< length to which cars are scaled before; 0: the image as it is
+
+    /// The text to the letter: T_l for vehicles of about 10×20 px, whatever their true size.
+    static RelativeConnectivityOptions thesis();
 
     void describe(ParameterVisitor& visitor);
 };
@@ -29,7 +31,7 @@ class RelativeConnectivitySegmenter : public MaskSegmenter {
 
  private:
     RelativeConnectivityOptions options_;
-    double low_;
+    double enlargement_;
 };
 
 }  // namespace eyrie
