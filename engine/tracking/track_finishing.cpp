@@ -102,6 +102,12 @@ void FinishingOptions::describe(ParameterVisitor& v) {
             "Two tracks that on average share more than this of the smaller box are one vehicle: the one detected "
             "less often gives way. 1: never.",
             ""});
+    v.flag(
+        "finishing.join_parts", join_parts,
+        {"",
+         "Tracks that drive right behind each other as if fixed are one long vehicle. Used where the ground sampling "
+         "distance is known.",
+         ""});
 }
 
 FinishingOptions FinishingOptions::thesis() {
@@ -115,6 +121,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.min_length_m = 0;
     options.min_width_m = 0;
     options.max_sharing = 1;
+    options.join_parts = false;
     return options;
 }
 
@@ -131,6 +138,7 @@ std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);
+    if (options.join_parts && scale.gsd_known) joinParts(paths, scale);
     dropTooSmall(paths, options, scale);
     dropSharers(paths, options.max_sharing, scale);
     for (TrackPath& path : paths) {

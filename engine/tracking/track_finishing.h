@@ -36,6 +36,7 @@ struct FinishingOptions {
     double min_length_m = 1.8;
     double min_width_m = 0.9;
     double max_sharing = 0.5;
+    bool join_parts = true;
 
     void describe(ParameterVisitor& visitor);
     /// Confirmed tracks from their first detection on, otherwise unchanged (Teutsch §7.1.2).

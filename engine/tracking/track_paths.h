@@ -21,6 +21,10 @@ struct TrackPath {
 std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundMotion& ground,
                                      const FinishingOptions& options, const SceneScale& scale);
 
+/// Joins tracks that are parts of one long vehicle: they drive one right behind the other as if fixed, faster and longer
+/// than bumper to bumper traffic would. The longer track's id stays.
+void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale);
+
 /// Replaces lengths and widths by their weighted median over a window, on the ground: enlargement by the camera is
 /// taken into account, detections count most.
 void steadySize(TrackPath& path, const GroundMotion& ground, int half_window);

@@ -299,6 +299,43 @@ TEST(FinishTracks, ofTwoTracksInOnePlaceTheOneDetectedLessOftenGivesWay) {
     EXPECT_EQ(ids, (std::set<TrackId>{1, 3}));
 }
 
+/// Front and rear of a lorry, 14 px each, and a car behind it; px/frame.
+std::vector<TimedState> lorryInParts(const MovingScene& scene, int frames) {
+    std::vector<TimedState> states;
+    for (int frame = 0; frame < frames; ++frame) {
+        for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+            // The rear is found later.
+            if (i == 1 && frame < 5) continue;
+            states.emplace_back(frame, trueState(scene, i, frame, int(i) + 1));
+        }
+    }
+    return states;
+}
+
+TEST(FinishTracks, partsThatDriveAsIfFixedAreOneLorry) {
+    MovingScene scene;
+    scene.objects = {{{250, 180}, {1.5, 0}, 14, 9, 0}, {{236, 180}, {1.5, 0}, 13, 9, 0}};
+    const auto finished = finishTracks(lorryInParts(scene, 60), summariesOf(scene, 60), {}, scene.scale);
+    ASSERT_EQ(finished.size(), 60U);
+    const OrientedBox& box = finished[40].second.box;
+    EXPECT_EQ(finished[40].second.id, 1);
+    EXPECT_NEAR(box.length, 27.5, 0.6);  // 257 − 229.5
+    EXPECT_NEAR(box.centre.x, 243.25 + 1.5 * 40, 0.6);
+    EXPECT_NEAR(finished[2].second.box.length, 27.5, 0.6);
+}
+
+TEST(FinishTracks, carsThatFollowEachOtherStayTwo) {
+    MovingScene close;  // as close, but the distance changes by half a metre and more
+    close.objects = {{{250, 180}, {1.5, 0}, 14, 9, 0}, {{233, 180}, {1.62, 0}, 13, 9, 0}};
+    EXPECT_EQ(finishTracks(lorryInParts(close, 60), summariesOf(close, 60), {}, close.scale).size(), 120U);
+    MovingScene cars;  // fixed, but both as long as cars
+    cars.objects = {{{250, 180}, {1.5, 0}, 18, 9, 0}, {{232, 180}, {1.5, 0}, 18, 9, 0}};
+    EXPECT_EQ(finishTracks(lorryInParts(cars, 60), summariesOf(cars, 60), {}, cars.scale).size(), 120U);
+    MovingScene slow;  // bumper to bumper
+    slow.objects = {{{250, 180}, {0.3, 0}, 14, 9, 0}, {{236, 180}, {0.3, 0}, 13, 9, 0}};
+    EXPECT_EQ(finishTracks(lorryInParts(slow, 60), summariesOf(slow, 60), {}, slow.scale).size(), 120U);
+}
+
 TEST(FinishTracks, aTrackWiderThanAVehicleDoesNotDriveOutThoseInIt) {
     MovingScene scene;
     scene.objects = {{{250, 180}, {1.5, 0}, 20, 20, 0}, {{250, 175}, {1.5, 0}, 18, 8, 0}};
@@ -333,7 +370,7 @@ TEST(FinishTracks, survivesMissingSummariesAndBrokenStates) {
 TEST(FinishingOptions, areAllNamedAfterFinishing) {
     FinishingOptions options;
     const auto parameters = listParameters(describeOf(options));
-    EXPECT_EQ(parameters.size(), 15u);
+    EXPECT_EQ(parameters.size(), 16u);
     for (const Parameter& parameter : parameters) EXPECT_EQ(parameter.name.rfind("finishing.", 0), 0u);
 }
 
