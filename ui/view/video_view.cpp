@@ -6,6 +6,7 @@
 #include <QWheelEvent>
 #include <cmath>
 
+#include "view/canvas_tool.h"
 #include "view/cluster_layer.h"
 #include "view/corner_layer.h"
 #include "view/detection_layer.h"
@@ -85,6 +86,20 @@ void VideoView::setInspectedArea(std::optional<OrientedBox> area) {
     update();
 }
 
+void VideoView::setTool(CanvasTool* tool) {
+    tool_ = tool;
+    updateCursorShape();
+    update();
+}
+
+bool VideoView::toolTakes(bool (CanvasTool::*handler)(const QMouseEvent&, const CanvasPlace&),
+                          const QMouseEvent& event) {
+    if (tool_ == nullptr || space_held_) return false;
+    const bool taken = (tool_->*handler)(event, {transform_, frame_.image, QRectF(rect())});
+    if (!drag_from_) updateCursorShape();
+    return taken;
+}
+
 void VideoView::fit() {
     transform_.fit();
     transformWasChanged();
@@ -141,17 +156,20 @@ void VideoView::paintEvent(QPaintEvent*) {
 void VideoView::paint(QPainter& painter) const {
     painter.fillRect(rect(), kGround);
     paintImage(painter);
-    if (!frame_.result) return;
     painter.setRenderHint(QPainter::Antialiasing);
     QFont label_font = font();
     label_font.setPointSizeF(std::max(7.0, font().pointSizeF() * 0.85));
     label_font.setBold(true);
     painter.setFont(label_font);
-    const OverlayScene scene{
-        frame_, *frame_.result, transform_, settings_.style(), selected_track_, QRectF(rect()).adjusted(-8, -8, 8, 8)};
-    for (const auto& layer : layers_)
-        if (settings_.isVisible(layer->kind())) layer->paint(painter, scene);
-    paintInspectedArea(painter);
+    if (frame_.result) {
+        const OverlayScene scene{frame_,          *frame_.result,
+                                 transform_,      settings_.style(),
+                                 selected_track_, QRectF(rect()).adjusted(-8, -8, 8, 8)};
+        for (const auto& layer : layers_)
+            if (settings_.isVisible(layer->kind())) layer->paint(painter, scene);
+        paintInspectedArea(painter);
+    }
+    if (tool_ != nullptr) tool_->paint(painter, {transform_, frame_.image, QRectF(rect())});
 }
 
 void VideoView::paintInspectedArea(QPainter& painter) const {
@@ -216,6 +234,7 @@ bool VideoView::event(QEvent* event) {
 }
 
 void VideoView::mousePressEvent(QMouseEvent* event) {
+    if (toolTakes(&CanvasTool::press, *event)) return;
     if (event->button() != Qt::LeftButton && event->button() != Qt::MiddleButton) return;
     drag_from_ = event->position();
     pressed_at_ = event->position();
@@ -224,6 +243,7 @@ void VideoView::mousePressEvent(QMouseEvent* event) {
 
 void VideoView::mouseMoveEvent(QMouseEvent* event) {
     reportCursor(event->position());
+    if (toolTakes(&CanvasTool::move, *event)) return;
     if (!drag_from_) return;
     if (!dragged_ && QLineF(pressed_at_, event->position()).length() < kDragThreshold) return;
     dragged_ = true;
@@ -235,11 +255,12 @@ void VideoView::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void VideoView::mouseReleaseEvent(QMouseEvent* event) {
+    if (toolTakes(&CanvasTool::release, *event)) return;
     const bool was_click = drag_from_.has_value() && !dragged_ && event->button() == Qt::LeftButton;
     drag_from_.reset();
     dragged_ = false;
     updateCursorShape();
-    if (!was_click || !frame_.result) return;
+    if (!was_click || !frame_.result || tool_ != nullptr) return;
     const double margin = kHitMargin / transform_.scale();
     const QPointF point = transform_.imageFromView(event->position());
     emit trackClicked(settings_.isVisible(OverlayKind::tracks)
@@ -249,7 +270,7 @@ void VideoView::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void VideoView::mouseDoubleClickEvent(QMouseEvent* event) {
-    if (event->button() != Qt::LeftButton) return;
+    if (event->button() != Qt::LeftButton || toolTakes(&CanvasTool::doubleClick, *event)) return;
     if (transform_.fitted())
         transform_.setZoomAround(event->position(), 2);
     else
@@ -280,6 +301,7 @@ void VideoView::keyReleaseEvent(QKeyEvent* event) {
 }
 
 void VideoView::leaveEvent(QEvent*) {
+    if (tool_ != nullptr) tool_->leave();
     emit cursorMoved(std::nullopt);
 }
 
@@ -294,6 +316,8 @@ void VideoView::updateCursorShape() {
         setCursor(Qt::ClosedHandCursor);
     else if (space_held_)
         setCursor(Qt::OpenHandCursor);
+    else if (const QCursor* shape = tool_ != nullptr ? tool_->cursor() : nullptr)
+        setCursor(*shape);
     else
         unsetCursor();
 }

@@ -11,6 +11,9 @@
 
 namespace eyrie::ui {
 
+class CanvasTool;
+struct CanvasPlace;
+
 /// The canvas: one video frame with its overlays. The wheel zooms to the cursor, dragging pans; pixels are smooth below
 /// 400 % and sharp squares from there on. Shows what it is given and asks nobody.
 class VideoView : public QWidget {
@@ -31,6 +34,9 @@ class VideoView : public QWidget {
     void setStacks(FrameIndex frame, std::vector<StackMark> stacks);
     /// The search area that is looked at more closely, image coordinates.
     void setInspectedArea(std::optional<OrientedBox> area);
+    /// What the mouse does and what is drawn on top; null: the canvas' own. Must outlive the view, or be taken away.
+    void setTool(CanvasTool* tool);
+    CanvasTool* tool() const { return tool_; }
 
     const ViewTransform& transform() const { return transform_; }
     void fit();
@@ -80,6 +86,7 @@ class VideoView : public QWidget {
     void reportCursor(QPointF view_point);
     QPointF anchor() const;
     void updateCursorShape();
+    bool toolTakes(bool (CanvasTool::*handler)(const QMouseEvent&, const CanvasPlace&), const QMouseEvent& event);
 
     OverlaySettings& settings_;
     std::vector<std::unique_ptr<OverlayLayer>> layers_;
@@ -92,6 +99,7 @@ class VideoView : public QWidget {
     bool dragged_ = false;
     bool space_held_ = false;
     bool space_panned_ = false;
+    CanvasTool* tool_ = nullptr;
 };
 
 }  // namespace eyrie::ui

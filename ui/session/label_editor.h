@@ -1,0 +1,88 @@
+#pragma once
+
+#include <QObject>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "annotation/identity_verbs.h"
+#include "annotation/interpolation.h"
+#include "session/label_session.h"
+
+namespace eyrie::ui {
+
+/// What a key or a handle does to the labels: every function is one edit of the selected object (or objects) in the
+/// frame shown, which can be undone. Functions do nothing when nothing is selected or the labels are read-only, and
+/// say why by LabelSession's signals.
+class LabelEditor : public QObject {
+    Q_OBJECT
+
+ public:
+    /// Both must outlive it.
+    LabelEditor(ProjectSession& session, LabelSession& labels, QObject* parent = nullptr);
+
+    FrameIndex frame() const { return session_.currentFrame(); }
+    /// The selected object; null when there is none.
+    const LabelledObject* object() const;
+    /// An object's box in a frame; beyond its life where it would be if it went on as it did, which is no label yet.
+    static std::optional<OrientedBox> expectedBox(const LabelledObject& object, FrameIndex frame,
+                                                  const CameraMotion& camera);
+    std::optional<OrientedBox> shownBox() const;
+
+    /// A new object of the class that is drawn, alive in this one frame; it is selected.
+    std::optional<ObjectId> add(const OrientedBox& box, FrameIndex frame);
+    /// Sets a box; beyond the object's life it lives as long. `turned`: its heading was set by hand, too.
+    bool setBox(ObjectId id, FrameIndex frame, const OrientedBox& box, bool turned, const QString& what);
+    void nudge(double right_px, double down_px);
+    void turn(double radians);
+    /// A keyframe of the box as it is shown.
+    void setKeyframe();
+    /// The box becomes a keyframe of the next (or former) frame, carried on the ground, and that frame is shown.
+    void copyOn(int frames = 1);
+    void deleteKeyframe();
+    void deleteObjects();
+    /// The object lives up to and including this frame.
+    void endHere();
+    void toggleOccluded();
+    void toggleOutside();
+    void toggleIgnore();
+    void setClass(const std::string& name);
+    void setNotes(const QString& notes);
+    void mark(ReviewState state);
+    /// Flags of the selected objects over a range of frames.
+    void setFlags(FrameIndex first, FrameIndex last, const FlagChange& flags);
+
+    // Identity; what cannot be done is told.
+    IdentityChange joinWith(ObjectId other, GapFilling gap) const;
+    IdentityChange fuseWith(ObjectId other) const;
+    void join(ObjectId other, GapFilling gap);
+    void fuse(ObjectId other);
+    void splitHere();
+    void swapFrom(ObjectId other);
+    void renumberHere();
+    void deleteBefore();
+    void deleteAfter();
+
+    // Going places.
+    void stepObject(int objects);
+    void nextKeyframe();
+    void previousKeyframe();
+    void nextAttention();
+    void nextUnchecked();
+    /// Selects an object and shows a frame in which it lives.
+    void goTo(ObjectId id, std::optional<FrameIndex> frame = std::nullopt);
+
+ private:
+    bool ready() const;
+    /// Tells Error(parameter) of the engine's verbs; answers whether there was none.
+    bool guarded(const std::function<void()>& work);
+    bool applyObject(const QString& name, LabelledObject object);
+    void toggleFlag(const QString& name, const std::function<void(Keyframe&)>& change);
+    QString named(const QString& verb) const;
+
+    ProjectSession& session_;
+    LabelSession& labels_;
+};
+
+}  // namespace eyrie::ui

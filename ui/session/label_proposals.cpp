@@ -1,0 +1,169 @@
+#include "session/label_proposals.h"
+
+#include <exception>
+
+#include "annotation/identity_verbs.h"
+#include "session/label_classes.h"
+#include "session/queued_call.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+std::vector<DenseTrack> tracksOf(const std::filesystem::path& path, int run_id, const std::stop_token& stop) {
+    ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+    const RunStore store(project);
+    std::vector<DenseTrack> tracks;
+    for (const TrackSummary& summary : store.tracks(run_id)) {
+        if (stop.stop_requested()) break;
+        if (!summary.confirmed) continue;
+        DenseTrack track;
+        track.id = summary.id;
+        for (const TrackFrame& state : store.trackStates(run_id, summary.id))
+            track.boxes.push_back({state.frame, state.state.box});
+        if (!track.boxes.empty()) tracks.push_back(std::move(track));
+    }
+    return tracks;
+}
+
+bool livesIn(const Proposal& proposal, FrameIndex frame) {
+    return proposal.object.keyframes.front().frame <= frame && proposal.object.last_frame >= frame;
+}
+
+}  // namespace
+
+LabelProposals::LabelProposals(ProjectSession& session, LabelSession& labels, QObject* parent)
+    : QObject(parent), session_(session), labels_(labels) {
+    const auto forget = [this] {
+        ++ticket_;
+        working_ = false;
+        run_.reset();
+        proposals_.clear();
+        taken_.clear();
+        rejected_.clear();
+        selected_.reset();
+        emit changed();
+        if (shown_) read();
+    };
+    connect(&session_, &ProjectSession::currentRunChanged, this, forget);
+    connect(&session_, &ProjectSession::runFinished, this, forget);
+    connect(&labels_, &LabelSession::opened, this, forget);
+    connect(&labels_, &LabelSession::closed, this, forget);
+}
+
+LabelProposals::~LabelProposals() = default;
+
+void LabelProposals::setShown(bool shown) {
+    if (shown_ == shown) return;
+    shown_ = shown;
+    if (!shown_) selected_.reset();
+    if (shown_) read();
+    emit changed();
+}
+
+void LabelProposals::read() {
+    if (working_ || !labels_.isOpen() || !session_.currentRun() || run_ == session_.currentRun()) return;
+    working_ = true;
+    run_ = session_.currentRun();
+    thread_.post([this, ticket = ++ticket_, path = session_.project(), run = *run_, labelled = labels_.annotations(),
+                  camera = labels_.sharedCamera()](const std::stop_token& stop) {
+        std::vector<Proposal> proposals;
+        QString failure;
+        try {
+            proposals = proposeTracks(tracksOf(path, run, stop), labelled, *camera);
+        } catch (const std::exception& error) {
+            failure = QString::fromUtf8(error.what());
+        }
+        std::erase_if(proposals, [](const Proposal& p) { return p.object.keyframes.empty(); });
+        queuedCall(this, [this, ticket, proposals = std::move(proposals), failure] {
+            if (ticket != ticket_) return;
+            working_ = false;
+            if (!failure.isEmpty()) emit labels_.problem(failure);
+            proposals_ = proposals;
+            emit changed();
+        });
+    });
+}
+
+bool LabelProposals::isPending(const Proposal& proposal) const {
+    if (rejected_.contains(proposal.track)) return false;
+    if (proposal.same_as != 0 && labels_.object(proposal.same_as) != nullptr) return false;
+    const auto taken = taken_.find(proposal.track);
+    return taken == taken_.end() || labels_.object(taken->second) == nullptr;  // taking over may have been undone
+}
+
+std::vector<const Proposal*> LabelProposals::pending() const {
+    std::vector<const Proposal*> found;
+    if (!shown_) return found;
+    for (const Proposal& proposal : proposals_)
+        if (isPending(proposal)) found.push_back(&proposal);
+    return found;
+}
+
+std::vector<const Proposal*> LabelProposals::pendingIn(FrameIndex frame) const {
+    std::vector<const Proposal*> found = pending();
+    std::erase_if(found, [&](const Proposal* proposal) { return !livesIn(*proposal, frame); });
+    return found;
+}
+
+const Proposal* LabelProposals::find(TrackId track) const {
+    for (const Proposal& proposal : proposals_)
+        if (proposal.track == track) return &proposal;
+    return nullptr;
+}
+
+const Proposal* LabelProposals::next(FrameIndex frame) const {
+    const auto here = pendingIn(frame);
+    if (!here.empty()) return here.front();
+    const Proposal* earliest = nullptr;
+    for (const Proposal* proposal : pending())
+        if (earliest == nullptr || proposal->object.keyframes.front().frame < earliest->object.keyframes.front().frame)
+            earliest = proposal;
+    return earliest;
+}
+
+void LabelProposals::select(std::optional<TrackId> track) {
+    if (selected_ == track) return;
+    selected_ = track;
+    emit changed();
+}
+
+std::vector<ObjectId> LabelProposals::accept(const std::vector<TrackId>& tracks) {
+    std::vector<ObjectId> ids;
+    if (tracks.empty() || !labels_.mayEdit()) return ids;
+    AnnotationEdit edit;
+    std::map<TrackId, ObjectId> taken;
+    for (const TrackId track : tracks) {
+        const Proposal* proposal = find(track);
+        if (proposal == nullptr || !isPending(*proposal)) continue;
+        const ObjectId id = labels_.newObjectId();
+        const ObjectClass object_class = classNamed(labels_.annotations(), labels_.drawnClass());
+        LabelledObject object = accepted(*proposal, id, object_class.colour);
+        object.object_class = object_class.name;
+        edit.objects.push_back({std::nullopt, std::move(object)});
+        taken[track] = id;
+        ids.push_back(id);
+    }
+    edit.name = (ids.size() == 1 ? tr("Take over track %1").arg(taken.empty() ? 0 : taken.begin()->first)
+                                 : tr("Take over %1 tracks").arg(ids.size()))
+                    .toStdString();
+    if (!labels_.apply(edit)) return {};
+    for (const auto& [track, object] : taken) taken_[track] = object;
+    if (selected_ && taken.contains(*selected_)) selected_.reset();
+    emit changed();
+    return ids;
+}
+
+void LabelProposals::reject(TrackId track) {
+    if (find(track) == nullptr) return;
+    rejected_.insert(track);
+    if (selected_ == track) selected_.reset();
+    emit changed();
+}
+
+void LabelProposals::offerAgain() {
+    rejected_.clear();
+    emit changed();
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <QColor>
+#include <QString>
+#include <optional>
+#include <vector>
+
+#include "core/annotation.h"
+#include "core/ids.h"
+
+namespace eyrie::ui {
+
+/// How a labelled box in a frame came about, as it is drawn.
+enum class LabelKind {
+    keyframe,      ///< solid
+    interpolated,  ///< dashed
+    expected,      ///< dotted: beyond the object's life, no label yet
+    proposal       ///< a track offered by a run
+};
+
+/// A labelled object, or a proposal, in the frame shown.
+struct LabelMark {
+    int id = 0;  ///< object, or track of a proposal
+    LabelKind kind = LabelKind::keyframe;
+    OrientedBox box;
+    QColor colour;
+    Occlusion occlusion = Occlusion::none;
+    bool ignore = false;
+    bool in_image_only = false;  ///< interpolated without knowing how the camera moved
+    ReviewState review = ReviewState::unseen;
+    bool selected = false;  ///< one of the selected ones
+    QString text;           ///< beside the box
+};
+
+/// An ignore region as it lies in the frame shown.
+struct RegionMark {
+    int id = 0;
+    std::vector<cv::Point2d> polygon;
+};
+
+/// All labels of a frame and what the tool needs to draw new ones.
+struct LabelScene {
+    FrameIndex frame = 0;
+    std::vector<LabelMark> marks;  ///< objects ascending, then proposals
+    std::vector<RegionMark> regions;
+    std::optional<ObjectId> selected;  ///< the one with handles
+    bool editable = true;
+    QColor drawn_colour{255, 255, 255};
+    double drawn_length = 0;  ///< usual size of the class drawn, px; 0: not known
+    double drawn_width = 0;
+    double width_of_length = 0.42;  ///< width of what is drawn when its size is not known
+};
+
+}  // namespace eyrie::ui

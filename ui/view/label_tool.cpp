@@ -1,0 +1,268 @@
+#include "view/label_tool.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include "view/edged_painter.h"
+#include "view/label_layer.h"
+#include "view/loupe.h"
+
+namespace eyrie::ui {
+
+namespace {
+const QColor kEdge(12, 12, 14);
+constexpr double kHitMargin = 4;      ///< logical px
+constexpr double kDragThreshold = 4;  ///< logical px
+constexpr double kLoupeFactor = 4;    ///< of the canvas' own scale …
+constexpr double kLeastMagnification = 6;
+constexpr double kMostMagnification = 16;
+constexpr double kShortest = 2;  ///< px: clicks nearer than this are one
+}  // namespace
+
+LabelTool::LabelTool(QObject* parent) : QObject(parent) {}
+
+void LabelTool::setScene(LabelScene scene) {
+    const bool other_frame = scene.frame != scene_.frame;
+    scene_ = std::move(scene);
+    // What was dragged in another frame must not be let go in this one.
+    if (other_frame && handle_) {
+        handle_.reset();
+        draft_.reset();
+    }
+    emit repaintNeeded();
+}
+
+const LabelMark* LabelTool::selectedMark() const {
+    if (!scene_.selected) return nullptr;
+    for (const LabelMark& mark : scene_.marks)
+        if (mark.kind != LabelKind::proposal && mark.id == *scene_.selected) return &mark;
+    return nullptr;
+}
+
+void LabelTool::startDrawing() {
+    cancel();
+    drawing_ = true;
+    emit drawingChanged(true);
+    emit repaintNeeded();
+}
+
+bool LabelTool::cancel() {
+    const bool something = drawing_ || handle_;
+    const bool was_drawing = std::exchange(drawing_, false);
+    rear_.reset();
+    front_.reset();
+    handle_.reset();
+    draft_.reset();
+    pressed_view_.reset();
+    if (was_drawing) emit drawingChanged(false);
+    if (something) emit repaintNeeded();
+    return something;
+}
+
+double LabelTool::usualWidth(double length) const {
+    return scene_.drawn_width > 0 ? scene_.drawn_width : length * scene_.width_of_length;
+}
+
+void LabelTool::finishDrawing(const OrientedBox& box) {
+    const FrameIndex frame = scene_.frame;
+    cancel();
+    emit boxDrawn(box, frame);
+}
+
+void LabelTool::updateDraft(QPointF point) {
+    if (!rear_) {
+        draft_.reset();
+        return;
+    }
+    if (!front_) {
+        const double length = std::hypot(point.x() - rear_->x(), point.y() - rear_->y());
+        draft_ = boxFromRearToFront(*rear_, point, usualWidth(length));
+        return;
+    }
+    OrientedBox box = boxFromRearToFront(*rear_, *front_, 1);
+    box.width = std::max(1.0, 2 * std::abs(box.toBox({point.x(), point.y()}).y));
+    draft_ = box;
+}
+
+bool LabelTool::press(const QMouseEvent& event, const CanvasPlace& place) {
+    if (event.button() == Qt::RightButton && drawing_) {
+        cancel();
+        return true;
+    }
+    if (event.button() != Qt::LeftButton) return false;
+    pressed_view_ = event.position();
+    pressed_image_ = place.transform.imageFromView(event.position());
+    dragging_ = false;
+    if (drawing_) return true;
+    const LabelMark* selected = selectedMark();
+    if (selected != nullptr && scene_.editable) {
+        handle_ = handleAt(selected->box, place.transform, event.position());
+        if (handle_) {
+            start_box_ = selected->box;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool LabelTool::move(const QMouseEvent& event, const CanvasPlace& place) {
+    cursor_view_ = event.position();
+    const QPointF point = place.transform.imageFromView(event.position());
+    if (pressed_view_ && QLineF(*pressed_view_, event.position()).length() >= kDragThreshold) dragging_ = true;
+    if (drawing_) {
+        if (pressed_view_ && dragging_ && !rear_)
+            draft_ = boxFromCorners(pressed_image_, point);
+        else
+            updateDraft(point);
+        emit repaintNeeded();
+        return true;
+    }
+    if (handle_) {
+        if (!dragging_) return true;
+        draft_ = draggedBox(start_box_, *handle_, pressed_image_, point);
+        emit repaintNeeded();
+        return true;
+    }
+    if (event.buttons() == Qt::NoButton) {
+        const LabelMark* selected = selectedMark();
+        const auto hovered = selected != nullptr && scene_.editable
+                                 ? handleAt(selected->box, place.transform, event.position())
+                                 : std::nullopt;
+        if (hovered != hovered_) {
+            hovered_ = hovered;
+            emit repaintNeeded();
+        }
+    }
+    return false;
+}
+
+bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
+    if (event.button() != Qt::LeftButton) return drawing_;
+    const bool was_pressed = pressed_view_.has_value();
+    pressed_view_.reset();
+    const QPointF point = place.transform.imageFromView(event.position());
+    if (drawing_) {
+        if (!was_pressed) return true;
+        if (dragging_ && !rear_) {
+            finishDrawing(boxFromCorners(pressed_image_, point));
+        } else if (!rear_) {
+            rear_ = point;
+        } else if (!front_) {
+            const double length = std::hypot(point.x() - rear_->x(), point.y() - rear_->y());
+            if (length < kShortest) return true;
+            const bool asks_width = (event.modifiers() & Qt::ShiftModifier) != 0;
+            if (asks_width)
+                front_ = point;
+            else
+                finishDrawing(boxFromRearToFront(*rear_, point, usualWidth(length)));
+        } else {
+            updateDraft(point);
+            finishDrawing(OrientedBox(*draft_));
+        }
+        dragging_ = false;
+        emit repaintNeeded();
+        return true;
+    }
+    if (handle_) {
+        const BoxHandle handle = *handle_;
+        const auto box = draft_;
+        handle_.reset();
+        draft_.reset();
+        if (dragging_ && box && scene_.selected) {
+            const bool turned = handle == BoxHandle::turn;
+            const bool resized = !turned && handle != BoxHandle::centre;
+            emit boxChanged(*scene_.selected, scene_.frame, *box, turned, resized);
+        } else if (!dragging_) {
+            // A click inside the selected box may mean a smaller one in it.
+            const LabelMark* hit = markAt(scene_, point, kHitMargin / place.transform.scale());
+            if (hit != nullptr && hit->kind != LabelKind::proposal)
+                emit objectClicked(hit->id, event.modifiers() & (Qt::ControlModifier | Qt::ShiftModifier));
+        }
+        dragging_ = false;
+        emit repaintNeeded();
+        return true;
+    }
+    if (!was_pressed || dragging_) return false;
+    const LabelMark* hit = markAt(scene_, point, kHitMargin / place.transform.scale());
+    const bool add = (event.modifiers() & (Qt::ControlModifier | Qt::ShiftModifier)) != 0;
+    if (hit != nullptr && hit->kind == LabelKind::proposal)
+        emit proposalClicked(hit->id);
+    else
+        emit objectClicked(hit != nullptr ? std::optional<ObjectId>(hit->id) : std::nullopt, add);
+    return false;  // the canvas ends its own press
+}
+
+bool LabelTool::doubleClick(const QMouseEvent& event, const CanvasPlace& place) {
+    // Two quick clicks draw as two slow ones do; on an object they do not zoom.
+    if (drawing_) return press(event, place);
+    const QPointF point = place.transform.imageFromView(event.position());
+    return markAt(scene_, point, kHitMargin / place.transform.scale()) != nullptr;
+}
+
+void LabelTool::leave() {
+    cursor_view_.reset();
+    hovered_.reset();
+    emit repaintNeeded();
+}
+
+const QCursor* LabelTool::cursor() const {
+    static const QCursor cross(Qt::CrossCursor);
+    static const QCursor move_all(Qt::SizeAllCursor);
+    static const QCursor hand(Qt::PointingHandCursor);
+    if (drawing_) return &cross;
+    const auto handle = handle_ ? handle_ : hovered_;
+    if (!handle) return nullptr;
+    return *handle == BoxHandle::centre ? &move_all : &hand;
+}
+
+void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
+    const LabelMark* selected = selectedMark();
+    if (draft_ && handle_ && selected != nullptr) {
+        LabelScene shown = scene_;
+        for (LabelMark& mark : shown.marks)
+            if (mark.kind != LabelKind::proposal && mark.id == *scene_.selected) {
+                mark.box = *draft_;
+                mark.kind = LabelKind::keyframe;
+            }
+        paintLabels(painter, shown, place.transform, place.view, text_shown_);
+    } else {
+        paintLabels(painter, scene_, place.transform, place.view, text_shown_);
+    }
+    if (selected != nullptr && scene_.editable && !drawing_) {
+        const OrientedBox& box = draft_ ? *draft_ : selected->box;
+        const auto handles = boxHandles(box, place.transform);
+        QVector<QLineF> arm{{handles[static_cast<std::size_t>(BoxHandle::front)].second, handles.back().second}};
+        drawEdgedLines(painter, arm, {selected->colour, kEdge, 1.2});
+        for (const auto& [handle, at] : handles) {
+            const bool hot = handle == (handle_ ? handle_ : hovered_);
+            const double size = hot ? 5 : handle == BoxHandle::centre ? 2.5 : 3.5;
+            painter.setPen(QPen(kEdge, 1.2));
+            painter.setBrush(hot ? QColor(255, 255, 255) : selected->colour);
+            if (handle == BoxHandle::turn || handle == BoxHandle::centre)
+                painter.drawEllipse(at, size + 0.5, size + 0.5);
+            else
+                painter.drawRect(QRectF(at - QPointF(size, size), QSizeF(2 * size, 2 * size)));
+        }
+        painter.setBrush(Qt::NoBrush);
+    }
+    if (drawing_ && draft_) {
+        QVector<QLineF> lines;
+        appendBox(lines, *draft_, place.transform, place.view);
+        appendHeading(lines, *draft_, place.transform, place.view);
+        drawEdgedLines(painter, lines, {scene_.drawn_colour, kEdge, 2});
+    }
+    const bool busy = drawing_ || (handle_ && dragging_);
+    if (busy && loupe_shown_ && cursor_view_ && place.transform.scale() < kMostMagnification) {
+        const double magnification =
+            std::clamp(place.transform.scale() * kLoupeFactor, kLeastMagnification, kMostMagnification);
+        paintLoupe(painter, place.image, place.transform.imageFromView(*cursor_view_), *cursor_view_, place.view,
+                   magnification, draft_,
+                   drawing_   ? scene_.drawn_colour
+                   : selected ? selected->colour
+                              : Qt::white);
+    }
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <QCursor>
+#include <QObject>
+#include <QPointF>
+#include <optional>
+
+#include "view/box_handles.h"
+#include "view/canvas_tool.h"
+#include "view/label_mark.h"
+
+namespace eyrie::ui {
+
+/// Labels drawn and changed with the mouse. Changes nothing itself: it draws what it was given, shows a box that is
+/// being drawn or dragged, and tells what came of it.
+class LabelTool : public QObject, public CanvasTool {
+    Q_OBJECT
+
+ public:
+    explicit LabelTool(QObject* parent = nullptr);
+
+    void setScene(LabelScene scene);
+    const LabelScene& scene() const { return scene_; }
+    void setTextShown(bool shown) { text_shown_ = shown; }
+    void setLoupeShown(bool shown) { loupe_shown_ = shown; }
+    bool loupeShown() const { return loupe_shown_; }
+
+    /// The next clicks draw an object: rear, front, and its width where no size is known or Shift is held. Dragging
+    /// draws an upright one.
+    void startDrawing();
+    bool drawing() const { return drawing_; }
+    /// Gives up drawing or dragging; answers whether there was anything to give up.
+    bool cancel();
+    /// The box being drawn or dragged.
+    const std::optional<OrientedBox>& draft() const { return draft_; }
+
+    void paint(QPainter& painter, const CanvasPlace& place) const override;
+    bool press(const QMouseEvent& event, const CanvasPlace& place) override;
+    bool move(const QMouseEvent& event, const CanvasPlace& place) override;
+    bool release(const QMouseEvent& event, const CanvasPlace& place) override;
+    bool doubleClick(const QMouseEvent& event, const CanvasPlace& place) override;
+    void leave() override;
+    const QCursor* cursor() const override;
+
+ signals:
+    /// Something looks different.
+    void repaintNeeded();
+    void drawingChanged(bool drawing);
+    void boxDrawn(const eyrie::OrientedBox& box, eyrie::FrameIndex frame);
+    /// `turned`: by its turning handle.
+    void boxChanged(eyrie::ObjectId object, eyrie::FrameIndex frame, const eyrie::OrientedBox& box, bool turned,
+                    bool resized);
+    /// An object was pointed at, or nothing; `add`: with Ctrl or Shift held.
+    void objectClicked(std::optional<eyrie::ObjectId> object, bool add);
+    void proposalClicked(eyrie::TrackId track);
+
+ private:
+    const LabelMark* selectedMark() const;
+    void finishDrawing(const OrientedBox& box);
+    double usualWidth(double length) const;
+    void updateDraft(QPointF image_point);
+
+    LabelScene scene_;
+    bool text_shown_ = true;
+    bool loupe_shown_ = true;
+    bool drawing_ = false;
+    std::optional<QPointF> rear_;
+    std::optional<QPointF> front_;
+    std::optional<QPointF> pressed_view_;  ///< while the button is down
+    QPointF pressed_image_;
+    bool dragging_ = false;
+    std::optional<BoxHandle> handle_;  ///< being dragged
+    std::optional<BoxHandle> hovered_;
+    OrientedBox start_box_;
+    std::optional<OrientedBox> draft_;
+    std::optional<QPointF> cursor_view_;
+};
+
+}  // namespace eyrie::ui
