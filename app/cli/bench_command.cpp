@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,8 +15,10 @@
 #include "cli/command.h"
 #include "cli/console_progress.h"
 #include "cli/input.h"
+#include "cli/method_times.h"
 #include "cli/preset_arguments.h"
 #include "core/error.h"
+#include "store/project_file.h"
 #include "store/result_writer.h"
 
 namespace eyrie::cli {
@@ -55,6 +58,28 @@ struct Column {
 /// Frames that nothing is learnt from: corners must age and tracks form first.
 constexpr int kWarmUpFrames = 10;
 
+/// A project that is thrown away.
+class ScratchProject {
+ public:
+    ScratchProject() {
+        std::string name = (std::filesystem::temp_directory_path() / "eyrie-bench-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw Error(ErrorKind::output, name + ": cannot be created; check TMPDIR and the space left there");
+        folder_ = name;
+        ProjectFile::openOrCreate(path());
+    }
+    ScratchProject(const ScratchProject&) = delete;
+    ScratchProject& operator=(const ScratchProject&) = delete;
+    ~ScratchProject() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    std::filesystem::path path() const { return folder_ / "bench.eyrie"; }
+
+ private:
+    std::filesystem::path folder_;
+};
+
 std::vector<Frame> readFrames(FrameSource& source, int count, Sample& read) {
     std::vector<Frame> frames;
     const int available = std::min(count + kWarmUpFrames, source.info().frame_count);
@@ -77,8 +102,7 @@ Column measureChain(const std::vector<Frame>& frames, ChainOptions options, cons
     setParameter(describeOf(options), "registration.max_corners", std::to_string(corners));
     setParameter(describeOf(options), "registration.corner_spacing", "0.1");
     Chain chain(options, scale);
-    const auto project =
-        std::filesystem::temp_directory_path() / ("eyrie-bench-" + std::to_string(std::rand()) + ".eyrie");
+    const ScratchProject project;
     Column column;
     column.wanted_corners = corners;
     std::vector<double> counts, vectors;
@@ -88,7 +112,7 @@ Column measureChain(const std::vector<Frame>& frames, ChainOptions options, cons
         run.sequence.size = frames.front().gray.size();
         run.scale = scale;
         run.last_frame = static_cast<int>(frames.size()) - 1;
-        ResultWriter writer(project, run, {});
+        ResultWriter writer(project.path(), run, {});
         for (const auto& frame : frames) {
             FrameResult result = chain.next(frame);
             {
@@ -108,7 +132,6 @@ Column measureChain(const std::vector<Frame>& frames, ChainOptions options, cons
         }
         writer.finish(RunState::finished, "");
     }
-    for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(project.string() + ending);
     column.corners = static_cast<int>(Sample{counts}.median());
     column.motion_vectors = static_cast<int>(Sample{vectors}.median());
     return column;
@@ -129,6 +152,15 @@ Sample measureBaseline(const std::vector<Frame>& frames, int corners) {
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     }
     return sample;
+}
+
+void printMethods(const std::vector<MethodTimes>& methods) {
+    std::printf("\n%-32s%10s%10s%10s%10s   ms per frame after the motion vectors\n", "method", "areas", "stacking",
+                "detection", "tracking");
+    for (const MethodTimes& method : methods) {
+        std::printf("%-32s%10.2f%10.2f%10.2f%10.2f\n", method.name.c_str(), method.areas_ms, method.stacking_ms,
+                    method.detection_ms, method.tracking_ms);
+    }
 }
 
 void printTable(const VideoInfo& video, const std::vector<Column>& columns, const std::vector<Sample>& baseline) {
@@ -163,7 +195,8 @@ void printTable(const VideoInfo& video, const std::vector<Column>& columns, cons
     std::printf("\n");
 }
 
-void printJson(const std::vector<Column>& columns, const std::vector<Sample>& baseline, const Sample& read) {
+void printJson(const std::vector<Column>& columns, const std::vector<Sample>& baseline, const Sample& read,
+               const std::vector<MethodTimes>& methods) {
     nlohmann::ordered_json json;
     json["read_ms"] = read.median();
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -173,6 +206,13 @@ void printJson(const std::vector<Column>& columns, const std::vector<Sample>& ba
         }
         entry["baseline_ms"] = baseline[i].median();
         json["columns"].push_back(std::move(entry));
+    }
+    for (const MethodTimes& method : methods) {
+        json["methods"].push_back({{"name", method.name},
+                                   {"areas_ms", method.areas_ms},
+                                   {"stacking_ms", method.stacking_ms},
+                                   {"detection_ms", method.detection_ms},
+                                   {"tracking_ms", method.tracking_ms}});
     }
     std::puts(json.dump(2).c_str());
 }
@@ -197,7 +237,13 @@ void bench(const Arguments& arguments) {
         columns.push_back(measureChain(frames, options, scale, corners));
         baseline.push_back(measureBaseline(frames, corners));
     }
-    arguments.json ? printJson(columns, baseline, read) : printTable(source->info(), columns, baseline);
+    const std::vector<MethodTimes> methods = measureMethods(frames, options, scale, kWarmUpFrames);
+    if (arguments.json) {
+        printJson(columns, baseline, read, methods);
+    } else {
+        printTable(source->info(), columns, baseline);
+        printMethods(methods);
+    }
 }
 
 }  // namespace

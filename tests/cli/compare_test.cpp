@@ -6,8 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "store/project_file.h"
 #include "store/comparison_store.h"
+#include "store/project_file.h"
 #include "store/run_store.h"
 #include "support/moving_scene.h"
 #include "support/process.h"
@@ -110,6 +110,20 @@ TEST_F(Compare, SaysWhatIsWrong) {
     const auto range = compare({"--methods", "gradient", "--frames", "0:500"});
     EXPECT_EQ(range.exit_code, 2);
     EXPECT_EQ(compare({"--stacking", "maybe"}).exit_code, 2);
+}
+
+TEST_F(Compare, BenchHasARowForEveryStageAndMethod) {
+    const auto result = test::runProcess({std::string(EYRIE_BIN_DIR) + "/eyrie-cli", "bench", "--input", at("clip"),
+                                          "--gsd", "0.2", "--frames", "10", "--corners", "600", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const auto json = nlohmann::json::parse(result.output);
+    ASSERT_EQ(json["columns"].size(), 1U);
+    EXPECT_GT(json["columns"][0]["stages"]["corners"]["median_ms"], 0);
+    EXPECT_GT(json["columns"][0]["baseline_ms"], 0);
+    std::vector<std::string> names;
+    for (const auto& method : json["methods"]) names.push_back(method["name"]);
+    EXPECT_THAT(names, testing::IsSupersetOf(
+                           {"clusters", "sliding_window", "mser", "three_frame_difference", "gradient + stacking"}));
 }
 
 }  // namespace eyrie
