@@ -46,7 +46,8 @@ QWidget* sectionWidget(const QString& title, const QList<std::pair<QString, QStr
 
 }  // namespace
 
-KeySheet::KeySheet(const WindowActions& actions, QWidget* parent) : QDialog(parent) {
+KeySheet::KeySheet(const WindowActions& actions, QWidget* parent, const QList<ActionSection>& more)
+    : QDialog(parent) {
     setWindowTitle(tr("Keys"));
     auto* content = new QWidget;
     auto* columns = new QHBoxLayout(content);
@@ -62,7 +63,7 @@ KeySheet::KeySheet(const WindowActions& actions, QWidget* parent) : QDialog(pare
         column[emptiest]->addWidget(sectionWidget(title, rows, content));
         filled[emptiest] += static_cast<int>(rows.size()) + 2;
     };
-    for (const ActionSection& section : actions.sections()) {
+    for (const ActionSection& section : more + actions.sections()) {
         QList<std::pair<QString, QString>> rows;
         for (const QAction* action : section.actions) {
             if (action->shortcuts().isEmpty()) continue;
@@ -70,7 +71,7 @@ KeySheet::KeySheet(const WindowActions& actions, QWidget* parent) : QDialog(pare
             for (const QKeySequence& key : action->shortcuts()) keys << key.toString(QKeySequence::NativeText);
             rows.append({keys.join(tr(" or ")), action->text().remove(QLatin1Char('&')).remove(QStringLiteral("…"))});
         }
-        place(section.title, rows);
+        if (!rows.isEmpty()) place(section.title, rows);
     }
     place(tr("Mouse"), {{tr("Wheel"), tr("Zoom to the cursor")},
                         {tr("Drag"), tr("Move the picture (also with Space held)")},

@@ -11,7 +11,7 @@ class KeySheet : public QDialog {
     Q_OBJECT
 
  public:
-    KeySheet(const WindowActions& actions, QWidget* parent);
+    KeySheet(const WindowActions& actions, QWidget* parent, const QList<ActionSection>& more = {});
 };
 
 }  // namespace eyrie::ui

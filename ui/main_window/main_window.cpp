@@ -13,6 +13,7 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 
+#include "main_window/label_workspace.h"
 #include "main_window/parameter_binding.h"
 #include "main_window/review_docks.h"
 #include "main_window/run_bar.h"
@@ -25,6 +26,7 @@
 #include "panels/parameter_form.h"
 #include "panels/stage_times_chart.h"
 #include "session/inspection.h"
+#include "view/label_timeline.h"
 #include "view/timeline_view.h"
 #include "view/video_view.h"
 
@@ -57,6 +59,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     timeline_binding_ = new TimelineBinding(session_, *timeline_, docks_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
     buildMenus();
+    buildLabelling();
     wireFileActions();
     wirePlaybackActions();
     wireViewActions();
@@ -81,6 +84,8 @@ void MainWindow::buildCentre() {
     canvas_ = new VideoView(overlays_);
     transport_ = new TransportBar(session_, *actions_);
     timeline_ = new TimelineView;
+    label_rows_ = new LabelTimeline(*timeline_);
+    label_rows_->setFixedHeight(118);
     auto* review = new QWidget;
     auto* rows = new QVBoxLayout(review);
     rows->setContentsMargins(0, 0, 0, 0);
@@ -88,6 +93,7 @@ void MainWindow::buildCentre() {
     rows->addWidget(canvas_, 1);
     rows->addWidget(transport_);
     rows->addWidget(timeline_);
+    rows->addWidget(label_rows_);
     stack_ = new QStackedWidget;
     stack_->addWidget(welcome_);
     stack_->addWidget(review);
@@ -113,6 +119,8 @@ void MainWindow::buildToolBar() {
     bar->addAction(actions_->fit);
     bar->addAction(actions_->one_to_one);
     bar->addWidget(overlayButton(buildOverlayMenu()));
+    bar->addSeparator();
+    bar->addActions({actions_->review_workspace, actions_->label_workspace});
     connect(run_bar_, &RunBar::editingDone, this, &MainWindow::focusCanvas);
     connect(transport_, &TransportBar::editingDone, this, &MainWindow::focusCanvas);
 }
@@ -130,7 +138,10 @@ void MainWindow::buildMenus() {
         if (section.actions.contains(actions_->fit)) {
             menu->addSeparator();
             for (QDockWidget* dock : docks_->docks()) menu->addAction(dock->toggleViewAction());
-            menu->addAction(tr("Reset the layout"), this, [this] { restoreState(default_layout_); });
+            menu->addAction(tr("Reset the layout"), this, [this] {
+                actions_->review_workspace->trigger();
+                restoreState(default_layout_);
+            });
         }
     }
 }
@@ -356,7 +367,7 @@ void MainWindow::showRecent() {
 
 void MainWindow::restoreView() {
     const ProjectView view = settings_.projectView(session_.project());
-    if (!view.layout.isEmpty()) restoreState(view.layout);
+    if (!view.layout.isEmpty() && !labelling_->active()) restoreState(view.layout);
     showTabTitles();
     if (view.zoom > 0)
         canvas_->restore(view.zoom, view.centre);
@@ -369,7 +380,7 @@ void MainWindow::rememberView() {
     if (shown_project_.empty()) return;
     const ViewTransform& transform = canvas_->transform();
     const QPointF middle(transform.viewSize().width() / 2, transform.viewSize().height() / 2);
-    settings_.setProjectView(shown_project_, {saveState(), transform.fitted() ? 0 : transform.zoom(),
+    settings_.setProjectView(shown_project_, {reviewLayout(), transform.fitted() ? 0 : transform.zoom(),
                                               transform.imageFromView(middle), session_.currentFrame()});
     shown_project_.clear();
 }
@@ -377,7 +388,7 @@ void MainWindow::rememberView() {
 void MainWindow::closeEvent(QCloseEvent* event) {
     rememberView();
     settings_.setGeometry(saveGeometry());
-    settings_.setLayout(saveState());
+    settings_.setLayout(reviewLayout());
     session_.stopRun();  // the run's own thread finishes storing while the program goes down
     event->accept();
 }

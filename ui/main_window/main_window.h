@@ -15,6 +15,8 @@ class QStackedWidget;
 namespace eyrie::ui {
 
 class Inspection;
+class LabelTimeline;
+class LabelWorkspace;
 class MessageBar;
 class ParameterBinding;
 class ReviewDocks;
@@ -47,6 +49,7 @@ class MainWindow : public QMainWindow {
     OverlaySettings& overlays() { return overlays_; }
     Inspection& inspection() { return *inspection_; }
     ReviewDocks& docks() { return *docks_; }
+    LabelWorkspace& labelling() { return *labelling_; }
 
  protected:
     void closeEvent(QCloseEvent* event) override;
@@ -64,6 +67,9 @@ class MainWindow : public QMainWindow {
     void wireViewActions();
     void wireSession();
     void wireInspection();
+    void buildLabelling();
+    /// The layout of the review workspace, whichever is shown.
+    QByteArray reviewLayout() const;
     void openVideo();
     void openFolder();
     void openProject();
@@ -97,10 +103,12 @@ class MainWindow : public QMainWindow {
     VideoView* canvas_;
     TransportBar* transport_;
     TimelineView* timeline_;
+    LabelTimeline* label_rows_;
     RunBar* run_bar_;
     StatusFields* status_;
     Inspection* inspection_;
     ReviewDocks* docks_;
+    LabelWorkspace* labelling_;
     ParameterBinding* parameters_;
     TimelineBinding* timeline_binding_;
     QMenu* recent_menu_;

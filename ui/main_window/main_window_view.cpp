@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
+#include <QMenuBar>
 #include <QMessageBox>
 #include <QPainter>
 #include <QSignalBlocker>
@@ -13,6 +14,8 @@
 
 #include "chain/run_recorder.h"
 #include "main_window/key_sheet.h"
+#include "main_window/label_actions.h"
+#include "main_window/label_workspace.h"
 #include "main_window/main_window.h"
 #include "main_window/parameter_binding.h"
 #include "main_window/review_docks.h"
@@ -96,6 +99,20 @@ QWidget* MainWindow::overlayButton(QMenu* menu) {
     return button;
 }
 
+void MainWindow::buildLabelling() {
+    labelling_ =
+        new LabelWorkspace({session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, overlays_, *this});
+    menuBar()->insertMenu(menuBar()->actions().value(3), labelling_->menu());
+    connect(actions_->label_workspace, &QAction::toggled, this, [this](bool on) {
+        labelling_->setActive(on);
+        showTabTitles();
+    });
+}
+
+QByteArray MainWindow::reviewLayout() const {
+    return labelling_->active() ? labelling_->otherLayout() : saveState();
+}
+
 void MainWindow::showTabTitles() {
     // Narrow docks scroll their tabs; cut down to a letter nobody knows which is which.
     for (QTabBar* bar : findChildren<QTabBar*>()) {
@@ -143,7 +160,8 @@ void MainWindow::wireViewActions() {
             actions_->full_screen->trigger();
     });
     connect(actions_->keys, &QAction::triggered, this, [this] {
-        auto* sheet = new KeySheet(*actions_, this);
+        auto* sheet = new KeySheet(*actions_, this,
+                                   labelling_->active() ? labelling_->actions().sections() : QList<ActionSection>());
         sheet->setAttribute(Qt::WA_DeleteOnClose);
         sheet->show();
     });

@@ -1,5 +1,6 @@
 #include "main_window/window_actions.h"
 
+#include <QActionGroup>
 #include <QIcon>
 #include <QWidget>
 #include <algorithm>
@@ -48,6 +49,12 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
     deselect = add(tr("Select nothing"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
+
+    review_workspace = addToggle(tr("&Review"), {nullptr, {QKeySequence(tr("Ctrl+1"))}}, true);
+    label_workspace = addToggle(tr("&Label"), {nullptr, {QKeySequence(tr("Ctrl+2"))}}, false);
+    auto* workspaces = new QActionGroup(this);
+    workspaces->addAction(review_workspace);
+    workspaces->addAction(label_workspace);
 
     addOverlays(overlays);
 

@@ -1,0 +1,391 @@
+#include "main_window/label_files.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <exception>
+
+#include "exchange/label_import.h"
+#include "exchange/project_labels.h"
+#include "session/label_classes.h"
+#include "session/queued_call.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+const LabelFormatInfo* formatNamed(const QString& name) {
+    for (const LabelFormatInfo& format : labelFormats())
+        if (QString::fromStdString(format.name) == name) return &format;
+    return nullptr;
+}
+
+QPlainTextEdit* reportField() {
+    auto* text = new QPlainTextEdit;
+    text->setReadOnly(true);
+    text->setMinimumSize(460, 150);
+    return text;
+}
+
+QString lines(const std::vector<std::string>& notes) {
+    QString text;
+    for (const std::string& note : notes) text += QStringLiteral("• %1\n").arg(QString::fromStdString(note));
+    return text;
+}
+
+}  // namespace
+
+// ---- import ---------------------------------------------------------------------------------------------------------
+
+LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
+    : QDialog(parent),
+      labels_(labels),
+      format_(new QComboBox),
+      columns_(new QLineEdit),
+      shift_(new QSpinBox),
+      scale_(new QDoubleSpinBox),
+      tolerance_(new QDoubleSpinBox),
+      classes_(new QTableWidget(0, 3)),
+      text_(reportField()) {
+    setWindowTitle(tr("Import labels"));
+    format_->addItem(tr("Find out"), QStringLiteral("auto"));
+    for (const LabelFormatInfo& format : labelFormats())
+        if (format.reads) format_->addItem(QString::fromStdString(format.title), QString::fromStdString(format.name));
+    columns_->setPlaceholderText(QStringLiteral("frame,id,cname,x1,y1,x2,y2"));
+    columns_->setToolTip(tr("Columns of a table of your own, in its order"));
+    shift_->setRange(-1000000, 1000000);
+    shift_->setSuffix(tr(" frames"));
+    shift_->setKeyboardTracking(false);
+    scale_->setRange(0.001, 1000);
+    scale_->setDecimals(4);
+    scale_->setValue(1);
+    scale_->setKeyboardTracking(false);
+    tolerance_->setRange(0, 100);
+    tolerance_->setDecimals(1);
+    tolerance_->setValue(1.5);
+    tolerance_->setSuffix(tr(" px"));
+    tolerance_->setToolTip(tr("As few keyframes as keep every box within this distance; 0 makes every box a keyframe"));
+    classes_->setHorizontalHeaderLabels({tr("Class in the file"), tr("Boxes"), tr("becomes")});
+    classes_->verticalHeader()->hide();
+    classes_->horizontalHeader()->setStretchLastSection(true);
+    classes_->setMaximumHeight(150);
+    buttons_ = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+    buttons_->button(QDialogButtonBox::Ok)->setText(tr("Import"));
+    auto* form = new QFormLayout;
+    form->addRow(tr("Format"), format_);
+    form->addRow(tr("Columns"), columns_);
+    form->addRow(tr("Shift"), shift_);
+    form->addRow(tr("Scale"), scale_);
+    form->addRow(tr("Keyframes within"), tolerance_);
+    auto* layout = new QVBoxLayout(this);
+    layout->addLayout(form);
+    layout->addWidget(new QLabel(tr("Found in the file:")));
+    layout->addWidget(text_, 1);
+    layout->addWidget(classes_);
+    layout->addWidget(buttons_);
+    const auto show_columns = [this, form] {
+        const bool wanted = format_->currentData().toString() == QLatin1String("columns");
+        form->setRowVisible(columns_, wanted);
+    };
+    connect(format_, &QComboBox::currentIndexChanged, this, show_columns);
+    connect(format_, &QComboBox::currentIndexChanged, this, &LabelImportDialog::read);
+    connect(columns_, &QLineEdit::editingFinished, this, &LabelImportDialog::read);
+    connect(shift_, &QSpinBox::valueChanged, this, &LabelImportDialog::read);
+    connect(scale_, &QDoubleSpinBox::valueChanged, this, &LabelImportDialog::read);
+    connect(buttons_, &QDialogButtonBox::accepted, this, &LabelImportDialog::accept);
+    connect(buttons_, &QDialogButtonBox::rejected, this, &LabelImportDialog::reject);
+    show_columns();
+    setBusy(true);
+}
+
+LabelImportDialog::~LabelImportDialog() = default;
+
+bool LabelImportDialog::choose() {
+    const QString path = QFileDialog::getOpenFileName(
+        parentWidget(), tr("Import labels"), {},
+        tr("Label files (*.csv *.txt *.xml *.json *.kw18 *.viratdata.objects.txt);;All files (*)"));
+    if (path.isEmpty()) return false;
+    setFile(path.toStdString());
+    return true;
+}
+
+void LabelImportDialog::setFile(const std::filesystem::path& path) {
+    path_ = path;
+    setWindowTitle(tr("Import %1").arg(QString::fromStdString(path.filename().string())));
+    read();
+}
+
+void LabelImportDialog::setBusy(bool busy) {
+    buttons_->button(QDialogButtonBox::Ok)->setEnabled(!busy);
+}
+
+ImportOptions LabelImportDialog::options() const {
+    ImportOptions options;
+    options.frame_shift = shift_->value();
+    options.scale = scale_->value();
+    options.columns = columns_->text().toStdString();
+    options.image_size = labels_.sequence().size;
+    return options;
+}
+
+void LabelImportDialog::read() {
+    if (path_.empty()) return;
+    report_.reset();
+    setBusy(true);
+    text_->setPlainText(tr("Reading …"));
+    thread_.postNewest([this, ticket = ++ticket_, path = path_,
+                        format = format_->currentData().toString().toStdString(),
+                        options = options()](const std::stop_token&) {
+        try {
+            const LabelReport report = reportOn(readLabels(path, format, options));
+            queuedCall(this, [this, ticket, report] {
+                if (ticket == ticket_) showReport(report);
+            });
+        } catch (const std::exception& error) {
+            queuedCall(this, [this, ticket, text = QString::fromUtf8(error.what())] {
+                if (ticket != ticket_) return;
+                text_->setPlainText(text);
+                emit fileRead();
+            });
+        }
+    });
+}
+
+void LabelImportDialog::showReport(const LabelReport& report) {
+    report_ = report;
+    const LabelFormatInfo* format = formatNamed(QString::fromStdString(report.format));
+    QString text = tr("%1\n").arg(format != nullptr ? QString::fromStdString(format->title)
+                                                    : QString::fromStdString(report.format));
+    text += tr("%1 boxes in %2 frames, frames %3 to %4 (the file counts from %5)\n")
+                .arg(report.boxes)
+                .arg(report.frames)
+                .arg(report.first_frame)
+                .arg(report.last_frame)
+                .arg(report.first_frame_number);
+    text += report.ids > 0 ? tr("%1 ids, %2 to %3\n").arg(report.ids).arg(report.lowest_id).arg(report.highest_id)
+                           : tr("no ids\n");
+    if (report.without_id > 0) text += tr("%1 boxes without id belong to no object\n").arg(report.without_id);
+    if (report.turned > 0) text += tr("%1 boxes are turned\n").arg(report.turned);
+    if (report.ignored > 0) text += tr("%1 boxes are to be ignored\n").arg(report.ignored);
+    if (report.occluded > 0) text += tr("%1 boxes are occluded\n").arg(report.occluded);
+    if (report.outside > 0) text += tr("%1 boxes lie outside the image\n").arg(report.outside);
+    const cv::Size ours = labels_.sequence().size;
+    if (report.image_size && *report.image_size != ours)
+        text += tr("Its images are %1 × %2 px, this video %3 × %4: is the scale right?\n")
+                    .arg(report.image_size->width)
+                    .arg(report.image_size->height)
+                    .arg(ours.width)
+                    .arg(ours.height);
+    if (report.last_frame >= labels_.sequence().frame_count)
+        text += tr("This video ends with frame %1; later boxes are left out. Is the shift right?\n")
+                    .arg(labels_.sequence().frame_count - 1);
+    text_->setPlainText(text + lines(report.notes));
+
+    classes_->setRowCount(0);
+    for (const auto& [name, boxes] : report.boxes_of_class) {
+        const int row = classes_->rowCount();
+        classes_->insertRow(row);
+        auto* from = new QTableWidgetItem(classText(name));
+        from->setData(Qt::UserRole, QString::fromStdString(name));
+        from->setFlags(Qt::ItemIsEnabled);
+        auto* count = new QTableWidgetItem(QString::number(boxes));
+        count->setFlags(Qt::ItemIsEnabled);
+        classes_->setItem(row, 0, from);
+        classes_->setItem(row, 1, count);
+        auto* to = new QComboBox;
+        to->setEditable(true);
+        for (const ObjectClass& known : classesOf(labels_.annotations()))
+            to->addItem(QString::fromStdString(known.name));
+        to->setCurrentText(QString::fromStdString(name));
+        classes_->setCellWidget(row, 2, to);
+    }
+    setBusy(report.boxes == 0);
+    emit fileRead();
+}
+
+QString LabelImportDialog::report() const {
+    return text_->toPlainText();
+}
+
+void LabelImportDialog::mapClass(const QString& from, const QString& to) {
+    for (int row = 0; row < classes_->rowCount(); ++row)
+        if (classes_->item(row, 0)->data(Qt::UserRole).toString() == from)
+            qobject_cast<QComboBox*>(classes_->cellWidget(row, 2))->setCurrentText(to);
+}
+
+void LabelImportDialog::setShift(int frames) {
+    shift_->setValue(frames);
+}
+
+void LabelImportDialog::accept() {
+    if (!report_ || labels_.store() == nullptr) return;
+    ImportOptions with_classes = options();
+    for (int row = 0; row < classes_->rowCount(); ++row) {
+        const QString from = classes_->item(row, 0)->data(Qt::UserRole).toString();
+        const QString to = qobject_cast<QComboBox*>(classes_->cellWidget(row, 2))->currentText().trimmed();
+        if (!to.isEmpty() && to != from) with_classes.class_map[from.toStdString()] = to.toStdString();
+    }
+    setBusy(true);
+    setEnabled(false);
+    text_->setPlainText(tr("Choosing keyframes …"));
+    // Nobody else changes labels while this dialog is up, so the store may hand out ids on the other thread.
+    thread_.post([this, path = path_, format = report_->format, with_classes, store = labels_.store(),
+                  sequence = labels_.sequence(), camera = labels_.sharedCamera(),
+                  tolerance = tolerance_->value()](const std::stop_token&) {
+        LabelImport planned;
+        QString failure;
+        try {
+            planned = planImport(readLabels(path, format, with_classes), sequence, *camera, *store, tolerance);
+        } catch (const std::exception& error) {
+            failure = QString::fromUtf8(error.what());
+        }
+        queuedCall(this, [this, planned, failure] {
+            setEnabled(true);
+            if (!failure.isEmpty()) {
+                text_->setPlainText(failure);
+                return;
+            }
+            if (planned.edit.empty() || !labels_.apply(planned.edit)) {
+                text_->setPlainText(tr("Nothing was imported.\n") + lines(planned.notes));
+                return;
+            }
+            summary_ = tr("Imported %1 objects with %2 keyframes for %3 boxes. Ctrl+Z takes it back.")
+                           .arg(planned.objects)
+                           .arg(planned.keyframes)
+                           .arg(planned.boxes);
+            for (const std::string& note : planned.notes) summary_ += QLatin1Char('\n') + QString::fromStdString(note);
+            QDialog::accept();
+        });
+    });
+}
+
+// ---- export ---------------------------------------------------------------------------------------------------------
+
+LabelExportDialog::LabelExportDialog(LabelSession& labels, QWidget* parent)
+    : QDialog(parent),
+      labels_(labels),
+      format_(new QComboBox),
+      carries_(new QLabel),
+      target_(new QLineEdit),
+      columns_(new QLineEdit(QStringLiteral("frame,id,cname,x1,y1,x2,y2"))),
+      clip_(new QCheckBox(tr("Cut boxes off at the image's border"))),
+      text_(reportField()) {
+    setWindowTitle(tr("Export labels"));
+    for (const LabelFormatInfo& format : labelFormats())
+        if (format.writes) format_->addItem(QString::fromStdString(format.title), QString::fromStdString(format.name));
+    carries_->setWordWrap(true);
+    auto* choose = new QPushButton(tr("Choose…"));
+    auto* place = new QHBoxLayout;
+    place->addWidget(target_, 1);
+    place->addWidget(choose);
+    auto* form = new QFormLayout;
+    form->addRow(tr("Format"), format_);
+    form->addRow(tr("Carries"), carries_);
+    form->addRow(tr("Columns"), columns_);
+    form->addRow(tr("To"), place);
+    form->addRow(clip_);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    export_ = buttons->addButton(tr("Export"), QDialogButtonBox::ActionRole);
+    export_->setDefault(true);
+    auto* layout = new QVBoxLayout(this);
+    layout->addLayout(form);
+    layout->addWidget(text_, 1);
+    layout->addWidget(buttons);
+    connect(format_, &QComboBox::currentIndexChanged, this, [this, form] {
+        form->setRowVisible(columns_, format_->currentData().toString() == QLatin1String("columns"));
+        showFormat();
+    });
+    connect(choose, &QPushButton::clicked, this, &LabelExportDialog::browse);
+    connect(export_, &QPushButton::clicked, this, &LabelExportDialog::startExport);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    form->setRowVisible(columns_, format_->currentData().toString() == QLatin1String("columns"));
+    showFormat();
+}
+
+LabelExportDialog::~LabelExportDialog() = default;
+
+void LabelExportDialog::showFormat() {
+    const LabelFormatInfo* format = formatNamed(format_->currentData().toString());
+    if (format == nullptr) return;
+    QStringList with;
+    QStringList without;
+    const Carries& carries = format->carries;
+    (carries.rotation ? with : without) << tr("rotation");
+    (carries.id ? with : without) << tr("ids");
+    (carries.object_class ? with : without) << tr("classes");
+    (carries.occlusion ? with : without) << tr("occlusion");
+    (carries.ignore ? with : without) << tr("ignored boxes");
+    QString text = with.join(QStringLiteral(", "));
+    if (!without.isEmpty()) text += tr("; not: %1").arg(without.join(QStringLiteral(", ")));
+    carries_->setText(text);
+}
+
+void LabelExportDialog::browse() {
+    const LabelFormatInfo* format = formatNamed(format_->currentData().toString());
+    if (format == nullptr) return;
+    QString suggestion = QStringLiteral("labels");
+    if (!format->folder && !format->extensions.empty())
+        suggestion += QLatin1Char('.') + QString::fromStdString(format->extensions.front()).remove(QLatin1Char('.'));
+    const QString path = QFileDialog::getSaveFileName(this, tr("Export labels"), suggestion, tr("All files (*)"));
+    if (!path.isEmpty()) target_->setText(path);
+}
+
+void LabelExportDialog::setFormat(const QString& name) {
+    format_->setCurrentIndex(std::max(0, format_->findData(name)));
+}
+
+void LabelExportDialog::setTarget(const std::filesystem::path& path) {
+    target_->setText(QString::fromStdString(path.string()));
+}
+
+QString LabelExportDialog::report() const {
+    return text_->toPlainText();
+}
+
+void LabelExportDialog::startExport() {
+    if (target_->text().trimmed().isEmpty()) browse();
+    if (target_->text().trimmed().isEmpty()) return;
+    ExportOptions options;
+    options.columns = columns_->text().toStdString();
+    if (clip_->isChecked()) options.clip = true;
+    options.sequence = std::filesystem::path(labels_.sequence().path).stem().string();
+    if (options.sequence.empty()) options.sequence = "sequence";
+    export_->setEnabled(false);
+    text_->setPlainText(tr("Writing …"));
+    thread_.post([this, set = labels_.annotations(), sequence = labels_.sequence(), camera = labels_.sharedCamera(),
+                  path = std::filesystem::path(target_->text().trimmed().toStdString()),
+                  format = format_->currentData().toString().toStdString(), options](const std::stop_token&) {
+        QString text;
+        bool fine = false;
+        try {
+            const ExportReport report = writeLabels(labelsOf(set, sequence, *camera), path, format, options);
+            text = tr("Wrote %1 boxes.\n").arg(report.boxes);
+            for (const auto& file : report.files) text += QString::fromStdString(file.string()) + QLatin1Char('\n');
+            text += report.losses.empty() ? tr("Nothing was lost.\n") : tr("What the format could not carry:\n");
+            for (const ExportLoss& loss : report.losses)
+                text += QStringLiteral("• %1\n").arg(QString::fromStdString(loss.remark));
+            text += lines(report.notes);
+            fine = true;
+        } catch (const std::exception& error) {
+            text = QString::fromUtf8(error.what());
+        }
+        queuedCall(this, [this, text, fine] {
+            export_->setEnabled(true);
+            text_->setPlainText(text);
+            emit finishedExport(fine);
+        });
+    });
+}
+
+}  // namespace eyrie::ui

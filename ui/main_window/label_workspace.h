@@ -1,0 +1,112 @@
+#pragma once
+
+#include <QList>
+#include <QObject>
+#include <optional>
+
+#include "session/label_editor.h"
+#include "session/label_proposals.h"
+#include "session/label_session.h"
+
+class QDockWidget;
+class QMainWindow;
+class QMenu;
+class QToolBar;
+
+namespace eyrie::ui {
+
+class LabelActions;
+class LabelTimeline;
+class LabelTool;
+class LabelTracking;
+class MessageBar;
+class ObjectInspector;
+class ObjectsModel;
+class ObjectsPanel;
+class OverlaySettings;
+class TimelineView;
+class VideoView;
+class WindowActions;
+
+/// What the label workspace is joined with.
+struct LabelSurroundings {
+    ProjectSession& session;
+    VideoView& canvas;
+    TimelineView& timeline;
+    LabelTimeline& rows;
+    MessageBar& messages;
+    WindowActions& actions;
+    OverlaySettings& overlays;
+    QMainWindow& window;
+};
+
+/// The label workspace: its docks, its tool on the canvas and its keys, joined with the labels of the video shown.
+class LabelWorkspace : public QObject {
+    Q_OBJECT
+
+ public:
+    /// Everything named must outlive it.
+    explicit LabelWorkspace(const LabelSurroundings& around);
+
+    void setActive(bool active);
+    bool active() const { return active_; }
+    const QList<QDockWidget*>& docks() const { return docks_; }
+    /// The layout of the window's other workspace, while this one is active.
+    const QByteArray& otherLayout() const { return other_layout_; }
+    QMenu* menu() const { return menu_; }
+
+    LabelSession& labels() { return *labels_; }
+    LabelEditor& editor() { return *editor_; }
+    LabelTool& tool() { return *tool_; }
+    LabelProposals& proposals() { return *proposals_; }
+    LabelActions& actions() { return *actions_; }
+    ObjectsPanel& objects() { return *objects_; }
+    ObjectInspector& inspector() { return *inspector_; }
+
+ private:
+    void buildDocks();
+    void buildToolBar();
+    void buildMenu();
+    void wireLabels();
+    void wireTool();
+    void wireEditActions();
+    void wireGoActions();
+    void wireProposals();
+    void wireIdentity();
+    void wireFiles();
+    void showOverlays(bool label);
+    void labelsChanged();
+    void showScene();
+    void showList();
+    void showObject();
+    void showRows();
+    void enableActions();
+    void escape();
+    void followObject();
+    void selectProposal(const Proposal* proposal);
+    void acceptSelected();
+    void identityWithOther(bool fuse);
+    void tell(const QString& text);
+    std::optional<ObjectId> otherSelected() const;
+
+    LabelSurroundings around_;
+    bool active_ = false;
+    bool refresh_due_ = false;
+    QByteArray other_layout_;
+    QByteArray own_layout_;
+    QList<bool> other_overlays_;
+    LabelSession* labels_;
+    LabelProposals* proposals_;
+    LabelEditor* editor_;
+    LabelTool* tool_;
+    LabelActions* actions_;
+    LabelTracking* tracking_;
+    ObjectsModel* model_;
+    ObjectsPanel* objects_;
+    ObjectInspector* inspector_;
+    QToolBar* bar_;
+    QMenu* menu_;
+    QList<QDockWidget*> docks_;
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,287 @@
+// The part of LabelWorkspace that says what its commands do.
+#include <QMainWindow>
+#include <QMenu>
+#include <numbers>
+
+#include "annotation/join_suggestions.h"
+#include "annotation/object_pieces.h"
+#include "main_window/label_actions.h"
+#include "main_window/label_files.h"
+#include "main_window/label_rows.h"
+#include "main_window/label_workspace.h"
+#include "panels/message_bar.h"
+#include "panels/object_inspector.h"
+#include "panels/objects_panel.h"
+#include "session/label_classes.h"
+#include "session/label_tracking.h"
+#include "view/label_timeline.h"
+#include "view/label_tool.h"
+#include "view/video_view.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr double kDegree = std::numbers::pi / 180;
+}
+
+void LabelWorkspace::wireTool() {
+    connect(tool_, &LabelTool::repaintNeeded, &around_.canvas, qOverload<>(&QWidget::update));
+    connect(tool_, &LabelTool::drawingChanged, actions_->draw, &QAction::setChecked);
+    connect(tool_, &LabelTool::boxDrawn, this,
+            [this](const OrientedBox& box, FrameIndex frame) { editor_->add(box, frame); });
+    connect(tool_, &LabelTool::boxChanged, this,
+            [this](ObjectId id, FrameIndex frame, const OrientedBox& box, bool turned, bool resized) {
+                const QString what = turned    ? tr("Turn box of %1")
+                                     : resized ? tr("Resize box of %1")
+                                               : tr("Move box of %1");
+                editor_->setBox(id, frame, box, turned, what);
+            });
+    connect(tool_, &LabelTool::objectClicked, this, [this](std::optional<ObjectId> id, bool add) {
+        proposals_->select(std::nullopt);
+        if (id && add)
+            labels_->toggle(*id);
+        else
+            labels_->select(id);
+    });
+    connect(tool_, &LabelTool::proposalClicked, this, [this](TrackId track) {
+        labels_->select(std::nullopt);
+        proposals_->select(track);
+    });
+    connect(actions_->draw, &QAction::triggered, this, [this](bool on) {
+        if (!on)
+            tool_->cancel();
+        else if (labels_->mayEdit())
+            tool_->startDrawing();
+        else
+            actions_->draw->setChecked(false);
+        around_.canvas.setFocus();
+    });
+    connect(actions_->loupe, &QAction::toggled, tool_, &LabelTool::setLoupeShown);
+}
+
+void LabelWorkspace::wireEditActions() {
+    const auto does = [this](QAction* action, auto work) { connect(action, &QAction::triggered, this, work); };
+    does(actions_->undo, [this] { labels_->undo(); });
+    does(actions_->redo, [this] { labels_->redo(); });
+    does(actions_->try_to_write, [this] { labels_->tryToWrite(); });
+    does(actions_->keyframe, [this] { editor_->setKeyframe(); });
+    does(actions_->copy_on, [this] { editor_->copyOn(1); });
+    does(actions_->copy_back, [this] { editor_->copyOn(-1); });
+    does(actions_->delete_keyframe, [this] { editor_->deleteKeyframe(); });
+    does(actions_->delete_object, [this] { editor_->deleteObjects(); });
+    does(actions_->end_here, [this] { editor_->endHere(); });
+    does(actions_->occluded, [this] { editor_->toggleOccluded(); });
+    does(actions_->outside, [this] { editor_->toggleOutside(); });
+    does(actions_->ignore, [this] { editor_->toggleIgnore(); });
+    does(actions_->turn_left, [this] { editor_->turn(-kDegree); });
+    does(actions_->turn_right, [this] { editor_->turn(kDegree); });
+    const double amounts[] = {1, 0.1, 5};
+    const QPointF ways[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    for (std::size_t i = 0; i < actions_->nudge.size(); ++i)
+        does(actions_->nudge[i], [this, by = ways[i % 4] * amounts[i / 4]] {
+            if (labels_->selected())
+                editor_->nudge(by.x(), by.y());
+            else if (by.x() != 0)  // without a box the arrows step, as in the other workspaces
+                around_.session.step((by.x() > 0 ? 1 : -1) * (std::abs(by.x()) > 1 ? 10 : 1));
+        });
+    for (std::size_t i = 0; i < actions_->object_class.size(); ++i)
+        does(actions_->object_class[i], [this, name = builtInClasses()[i].name] { editor_->setClass(name); });
+    does(actions_->checked, [this] { editor_->mark(ReviewState::checked); });
+    does(actions_->questionable, [this] { editor_->mark(ReviewState::questionable); });
+    does(actions_->unseen, [this] { editor_->mark(ReviewState::unseen); });
+
+    connect(inspector_, &ObjectInspector::classChosen, this,
+            [this](const QString& name) { editor_->setClass(name.toStdString()); });
+    connect(inspector_, &ObjectInspector::occlusionToggled, editor_, &LabelEditor::toggleOccluded);
+    connect(inspector_, &ObjectInspector::outsideToggled, editor_, &LabelEditor::toggleOutside);
+    connect(inspector_, &ObjectInspector::ignoreToggled, editor_, &LabelEditor::toggleIgnore);
+    connect(inspector_, &ObjectInspector::notesEdited, editor_, &LabelEditor::setNotes);
+    connect(inspector_, &ObjectInspector::checkedRequested, actions_->checked, &QAction::trigger);
+    connect(inspector_, &ObjectInspector::questionableRequested, actions_->questionable, &QAction::trigger);
+    connect(inspector_, &ObjectInspector::joinRequested, this,
+            [this](int other) { editor_->join(other, GapFilling::interpolate); });
+    connect(inspector_, &ObjectInspector::candidateChosen, this, [this](int other) {
+        // Shown where it would be joined, without giving the first one up.
+        const LabelledObject* candidate = labels_->object(other);
+        const auto main = labels_->selected();
+        if (candidate == nullptr || !main) return;
+        const bool later = firstFrameOf(*candidate) > labels_->object(*main)->last_frame;
+        around_.session.goToFrame(later ? firstFrameOf(*candidate) : candidate->last_frame);
+        labels_->setSelection({*main, other}, main);
+    });
+}
+
+void LabelWorkspace::wireGoActions() {
+    const auto does = [this](QAction* action, auto work) { connect(action, &QAction::triggered, this, work); };
+    does(actions_->next_frame, [this] { around_.session.step(1); });
+    does(actions_->previous_frame, [this] { around_.session.step(-1); });
+    does(actions_->ten_on, [this] { around_.session.step(10); });
+    does(actions_->ten_back, [this] { around_.session.step(-10); });
+    does(actions_->next_object, [this] { editor_->stepObject(1); });
+    does(actions_->previous_object, [this] { editor_->stepObject(-1); });
+    does(actions_->next_keyframe, [this] { editor_->nextKeyframe(); });
+    does(actions_->previous_keyframe, [this] { editor_->previousKeyframe(); });
+    does(actions_->next_attention, [this] { editor_->nextAttention(); });
+    does(actions_->next_unchecked, [this] { editor_->nextUnchecked(); });
+    does(actions_->deselect, [this] { escape(); });
+    connect(actions_->follow, &QAction::toggled, this, [this] { followObject(); });
+    connect(actions_->this_frame, &QAction::toggled, objects_, &ObjectsPanel::setThisFrameOnly);
+}
+
+void LabelWorkspace::escape() {
+    if (tracking_->working()) {
+        tracking_->stop();
+    } else if (!around_.canvas.hasFocus()) {
+        around_.canvas.setFocus();
+    } else if (!tool_->cancel()) {
+        proposals_->select(std::nullopt);
+        labels_->select(std::nullopt);
+    }
+}
+
+// ---- proposals and tracking -----------------------------------------------------------------------------------------
+
+void LabelWorkspace::wireProposals() {
+    connect(actions_->proposals, &QAction::toggled, this, [this](bool on) {
+        proposals_->setShown(on);
+        if (on && !around_.session.currentRun())
+            tell(tr("There is no run to take tracks from. Make one with Run, then come back."));
+    });
+    connect(actions_->next_proposal, &QAction::triggered, this, [this] {
+        const auto here = proposals_->pendingIn(around_.session.currentFrame());
+        const Proposal* next = nullptr;
+        for (const Proposal* proposal : here)
+            if (next == nullptr && proposal->track > proposals_->selected().value_or(0)) next = proposal;
+        selectProposal(next != nullptr ? next : proposals_->next(around_.session.currentFrame()));
+    });
+    connect(actions_->accept, &QAction::triggered, this, &LabelWorkspace::acceptSelected);
+    connect(actions_->reject, &QAction::triggered, this, [this] {
+        if (!proposals_->selected()) return;
+        proposals_->reject(*proposals_->selected());
+        selectProposal(proposals_->next(around_.session.currentFrame()));
+    });
+    connect(actions_->accept_all, &QAction::triggered, this, [this] {
+        std::vector<TrackId> tracks;
+        for (const Proposal* proposal : proposals_->pendingIn(around_.session.currentFrame()))
+            tracks.push_back(proposal->track);
+        const auto objects = proposals_->accept(tracks);
+        if (!objects.empty()) tell(tr("Took over %1 tracks.").arg(objects.size()));
+    });
+    connect(actions_->offer_again, &QAction::triggered, proposals_, &LabelProposals::offerAgain);
+
+    connect(actions_->track_on, &QAction::triggered, this, [this] { tracking_->start(1); });
+    connect(actions_->track_back, &QAction::triggered, this, [this] { tracking_->start(-1); });
+    connect(actions_->stop_tracking, &QAction::triggered, tracking_, &LabelTracking::stop);
+    connect(tracking_, &LabelTracking::workingChanged, this, [this] { enableActions(); });
+    connect(tracking_, &LabelTracking::advanced, &around_.session, &ProjectSession::goToFrame);
+    connect(tracking_, &LabelTracking::ended, this, [this](FrameIndex frame, const QString& reason) {
+        around_.session.goToFrame(frame);
+        if (!reason.isEmpty()) tell(tr("Tracking %1").arg(reason));
+    });
+}
+
+void LabelWorkspace::selectProposal(const Proposal* proposal) {
+    proposals_->select(proposal != nullptr ? std::optional(proposal->track) : std::nullopt);
+    if (proposal == nullptr) {
+        if (!proposals_->working()) tell(tr("No proposal is left."));
+        return;
+    }
+    labels_->select(std::nullopt);
+    const FrameIndex frame = around_.session.currentFrame();
+    const FrameIndex first = firstFrameOf(proposal->object);
+    if (frame < first || frame > proposal->object.last_frame) around_.session.goToFrame(first);
+}
+
+void LabelWorkspace::acceptSelected() {
+    if (!proposals_->selected()) return;
+    const auto objects = proposals_->accept({*proposals_->selected()});
+    if (objects.empty()) return;
+    if (const Proposal* next = proposals_->next(around_.session.currentFrame()))
+        selectProposal(next);
+    else
+        labels_->select(objects.front());
+}
+
+// ---- identity -------------------------------------------------------------------------------------------------------
+
+std::optional<ObjectId> LabelWorkspace::otherSelected() const {
+    if (labels_->selection().size() != 2 || !labels_->selected()) return std::nullopt;
+    for (const ObjectId id : labels_->selection())
+        if (id != *labels_->selected()) return id;
+    return std::nullopt;
+}
+
+void LabelWorkspace::identityWithOther(bool fuse) {
+    if (!labels_->selected() || !labels_->mayEdit()) return;
+    const auto run = [this, fuse](ObjectId other) {
+        if (fuse)
+            editor_->fuse(other);
+        else
+            editor_->join(other, GapFilling::interpolate);
+    };
+    if (const auto other = otherSelected()) {
+        run(*other);
+        return;
+    }
+    // Candidates, the nearest first; pointing at one shows it.
+    QMenu menu;
+    if (fuse) {
+        for (const FuseSuggestion& offer :
+             suggestFusions(labels_->annotations(), *labels_->selected(), labels_->camera(), 0.05))
+            menu.addAction(tr("%1, overlap %2 in %3 frames")
+                               .arg(QString::fromStdString(nameOf(*labels_->object(offer.object))))
+                               .arg(offer.mean_overlap, 0, 'f', 2)
+                               .arg(offer.shared_frames))
+                ->setData(offer.object);
+    } else {
+        for (const JoinSuggestion& offer :
+             suggestJoins(labels_->annotations(), *labels_->selected(), labels_->camera()))
+            menu.addAction(joinText(*labels_, offer.object, offer.later, offer.gap, offer.distance_px))
+                ->setData(offer.object);
+    }
+    if (menu.isEmpty()) {
+        tell(fuse ? tr("No other object overlaps this one. Select both (Ctrl and click) to fuse them anyway.")
+                  : tr("No other object begins or ends near this one. Select both (Ctrl and click) to join them "
+                       "anyway."));
+        return;
+    }
+    const auto main = labels_->selected();
+    connect(&menu, &QMenu::hovered, this, [this, main](QAction* action) {
+        labels_->setSelection({*main, action->data().toInt()}, main);
+    });
+    const QAction* chosen = menu.exec(around_.canvas.mapToGlobal(around_.canvas.rect().center()));
+    labels_->select(main);
+    if (chosen != nullptr) run(chosen->data().toInt());
+}
+
+void LabelWorkspace::wireIdentity() {
+    connect(actions_->join, &QAction::triggered, this, [this] { identityWithOther(false); });
+    connect(actions_->fuse, &QAction::triggered, this, [this] { identityWithOther(true); });
+    connect(actions_->split, &QAction::triggered, editor_, &LabelEditor::splitHere);
+    connect(actions_->swap, &QAction::triggered, this, [this] {
+        if (const auto other = otherSelected())
+            editor_->swapFrom(*other);
+        else
+            tell(tr("Select the two objects to swap from this frame on (Ctrl and click)."));
+    });
+    connect(actions_->renumber, &QAction::triggered, editor_, &LabelEditor::renumberHere);
+    connect(actions_->delete_before, &QAction::triggered, editor_, &LabelEditor::deleteBefore);
+    connect(actions_->delete_after, &QAction::triggered, editor_, &LabelEditor::deleteAfter);
+}
+
+// ---- files ----------------------------------------------------------------------------------------------------------
+
+void LabelWorkspace::wireFiles() {
+    connect(actions_->import_labels, &QAction::triggered, this, [this] {
+        if (!labels_->mayEdit()) return;
+        LabelImportDialog dialog(*labels_, &around_.window);
+        if (dialog.choose() && dialog.exec() == QDialog::Accepted) tell(dialog.summary());
+    });
+    connect(actions_->export_labels, &QAction::triggered, this, [this] {
+        if (!labels_->isOpen()) return;
+        LabelExportDialog dialog(*labels_, &around_.window);
+        dialog.exec();
+    });
+}
+
+}  // namespace eyrie::ui
