@@ -188,7 +188,7 @@ void LabelWorkspace::labelsChanged() {
 void LabelWorkspace::showScene() {
     if (!active_) return;
     // Boxes belong to the picture that is shown, which may come later than the frame was asked for.
-    tool_->setScene(labelScene(*labels_, *proposals_, around_.canvas.frame().index, around_.session.scale()));
+    tool_->setScene(labelScene(*labels_, *proposals_, around_.session.viewFrame().index, around_.session.scale()));
 }
 
 void LabelWorkspace::showList() {
@@ -267,7 +267,7 @@ void LabelWorkspace::followObject() {
     if (!active_ || !actions_->follow->isChecked()) return;
     const LabelledObject* object = editor_->object();
     if (object == nullptr) return;
-    const auto box = LabelEditor::expectedBox(*object, around_.canvas.frame().index, labels_->camera());
+    const auto box = LabelEditor::expectedBox(*object, around_.session.viewFrame().index, labels_->camera());
     if (box) around_.canvas.centreOn({box->centre.x, box->centre.y});
 }
 
