@@ -103,7 +103,11 @@ void paintTexts(QPainter& painter, const LabelScene& scene, const ViewTransform&
         const QString text = mark.review == ReviewState::checked        ? mark.text + QStringLiteral(" ✓")
                              : mark.review == ReviewState::questionable ? mark.text + QStringLiteral(" ?")
                                                                         : mark.text;
-        const auto rectangle = placer.place(label.object, {metrics.horizontalAdvance(text) + 6, metrics.height()});
+        const QSizeF size(metrics.horizontalAdvance(text) + 6, metrics.height());
+        auto rectangle = placer.place(label.object, size);
+        if (!rectangle && mark.selected)  // the one that is worked on is always named
+            rectangle = QRectF(label.object.center().x() - size.width() / 2, label.object.top() - size.height() - 18,
+                               size.width(), size.height());
         if (!rectangle) continue;
         painter.setPen(Qt::NoPen);
         painter.setBrush(mark.selected ? mark.colour : QColor(0, 0, 0, 165));
