@@ -13,20 +13,20 @@ namespace eyrie {
 
 /// What is known of a video before its first frame is decoded.
 struct VideoInfo {
-    std::filesystem::path path;    ///< absolute: the video file or the folder of images
-    cv::Size size;                 ///< px, of the first frame; a frame of another size is an Error(input) when read
+    std::filesystem::path path;  ///< absolute: the video file or the folder of images
+    cv::Size size;               ///< px, of the first frame; a frame of another size is an Error(input) when read
     int frame_count = 0;
-    double frame_rate_hz = 25;     ///< mean rate from the time stamps, or the one given by the user; > 0
-    double gsd_m_per_px = 0;       ///< metres per pixel where the source itself knows it (built-in scenes); 0: unknown
+    double frame_rate_hz = 25;  ///< mean rate from the time stamps, or the one given by the user; > 0
+    double gsd_m_per_px = 0;    ///< metres per pixel where the source itself knows it (built-in scenes); 0: unknown
     bool variable_frame_rate = false;
     bool is_image_sequence = false;
-    std::string codec;             ///< "h264", "png sequence" …
-    std::string container;         ///< "mov,mp4,…", "folder"
+    std::string codec;      ///< "h264", "png sequence" …
+    std::string container;  ///< "mov,mp4,…", "folder"
 };
 
 /// Random access to the frames of a video or image folder, exact to the frame. Not thread-safe: one thread, one source.
 class FrameSource {
-   public:
+ public:
     virtual ~FrameSource() = default;
     virtual const VideoInfo& info() const = 0;
     /// Frame `index` in [0, frame_count). Throws Error(input) naming file and frame when it cannot be decoded.
@@ -36,8 +36,9 @@ class FrameSource {
 };
 
 struct SourceOptions {
-    double frame_rate_hz = 0;                ///< > 0 overrides the video's own rate (needed for image folders); 0: own, 25 for folders
-    std::filesystem::path index_folder;      ///< where indexes are cached; empty: the user's cache folder
+    double frame_rate_hz =
+        0;  ///< > 0 overrides the video's own rate (needed for image folders); 0: own, 25 for folders
+    std::filesystem::path index_folder;  ///< where indexes are cached; empty: the user's cache folder
 };
 
 /// Called while a video is indexed, with the share done in [0, 1].

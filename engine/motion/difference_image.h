@@ -9,8 +9,8 @@ namespace eyrie {
 
 /// What changed between registered pictures, as seen in the newest one.
 struct DifferenceImage {
-    cv::Mat values;   ///< CV_32FC1, grey values ≥ 0; 0 outside the overlap
-    cv::Mat overlap;  ///< CV_8UC1, A_o: 255 where all pictures show something
+    cv::Mat values;       ///< CV_32FC1, grey values ≥ 0; 0 outside the overlap
+    cv::Mat overlap;      ///< CV_8UC1, A_o: 255 where all pictures show something
     cv::Mat reference{};  ///< CV_8UC1, what was compared with: the earlier picture laid over, or the background
 };
 

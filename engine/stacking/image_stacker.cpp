@@ -137,7 +137,8 @@ void ImageStacker::start(const std::vector<const Placed*>& members) {
         vx.push_back(member->vector->velocity.x);
         vy.push_back(member->vector->velocity.y);
     }
-    const MasterPose pose{{lowerMedian(x), lowerMedian(y)}, medianHeading(headings), {lowerMedian(vx), lowerMedian(vy)}};
+    const MasterPose pose{
+        {lowerMedian(x), lowerMedian(y)}, medianHeading(headings), {lowerMedian(vx), lowerMedian(vy)}};
     Entry entry{MasterVector(next_id_++, pose), ImageStack(options_.arrangement, area_, options_.capacity)};
     for (const auto* member : members) {
         entry.master.relate(*member->vector, member->direction);

@@ -21,8 +21,8 @@ struct TrackPath {
 std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundMotion& ground,
                                      const FinishingOptions& options, const SceneScale& scale);
 
-/// Joins tracks that are parts of one long vehicle: they drive one right behind the other as if fixed, faster and longer
-/// than bumper to bumper traffic would. The longer track's id stays.
+/// Joins tracks that are parts of one long vehicle: they drive one right behind the other as if fixed, faster and
+/// longer than bumper to bumper traffic would. The longer track's id stays.
 void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale);
 
 /// Replaces lengths and widths by their weighted median over a window, on the ground: enlargement by the camera is
@@ -37,8 +37,8 @@ void smoothPath(TrackPath& path, const GroundMotion& ground, int half_window);
 void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale);
 
 /// Two vehicles cannot be in one place: of two tracks that share more than `max_sharing` of the smaller one's area on
-/// average (of the union where the larger box is wider than any vehicle), the one that was detected less often gives way
-/// where they meet, or wholly when little of it is left.
+/// average (of the union where the larger box is wider than any vehicle), the one that was detected less often gives
+/// way where they meet, or wholly when little of it is left.
 void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale);
 
 /// Extends paths back over frames in which the motion vectors were too young, by constant velocity over the ground,
