@@ -224,6 +224,27 @@ class LabelToolTest : public QObject {
         QVERIFY(!canvas.clicked);
     }
 
+    void aRegionIsDrawnCornerByCorner() {
+        Canvas canvas;
+        std::vector<cv::Point2d> polygon;
+        connect(&canvas.tool, &LabelTool::regionDrawn,
+                [&](const std::vector<cv::Point2d>& corners, FrameIndex) { polygon = corners; });
+        canvas.tool.startRegion();
+        canvas.click(20, 20);
+        canvas.click(80, 20);
+        canvas.click(80, 60);
+        QVERIFY(canvas.tool.drawingRegion());
+        QTest::mouseClick(&canvas.view, Qt::RightButton, {}, canvas.at(50, 50));
+        QVERIFY(!canvas.tool.drawingRegion());
+        QCOMPARE(polygon.size(), std::size_t(3));
+        QVERIFY(near(polygon[1].x, 80, 0.6) && near(polygon[2].y, 60, 0.6));
+        polygon.clear();
+        canvas.tool.startRegion();
+        canvas.click(20, 20);
+        QTest::mouseClick(&canvas.view, Qt::RightButton, {}, canvas.at(50, 50));
+        QVERIFY(polygon.empty());  // one corner is no region
+    }
+
     void readOnlyLabelsHaveNoHandles() {
         Canvas canvas;
         const OrientedBox start = box(100, 75, 60, 40, 0);

@@ -11,6 +11,7 @@
 #include "main_window/label_files.h"
 #include "main_window/main_window.h"
 #include "main_window/window_actions.h"
+#include "panels/chip_grid.h"
 #include "panels/message_bar.h"
 #include "panels/object_inspector.h"
 #include "panels/objects_panel.h"
@@ -387,6 +388,39 @@ class LabelWorkspaceTest : public QObject {
         QVERIFY(read.wait(kPatience_ms));
         QVERIFY(!import.readyToImport());
         QVERIFY(import.report().contains(QStringLiteral("broken.txt")));
+    }
+
+    void ignoreRegionsAreDrawnAndDeleted() {
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        key(*window, Qt::Key_Z);
+        click(*window, 20, 20);
+        click(*window, 120, 20);
+        click(*window, 120, 90);
+        QTest::mouseClick(&window->canvas(), Qt::RightButton, {}, at(*window, 30, 90));
+        QCOMPARE(labels.annotations().regions.size(), std::size_t(1));
+        QCOMPARE(labels.annotations().regions.begin()->second.last_frame, 5);
+        QCOMPARE(window->labelling().tool().scene().regions.size(), std::size_t(1));
+        QTest::mouseMove(&window->canvas(), at(*window, 100, 40));
+        key(*window, Qt::Key_Z, Qt::ShiftModifier);
+        QVERIFY(labels.annotations().regions.empty());
+        key(*window, Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(labels.annotations().regions.size(), std::size_t(1));
+    }
+
+    void theObjectIsShownOverTime() {
+        const auto window = labellingWindow(30);
+        QVERIFY(window);
+        draw(*window, {20, 55.5}, {42, 55.5});
+        go(*window, 20);
+        key(*window, Qt::Key_T);
+        window->findChild<QDockWidget*>(QStringLiteral("object_chips"))->raise();
+        ChipGrid& chips = window->labelling().chips();
+        QVERIFY(waitFor([&] { return chips.cards().size() == 21; }));
+        QCOMPARE(chips.cards().front().id, 0);
+        key(*window, Qt::Key_Escape);
+        QVERIFY(waitFor([&] { return chips.cards().empty(); }));
     }
 
     void listAndTimelineFollowEveryEdit() {

@@ -25,6 +25,8 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     draw = addToggle(tr("&Draw: click rear, then front (Shift: then width)"), {QKeySequence(Qt::Key_B)}, false);
     draw->setIcon(QIcon::fromTheme(QStringLiteral("draw-rectangle")));
     draw->setIconText(tr("Draw"));
+    region = addToggle(tr("Draw an ignore region: corners, double click ends"), {QKeySequence(Qt::Key_Z)}, false);
+    delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Shift+Z"))});
     keyframe = add(tr("Set a keyframe here"), {QKeySequence(Qt::Key_K)});
     copy_on = add(tr("Copy the box to the next frame and go there"), {QKeySequence(Qt::Key_C)});
     copy_back = add(tr("Copy the box to the frame before and go there"), {QKeySequence(tr("Shift+C"))});
@@ -77,6 +79,8 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     accept = add(tr("Take the proposal over"), {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
     reject = add(tr("Reject the proposal"), {QKeySequence(Qt::Key_Backspace)}, true);
     accept_all = add(tr("Take over all proposals of this frame"), {QKeySequence(tr("Shift+Return"))}, true);
+    accept_range =
+        add(tr("Take over all proposals in the range of frames above"), {QKeySequence(tr("Ctrl+Return"))}, true);
     offer_again = add(tr("Offer rejected ones again"), {});
     track_on = add(tr("Track the box forward"), {QKeySequence(tr("Shift+F"))});
     track_back = add(tr("Track the box backward"), {QKeySequence(tr("Shift+B"))});

@@ -13,10 +13,12 @@
 #include "main_window/label_rows.h"
 #include "main_window/window_actions.h"
 #include "models/display_text.h"
+#include "panels/chip_grid.h"
 #include "panels/empty_state.h"
 #include "panels/message_bar.h"
 #include "panels/object_inspector.h"
 #include "panels/objects_panel.h"
+#include "session/label_chips.h"
 #include "session/label_classes.h"
 #include "session/label_scene.h"
 #include "session/label_tracking.h"
@@ -44,6 +46,7 @@ LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&aroun
     wireProposals();
     wireIdentity();
     wireFiles();
+    wireChips();
     around_.rows.hide();
 }
 
@@ -51,6 +54,8 @@ void LabelWorkspace::buildDocks() {
     model_ = new ObjectsModel(this);
     objects_ = new ObjectsPanel(model_);
     inspector_ = new ObjectInspector;
+    chips_ = new LabelChips(around_.session, *labels_, this);
+    grid_ = new ChipGrid;
     const auto dock = [this](const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
         auto* made = new QDockWidget(title, &around_.window);
         made->setObjectName(name);
@@ -61,6 +66,8 @@ void LabelWorkspace::buildDocks() {
     };
     dock(QStringLiteral("objects"), tr("Objects"), objects_, Qt::LeftDockWidgetArea);
     dock(QStringLiteral("object"), tr("Object"), inspector_, Qt::RightDockWidgetArea);
+    dock(QStringLiteral("object_chips"), tr("Over time"), grid_, Qt::RightDockWidgetArea);
+    around_.window.tabifyDockWidget(docks_[1], docks_[2]);
 }
 
 void LabelWorkspace::buildToolBar() {
@@ -93,6 +100,7 @@ void LabelWorkspace::setActive(bool active) {
         for (auto* dock : around_.window.findChildren<QDockWidget*>()) dock->setVisible(docks_.contains(dock));
         if (!own_layout_.isEmpty()) around_.window.restoreState(own_layout_);
         for (QDockWidget* dock : docks_) dock->show();
+        if (own_layout_.isEmpty()) docks_[1]->raise();
         if (own_layout_.isEmpty()) around_.window.resizeDocks({docks_[0], docks_[1]}, {400, 270}, Qt::Horizontal);
     } else {
         own_layout_ = around_.window.saveState();
@@ -140,6 +148,10 @@ void LabelWorkspace::wireLabels() {
                 MessageKind::warning,
                 tr("Labels are read-only here: %1.").arg(QString::fromStdString(labels_->store()->readOnlyReason())),
                 tr("Try again"), [this] { labels_->tryToWrite(); });
+        else if (!around_.session.currentRun() && labels_->annotations().objects.empty())
+            tell(tr(
+                "This video has no run yet: boxes are interpolated in the image. After a run they follow the ground, "
+                "however the camera moves."));
         enableActions();
     });
     connect(labels_, &LabelSession::selectionChanged, this, [this] {
@@ -149,6 +161,7 @@ void LabelWorkspace::wireLabels() {
         around_.rows.setSelection(labels_->selection(), labels_->selected());
         enableActions();
         followObject();
+        if (active_) chips_due_.start();
     });
     connect(proposals_, &LabelProposals::changed, this, [this] {
         showScene();
@@ -176,6 +189,7 @@ void LabelWorkspace::labelsChanged() {
     showScene();
     showObject();
     enableActions();
+    chips_due_.start();
     // Lists of a thousand objects follow when the event loop is free, once for several edits.
     if (std::exchange(refresh_due_, true)) return;
     QTimer::singleShot(0, this, [this] {
@@ -251,11 +265,12 @@ void LabelWorkspace::enableActions() {
                             actions_->previous_keyframe})
         action->setEnabled(any);
     for (QAction* action : {actions_->accept, actions_->reject}) action->setEnabled(proposal);
-    for (QAction* action : {actions_->accept_all, actions_->next_proposal}) action->setEnabled(proposals_->shown());
+    for (QAction* action : {actions_->accept_all, actions_->accept_range, actions_->next_proposal})
+        action->setEnabled(proposals_->shown());
     actions_->offer_again->setEnabled(proposals_->rejectedCount() > 0);
     actions_->stop_tracking->setEnabled(tracking_->working());
     actions_->try_to_write->setEnabled(labels_->isOpen() && labels_->readOnly());
-    actions_->draw->setEnabled(labels_->isOpen());
+    for (QAction* action : {actions_->draw, actions_->region}) action->setEnabled(labels_->isOpen());
 }
 
 void LabelWorkspace::tell(const QString& text) {

@@ -2,6 +2,7 @@
 
 #include <QList>
 #include <QObject>
+#include <QTimer>
 #include <optional>
 
 #include "session/label_editor.h"
@@ -15,7 +16,9 @@ class QToolBar;
 
 namespace eyrie::ui {
 
+class ChipGrid;
 class LabelActions;
+class LabelChips;
 class LabelTimeline;
 class LabelTool;
 class LabelTracking;
@@ -62,6 +65,7 @@ class LabelWorkspace : public QObject {
     LabelActions& actions() { return *actions_; }
     ObjectsPanel& objects() { return *objects_; }
     ObjectInspector& inspector() { return *inspector_; }
+    ChipGrid& chips() { return *grid_; }
 
  private:
     void buildDocks();
@@ -74,6 +78,8 @@ class LabelWorkspace : public QObject {
     void wireProposals();
     void wireIdentity();
     void wireFiles();
+    void wireChips();
+    void showChips();
     void showOverlays(bool label);
     void labelsChanged();
     void showScene();
@@ -104,6 +110,10 @@ class LabelWorkspace : public QObject {
     ObjectsModel* model_;
     ObjectsPanel* objects_;
     ObjectInspector* inspector_;
+    LabelChips* chips_;
+    ChipGrid* grid_;
+    QTimer chips_due_;
+    bool chips_looked_at_ = false;
     QToolBar* bar_;
     QMenu* menu_;
     QList<QDockWidget*> docks_;

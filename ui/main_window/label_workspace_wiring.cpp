@@ -1,4 +1,5 @@
 // The part of LabelWorkspace that says what its commands do.
+#include <QDockWidget>
 #include <QMainWindow>
 #include <QMenu>
 #include <numbers>
@@ -9,11 +10,14 @@
 #include "main_window/label_files.h"
 #include "main_window/label_rows.h"
 #include "main_window/label_workspace.h"
+#include "panels/chip_grid.h"
 #include "panels/message_bar.h"
 #include "panels/object_inspector.h"
 #include "panels/objects_panel.h"
+#include "session/label_chips.h"
 #include "session/label_classes.h"
 #include "session/label_tracking.h"
+#include "view/image_convert.h"
 #include "view/label_timeline.h"
 #include "view/label_tool.h"
 #include "view/video_view.h"
@@ -55,6 +59,22 @@ void LabelWorkspace::wireTool() {
         else
             actions_->draw->setChecked(false);
         around_.canvas.setFocus();
+    });
+    connect(tool_, &LabelTool::regionDrawingChanged, actions_->region, &QAction::setChecked);
+    connect(tool_, &LabelTool::regionDrawn, editor_, &LabelEditor::addRegion);
+    connect(actions_->region, &QAction::triggered, this, [this](bool on) {
+        if (!on)
+            tool_->cancel();
+        else if (labels_->mayEdit())
+            tool_->startRegion();
+        else
+            actions_->region->setChecked(false);
+        around_.canvas.setFocus();
+    });
+    connect(actions_->delete_region, &QAction::triggered, this, [this] {
+        const auto place = tool_->cursorInImage();
+        if (!place || editor_->deleteRegionsAt({place->x(), place->y()}) == 0)
+            tell(tr("Point at an ignore region to delete it."));
     });
     connect(actions_->loupe, &QAction::toggled, tool_, &LabelTool::setLoupeShown);
 }
@@ -166,6 +186,13 @@ void LabelWorkspace::wireProposals() {
             tracks.push_back(proposal->track);
         const auto objects = proposals_->accept(tracks);
         if (!objects.empty()) tell(tr("Took over %1 tracks.").arg(objects.size()));
+    });
+    connect(actions_->accept_range, &QAction::triggered, this, [this] {
+        const FrameRange& range = around_.session.settings().range;
+        const auto objects =
+            proposals_->acceptRange(range.first, range.last < 0 ? around_.session.lastFrame()
+                                                                : std::min(range.last, around_.session.lastFrame()));
+        tell(objects.empty() ? tr("No proposal is left there.") : tr("Took over %1 tracks.").arg(objects.size()));
     });
     connect(actions_->offer_again, &QAction::triggered, proposals_, &LabelProposals::offerAgain);
 
@@ -282,6 +309,49 @@ void LabelWorkspace::wireFiles() {
         LabelExportDialog dialog(*labels_, &around_.window);
         dialog.exec();
     });
+}
+
+// ---- chips ----------------------------------------------------------------------------------------------------------
+
+void LabelWorkspace::wireChips() {
+    chips_due_.setSingleShot(true);
+    chips_due_.setInterval(250);  // not while keys are held
+    connect(&chips_due_, &QTimer::timeout, this, &LabelWorkspace::showChips);
+    connect(docks_[2], &QDockWidget::visibilityChanged, this, [this](bool visible) {
+        chips_looked_at_ = visible;
+        if (visible) chips_due_.start();
+    });
+    connect(chips_, &LabelChips::ready, this, [this](ObjectId id, const std::vector<LabelChip>& chips) {
+        if (labels_->selected() != id) return;
+        std::vector<ChipCard> cards;
+        for (const LabelChip& cut : chips) {
+            Chip chip;
+            chip.title = cut.keyframe ? tr("%1 ◆").arg(cut.frame) : QString::number(cut.frame);
+            chip.values = cut.gray;
+            chip.image = wrapImage(cut.gray);
+            const QPointF middle((cut.gray.cols - 1) / 2.0, (cut.gray.rows - 1) / 2.0);
+            const QPointF half(cut.box.width / 2, cut.box.height / 2);
+            chip.boxes.push_back(QRectF(middle - half, middle + half));
+            ChipCard card;
+            card.id = cut.frame;
+            card.chips.push_back(std::move(chip));
+            cards.push_back(std::move(card));
+        }
+        grid_->setCards(std::move(cards));
+        grid_->setMarkedCard(around_.session.currentFrame());
+    });
+    connect(grid_, &ChipGrid::cardClicked, &around_.session, &ProjectSession::goToFrame);
+    connect(&around_.session, &ProjectSession::frameChanged, grid_, &ChipGrid::setMarkedCard);
+}
+
+void LabelWorkspace::showChips() {
+    if (!active_ || !chips_looked_at_) return;
+    if (labels_->selected()) {
+        chips_->request(*labels_->selected());
+    } else {
+        chips_->cancel();
+        grid_->setCards({});
+    }
 }
 
 }  // namespace eyrie::ui

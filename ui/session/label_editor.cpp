@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include "annotation/ignore_regions.h"
 #include "annotation/object_pieces.h"
 #include "annotation/proposals.h"
 #include "session/label_classes.h"
@@ -272,6 +273,30 @@ void LabelEditor::mark(ReviewState state) {
                          : state == ReviewState::questionable ? tr("Mark as questionable")
                                                               : tr("Mark as not checked");
     labels_.apply(reviewEdit(verb.toStdString(), labels_.annotations(), marks));
+}
+
+void LabelEditor::addRegion(const std::vector<cv::Point2d>& polygon, FrameIndex frame) {
+    if (!labels_.mayEdit()) return;
+    IgnoreRegion region;
+    region.id = labels_.store()->newRegionId();
+    region.polygon = polygon;
+    region.reference_frame = frame;
+    region.first_frame = 0;
+    region.last_frame = session_.lastFrame();
+    const CameraMotion& camera = labels_.camera();
+    const bool known = camera.connects(frame, frame + 1) || camera.connects(frame - 1, frame);
+    region.anchor = known ? RegionAnchor::ground : RegionAnchor::image;
+    guarded(
+        [&] { labels_.apply(regionEdit(tr("Draw an ignore region").toStdString(), labels_.annotations(), {region})); });
+}
+
+int LabelEditor::deleteRegionsAt(cv::Point2d point) {
+    std::vector<int> hit;
+    for (const RegionInFrame& region : regionsAt(labels_.annotations(), frame(), labels_.camera()))
+        if (contains(region.polygon, point)) hit.push_back(region.id);
+    if (!hit.empty())
+        labels_.apply(regionEdit(tr("Delete an ignore region").toStdString(), labels_.annotations(), {}, hit));
+    return static_cast<int>(hit.size());
 }
 
 // ---- identity -------------------------------------------------------------------------------------------------------

@@ -53,6 +53,11 @@ class LabelEditor : public QObject {
     /// Flags of the selected objects over a range of frames.
     void setFlags(FrameIndex first, FrameIndex last, const FlagChange& flags);
 
+    /// An ignore region for the whole video, fixed to the ground where the camera's motion is known, else to the image.
+    void addRegion(const std::vector<cv::Point2d>& polygon, FrameIndex frame);
+    /// Deletes the regions that lie over a point of the frame shown; answers how many there were.
+    int deleteRegionsAt(cv::Point2d point);
+
     // Identity; what cannot be done is told.
     IdentityChange joinWith(ObjectId other, GapFilling gap) const;
     IdentityChange fuseWith(ObjectId other) const;

@@ -1,8 +1,10 @@
 #include "session/label_proposals.h"
 
 #include <exception>
+#include <limits>
 
 #include "annotation/identity_verbs.h"
+#include "annotation/interpolation.h"
 #include "session/label_classes.h"
 #include "session/queued_call.h"
 
@@ -129,6 +131,18 @@ void LabelProposals::select(std::optional<TrackId> track) {
 }
 
 std::vector<ObjectId> LabelProposals::accept(const std::vector<TrackId>& tracks) {
+    return take(tracks, 0, std::numeric_limits<FrameIndex>::max());
+}
+
+std::vector<ObjectId> LabelProposals::acceptRange(FrameIndex first, FrameIndex last) {
+    std::vector<TrackId> tracks;
+    for (const Proposal* proposal : pending())
+        if (proposal->object.keyframes.front().frame <= last && proposal->object.last_frame >= first)
+            tracks.push_back(proposal->track);
+    return take(tracks, first, last);
+}
+
+std::vector<ObjectId> LabelProposals::take(const std::vector<TrackId>& tracks, FrameIndex first, FrameIndex last) {
     std::vector<ObjectId> ids;
     if (tracks.empty() || !labels_.mayEdit()) return ids;
     AnnotationEdit edit;
@@ -140,6 +154,9 @@ std::vector<ObjectId> LabelProposals::accept(const std::vector<TrackId>& tracks)
         const ObjectClass object_class = classNamed(labels_.annotations(), labels_.drawnClass());
         LabelledObject object = accepted(*proposal, id, object_class.colour);
         object.object_class = object_class.name;
+        if (firstFrameOf(object) < first || object.last_frame > last)
+            object = cutToRange(object, first, last, labels_.camera());
+        if (object.keyframes.empty()) continue;
         edit.objects.push_back({std::nullopt, std::move(object)});
         taken[track] = id;
         ids.push_back(id);

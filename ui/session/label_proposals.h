@@ -37,6 +37,8 @@ class LabelProposals : public QObject {
 
     /// Takes proposals over, one step to undo; answers the new objects.
     std::vector<ObjectId> accept(const std::vector<TrackId>& tracks);
+    /// The parts of all pending ones that lie in a range of frames.
+    std::vector<ObjectId> acceptRange(FrameIndex first, FrameIndex last);
     void reject(TrackId track);
     /// Rejected ones are offered again.
     void offerAgain();
@@ -48,6 +50,7 @@ class LabelProposals : public QObject {
  private:
     void read();
     bool isPending(const Proposal& proposal) const;
+    std::vector<ObjectId> take(const std::vector<TrackId>& tracks, FrameIndex first, FrameIndex last);
 
     ProjectSession& session_;
     LabelSession& labels_;

@@ -3,9 +3,14 @@
 #include <exception>
 #include <utility>
 
+#include "exchange/project_labels.h"
 #include "session/queued_call.h"
 
 namespace eyrie::ui {
+
+namespace {
+constexpr int kReread_ms = 2000;
+}
 
 /// Labels as they were read on the other thread.
 struct LabelSession::Opened {
@@ -19,7 +24,10 @@ LabelSession::LabelSession(ProjectSession& session, QObject* parent) : QObject(p
     connect(&session_, &ProjectSession::projectChanged, this, &LabelSession::refreshOpen);
     connect(&session_, &ProjectSession::ready, this, &LabelSession::refreshOpen);
     connect(&session_, &ProjectSession::runDataChanged, this, &LabelSession::readCamera);
+    connect(&session_, &ProjectSession::currentRunChanged, this, &LabelSession::readCamera);
     connect(&session_, &ProjectSession::runFinished, this, &LabelSession::readCamera);
+    reread_.setInterval(kReread_ms);
+    connect(&reread_, &QTimer::timeout, this, &LabelSession::refreshReadOnly);
 }
 
 LabelSession::~LabelSession() = default;
@@ -63,19 +71,36 @@ void LabelSession::adopt(int ticket, const std::shared_ptr<Opened>& opened) {
     sequence_.id = opened->sequence_id;
     wasChanged();
     emit this->opened();
-    if (store_->readOnly()) emit notice(QString::fromStdString(store_->readOnlyReason()));
+    if (store_->readOnly()) reread_.start();
+}
+
+void LabelSession::refreshReadOnly() {
+    if (!store_ || !store_->readOnly()) {
+        reread_.stop();
+        return;
+    }
+    try {
+        if (store_->refresh()) wasChanged();
+    } catch (const std::exception& error) {
+        reread_.stop();
+        emit problem(QString::fromUtf8(error.what()));
+    }
 }
 
 void LabelSession::readCamera() {
     if (!wanted_ || session_.project().empty()) return;
-    thread_.post([this, ticket = ++camera_ticket_, path = session_.project(),
-                  run = session_.currentRun()](const std::stop_token&) {
+    thread_.post([this, ticket = ++camera_ticket_, path = session_.project(), run = session_.currentRun(),
+                  video = sequence_.path](const std::stop_token&) {
         auto camera = std::make_shared<CameraMotion>();
         QString failure;
         try {
+            ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+            const RunStore store(project);
             if (run) {
-                ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
-                *camera = CameraMotion::fromRegistrations(RunStore(project).registrations(*run));
+                *camera = CameraMotion::fromRegistrations(store.registrations(*run));
+            } else {
+                for (const SequenceRecord& sequence : sequencesOf(project))
+                    if (sequence.path == video) *camera = cameraMotionOf(store, sequence.id);
             }
         } catch (const std::exception& error) {
             failure = QString::fromUtf8(error.what());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <QTimer>
 #include <memory>
 #include <optional>
 #include <set>
@@ -94,6 +95,7 @@ class LabelSession : public QObject {
     void refreshOpen();
     void adopt(int ticket, const std::shared_ptr<Opened>& opened);
     void readCamera();
+    void refreshReadOnly();
     void close();
     void wasChanged();
     void selectOf(const AnnotationEdit& edit);
@@ -115,6 +117,7 @@ class LabelSession : public QObject {
     mutable std::optional<std::vector<AttentionItem>> attention_;
     std::optional<ObjectId> selected_;
     std::set<ObjectId> selection_;
+    QTimer reread_;  ///< what another window changes is read now and then
     std::string drawn_class_ = "car";
     TaskThread thread_;  ///< last: stops before the rest goes
 };

@@ -4,6 +4,8 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
+#include <utility>
 
 #include "view/edged_painter.h"
 #include "view/label_layer.h"
@@ -13,9 +15,10 @@ namespace eyrie::ui {
 
 namespace {
 const QColor kEdge(12, 12, 14);
+const QColor kRegionColour(255, 160, 40);
 constexpr double kHitMargin = 4;      ///< logical px
 constexpr double kDragThreshold = 4;  ///< logical px
-constexpr double kLoupeFactor = 4;    ///< of the canvas' own scale …
+constexpr double kLoupeFactor = 2;    ///< of the canvas' own scale …
 constexpr double kLeastMagnification = 6;
 constexpr double kMostMagnification = 16;
 constexpr double kShortest = 2;  ///< px: clicks nearer than this are one
@@ -41,6 +44,28 @@ const LabelMark* LabelTool::selectedMark() const {
     return nullptr;
 }
 
+void LabelTool::startRegion() {
+    cancel();
+    region_.emplace();
+    emit regionDrawingChanged(true);
+    emit repaintNeeded();
+}
+
+void LabelTool::finishRegion() {
+    if (!region_) return;
+    const std::vector<cv::Point2d> polygon = *region_;
+    cancel();
+    if (polygon.size() >= 3) emit regionDrawn(polygon, scene_.frame);
+}
+
+void LabelTool::addRegionCorner(QPointF point) {
+    const cv::Point2d corner(point.x(), point.y());
+    // The second click of a double one is no corner.
+    if (!region_->empty() && cv::norm(region_->back() - corner) < kShortest) return;
+    region_->push_back(corner);
+    emit repaintNeeded();
+}
+
 void LabelTool::startDrawing() {
     cancel();
     drawing_ = true;
@@ -49,7 +74,8 @@ void LabelTool::startDrawing() {
 }
 
 bool LabelTool::cancel() {
-    const bool something = drawing_ || handle_;
+    const bool something = drawing_ || handle_ || region_;
+    const bool was_region = std::exchange(region_, std::nullopt).has_value();
     const bool was_drawing = std::exchange(drawing_, false);
     rear_.reset();
     front_.reset();
@@ -57,6 +83,7 @@ bool LabelTool::cancel() {
     draft_.reset();
     pressed_view_.reset();
     if (was_drawing) emit drawingChanged(false);
+    if (was_region) emit regionDrawingChanged(false);
     if (something) emit repaintNeeded();
     return something;
 }
@@ -87,6 +114,14 @@ void LabelTool::updateDraft(QPointF point) {
 }
 
 bool LabelTool::press(const QMouseEvent& event, const CanvasPlace& place) {
+    if (region_ && event.button() == Qt::RightButton) {
+        finishRegion();
+        return true;
+    }
+    if (region_ && event.button() == Qt::LeftButton) {
+        addRegionCorner(place.transform.imageFromView(event.position()));
+        return true;
+    }
     if (event.button() == Qt::RightButton && drawing_) {
         cancel();
         return true;
@@ -109,6 +144,11 @@ bool LabelTool::press(const QMouseEvent& event, const CanvasPlace& place) {
 
 bool LabelTool::move(const QMouseEvent& event, const CanvasPlace& place) {
     cursor_view_ = event.position();
+    cursor_image_ = place.transform.imageFromView(event.position());
+    if (region_) {
+        emit repaintNeeded();
+        return true;
+    }
     const QPointF point = place.transform.imageFromView(event.position());
     if (pressed_view_ && QLineF(*pressed_view_, event.position()).length() >= kDragThreshold) dragging_ = true;
     if (drawing_) {
@@ -139,6 +179,7 @@ bool LabelTool::move(const QMouseEvent& event, const CanvasPlace& place) {
 }
 
 bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
+    if (region_) return true;
     if (event.button() != Qt::LeftButton) return drawing_;
     const bool was_pressed = pressed_view_.has_value();
     pressed_view_.reset();
@@ -195,6 +236,11 @@ bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
 }
 
 bool LabelTool::doubleClick(const QMouseEvent& event, const CanvasPlace& place) {
+    if (region_) {
+        addRegionCorner(place.transform.imageFromView(event.position()));
+        finishRegion();
+        return true;
+    }
     // Two quick clicks draw as two slow ones do; on an object they do not zoom.
     if (drawing_) return press(event, place);
     const QPointF point = place.transform.imageFromView(event.position());
@@ -203,6 +249,7 @@ bool LabelTool::doubleClick(const QMouseEvent& event, const CanvasPlace& place) 
 
 void LabelTool::leave() {
     cursor_view_.reset();
+    cursor_image_.reset();
     hovered_.reset();
     emit repaintNeeded();
 }
@@ -211,7 +258,7 @@ const QCursor* LabelTool::cursor() const {
     static const QCursor cross(Qt::CrossCursor);
     static const QCursor move_all(Qt::SizeAllCursor);
     static const QCursor hand(Qt::PointingHandCursor);
-    if (drawing_) return &cross;
+    if (drawing_ || region_) return &cross;
     const auto handle = handle_ ? handle_ : hovered_;
     if (!handle) return nullptr;
     return *handle == BoxHandle::centre ? &move_all : &hand;
@@ -252,6 +299,15 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
         appendBox(lines, *draft_, place.transform, place.view);
         appendHeading(lines, *draft_, place.transform, place.view);
         drawEdgedLines(painter, lines, {scene_.drawn_colour, kEdge, 2});
+    }
+    if (region_) {
+        QPolygonF corners;
+        for (const cv::Point2d& corner : *region_) corners << place.transform.viewFromImage({corner.x, corner.y});
+        if (cursor_view_) corners << *cursor_view_;
+        painter.setPen(QPen(kRegionColour, 1.6, Qt::DashLine));
+        painter.setBrush(QBrush(QColor(255, 160, 40, 50)));
+        painter.drawPolygon(corners);
+        painter.setBrush(Qt::NoBrush);
     }
     const bool busy = drawing_ || (handle_ && dragging_);
     if (busy && loupe_shown_ && cursor_view_ && place.transform.scale() < kMostMagnification) {

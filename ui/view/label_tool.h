@@ -29,6 +29,11 @@ class LabelTool : public QObject, public CanvasTool {
     /// draws an upright one.
     void startDrawing();
     bool drawing() const { return drawing_; }
+    /// The next clicks are the corners of an ignore region; a double click or the right button ends it.
+    void startRegion();
+    bool drawingRegion() const { return region_.has_value(); }
+    /// Where the mouse is, image coordinates; nothing while it is elsewhere.
+    const std::optional<QPointF>& cursorInImage() const { return cursor_image_; }
     /// Gives up drawing or dragging; answers whether there was anything to give up.
     bool cancel();
     /// The box being drawn or dragged.
@@ -46,6 +51,9 @@ class LabelTool : public QObject, public CanvasTool {
     /// Something looks different.
     void repaintNeeded();
     void drawingChanged(bool drawing);
+    void regionDrawingChanged(bool drawing);
+    /// At least three corners, px of the frame.
+    void regionDrawn(const std::vector<cv::Point2d>& polygon, eyrie::FrameIndex frame);
     void boxDrawn(const eyrie::OrientedBox& box, eyrie::FrameIndex frame);
     /// `turned`: by its turning handle.
     void boxChanged(eyrie::ObjectId object, eyrie::FrameIndex frame, const eyrie::OrientedBox& box, bool turned,
@@ -59,6 +67,8 @@ class LabelTool : public QObject, public CanvasTool {
     void finishDrawing(const OrientedBox& box);
     double usualWidth(double length) const;
     void updateDraft(QPointF image_point);
+    void finishRegion();
+    void addRegionCorner(QPointF image_point);
 
     LabelScene scene_;
     bool text_shown_ = true;
@@ -74,6 +84,8 @@ class LabelTool : public QObject, public CanvasTool {
     OrientedBox start_box_;
     std::optional<OrientedBox> draft_;
     std::optional<QPointF> cursor_view_;
+    std::optional<QPointF> cursor_image_;
+    std::optional<std::vector<cv::Point2d>> region_;  ///< corners so far
 };
 
 }  // namespace eyrie::ui
