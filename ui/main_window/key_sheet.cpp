@@ -46,8 +46,7 @@ QWidget* sectionWidget(const QString& title, const QList<std::pair<QString, QStr
 
 }  // namespace
 
-KeySheet::KeySheet(const WindowActions& actions, QWidget* parent, const QList<ActionSection>& more)
-    : QDialog(parent) {
+KeySheet::KeySheet(const WindowActions& actions, QWidget* parent, const QList<ActionSection>& more) : QDialog(parent) {
     setWindowTitle(tr("Keys"));
     auto* content = new QWidget;
     auto* columns = new QHBoxLayout(content);

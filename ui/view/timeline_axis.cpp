@@ -128,8 +128,8 @@ std::string timeText(std::int64_t time_us, int decimals) {
     std::string result = negative ? "-" : "";
     result += text.data();
     if (places > 0) {
-        std::snprintf(text.data(), text.size(), ".%0*lld", places, static_cast<long long>(rounded % 1'000'000 / unit));
-        result += text.data();
+        const std::string digits = std::to_string(rounded % 1'000'000 / unit);
+        result += "." + std::string(static_cast<size_t>(places) - digits.size(), '0') + digits;
     }
     return result;
 }
