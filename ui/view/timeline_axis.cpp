@@ -129,7 +129,9 @@ std::string timeText(std::int64_t time_us, int decimals) {
     result += text.data();
     if (places > 0) {
         const std::string digits = std::to_string(rounded % 1'000'000 / unit);
-        result += "." + std::string(static_cast<size_t>(places) - digits.size(), '0') + digits;
+        result += '.';
+        result.append(static_cast<size_t>(places) - digits.size(), '0');
+        result += digits;
     }
     return result;
 }
