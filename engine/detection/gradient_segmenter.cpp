@@ -82,7 +82,7 @@ std::vector<cv::Rect2d> GradientSegmenter::segment(const MotionRoi& roi, Detecti
     closeGaps(binary, closed);
     cv::Mat labels;
     const std::vector<Region> regions = findRegions(closed, options_.min_box_area_px, labels);
-    std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors);
+    std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors, trace);
     if (trace != nullptr) {
         trace->add("binary", binary);
         trace->add("closed", closed);
@@ -97,7 +97,7 @@ std::vector<Detection> GradientSegmenter::detect(const MotionRoi& roi, Detection
     if (trace != nullptr) trace->add("raw", roi.image);
     if (roi.image.empty()) return {};
     const std::vector<cv::Rect2d> boxes = segment(roi, trace);
-    if (options_.fall_back && !component_boxes_.explain(boxes, roi.vectors))
+    if (options_.fall_back && !component_boxes_.explain(boxes, roi.vectors, trace))
         return clusterDetection(roi, cluster_margin_px_);
     std::vector<Detection> detections;
     detections.reserve(boxes.size());

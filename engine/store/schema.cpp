@@ -208,7 +208,44 @@ ALTER TABLE detection ADD COLUMN complete INTEGER NOT NULL DEFAULT 0;
 )sql");
 }
 
-constexpr std::array<Migration, 3> kMigrations{addRuns, addLabels, addComparisonsAndCompleteBoxes};
+// A plan and the figures of a point are JSON texts that engine/sweep writes and reads.
+void addSweeps(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE sweep (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    made_utc TEXT NOT NULL,
+    name TEXT NOT NULL,
+    point_count INTEGER NOT NULL,
+    plan TEXT NOT NULL
+);
+CREATE TABLE sweep_point (
+    sweep_id INTEGER NOT NULL REFERENCES sweep (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    seconds REAL,
+    figures TEXT NOT NULL,
+    PRIMARY KEY (sweep_id, position)
+) WITHOUT ROWID;
+)sql");
+}
+
+void addPresets(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE preset (
+    name TEXT PRIMARY KEY,
+    saved_utc TEXT NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE preset_value (
+    preset TEXT NOT NULL REFERENCES preset (name) ON DELETE CASCADE ON UPDATE CASCADE,
+    position INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    value TEXT NOT NULL,
+    PRIMARY KEY (preset, position)
+) WITHOUT ROWID;
+)sql");
+}
+
+constexpr std::array<Migration, 5> kMigrations{addRuns, addLabels, addComparisonsAndCompleteBoxes, addSweeps,
+                                               addPresets};
 
 }  // namespace
 
