@@ -15,7 +15,15 @@
 namespace eyrie {
 namespace {
 
-constexpr double kSupportMargin = 1.0;  ///< px; corners lie on the outline
+constexpr double kSupportMargin = 1.0;     ///< px; corners lie on the outline
+constexpr double kLowestDecision = -1000;  ///< the lowest threshold there can be
+
+/// Peaks of the decision functions of all scales, in their order.
+class DecisionPeaks : public PreparedArea {
+ public:
+    std::size_t bytes() const override { return hypotheses.capacity() * sizeof(WindowHypothesis) + sizeof *this; }
+    std::vector<WindowHypothesis> hypotheses;
+};
 
 /// The decision function laid over the search area, each value at its window's centre.
 cv::Mat overArea(const cv::Mat& decision, cv::Size rescaled, cv::Size area) {
@@ -59,6 +67,36 @@ bool SlidingWindowDetector::supported(const MotionRoi& roi, const cv::Rect2d& bo
     return inside >= std::max(1.0, options_.support_share * static_cast<double>(roi.vectors.size()));
 }
 
+bool SlidingWindowDetector::accepted(const MotionRoi& roi, const WindowHypothesis& found) const {
+    const cv::Point centre(cvRound(found.box.x + found.box.width / 2), cvRound(found.box.y + found.box.height / 2));
+    const bool in_video = cv::Rect({0, 0}, roi.inside.size()).contains(centre) && roi.inside.at<uchar>(centre) != 0;
+    return in_video && supported(roi, found.box);
+}
+
+std::unique_ptr<const PreparedArea> SlidingWindowDetector::prepare(const MotionRoi& roi) const {
+    if (roi.image.empty()) return nullptr;
+    auto peaks = std::make_unique<DecisionPeaks>();
+    SlidingWindowOptions lowest = options_;
+    lowest.decision_threshold = kLowestDecision;
+    for (const double scale : options_.scales()) {
+        cv::Mat decision;
+        for (const WindowHypothesis& found : scanAtScale(scanner_, roi.image, scale, lowest, scale_, decision))
+            peaks->hypotheses.push_back(found);
+    }
+    peaks->hypotheses.shrink_to_fit();
+    return peaks;
+}
+
+std::vector<Detection> SlidingWindowDetector::decide(const MotionRoi& roi, const PreparedArea* prepared) const {
+    const auto* peaks = dynamic_cast<const DecisionPeaks*>(prepared);
+    if (peaks == nullptr) return detect(roi);
+    std::vector<WindowHypothesis> hypotheses;
+    for (const WindowHypothesis& found : peaks->hypotheses) {
+        if (found.decision >= options_.decision_threshold && accepted(roi, found)) hypotheses.push_back(found);
+    }
+    return detectionsOf(roi, suppressOverlapping(std::move(hypotheses), options_.overlap_threshold));
+}
+
 std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, DetectionTrace* trace) const {
     if (trace != nullptr) trace->add("raw", roi.image);
     if (roi.image.empty()) return {};
@@ -66,11 +104,7 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
     for (const double scale : options_.scales()) {
         cv::Mat decision;
         for (const WindowHypothesis& found : scanAtScale(scanner_, roi.image, scale, options_, scale_, decision)) {
-            const cv::Point centre(cvRound(found.box.x + found.box.width / 2),
-                                   cvRound(found.box.y + found.box.height / 2));
-            const bool in_video =
-                cv::Rect({0, 0}, roi.inside.size()).contains(centre) && roi.inside.at<uchar>(centre) != 0;
-            if (in_video && supported(roi, found.box)) hypotheses.push_back(found);
+            if (accepted(roi, found)) hypotheses.push_back(found);
         }
         if (trace != nullptr) {
             const cv::Size rescaled = rescaledSize(roi.image.size(), scale, options_, scale_);
@@ -80,6 +114,11 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
     if (trace != nullptr) trace->add("first suppression", roi.image, boxesOf(hypotheses));
     hypotheses = suppressOverlapping(std::move(hypotheses), options_.overlap_threshold);
     if (trace != nullptr) trace->add("second suppression", roi.image, boxesOf(hypotheses));
+    return detectionsOf(roi, hypotheses);
+}
+
+std::vector<Detection> SlidingWindowDetector::detectionsOf(const MotionRoi& roi,
+                                                           const std::vector<WindowHypothesis>& hypotheses) const {
     std::vector<Detection> detections;
     for (const WindowHypothesis& hypothesis : hypotheses) {
         Detection detection;

@@ -31,15 +31,43 @@ void addWidened(DetectionTrace& trace, const DetectionTrace& inner, cv::Size who
     }
 }
 
+class BothPrepared : public PreparedArea {
+ public:
+    std::size_t bytes() const override {
+        return sizeof *this + (window ? window->bytes() : 0) + (gradient ? gradient->bytes() : 0);
+    }
+    std::unique_ptr<const PreparedArea> window;
+    std::unique_ptr<const PreparedArea> gradient;
+};
+
 }  // namespace
 
+std::unique_ptr<const PreparedArea> WindowAndGradientDetector::prepare(const MotionRoi& roi) const {
+    auto both = std::make_unique<BothPrepared>();
+    both->window = window_->prepare(roi);
+    both->gradient = gradient_->prepare(narrowed(roi, context_));
+    return both;
+}
+
+std::vector<Detection> WindowAndGradientDetector::decide(const MotionRoi& roi, const PreparedArea* prepared) const {
+    const auto* both = dynamic_cast<const BothPrepared*>(prepared);
+    if (both == nullptr) return detect(roi);
+    return joined(window_->decide(roi, both->window.get()),
+                  gradient_->decide(narrowed(roi, context_), both->gradient.get()));
+}
+
 std::vector<Detection> WindowAndGradientDetector::detect(const MotionRoi& roi, DetectionTrace* trace) const {
-    std::vector<Detection> found = window_->detect(roi, trace);
-    std::erase_if(found, [&](const Detection& d) { return !d.complete || d.score < options_.sure_decision; });
-    const auto windows = static_cast<std::ptrdiff_t>(found.size());
+    std::vector<Detection> windows = window_->detect(roi, trace);
     DetectionTrace inner;
     std::vector<Detection> segments = gradient_->detect(narrowed(roi, context_), trace != nullptr ? &inner : nullptr);
     if (trace != nullptr) addWidened(*trace, inner, roi.image.size());
+    return joined(std::move(windows), std::move(segments));
+}
+
+std::vector<Detection> WindowAndGradientDetector::joined(std::vector<Detection> found,
+                                                         std::vector<Detection> segments) const {
+    std::erase_if(found, [&](const Detection& d) { return !d.complete || d.score < options_.sure_decision; });
+    const auto windows = static_cast<std::ptrdiff_t>(found.size());
     for (Detection& segment : segments) {
         const double area = segment.box.area();
         const bool covered = std::any_of(found.begin(), found.begin() + windows, [&](const Detection& window) {
