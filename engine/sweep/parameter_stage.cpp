@@ -48,24 +48,18 @@ const char* nameOf(SweepStage stage) {
 
 SweepStage firstStageOf(const std::string& parameter) {
     static const std::map<std::string, SweepStage> stages{
-        {"registration", SweepStage::registration},
-        {"motion", SweepStage::motion},
-        {"difference", SweepStage::clustering},
-        {"clustering", SweepStage::clustering},
-        {"stacking", SweepStage::stacking},
-        {"detection", SweepStage::detection},
-        {"gradient", SweepStage::detection},
-        {"relative_connectivity", SweepStage::detection},
-        {"sliding_window", SweepStage::detection},
-        {"window_and_gradient", SweepStage::detection},
-        {"tophat_otsu", SweepStage::detection},
-        {"mser", SweepStage::detection},
-        {"canny_harris", SweepStage::detection},
-        {"duplicates", SweepStage::removal},
-        {"outliers", SweepStage::removal},
-        {"tracking", SweepStage::tracking},
+        {"registration", SweepStage::registration}, {"motion", SweepStage::motion},
+        {"difference", SweepStage::clustering},     {"clustering", SweepStage::clustering},
+        {"stacking", SweepStage::stacking},         {"detection", SweepStage::detection},
+        {"gradient", SweepStage::detection},        {"relative_connectivity", SweepStage::detection},
+        {"sliding_window", SweepStage::detection},  {"window_and_gradient", SweepStage::detection},
+        {"tophat_otsu", SweepStage::detection},     {"mser", SweepStage::detection},
+        {"canny_harris", SweepStage::detection},    {"duplicates", SweepStage::removal},
+        {"outliers", SweepStage::removal},          {"tracking", SweepStage::tracking},
         {"finishing", SweepStage::finishing},
     };
+    // It says where clusters come from; motion vectors are the same for all.
+    if (parameter == "motion.method") return SweepStage::clustering;
     const auto found = stages.find(parameter.substr(0, parameter.find('.')));
     if (found == stages.end() || parameter.find('.') == std::string::npos) {
         throw Error(ErrorKind::internal, "the parameter " + parameter + " belongs to no stage of the chain");

@@ -11,7 +11,8 @@ enum class SweepStage { registration, motion, clustering, stacking, detection, r
 inline constexpr int kSweepStageCount = 8;
 const char* nameOf(SweepStage stage);
 
-/// The first stage that a parameter touches, by the part of its name before the dot. Throws Error(internal) for a name
+/// The first stage that a parameter touches, by the part of its name before the dot (and by the
+/// whole name of motion.method). Throws Error(internal) for a name
 /// that belongs to no stage.
 SweepStage firstStageOf(const std::string& parameter);
 
