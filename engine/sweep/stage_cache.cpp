@@ -100,7 +100,7 @@ StageCache::StageCache(ClipFrames::Open open, FrameRange range, const SceneScale
     : frames_(std::move(open), range, options.frame_bytes), scale_(scale), options_(std::move(options)) {}
 
 void StageCache::tell(SweepStage stage, int done) const {
-    if (options_.progress) options_.progress(stage, done, frames_.count());
+    if (progress_) progress_(stage, done, frames_.count());
 }
 
 void StageCache::forFrames(const std::stop_token& stop,

@@ -27,8 +27,6 @@ struct ClipResult {
 struct StageCacheOptions {
     std::size_t frame_bytes = std::size_t{1} << 31U;  ///< frames kept in memory
     std::size_t area_bytes = std::size_t{1} << 30U;   ///< what detectors prepared, kept in memory
-    /// Told while a stage works through the frames of the clip one by one; from any thread, must be quick.
-    std::function<void(SweepStage stage, int done, int total)> progress;
 };
 
 /// Runs the chain over one clip again and again with changed parameters. Each time only what lies behind the first
@@ -43,6 +41,11 @@ class StageCache {
 
     /// Motion vectors of a stored run over exactly these frames, made with `options`: used instead of computing them.
     void useStoredMotion(const ChainOptions& options, std::vector<FrameMotion> motion);
+
+    /// Told while a stage works through the frames of the clip one by one; from any thread, must be quick. Not to be
+    /// changed while run() works.
+    using Progress = std::function<void(SweepStage stage, int done, int total)>;
+    void tellProgress(Progress progress) { progress_ = std::move(progress); }
 
     /// Nothing when `stop` was requested meanwhile. Throws Error(input | parameter).
     std::optional<ClipResult> run(const ChainOptions& options, const std::stop_token& stop);
@@ -89,6 +92,7 @@ class StageCache {
     ClipFrames frames_;
     SceneScale scale_;
     StageCacheOptions options_;
+    Progress progress_;
     Memo<Motion> motion_{2};
     Memo<Clusters> clusters_{6};
     Memo<AreaTable<Prepared>> prepared_{2};

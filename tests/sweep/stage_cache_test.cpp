@@ -195,11 +195,10 @@ TEST(StageCache, FramesThatDoNotFitIntoMemoryAreReadAgain) {
 
 TEST(StageCache, StopsAndGoesOn) {
     std::stop_source stop;
-    StageCacheOptions options;
-    options.progress = [&](SweepStage, int done, int) {
+    StageCache cache(opener(), {}, kScale);
+    cache.tellProgress([&](SweepStage, int done, int) {
         if (done == 5) stop.request_stop();
-    };
-    StageCache cache(opener(), {}, kScale, options);
+    });
     EXPECT_FALSE(cache.run(base(), stop.get_token()).has_value());
     EXPECT_TRUE(cache.run(base(), {}).has_value());
 }
