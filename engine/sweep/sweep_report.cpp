@@ -32,7 +32,7 @@ std::vector<Column> columnsFor(const SweepPlan& plan, const SweepCriterion& crit
         columns.push_back({title, {key, tracks, overlap, criterion.clip}});
     };
     for (const double overlap : plan.overlaps) {
-        const std::string at = "@" + shortestText(overlap);
+        const std::string at = std::string("@") + shortestText(overlap);
         add("prec" + at, "precision", criterion.tracks, overlap);
         add("rec" + at, "recall", criterion.tracks, overlap);
         add("f" + at, "f_score", criterion.tracks, overlap);
@@ -128,9 +128,9 @@ std::string tableText(const SweepTable& table, const SweepCriterion& criterion) 
 
 std::string csvText(const SweepTable& table) {
     std::string text;
-    for (const SweepAxis& axis : table.plan.axes) text += axis.name + ",";
+    for (const SweepAxis& axis : table.plan.axes) text.append(axis.name).append(",");
     text += "sequence,of,overlap";
-    for (const MeasureText& measure : sweepMeasures()) text += "," + measure.key;
+    for (const MeasureText& measure : sweepMeasures()) text.append(",").append(measure.key);
     text += '\n';
     for (const auto& [position, figures] : table.points) {
         for (const SweepFigures& one : figures) {
@@ -140,7 +140,8 @@ std::string csvText(const SweepTable& table) {
             text += shortestText(one.overlap);
             for (const MeasureText& measure : sweepMeasures()) {
                 const auto value = one.at(measure.key);
-                text += "," + (value ? shortestText(*value) : std::string());
+                text += ',';
+                if (value) text += shortestText(*value);
             }
             text += '\n';
         }
