@@ -115,7 +115,9 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
     }
     {
         const Stopwatch watch(times, Stage::removal);
-        result.detections = removeDuplicates(std::move(result.detections), result.motion, options_.duplicates, scale_);
+        removal_ = {};
+        result.detections =
+            removeDuplicates(std::move(result.detections), result.motion, options_.duplicates, scale_, &removal_);
         result.detections = removeOutliers(std::move(result.detections), result.motion, options_.outliers, scale_);
     }
     if (stacker_) {

@@ -48,6 +48,8 @@ class TrackHalf {
     std::vector<StackView> stackViews(const Frame& frame) const;
     /// What the difference images of the last frame showed; null where clusters come from motion vectors.
     const DifferenceResult* differences() const { return difference_ ? &last_difference_ : nullptr; }
+    /// What duplicate removal did in the last frame.
+    const RemovalTrace& removal() const { return removal_; }
     /// Looks once more at what was searched for one cluster of the last frame; several where several stacks fit it.
     std::vector<SearchTrace> trace(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
                                    int index) const;
@@ -67,6 +69,7 @@ class TrackHalf {
     std::unique_ptr<ImageStacker> stacker_;  ///< null: no stacking
     std::unique_ptr<Detector> detector_;
     Tracker tracker_;
+    RemovalTrace removal_;
 };
 
 /// The whole chain, one frame after the other, in the thesis' order.

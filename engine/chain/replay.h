@@ -18,6 +18,7 @@ struct ReplaySource {
     FrameIndex first_frame = 0;                                         ///< of the run
     std::function<Frame(FrameIndex)> pixels;                            ///< throws Error where it cannot be read
     std::function<std::optional<FrameMotion>(FrameIndex)> motion_of{};  ///< nothing: the run has no such frame
+    std::function<std::optional<FrameResult>(FrameIndex)> result_of{};  ///< all of a frame; for explanations only
 };
 
 /// The chain's parameters as a run stored them. Parameters that this version does not know, and values that it does
@@ -49,6 +50,8 @@ class Replay {
 
     /// The steps of the detection in one cluster of the frame that `at` answered last.
     std::vector<SearchTrace> trace(int cluster) const;
+    /// What duplicate removal did in the frame that `at` answered last.
+    const RemovalTrace& removal() const { return half_.removal(); }
 
     /// Frames that are processed before the one asked for, at most.
     int reach() const { return reach_; }

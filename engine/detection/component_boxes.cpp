@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace eyrie {
 namespace {
@@ -24,6 +25,20 @@ cv::Rect2d shrunk(const cv::Rect2d& box, double less_length, double less_width) 
     const double width = std::max(box.width - less_width, std::min(box.width, 1.0));
     const double height = std::max(box.height - less_length, std::min(box.height, 1.0));
     return {box.x + (box.width - width) / 2, box.y + (box.height - height) / 2, width, height};
+}
+
+/// Area of the box around the largest component, px².
+double largestArea(const cv::Mat& labels) {
+    std::map<int, cv::Rect> boxes;
+    for (int y = 0; y < labels.rows; ++y) {
+        for (int x = 0; x < labels.cols; ++x) {
+            const int label = labels.at<int>(y, x);
+            if (label > 0) boxes[label] |= cv::Rect(x, y, 1, 1);
+        }
+    }
+    int largest = 0;
+    for (const auto& [label, box] : boxes) largest = std::max(largest, box.area());
+    return largest;
 }
 
 double patternReach(const GradientOptions& options) {
@@ -115,32 +130,55 @@ cv::Rect2d ComponentBoxes::limited(const cv::Rect2d& box, const std::vector<cv::
 }
 
 std::vector<cv::Rect2d> ComponentBoxes::select(const std::vector<Region>& regions, const cv::Mat& labels,
-                                               const std::vector<cv::Point2f>& vectors) const {
+                                               const std::vector<cv::Point2f>& vectors, DetectionTrace* trace) const {
+    if (trace != nullptr && regions.empty()) {
+        trace->checks.push_back({"area of the largest component", "gradient.min_box_area", largestArea(labels),
+                                 static_cast<double>(options_.min_box_area_px), false, false});
+    }
     const cv::Rect2d core = grown(boundsOf(vectors), core_margin_, core_margin_);
     std::vector<cv::Rect2d> boxes;
     for (const Region& region : regions) {
         const cv::Rect2d box = boxOf(region, labels, core);
         if (box.width < 1 || box.height < 1) continue;
-        if (options_.need_support && !supported(box, vectors)) continue;
+        const bool enough = !options_.need_support || supported(box, vectors);
+        if (trace != nullptr && options_.need_support) {
+            const auto inside = static_cast<double>(pointsWithin(box, vectors, kSupportMargin).size());
+            const double needed = std::max(1.0, options_.support_share * static_cast<double>(vectors.size()));
+            trace->checks.push_back(
+                {"motion vectors in a component", "gradient.support_share", inside, needed, false, enough, box});
+        }
+        if (!enough) continue;
         boxes.push_back(box);
     }
     if (options_.join_components) join(boxes);
     std::vector<cv::Rect2d> selected;
     for (const cv::Rect2d& box : boxes) {
         const cv::Rect2d final_box = shrunk(limited(box, vectors), too_long_, too_wide_);
-        if (final_box.area() >= options_.min_box_area_px) selected.push_back(final_box);
+        const bool large_enough = final_box.area() >= options_.min_box_area_px;
+        if (trace != nullptr) {
+            trace->checks.push_back({"area of a box", "gradient.min_box_area", final_box.area(),
+                                     static_cast<double>(options_.min_box_area_px), false, large_enough, final_box});
+        }
+        if (large_enough) selected.push_back(final_box);
     }
     return selected;
 }
 
-bool ComponentBoxes::explain(const std::vector<cv::Rect2d>& boxes, const std::vector<cv::Point2f>& vectors) const {
+bool ComponentBoxes::explain(const std::vector<cv::Rect2d>& boxes, const std::vector<cv::Point2f>& vectors,
+                             DetectionTrace* trace) const {
     if (boxes.empty()) return false;
     std::size_t held = 0;
     for (const cv::Point2f& p : vectors) {
         held += std::any_of(boxes.begin(), boxes.end(),
                             [&](const cv::Rect2d& box) { return !pointsWithin(box, {p}, kSupportMargin).empty(); });
     }
-    return static_cast<double>(held) >= options_.fall_back_share * static_cast<double>(vectors.size());
+    const double needed = options_.fall_back_share * static_cast<double>(vectors.size());
+    const bool explained = static_cast<double>(held) >= needed;
+    if (trace != nullptr) {
+        trace->checks.push_back({"motion vectors that the boxes hold", "gradient.fall_back_share",
+                                 static_cast<double>(held), needed, false, explained});
+    }
+    return explained;
 }
 
 }  // namespace eyrie

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/scene_scale.h"
+#include "detection/detection_trace.h"
 #include "detection/gradient_options.h"
 #include "imaging/region_boxes.h"
 
@@ -24,12 +25,13 @@ class ComponentBoxes {
  public:
     ComponentBoxes(const GradientOptions& options, const SceneScale& scale);
 
-    /// `vectors`: the cluster's own; `labels`: as found by `findRegions`.
+    /// `vectors`: the cluster's own; `labels`: as found by `findRegions`. `trace`, if given, receives the checks.
     std::vector<cv::Rect2d> select(const std::vector<Region>& regions, const cv::Mat& labels,
-                                   const std::vector<cv::Point2f>& vectors) const;
+                                   const std::vector<cv::Point2f>& vectors, DetectionTrace* trace = nullptr) const;
 
     /// Whether the boxes together hold enough of the vectors to be believed.
-    bool explain(const std::vector<cv::Rect2d>& boxes, const std::vector<cv::Point2f>& vectors) const;
+    bool explain(const std::vector<cv::Rect2d>& boxes, const std::vector<cv::Point2f>& vectors,
+                 DetectionTrace* trace = nullptr) const;
 
  private:
     cv::Rect2d boxOf(const Region& region, const cv::Mat& labels, const cv::Rect2d& core) const;

@@ -93,7 +93,7 @@ std::vector<cv::Rect2d> GradientSegmenter::segment(const MotionRoi& roi, Detecti
     closeGaps(binary, closed);
     cv::Mat labels;
     const std::vector<Region> regions = findRegions(closed, options_.min_box_area_px, labels);
-    std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors);
+    std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors, trace);
     if (trace != nullptr) {
         trace->add("binary", binary);
         trace->add("closed", closed);
@@ -130,12 +130,12 @@ std::vector<Detection> GradientSegmenter::decide(const MotionRoi& roi, const Pre
 std::vector<Detection> GradientSegmenter::detect(const MotionRoi& roi, DetectionTrace* trace) const {
     if (trace != nullptr) trace->add("raw", roi.image);
     if (roi.image.empty()) return {};
-    return detectionsOf(roi, segment(roi, trace));
+    return detectionsOf(roi, segment(roi, trace), trace);
 }
 
-std::vector<Detection> GradientSegmenter::detectionsOf(const MotionRoi& roi,
-                                                       const std::vector<cv::Rect2d>& boxes) const {
-    if (options_.fall_back && !component_boxes_.explain(boxes, roi.vectors))
+std::vector<Detection> GradientSegmenter::detectionsOf(const MotionRoi& roi, const std::vector<cv::Rect2d>& boxes,
+                                                       DetectionTrace* trace) const {
+    if (options_.fall_back && !component_boxes_.explain(boxes, roi.vectors, trace))
         return clusterDetection(roi, cluster_margin_px_);
     std::vector<Detection> detections;
     detections.reserve(boxes.size());

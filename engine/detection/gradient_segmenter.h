@@ -28,7 +28,8 @@ class GradientSegmenter : public Detector {
  private:
     cv::Mat quantileMask(const MotionRoi& roi) const;
     std::vector<cv::Rect2d> segment(const MotionRoi& roi, DetectionTrace* trace) const;
-    std::vector<Detection> detectionsOf(const MotionRoi& roi, const std::vector<cv::Rect2d>& boxes) const;
+    std::vector<Detection> detectionsOf(const MotionRoi& roi, const std::vector<cv::Rect2d>& boxes,
+                                        DetectionTrace* trace = nullptr) const;
 
     GradientOptions options_;
     LbpGradientOptions lbp_;

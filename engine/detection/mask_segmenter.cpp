@@ -62,7 +62,7 @@ std::vector<cv::Rect2d> MaskSegmenter::segment(const MotionRoi& roi, DetectionTr
     const cv::Mat pixels = objectPixels(roi, trace) & roi.inside;
     cv::Mat labels;
     const std::vector<Region> regions = findRegions(pixels, components_.min_box_area_px, labels);
-    std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors);
+    std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors, trace);
     if (trace != nullptr) {
         cv::Mat components;
         labels.convertTo(components, CV_8U);
@@ -75,7 +75,7 @@ std::vector<Detection> MaskSegmenter::detect(const MotionRoi& roi, DetectionTrac
     if (trace != nullptr) trace->add("raw", roi.image);
     if (roi.image.empty()) return {};
     const std::vector<cv::Rect2d> boxes = segment(roi, trace);
-    if (components_.fall_back && !component_boxes_.explain(boxes, roi.vectors))
+    if (components_.fall_back && !component_boxes_.explain(boxes, roi.vectors, trace))
         return clusterDetection(roi, cluster_margin_px_);
     std::vector<Detection> detections;
     detections.reserve(boxes.size());

@@ -25,6 +25,14 @@ class DecisionPeaks : public PreparedArea {
     std::vector<WindowHypothesis> hypotheses;
 };
 
+constexpr double kNoDecision = -1e30;  ///< below: windows that were given up early
+
+double largestOf(const cv::Mat& decision) {
+    double largest = 2 * kNoDecision;
+    if (!decision.empty()) cv::minMaxLoc(decision, nullptr, &largest);
+    return largest;
+}
+
 /// The decision function laid over the search area, each value at its window's centre.
 cv::Mat overArea(const cv::Mat& decision, cv::Size rescaled, cv::Size area) {
     double lowest = 0;
@@ -41,6 +49,12 @@ cv::Mat overArea(const cv::Mat& decision, cv::Size rescaled, cv::Size area) {
     cv::Mat resized;
     cv::resize(whole, resized, area, 0, 0, cv::INTER_LINEAR);
     return resized;
+}
+
+/// Whether the middle of a window shows something.
+bool inVideo(const MotionRoi& roi, const WindowHypothesis& found) {
+    const cv::Point centre(cvRound(found.box.x + found.box.width / 2), cvRound(found.box.y + found.box.height / 2));
+    return cv::Rect({0, 0}, roi.inside.size()).contains(centre) && roi.inside.at<uchar>(centre) != 0;
 }
 
 std::vector<cv::Rect2d> boxesOf(const std::vector<WindowHypothesis>& hypotheses) {
@@ -68,9 +82,7 @@ bool SlidingWindowDetector::supported(const MotionRoi& roi, const cv::Rect2d& bo
 }
 
 bool SlidingWindowDetector::accepted(const MotionRoi& roi, const WindowHypothesis& found) const {
-    const cv::Point centre(cvRound(found.box.x + found.box.width / 2), cvRound(found.box.y + found.box.height / 2));
-    const bool in_video = cv::Rect({0, 0}, roi.inside.size()).contains(centre) && roi.inside.at<uchar>(centre) != 0;
-    return in_video && supported(roi, found.box);
+    return inVideo(roi, found) && supported(roi, found.box);
 }
 
 std::unique_ptr<const PreparedArea> SlidingWindowDetector::prepare(const MotionRoi& roi) const {
@@ -101,15 +113,28 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
     if (trace != nullptr) trace->add("raw", roi.image);
     if (roi.image.empty()) return {};
     std::vector<WindowHypothesis> hypotheses;
+    double best = kNoDecision;
     for (const double scale : options_.scales()) {
         cv::Mat decision;
         for (const WindowHypothesis& found : scanAtScale(scanner_, roi.image, scale, options_, scale_, decision)) {
             if (accepted(roi, found)) hypotheses.push_back(found);
+            if (trace != nullptr && options_.need_support && inVideo(roi, found)) {
+                const auto inside = static_cast<double>(pointsWithin(found.box, roi.vectors, kSupportMargin).size());
+                const double needed = std::max(1.0, options_.support_share * static_cast<double>(roi.vectors.size()));
+                trace->checks.push_back({"motion vectors in a window", "sliding_window.support_share", inside, needed,
+                                         false, supported(roi, found.box), found.box});
+            }
         }
         if (trace != nullptr) {
+            best = std::max(best, largestOf(decision));
             const cv::Size rescaled = rescaledSize(roi.image.size(), scale, options_, scale_);
             trace->add(layerName(scale), overArea(decision, rescaled, roi.image.size()));
         }
+    }
+    if (trace != nullptr && best > kNoDecision) {
+        trace->checks.insert(trace->checks.begin(),
+                             {"decision value of the best window", "sliding_window.decision_threshold", best,
+                              options_.decision_threshold, false, best >= options_.decision_threshold});
     }
     if (trace != nullptr) trace->add("first suppression", roi.image, boxesOf(hypotheses));
     hypotheses = suppressOverlapping(std::move(hypotheses), options_.overlap_threshold);

@@ -31,7 +31,8 @@ class WindowAndGradientDetector : public Detector {
     std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* prepared) const override;
 
  private:
-    std::vector<Detection> joined(std::vector<Detection> found, std::vector<Detection> segments) const;
+    std::vector<Detection> joined(const MotionRoi& roi, std::vector<Detection> found, std::vector<Detection> segments,
+                                  DetectionTrace* trace = nullptr) const;
 
     std::unique_ptr<Detector> window_;
     std::unique_ptr<Detector> gradient_;

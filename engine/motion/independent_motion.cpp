@@ -104,7 +104,48 @@ cv::Point2d IndependentMotion::presentVelocity(std::size_t corner, cv::Point2d n
     return mean + trust * change;
 }
 
-void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion) {
+double IndependentMotion::speedLimit(double min_speed, double sigma) const {
+    return std::max(min_speed, options_.sigma_factor * sigma);
+}
+
+CornerVerdict IndependentMotion::verdictOn(const Corner& corner, const Measured& measured, const Measured& slow,
+                                           const BackgroundNoise& noise) const {
+    CornerVerdict verdict;
+    verdict.id = corner.id;
+    verdict.position = corner.current;
+    verdict.age = corner.age;
+    verdict.on_background = corner.on_background;
+    const bool young = corner.age < options_.min_age || measured.baseline == 0;
+    const auto take = [&](const Measured& m, double min_speed, const char* name) {
+        const double sigma = noise.sigma(m.baseline);
+        const double limit = speedLimit(min_speed, sigma);
+        const double speed = length(m.velocity);
+        const bool closer = verdict.baseline == 0 || speed * verdict.limit > verdict.speed * limit;
+        if (m.baseline == 0 || !closer) return;
+        verdict.baseline = m.baseline;
+        verdict.speed = speed;
+        verdict.limit = limit;
+        if (options_.sigma_factor * sigma >= min_speed)
+            verdict.parameter = "motion.sigma_factor";
+        else
+            verdict.parameter = min_speed > options_.min_speed_px ? name : "motion.min_speed_px";
+    };
+    take(measured, min_speed_, "motion.min_speed");
+    if (options_.find_slow) take(slow, slow_min_speed_, "motion.slow_min_speed");
+    verdict.fate = CornerFate::slow;
+    if (young) {
+        verdict.fate = CornerFate::young;
+        verdict.parameter = "motion.min_age";
+    } else if (max_speed_ > 0 && verdict.speed > max_speed_) {
+        verdict.fate = CornerFate::too_fast;
+        verdict.parameter = "motion.max_speed";
+        verdict.limit = max_speed_;
+    }
+    return verdict;
+}
+
+void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion,
+                                    CornerVerdicts* verdicts) {
     const std::vector<Corner>& corners = registered.corners;
     std::vector<Measured> measured(corners.size());
     std::vector<Measured> slow(options_.find_slow ? corners.size() : 0);
@@ -159,7 +200,7 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
             if (m.baseline == 0 || corner.age < options_.min_age) return false;
             const double speed = length(m.velocity);
             if (max_speed_ > 0 && speed > max_speed_) return false;
-            return speed >= std::max(min_speed, options_.sigma_factor * noise.sigma(m.baseline));
+            return speed >= speedLimit(min_speed, noise.sigma(m.baseline));
         };
         const Measured* found = nullptr;
         if (moves(measured[i], min_speed_)) {
@@ -167,7 +208,16 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
         } else if (options_.find_slow && moves(slow[i], slow_min_speed_)) {
             found = &slow[i];
         }
-        if (found != nullptr && parallax_test_.explains(corner.current, found->velocity)) found = nullptr;
+        const bool parallax = found != nullptr && parallax_test_.explains(corner.current, found->velocity);
+        if (verdicts != nullptr) {
+            CornerVerdict verdict = verdictOn(corner, measured[i], options_.find_slow ? slow[i] : Measured{}, noise);
+            if (found != nullptr) {
+                verdict.fate = parallax ? CornerFate::parallax : CornerFate::moving;
+                verdict.parameter = parallax ? "motion.parallax_factor" : "";
+            }
+            verdicts->push_back(std::move(verdict));
+        }
+        if (parallax) found = nullptr;
         if (found == nullptr) {
             if (corner.on_background) motion.stationary_corners.push_back(corner.current);
         } else {
@@ -176,10 +226,10 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
             motion.motion_vectors.push_back({corner.id, corner.current, velocity, corner.age});
         }
     }
-    if (options_.shadow.enabled) leaveOutShadows(frame, motion);
+    if (options_.shadow.enabled) leaveOutShadows(frame, motion, verdicts);
 }
 
-void IndependentMotion::leaveOutShadows(const Frame& frame, FrameMotion& motion) {
+void IndependentMotion::leaveOutShadows(const Frame& frame, FrameMotion& motion, CornerVerdicts* verdicts) {
     shadow_test_.prepare(frame.gray);
     std::vector<MotionVector>& vectors = motion.motion_vectors;
     std::vector<char> looks_like_shadow;
@@ -189,12 +239,36 @@ void IndependentMotion::leaveOutShadows(const Frame& frame, FrameMotion& motion)
         shadow_owners_.castShadows(vectors, looks_like_shadow, motion.background_speed_sigma);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
-        if (!cast[i]) vectors[kept++] = vectors[i];
+        if (!cast[i]) {
+            vectors[kept++] = vectors[i];
+            continue;
+        }
+        if (verdicts == nullptr) continue;
+        const auto verdict = std::lower_bound(verdicts->begin(), verdicts->end(), vectors[i].id,
+                                              [](const CornerVerdict& v, CornerId id) { return v.id < id; });
+        verdict->fate = CornerFate::shadow;
+        verdict->parameter = "motion.shadow_brightest";
     }
     vectors.resize(kept);
 }
 
-FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Frame& frame) {
+bool IndependentMotion::follow(const RegisteredFrame& registered) {
+    const bool follows =
+        registered.registration.state != RegistrationState::first && extendPaths(registered.registration);
+    if (!follows) restart();
+    return follows;
+}
+
+void IndependentMotion::remember(const RegisteredFrame& registered) {
+    const RegistrationState state = registered.registration.state;
+    const bool repeats = follow(registered) && state == RegistrationState::frozen;
+    if (!repeats && state != RegistrationState::failed) takePicture(registered);
+    last_frame_ = registered.frame;
+    last_motion_ = {};
+}
+
+FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Frame& frame, CornerVerdicts* verdicts) {
+    if (verdicts != nullptr) verdicts->clear();
     FrameMotion motion;
     motion.frame = registered.frame;
     motion.time_us = frame.time_us;
@@ -203,15 +277,14 @@ FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Fra
     motion.corner_count = static_cast<int>(registered.corners.size());
 
     const RegistrationState state = registered.registration.state;
-    const bool follows = state != RegistrationState::first && extendPaths(registered.registration);
-    if (!follows) restart();
+    const bool follows = follow(registered);
     if (state == RegistrationState::frozen && follows) {
         motion.motion_vectors = last_motion_.motion_vectors;
         motion.stationary_corners = last_motion_.stationary_corners;
         motion.background_speed_sigma = last_motion_.background_speed_sigma;
     } else if (state != RegistrationState::failed) {
         takePicture(registered);
-        if (follows) sortCorners(registered, frame, motion);
+        if (follows) sortCorners(registered, frame, motion, verdicts);
     }
     last_frame_ = registered.frame;
     last_motion_ = motion;

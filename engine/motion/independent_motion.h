@@ -10,6 +10,7 @@
 #include "core/scene_scale.h"
 #include "motion/background_noise.h"
 #include "motion/corner_history.h"
+#include "motion/corner_verdict.h"
 #include "motion/independent_motion_options.h"
 #include "motion/shadow_owners.h"
 
@@ -26,8 +27,11 @@ class IndependentMotion {
     IndependentMotion(const IndependentMotionOptions& options, const SceneScale& scale);
 
     /// The motion of the next frame. `registered.corners` must ascend by id, else Error(internal). `frame.gray` is only
-    /// read by the shadow test and may be empty, which switches that test off for the frame.
-    FrameMotion next(const RegisteredFrame& registered, const Frame& frame);
+    /// read by the shadow test and may be empty, which switches that test off for the frame. `verdicts`, if given,
+    /// receives how every corner was judged.
+    FrameMotion next(const RegisteredFrame& registered, const Frame& frame, CornerVerdicts* verdicts = nullptr);
+    /// Takes a frame whose motion nobody asks for: what comes after is the same, but it costs next to nothing.
+    void remember(const RegisteredFrame& registered);
     void reset();
 
  private:
@@ -41,12 +45,18 @@ class IndependentMotion {
         cv::Point2d velocity{0, 0};
     };
     void restart();
+    bool follow(const RegisteredFrame& registered);
     bool extendPaths(const Registration& registration);
     void takePicture(const RegisteredFrame& registered);
     Measured measure(std::size_t corner, cv::Point2d now, int longest) const;
     cv::Point2d presentVelocity(std::size_t corner, cv::Point2d now, cv::Point2d mean, double sigma) const;
-    void leaveOutShadows(const Frame& frame, FrameMotion& motion);
-    void sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion);
+    void leaveOutShadows(const Frame& frame, FrameMotion& motion, CornerVerdicts* verdicts);
+    void sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion,
+                     CornerVerdicts* verdicts);
+    /// What the speed over `measured.baseline` frames must reach, and which parameter says so.
+    double speedLimit(double min_speed, double sigma) const;
+    CornerVerdict verdictOn(const Corner& corner, const Measured& measured, const Measured& slow,
+                            const BackgroundNoise& noise) const;
 
     IndependentMotionOptions options_;
     double min_speed_;

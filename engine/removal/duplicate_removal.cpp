@@ -74,8 +74,9 @@ void DuplicateRemovalOptions::describe(ParameterVisitor& visitor) {
 }
 
 std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const FrameMotion& motion,
-                                        const DuplicateRemovalOptions& options, const SceneScale& scale) {
-    detections = joinParts(std::move(detections), options.parts, scale);
+                                        const DuplicateRemovalOptions& options, const SceneScale& scale,
+                                        RemovalTrace* trace) {
+    detections = joinParts(std::move(detections), options.parts, scale, trace);
     SupportRule rule;
     rule.compare_velocity = options.compare_speed;
     for (Detection& detection : detections) {
@@ -105,6 +106,13 @@ std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const
             fuse(*first, *second, motion, options);
         } else {
             fuse(*second, *first, motion, options);
+        }
+        if (trace != nullptr) {
+            const bool first_stays = first->rejection == Rejection::none;
+            const auto a = static_cast<int>(first - detections.data());
+            const auto b = static_cast<int>(second - detections.data());
+            trace->duplicates.push_back(
+                {first_stays ? b : a, first_stays ? a : b, strongest, options.threshold, "duplicates.threshold"});
         }
     }
 }

@@ -42,8 +42,9 @@ struct DuplicateRemovalOptions {
 
 /// Removes duplicates, after joining the parts of vehicles; the strongest overlap first. Fused or suppressed detections
 /// stay in the list with Rejection::duplicate. Vectors and velocity of every detection that is kept are measured anew
-/// from the motion vectors inside its box.
+/// from the motion vectors inside its box. `trace`, if given, is added to.
 std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const FrameMotion& motion,
-                                        const DuplicateRemovalOptions& options, const SceneScale& scale);
+                                        const DuplicateRemovalOptions& options, const SceneScale& scale,
+                                        RemovalTrace* trace = nullptr);
 
 }  // namespace eyrie

@@ -6,16 +6,20 @@
 #include "removal/vector_support.h"
 
 namespace eyrie {
-namespace {
-
-bool impossibleSize(const OrientedBox& box, const OutlierRemovalOptions& options, const SceneScale& scale) {
-    if (!std::isfinite(box.area()) || box.area() < options.min_area_px) return true;
-    if (box.length < scale.px(options.min_length_m)) return true;
-    if (options.max_length_m > 0 && box.length > scale.px(options.max_length_m)) return true;
-    return options.max_width_m > 0 && box.width > scale.px(options.max_width_m);
+std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const OutlierRemovalOptions& options,
+                                           const SceneScale& scale) {
+    const double shortest = scale.px(options.min_length_m);
+    const double longest = scale.px(options.max_length_m);
+    const double widest = scale.px(options.max_width_m);
+    if (!std::isfinite(box.area()) || box.area() < options.min_area_px)
+        return BrokenLimit{"outliers.min_area", box.area(), options.min_area_px, false};
+    if (box.length < shortest) return BrokenLimit{"outliers.min_length", box.length, shortest, false};
+    if (options.max_length_m > 0 && box.length > longest)
+        return BrokenLimit{"outliers.max_length", box.length, longest, true};
+    if (options.max_width_m > 0 && box.width > widest)
+        return BrokenLimit{"outliers.max_width", box.width, widest, true};
+    return std::nullopt;
 }
-
-}  // namespace
 
 OutlierRemovalOptions OutlierRemovalOptions::thesis() {
     OutlierRemovalOptions options;
@@ -46,13 +50,18 @@ void OutlierRemovalOptions::describe(ParameterVisitor& visitor) {
     visitor.real("outliers.max_width", max_width_m, 0, 500, {"m", "Wider boxes are rejected; 0: no limit.", ""});
 }
 
+int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& options, const SceneScale& scale) {
+    const double expected = cornerDensity(motion) * carArea(scale);
+    const auto by_density = static_cast<int>(
+        std::min(std::round(options.min_density_share * expected), static_cast<double>(options.max_min_vectors)));
+    return std::max(options.min_vectors, by_density);
+}
+
 std::vector<Detection> removeOutliers(std::vector<Detection> detections, const FrameMotion& motion,
                                       const OutlierRemovalOptions& options, const SceneScale& scale) {
     const double density = cornerDensity(motion);
     const double car = carArea(scale);
-    const auto by_density = static_cast<int>(
-        std::min(std::round(options.min_density_share * density * car), static_cast<double>(options.max_min_vectors)));
-    const auto needed = static_cast<std::size_t>(std::max(options.min_vectors, by_density));
+    const auto needed = static_cast<std::size_t>(vectorsNeeded(motion, options, scale));
     SupportRule rule;
     rule.compare_velocity = options.compare_velocity;
     for (Detection& detection : detections) {
@@ -66,7 +75,7 @@ std::vector<Detection> removeOutliers(std::vector<Detection> detections, const F
         }
         if (detection.vectors.size() < needed) {
             detection.rejection = Rejection::outlier;
-        } else if (impossibleSize(detection.box, options, scale)) {
+        } else if (brokenSizeLimit(detection.box, options, scale)) {
             detection.rejection = Rejection::size;
         }
     }

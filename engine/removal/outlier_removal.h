@@ -6,6 +6,7 @@
 #include "core/motion_vector.h"
 #include "core/parameter.h"
 #include "core/scene_scale.h"
+#include "removal/removal_trace.h"
 
 namespace eyrie {
 
@@ -24,6 +25,13 @@ struct OutlierRemovalOptions {
     static OutlierRemovalOptions thesis();
     void describe(ParameterVisitor& visitor);
 };
+
+/// T_out in a frame of this density of corners.
+int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& options, const SceneScale& scale);
+
+/// The first size limit that a box breaks; nothing when it is of a possible size.
+std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const OutlierRemovalOptions& options,
+                                           const SceneScale& scale);
 
 /// Rejects detections without enough motion vectors inside, or of an impossible size; they stay in the list with
 /// Rejection::outlier or Rejection::size. Sets vectors and velocity from the vectors inside, and the score of

@@ -59,7 +59,7 @@ void PartJoiningOptions::describe(ParameterVisitor& visitor) {
 }
 
 std::vector<Detection> joinParts(std::vector<Detection> detections, const PartJoiningOptions& options,
-                                 const SceneScale& scale) {
+                                 const SceneScale& scale, RemovalTrace* trace) {
     if (!options.enabled) return detections;
     const Limits limits{scale.px(options.car_length_m), scale.px(options.part_length_m),
                         scale.px(options.vehicle_length_m), std::max(4.0, scale.px(options.vehicle_width_m))};
@@ -86,6 +86,13 @@ std::vector<Detection> joinParts(std::vector<Detection> detections, const PartJo
             }
         }
         if (first == nullptr) return detections;
+        if (trace != nullptr) {
+            const bool parts = std::max(first->box.length, second->box.length) <= limits.part_length;
+            trace->duplicates.push_back({static_cast<int>(second - detections.data()),
+                                         static_cast<int>(first - detections.data()), box.length,
+                                         parts ? limits.vehicle_length : limits.car_length,
+                                         parts ? "duplicates.part_vehicle_length" : "duplicates.part_car_length"});
+        }
         const double area = first->box.area() + second->box.area();
         if (area > 0) {
             first->velocity = (first->velocity * first->box.area() + second->velocity * second->box.area()) / area;

@@ -5,6 +5,7 @@
 #include "core/detection.h"
 #include "core/parameter.h"
 #include "core/scene_scale.h"
+#include "removal/removal_trace.h"
 
 namespace eyrie {
 
@@ -24,8 +25,9 @@ struct PartJoiningOptions {
 };
 
 /// Fuses parts of one vehicle into their union, the closest pair first. The second of a pair stays in the list with
-/// Rejection::duplicate. Velocities become the mean weighted by area; vectors are not touched.
+/// Rejection::duplicate. Velocities become the mean weighted by area; vectors are not touched. `trace`, if given, is
+/// added to.
 std::vector<Detection> joinParts(std::vector<Detection> detections, const PartJoiningOptions& options,
-                                 const SceneScale& scale);
+                                 const SceneScale& scale, RemovalTrace* trace = nullptr);
 
 }  // namespace eyrie

@@ -228,7 +228,24 @@ CREATE TABLE sweep_point (
 )sql");
 }
 
-constexpr std::array<Migration, 4> kMigrations{addRuns, addLabels, addComparisonsAndCompleteBoxes, addSweeps};
+void addPresets(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE preset (
+    name TEXT PRIMARY KEY,
+    saved_utc TEXT NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE preset_value (
+    preset TEXT NOT NULL REFERENCES preset (name) ON DELETE CASCADE ON UPDATE CASCADE,
+    position INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    value TEXT NOT NULL,
+    PRIMARY KEY (preset, position)
+) WITHOUT ROWID;
+)sql");
+}
+
+constexpr std::array<Migration, 5> kMigrations{addRuns, addLabels, addComparisonsAndCompleteBoxes, addSweeps,
+                                               addPresets};
 
 }  // namespace
 

@@ -107,17 +107,28 @@ bool TrackManager::leaving(const Track& track, cv::Size image) const {
     return areaInImage(later, image) < visible;
 }
 
-bool TrackManager::ended(const Track& track, cv::Size image) const {
+std::optional<TrackManager::End> TrackManager::endOf(const Track& track, cv::Size image) const {
     const OrientedBox box = track.filter.box();
-    if (!std::isfinite(box.centre.x) || !std::isfinite(box.centre.y) || !std::isfinite(box.area())) return true;
-    if (image.area() > 0 && !(areaInImage(box, image) > min_visible_ * box.area())) return true;
-    if (track.status == TrackStatus::tentative) return track.missing > max_missing_tentative_;
+    if (!std::isfinite(box.centre.x) || !std::isfinite(box.centre.y) || !std::isfinite(box.area()))
+        return End{"tracking.min_visible", 0, min_visible_};
+    const double visible = image.area() > 0 ? areaInImage(box, image) : box.area();
+    if (image.area() > 0 && !(visible > min_visible_ * box.area()))
+        return End{"tracking.min_visible", box.area() > 0 ? visible / box.area() : 0, min_visible_};
+    if (track.status == TrackStatus::tentative) {
+        if (track.missing <= max_missing_tentative_) return std::nullopt;
+        return End{"tracking.max_missing_tentative", 1.0 * track.missing, 1.0 * max_missing_tentative_};
+    }
     int limit = max_missing_;
-    if (track.stopped) limit = std::max(limit, max_stopped_);
+    const char* parameter = "tracking.max_missing";
+    if (track.stopped && max_stopped_ > limit) {
+        limit = max_stopped_;
+        parameter = "tracking.max_stopped";
+    }
     if (image.area() > 0 && track.predicted_streak > limit && leaving(track, image)) {
         limit = std::max(limit, max_leaving_);
     }
-    return track.predicted_streak > limit;
+    if (track.predicted_streak <= limit) return std::nullopt;
+    return End{parameter, 1.0 * track.predicted_streak, 1.0 * limit};
 }
 
 bool TrackManager::alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b, cv::Point2d velocity_b,

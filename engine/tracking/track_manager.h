@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core/types.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/scene_scale.h"
@@ -23,8 +24,15 @@ class TrackManager {
     bool established(const Track& track) const { return track.hits >= confirm_hits_; }
     /// Whether the track was in separate parts for so long that it must be several objects.
     bool givesUpParts(const Track& track) const;
-    /// Whether the track's life is over.
-    bool ended(const Track& track, cv::Size image) const;
+    /// What ended a track's life.
+    struct End {
+        const char* parameter;
+        double value;  ///< frames without evidence, or share of the box in the image; compared with …
+        double limit;
+    };
+    /// Whether the track's life is over, and why.
+    std::optional<End> endOf(const Track& track, cv::Size image) const;
+    bool ended(const Track& track, cv::Size image) const { return endOf(track, image).has_value(); }
     /// Deletes the younger of two tracks that lie on each other and move alike, and tracks that hold several reliable
     /// ones. `slow_speed`: px/frame below which speeds do not differ.
     void suppressDuplicates(std::vector<Track>& tracks, double slow_speed) const;

@@ -55,7 +55,9 @@ void Tracker::reset() {
     failed_frames_ = 0;
 }
 
-std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vector<Detection>& detections) {
+std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vector<Detection>& detections,
+                                      TrackingTrace* trace) {
+    if (trace != nullptr) *trace = {};
     model_.startFrame(motion.image_size, motion.background_speed_sigma);
     if (isCut(motion.registration)) tracks_.clear();
     switch (motion.registration.state) {
@@ -67,7 +69,7 @@ std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vect
             break;
         case RegistrationState::first:
         case RegistrationState::registered:
-            follow(motion, detections);
+            follow(motion, detections, trace);
             break;
     }
     std::vector<TrackState> states;
@@ -113,17 +115,23 @@ void Tracker::predict(const FrameMotion& motion) {
     frozen_frames_ = 0;
 }
 
-void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& detections) {
+void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace) {
     failed_frames_ = 0;
     predict(motion);
     std::vector<const Detection*> found;
     std::vector<MovingBox> detected;
-    for (const Detection& detection : detections) {
+    std::vector<int> positions;  // in `detections`
+    for (std::size_t i = 0; i < detections.size(); ++i) {
+        const Detection& detection = detections[i];
         if (!usable(detection)) continue;
         found.push_back(&detection);
         detected.push_back({detection.box, detection.velocity, 0, 0});
+        positions.push_back(static_cast<int>(i));
     }
-    const FrameAssociation association = associate(detected, predictedBoxes(), motion.image_size);
+    const std::vector<MovingBox> predicted = predictedBoxes();
+    const OverlapMatrix matrix = overlapMatrix(detected, predicted, motion.image_size);
+    const FrameAssociation association = associate(matrix, detected, predicted);
+    if (trace != nullptr) traceAssociation(matrix, association, predicted, positions, *trace);
 
     const FrameVectors vectors(motion.motion_vectors);
     for (std::size_t j = 0; j < tracks_.size(); ++j) {
@@ -131,9 +139,17 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
         updateTrack(tracks_[j], association.tracks[j], found, vectors);
         manager_.count(tracks_[j], model_.slowSpeed());
     }
+    if (trace != nullptr) traceEnds(motion.image_size, *trace);
     std::erase_if(tracks_, [&](const Track& track) { return manager_.ended(track, motion.image_size); });
     manager_.suppressDuplicates(tracks_, model_.slowSpeed());
-    startTracks(found, association.used);
+    if (trace != nullptr) {
+        for (TracedTrack& traced : trace->tracks) {
+            const bool lives =
+                std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) { return track.id == traced.id; });
+            if (!lives && traced.ended_by.empty()) traced.ended_by = "tracking.suppress_duplicates";
+        }
+    }
+    startTracks(found, association.used, positions, trace);
     if (options_.use_vectors) associateMotionVectors(vectors);
 }
 
@@ -151,20 +167,57 @@ std::vector<MovingBox> Tracker::predictedBoxes() const {
     return boxes;
 }
 
-FrameAssociation Tracker::associate(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
-                                    cv::Size image) const {
+OverlapMatrix Tracker::overlapMatrix(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
+                                     cv::Size image) const {
     OverlapGate gate;
     gate.min_overlap = options_.min_overlap;
     gate.max_turn = options_.max_turn_deg >= 180 ? 2 * kPi : radiansFromDegrees(options_.max_turn_deg);
     gate.slow_speed = model_.slowSpeed();
     gate.image = image;
+    return OverlapMatrix(detected, predicted, gate);
+}
+
+FrameAssociation Tracker::associate(const OverlapMatrix& matrix, const std::vector<MovingBox>& detected,
+                                    const std::vector<MovingBox>& predicted) const {
     std::vector<TrackAuthority> authority;
     for (const Track& track : tracks_) {
         authority.push_back({track.status != TrackStatus::tentative, manager_.established(track),
                              track.hits >= kHitsToBeMerged, manager_.givesUpParts(track)});
     }
-    return associateDetections(OverlapMatrix(detected, predicted, gate), detected, predicted, authority,
-                               options_.split_merge, options_.part_containment, manager_.oneVehicle());
+    return associateDetections(matrix, detected, predicted, authority, options_.split_merge, options_.part_containment,
+                               manager_.oneVehicle());
+}
+
+void Tracker::traceAssociation(const OverlapMatrix& matrix, const FrameAssociation& association,
+                               const std::vector<MovingBox>& predicted, const std::vector<int>& positions,
+                               TrackingTrace& trace) const {
+    trace.min_overlap = options_.min_overlap;
+    trace.gate_px = gate_;
+    const auto position = [&](int detection) { return positions[static_cast<std::size_t>(detection)]; };
+    for (const BoxRelation& relation : matrix.relations()) {
+        trace.relations.push_back({position(relation.detection), tracks_[static_cast<std::size_t>(relation.track)].id,
+                                   relation.overlap, relation.accepted});
+    }
+    for (std::size_t j = 0; j < tracks_.size(); ++j) {
+        TracedTrack traced;
+        traced.id = tracks_[j].id;
+        traced.predicted = predicted[j].box;
+        traced.kind = association.tracks[j].kind;
+        if (association.tracks[j].detection >= 0)
+            traced.detections.push_back(position(association.tracks[j].detection));
+        for (const int part : association.tracks[j].parts) traced.detections.push_back(position(part));
+        trace.tracks.push_back(std::move(traced));
+    }
+}
+
+void Tracker::traceEnds(cv::Size image, TrackingTrace& trace) const {
+    for (std::size_t j = 0; j < tracks_.size(); ++j) {
+        if (const auto end = manager_.endOf(tracks_[j], image)) {
+            trace.tracks[j].ended_by = end->parameter;
+            trace.tracks[j].ended_value = end->value;
+            trace.tracks[j].ended_limit = end->limit;
+        }
+    }
 }
 
 void Tracker::updateTrack(Track& track, const TrackAssociation& association,
@@ -243,15 +296,20 @@ bool Tracker::updateByVectors(Track& track, const FrameVectors& vectors) {
     return rebuilt && track.filter.update(model_.reconstructed(*rebuilt));
 }
 
-void Tracker::startTracks(const std::vector<const Detection*>& detections, const std::vector<char>& used) {
+void Tracker::startTracks(const std::vector<const Detection*>& detections, const std::vector<char>& used,
+                          const std::vector<int>& positions, TrackingTrace* trace) {
     const std::size_t known = tracks_.size();
     std::vector<Track> born;
     for (std::size_t i = 0; i < detections.size(); ++i) {
         const Detection& detection = *detections[i];
         if (used[i]) continue;
-        if (manager_.wouldDuplicate(detection.box, detection.velocity, tracks_, model_.slowSpeed())) continue;
+        if (manager_.wouldDuplicate(detection.box, detection.velocity, tracks_, model_.slowSpeed())) {
+            if (trace != nullptr) trace->doubled.push_back(positions[i]);
+            continue;
+        }
         Track track(model_.first(detection));
         track.id = next_id_++;
+        if (trace != nullptr) trace->started.emplace_back(positions[i], track.id);
         track.whole_hits = 1;
         track.filter.pointForward(model_.slowSpeed());
         if (options_.confirm_hits <= 1) track.status = TrackStatus::confirmed;

@@ -10,6 +10,7 @@
 #include "tracking/track.h"
 #include "tracking/track_manager.h"
 #include "tracking/tracker_options.h"
+#include "tracking/tracking_trace.h"
 
 namespace eyrie {
 
@@ -21,8 +22,10 @@ class Tracker {
 
     /// The states of all living tracks in this frame, tentative ones too, in ascending id. Detections that were
     /// rejected or are not finite are ignored. Frames must come in order; in a frame whose registration failed all
-    /// tracks are predicted, in a frozen one nothing moves, and after a cut all tracks end.
-    std::vector<TrackState> next(const FrameMotion& motion, const std::vector<Detection>& detections);
+    /// tracks are predicted, in a frozen one nothing moves, and after a cut all tracks end. `trace`, if given, receives
+    /// how detections and tracks were joined.
+    std::vector<TrackState> next(const FrameMotion& motion, const std::vector<Detection>& detections,
+                                 TrackingTrace* trace = nullptr);
 
     /// Forgets all tracks; ids start from 1 again.
     void reset();
@@ -30,16 +33,23 @@ class Tracker {
  private:
     void coastThroughFrozen();
     void coastThroughFailed(const FrameMotion& motion);
-    void follow(const FrameMotion& motion, const std::vector<Detection>& detections);
+    void follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace);
     void predict(const FrameMotion& motion);
     std::vector<MovingBox> predictedBoxes() const;
-    FrameAssociation associate(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
-                               cv::Size image) const;
+    OverlapMatrix overlapMatrix(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
+                                cv::Size image) const;
+    FrameAssociation associate(const OverlapMatrix& matrix, const std::vector<MovingBox>& detected,
+                               const std::vector<MovingBox>& predicted) const;
+    void traceAssociation(const OverlapMatrix& matrix, const FrameAssociation& association,
+                          const std::vector<MovingBox>& predicted, const std::vector<int>& positions,
+                          TrackingTrace& trace) const;
+    void traceEnds(cv::Size image, TrackingTrace& trace) const;
     void updateTrack(Track& track, const TrackAssociation& association, const std::vector<const Detection*>& detections,
                      const FrameVectors& vectors);
     bool updateByDetection(Track& track, const OrientedBox& box, const Detection& detection);
     bool updateByVectors(Track& track, const FrameVectors& vectors);
-    void startTracks(const std::vector<const Detection*>& detections, const std::vector<char>& used);
+    void startTracks(const std::vector<const Detection*>& detections, const std::vector<char>& used,
+                     const std::vector<int>& positions, TrackingTrace* trace);
     void associateMotionVectors(const FrameVectors& vectors);
 
     TrackerOptions options_;

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+
+#include "chain/explanation_steps.h"
+#include "detection/detection_options.h"
+#include "removal/outlier_removal.h"
+
+namespace eyrie::explaining {
+namespace {
+
+/// A box in a search area as it lies in the image.
+OrientedBox inImage(const MotionRoi& roi, const cv::Rect2d& box) {
+    const cv::Matx23d& map = roi.image_from_roi;
+    const cv::Point2d centre(box.x + box.width / 2, box.y + box.height / 2);
+    OrientedBox result = roi.box;
+    result.centre = {map(0, 0) * centre.x + map(0, 1) * centre.y + map(0, 2),
+                     map(1, 0) * centre.x + map(1, 1) * centre.y + map(1, 2)};
+    result.length = box.height;
+    result.width = box.width;
+    return result;
+}
+
+bool concerns(const DetectionTrace::Check& check, const MotionRoi& roi, const OrientedBox& area) {
+    return check.box.area() <= 0 || atPlace(inImage(roi, check.box), area);
+}
+
+std::string checkText(const DetectionTrace::Check& check) {
+    return check.what + ": " + numberText(check.value) + (check.at_most ? ", at most " : ", at least ") +
+           numberText(check.limit);
+}
+
+/// How close a failed check came, 1: to its limit.
+double closeness(const DetectionTrace::Check& check) {
+    const double gap = std::abs(check.value - check.limit) / std::max(std::abs(check.limit), 1.0);
+    return 1 / (1 + gap);
+}
+
+}  // namespace
+
+bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<int>& detections) {
+    const PlaceEvidence& evidence = story.evidence;
+    const auto& found = evidence.result.detections;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const bool of_cluster = std::find(clusters.begin(), clusters.end(), found[i].cluster) != clusters.end();
+        const bool here = atPlace(found[i].box, evidence.area);
+        if (here && (of_cluster || clusters.empty())) detections.push_back(static_cast<int>(i));
+    }
+    const DetectionTrace::Check* decider = nullptr;
+    for (const SearchTrace& search : evidence.searches) {
+        if (std::find(clusters.begin(), clusters.end(), search.roi.cluster) == clusters.end()) continue;
+        story.note("search area",
+                   story.lengthText(search.roi.box.length) + " × " + story.lengthText(search.roi.box.width) +
+                       (search.roi.stack_layers > 0
+                            ? ", from a stack of " + std::to_string(search.roi.stack_layers) + " layers"
+                            : std::string()),
+                   "detection.extend_along");
+        for (const DetectionTrace::Check& check : search.trace.checks) {
+            if (!concerns(check, search.roi, evidence.area)) continue;
+            if (check.passed) {
+                story.pass("detection", checkText(check), check.parameter);
+                continue;
+            }
+            // Where others passed, a failed one is no more than a remark.
+            if (detections.empty())
+                story.fail("detection", checkText(check), check.parameter);
+            else
+                story.note("detection", checkText(check), check.parameter);
+            if (decider == nullptr || closeness(check) >= closeness(*decider)) decider = &check;
+        }
+    }
+    if (!detections.empty()) {
+        for (const int index : detections) {
+            const Detection& detection = found[static_cast<std::size_t>(index)];
+            story.pass("detection", std::string(nameOf(story.options.detection.method)) + " delivers a box of " +
+                                        story.lengthText(detection.box.length) + " × " +
+                                        story.lengthText(detection.box.width));
+        }
+        return true;
+    }
+    story.fail("detection", "no box here");
+    if (decider != nullptr) {
+        story.decide("The detector found no box here; closest was: " + checkText(*decider), decider->parameter);
+    } else {
+        story.decide("The cluster was searched, but the detector put no box here", "detection.method");
+    }
+    return false;
+}
+
+bool tellRemoval(Story& story, std::vector<int>& detections) {
+    const PlaceEvidence& evidence = story.evidence;
+    const auto& found = evidence.result.detections;
+    const int needed = vectorsNeeded(evidence.result.motion, story.options.outliers, story.scale);
+    const bool by_density = needed > story.options.outliers.min_vectors;
+    const std::string count_parameter = by_density ? "outliers.min_density_share" : "outliers.min_vectors";
+    std::vector<int> kept;
+    std::string why;
+    std::string parameter;
+    for (const int index : detections) {
+        const Detection& detection = found[static_cast<std::size_t>(index)];
+        const std::string vectors = countText(detection.vectors.size(), "motion vector", "motion vectors") +
+                                    " move with the box, " + std::to_string(needed) + " are needed";
+        switch (detection.rejection) {
+            case Rejection::none:
+                story.pass("removal", vectors, count_parameter);
+                kept.push_back(index);
+                break;
+            case Rejection::duplicate: {
+                const auto& pairs = evidence.removal.duplicates;
+                const auto pair = std::find_if(pairs.begin(), pairs.end(),
+                                               [&](const RemovedDuplicate& d) { return d.removed == index; });
+                if (pair == pairs.end()) {
+                    story.note("removal", "given up as a duplicate of another detection", "duplicates.threshold");
+                    why = "The detection here was given up as a duplicate of another";
+                    parameter = "duplicates.threshold";
+                    break;
+                }
+                const bool parts = pair->parameter != "duplicates.threshold";
+                const std::string text =
+                    parts ? "joined with another part of a vehicle: together " + story.lengthText(pair->value) +
+                                " long, up to " + story.lengthText(pair->limit) + " are one vehicle"
+                          : "given up as a duplicate: overlaps another detection by " + numberText(pair->value) +
+                                ", duplicates overlap by " + numberText(pair->limit);
+                story.note("removal", text, pair->parameter);
+                why = "The detection here was " + text;
+                parameter = pair->parameter;
+                break;
+            }
+            case Rejection::outlier:
+                story.fail("removal", vectors, count_parameter);
+                why = "The detection here was removed as an outlier: " +
+                      countText(detection.vectors.size(), "motion vector", "motion vectors") + " inside, " +
+                      std::to_string(needed) + " are needed";
+                parameter = count_parameter;
+                break;
+            case Rejection::size: {
+                const auto limit = brokenSizeLimit(detection.box, story.options.outliers, story.scale);
+                const bool is_area = limit && limit->parameter == "outliers.min_area";
+                const auto text = [&](double value) {
+                    return is_area ? numberText(value) + " px²" : story.lengthText(value);
+                };
+                parameter = limit ? limit->parameter : "outliers.min_length";
+                const std::string size =
+                    limit ? text(limit->value) + (limit->at_most ? ", at most " : ", at least ") + text(limit->limit)
+                          : std::string("an impossible size");
+                story.fail("removal", "size of the box: " + size, parameter);
+                why = "The detection here has an impossible size: " + size;
+                break;
+            }
+        }
+    }
+    detections = kept;
+    if (!kept.empty()) return true;
+    story.decide(why, parameter);
+    return false;
+}
+
+}  // namespace eyrie::explaining

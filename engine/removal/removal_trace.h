@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/detection.h"
+
+namespace eyrie {
+
+/// Two detections that became one, to be looked at.
+struct RemovedDuplicate {
+    int removed = 0;  ///< positions in the list of detections, which never changes its order
+    int kept = 0;
+    double value = 0;       ///< what was compared: the overlap, or the length of both together, px
+    double limit = 0;       ///< with what
+    std::string parameter;  ///< that says the limit
+};
+
+/// What duplicate removal did in a frame.
+struct RemovalTrace {
+    std::vector<RemovedDuplicate> duplicates;
+};
+
+/// A size limit that a box breaks.
+struct BrokenLimit {
+    std::string parameter;
+    double value = 0;  ///< px or px²
+    double limit = 0;  ///< the same unit
+    bool at_most = false;
+};
+
+}  // namespace eyrie

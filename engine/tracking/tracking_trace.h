@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/oriented_box.h"
+#include "tracking/split_merge.h"
+
+namespace eyrie {
+
+/// One entry of the overlap matrix M_tov (Teutsch eq. 6.1): a detection and a predicted track that touch and move
+/// alike.
+struct TracedRelation {
+    int detection = 0;  ///< position in the frame's list of detections
+    TrackId track = 0;
+    double overlap = 0;     ///< |D ∩ T| / |D ∪ T|
+    bool accepted = false;  ///< m_ij: by overlap or by the distance gate
+};
+
+/// What a frame meant for one track.
+struct TracedTrack {
+    TrackId id = 0;
+    OrientedBox predicted;
+    AssociationKind kind = AssociationKind::missed;
+    std::vector<int> detections;  ///< positions in the frame's list
+    std::string ended_by;         ///< the parameter that ended it in this frame; empty while it lives
+    double ended_value = 0;       ///< compared with …
+    double ended_limit = 0;
+};
+
+/// How a frame's detections and tracks were joined, to be looked at.
+struct TrackingTrace {
+    std::vector<TracedTrack> tracks;  ///< those that lived before the frame, ascending id
+    std::vector<TracedRelation> relations;
+    std::vector<int> doubled;  ///< detections that started no track because one with evidence lies there
+    std::vector<std::pair<int, TrackId>> started;  ///< detections that started tracks
+    double min_overlap = 0;                        ///< T_tov
+    double gate_px = 0;                            ///< distance gate, without the track's own uncertainty
+};
+
+}  // namespace eyrie
