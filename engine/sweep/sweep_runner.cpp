@@ -141,10 +141,12 @@ class Work {
 BoxesByFrame truthWithin(const BoxesByFrame& truth, FrameIndex first, FrameIndex last,
                          const std::string& ground_truth) {
     BoxesByFrame within(truth.lower_bound(first), truth.upper_bound(last));
-    if (within.empty()) {
-        const std::string known = truth.empty() ? "none at all"
-                                                : "only in frames " + std::to_string(truth.begin()->first) + " to " +
-                                                      std::to_string(truth.rbegin()->first);
+    const auto holdsBoxes = [](const auto& entry) { return !entry.second.empty(); };
+    if (std::none_of(within.begin(), within.end(), holdsBoxes)) {
+        const std::string known = std::none_of(truth.begin(), truth.end(), holdsBoxes)
+                                      ? "none at all"
+                                      : "only in frames " + std::to_string(truth.begin()->first) + " to " +
+                                            std::to_string(truth.rbegin()->first);
         throw Error(ErrorKind::input, ground_truth + ": holds no box in the frames to be swept, " +
                                           std::to_string(first) + " to " + std::to_string(last) + ", " + known +
                                           "; is it the truth of this video, and does it count frames alike?");
