@@ -56,6 +56,18 @@ std::vector<std::string> rangeValues(const std::string& name, const std::vector<
 
 }  // namespace
 
+double countValues(const std::string& text) {
+    const std::string spec(trimmed(std::string_view(text).substr(text.find('=') + 1)));
+    if (spec.empty()) return 0;
+    const std::vector<std::string> parts = splitAt(spec, ':');
+    if (parts.size() != 3) return static_cast<double>(splitAt(spec, ',').size());
+    const auto from = parseReal(parts[0]);
+    const auto step = parseReal(parts[1]);
+    const auto to = parseReal(parts[2]);
+    if (!from || !step || !to || *step == 0) return 0;
+    return std::max(0.0, std::floor((*to - *from) / *step + 1e-9) + 1);
+}
+
 SweepAxis parseAxis(const std::string& text, const ChainOptions& base) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)

@@ -1,5 +1,8 @@
 #include "sweep/sweep_runner.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -12,6 +15,8 @@
 
 namespace eyrie {
 namespace {
+
+constexpr int kBackgroundNiceness = 10;
 
 using Clock = std::chrono::steady_clock;
 
@@ -48,6 +53,7 @@ class Work {
 
  private:
     void work() {
+        if (options_.background) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kBackgroundNiceness);
         try {
             while (!stop_.stop_requested()) {
                 const std::size_t at = next_.fetch_add(1);
