@@ -93,10 +93,15 @@ SweepAxis parseAxis(const std::string& text, const ChainOptions& base) {
     } else {
         axis.values = splitAt(spec, ',');
     }
+    // Of a range the ends tell whether all is within the limits, and the first step whether all are whole numbers.
+    const bool range = number && parts.size() == 3;
     std::set<std::string> seen;
-    for (std::string& value : axis.values) {
-        setParameter(describeOf(options), axis.name, value);  // out of range, or not read
+    for (std::size_t i = 0; i < axis.values.size(); ++i) {
+        std::string& value = axis.values[i];
+        if (!range || i < 2 || i + 1 == axis.values.size())
+            setParameter(describeOf(options), axis.name, value);  // out of range, or not read
         // As the chain itself would write it, so that "on" and "true" are one value.
+        if (range) continue;
         if (number) {
             value = tidyText(*parseReal(value));
         } else if (declared->kind == ParameterKind::flag) {

@@ -44,6 +44,16 @@ TEST(SweepAxis, ListsMayBeNumbersWordsAndSwitches) {
     EXPECT_THAT(parseAxis("sliding_window.model=/a/b.m,/c:d.m", {}).values, ElementsAre("/a/b.m", "/c:d.m"));
 }
 
+TEST(SweepAxis, CountsWithoutReading) {
+    EXPECT_EQ(countValues("gradient.quantile=0.05:0.01:0.5"), 46);
+    EXPECT_EQ(countValues("a=0:0.000001:1"), 1000001);
+    EXPECT_EQ(countValues("a=5:1:1"), 0);
+    EXPECT_EQ(countValues("a=1:0:5"), 0);
+    EXPECT_EQ(countValues("a="), 0);
+    EXPECT_EQ(countValues("a=x,y,z"), 3);
+    EXPECT_EQ(countValues("0.5"), 1);
+}
+
 TEST(SweepAxis, RefusesWhatCannotBeMeant) {
     EXPECT_THAT(refusedAxis("gradient.quantile=0.5:0.1:0.1"), HasSubstr("is empty"));
     EXPECT_THAT(refusedAxis("gradient.quantile=0.1:0:0.5"), HasSubstr("step of 0"));

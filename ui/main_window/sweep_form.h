@@ -7,6 +7,7 @@
 #include "session/sweep_session.h"
 
 class QComboBox;
+class QGridLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -41,7 +42,7 @@ class SweepForm : public QWidget {
         QLineEdit* values;
         QLabel* hint;
     };
-    Axis addAxis(class QGridLayout& grid, int row, const QString& title);
+    Axis addAxis(QGridLayout& grid, int row, const QString& title);
     const Parameter* parameterOf(const Axis& axis) const;
     void refresh();
     void suggestValues(const Axis& axis);
