@@ -102,7 +102,14 @@ class Work {
 
     void finish(const SweepPoint& point) {
         const std::scoped_lock lock(mutex_);
-        if (options_.on_point) options_.on_point(point);
+        if (error_) return;
+        try {
+            if (options_.on_point) options_.on_point(point);
+        } catch (...) {
+            error_ = std::current_exception();  // before another thread comes with its point
+            stop_.request_stop();
+            return;
+        }
         ++progress_.points_done;
         progress_.doing.clear();
         const double now = secondsSince(start_);
