@@ -25,6 +25,7 @@
 #include "main_window/window_actions.h"
 #include "session/inspection.h"
 #include "view/timeline_view.h"
+#include "view/verdict_layer.h"
 #include "view/video_view.h"
 
 namespace eyrie::ui {
@@ -81,6 +82,7 @@ QMenu* MainWindow::buildOverlayMenu() {
         colour(OverlayKind::tracks, colours.track);
         colour(OverlayKind::stacks, colours.stack);
         colour(OverlayKind::ground_truth, colours.ground_truth);
+        colour(OverlayKind::verdicts, verdictColour(VerdictKind::false_alarm, overlays_.palette()));
         timeline_->setPalette(overlays_.palette());
     };
     connect(&overlays_, &OverlaySettings::changed, this, refresh);

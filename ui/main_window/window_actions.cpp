@@ -101,7 +101,8 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
                              {OverlayKind::detections, tr("&Detections"), Qt::Key_D},
                              {OverlayKind::tracks, tr("&Tracks"), Qt::Key_T},
                              {OverlayKind::stacks, tr("Image &stacks"), Qt::Key_S},
-                             {OverlayKind::ground_truth, tr("&Ground truth"), Qt::Key_U}};
+                             {OverlayKind::ground_truth, tr("&Ground truth"), Qt::Key_U},
+                             {OverlayKind::verdicts, tr("Errors (found, missed, false)"), Qt::Key_Q}};
     for (const Entry& entry : entries) {
         QAction* action = addToggle(entry.text, {nullptr, {QKeySequence(entry.key)}}, overlays.isVisible(entry.kind));
         overlay[static_cast<size_t>(entry.kind)] = action;

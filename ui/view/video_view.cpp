@@ -16,6 +16,7 @@
 #include "view/track_layer.h"
 #include "view/truth_layer.h"
 #include "view/vector_layer.h"
+#include "view/verdict_layer.h"
 
 namespace eyrie::ui {
 
@@ -37,6 +38,7 @@ VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(paren
     layers_.push_back(std::make_unique<DetectionLayer>());
     layers_.push_back(std::make_unique<TrackLayer>());
     layers_.push_back(std::make_unique<StackLayer>());
+    layers_.push_back(std::make_unique<VerdictLayer>());
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setAttribute(Qt::WA_OpaquePaintEvent);
@@ -77,6 +79,15 @@ void VideoView::setSelectedTrack(std::optional<TrackId> track) {
 void VideoView::setStacks(FrameIndex frame, std::vector<StackMark> stacks) {
     if (frame != frame_.index) return;
     frame_.stacks = std::move(stacks);
+    update();
+}
+
+void VideoView::setVerdicts(FrameIndex frame, bool evaluated, std::vector<VerdictMark> verdicts,
+                            std::vector<BoxRecord> ground_truth) {
+    if (frame != frame_.index) return;
+    frame_.evaluated = evaluated;
+    frame_.verdicts = std::move(verdicts);
+    frame_.ground_truth = std::move(ground_truth);
     update();
 }
 

@@ -32,6 +32,9 @@ class VideoView : public QWidget {
     void setSelectedTrack(std::optional<TrackId> track);
     /// The image stacks of a frame, which come later than the frame itself; ignored when another one is shown.
     void setStacks(FrameIndex frame, std::vector<StackMark> stacks);
+    /// What the evaluation says of a frame, which comes apart from it; ignored when another one is shown.
+    void setVerdicts(FrameIndex frame, bool evaluated, std::vector<VerdictMark> verdicts,
+                     std::vector<BoxRecord> ground_truth);
     /// The search area that is looked at more closely, image coordinates.
     void setInspectedArea(std::optional<OrientedBox> area);
     /// What the mouse does and what is drawn on top; null: the canvas' own. Must outlive the view, or be taken away.
