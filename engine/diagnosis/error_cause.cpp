@@ -105,8 +105,8 @@ CauseHere stageThatLost(const BoxFacts& facts, const PlaceEvidence& evidence) {
             text};
     }
     if (evidence.frames_in_view < evidence.frames_needed)
-        return {MistakeCause::too_new, "in view for " + std::to_string(evidence.frames_in_view + 1) +
-                                           " frames, corners are judged after " +
+        return {MistakeCause::too_new, "came into view " + std::to_string(evidence.frames_in_view) +
+                                           " frames before, corners are judged after " +
                                            std::to_string(evidence.frames_needed)};
     if (facts.corners > 0)
         return {MistakeCause::too_slow, std::to_string(facts.corners) + " corners, none counts as moving"};
@@ -188,8 +188,11 @@ CauseHere causeOfMiss(const MistakePlace& place, const PlaceEvidence& evidence) 
 
 CauseHere causeOfFalseAlarm(const MistakePlace& place, const PlaceEvidence& evidence) {
     const BoxRecord& alarm = at(evidence.result, place.results.front());
-    if (const auto related = relationToTruth(alarm, evidence)) return *related;
     const BoxFacts* facts = evidence.facts;
+    if (facts != nullptr && !facts->image.empty() &&
+        !cv::Rect2d(-0.5, -0.5, facts->image.width, facts->image.height).contains(alarm.box.centre))
+        return {MistakeCause::outside_image, ""};
+    if (const auto related = relationToTruth(alarm, evidence)) return *related;
     if (evidence.recently_unregistered || (facts != nullptr && facts->registration == RegistrationState::failed))
         return {MistakeCause::unregistered, facts != nullptr ? facts->reason : std::string()};
     if (alarm.origin == eyrie::nameOf(StateOrigin::predicted)) return {MistakeCause::coasting, ""};
@@ -255,6 +258,7 @@ const char* nameOf(MistakeCause cause) {
                                                           "at the border",
                                                           "duplicate",
                                                           "ignored object",
+                                                          "outside the image",
                                                           "coasting",
                                                           "shadow",
                                                           "parallax",
@@ -311,6 +315,8 @@ const char* explanationOf(MistakeCause cause) {
             return "A second box on an object that is found already (duplicates.*).";
         case MistakeCause::ignored_object:
             return "It lies beside an object that does not count, such as a person or a standing vehicle.";
+        case MistakeCause::outside_image:
+            return "Its middle lies outside the image: the track goes on after the object has left.";
         case MistakeCause::coasting:
             return "The track went on by prediction although nothing was detected (tracking.*).";
         case MistakeCause::shadow:

@@ -31,6 +31,7 @@ enum class MistakeCause {
     at_border,           ///< found, but by a result so near to the image's edge that it was left out
     duplicate,           ///< false: a second box on an object that is found
     ignored_object,      ///< false: beside an object that does not count
+    outside_image,       ///< false: its middle lies outside the image
     coasting,            ///< false: the track went on without a detection
     shadow,              ///< false: moves along beside an object
     parallax,            ///< false: moves the way a standing thing above the ground seems to

@@ -1,7 +1,12 @@
 #include "main_window/evaluation_docks.h"
 
+#include <QDir>
 #include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QMainWindow>
+#include <QSettings>
+#include <QTimer>
 #include <algorithm>
 
 #include "main_window/evaluation_panel.h"
@@ -11,6 +16,7 @@
 #include "panels/empty_state.h"
 #include "panels/errors_panel.h"
 #include "session/error_chips.h"
+#include "session/report_writer.h"
 #include "view/video_view.h"
 
 namespace eyrie::ui {
@@ -45,8 +51,8 @@ ErrorRow rowOf(const DiagnosedMistake& one, int id) {
     row.count = mistake.count();
     row.objects = idText(mistake.objects, QStringLiteral(", "));
     row.object_order = mistake.objects.empty() ? 0 : mistake.objects.front();
-    row.tracks = idText(mistake.tracks, mistake.kind == MistakeKind::id_switch ? QStringLiteral(" → ")
-                                                                               : QStringLiteral(", "));
+    row.tracks =
+        idText(mistake.tracks, mistake.kind == MistakeKind::id_switch ? QStringLiteral(" → ") : QStringLiteral(", "));
     return row;
 }
 
@@ -85,12 +91,13 @@ EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, Win
         window_.tabifyDockWidget(inspector, docks_[0]);
         inspector->raise();
     }
-    connect(panel_, &EvaluationPanel::reportRequested, this, &EvaluationDocks::reportRequested);
+    wireReport();
     connect(evaluation_, &EvaluationSession::changed, this, [this] {
         tellChange(told_);
         told_ = evaluation_->evaluation();
         showErrors();
         showMarks();
+        showErrorsAlone();
     });
     wireList();
     wireCanvas();
@@ -99,6 +106,25 @@ EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, Win
 
 void EvaluationDocks::updateWanted() {
     evaluation_->setWanted(looked_at_.contains(true) || evaluation_->evaluation() != nullptr);
+    showErrorsAlone();
+}
+
+/// Clusters, detections and tracks lie over the verdicts: while the docks are looked at they are switched off. Keys
+/// bring them back; leaving the docks does, too.
+void EvaluationDocks::showErrorsAlone() {
+    if (labelling_ != nullptr && labelling_->active()) return;
+    const bool alone = looked_at_.contains(true) && evaluation_->evaluation() != nullptr;
+    if (alone == !other_overlays_.isEmpty()) return;
+    const auto verdicts = static_cast<qsizetype>(OverlayKind::verdicts);
+    if (alone) {
+        for (QAction* action : actions_.overlay) other_overlays_ << action->isChecked();
+        for (qsizetype i = 0; i < other_overlays_.size(); ++i)
+            actions_.overlay[static_cast<std::size_t>(i)]->setChecked(i == verdicts);
+        return;
+    }
+    for (qsizetype i = 0; i < other_overlays_.size(); ++i)
+        if (i != verdicts) actions_.overlay[static_cast<std::size_t>(i)]->setChecked(other_overlays_[i]);
+    other_overlays_.clear();
 }
 
 // ---- the list -------------------------------------------------------------------------------------------------------
@@ -155,6 +181,7 @@ void EvaluationDocks::showErrors() {
     wantChips();
     for (QAction* action : {actions_.next_error, actions_.previous_error, actions_.wrong_truth})
         action->setEnabled(evaluation && !evaluation->mistakes.empty());
+    actions_.report->setEnabled(evaluation != nullptr);
 }
 
 void EvaluationDocks::wantChips() {
@@ -194,16 +221,18 @@ void EvaluationDocks::goTo(int id) {
     canvas_.restore(zoom, QPointF(place.box.centre.x, place.box.centre.y));
     if (labelling_ != nullptr && labelling_->active() && !one.mistake.objects.empty())
         labelling_->labels().select(one.mistake.objects.front());
-    emit notice(tr("%1 of %2: %3 – %4")
-                    .arg(id)
-                    .arg(evaluation->mistakes.size())
-                    .arg(QString::fromUtf8(nameOf(one.mistake.kind)), QString::fromUtf8(explanationOf(one.cause))));
+    const ErrorRow row = rowOf(one, id);
+    errors_->setStatus(
+        tr("<b>%1 of %2: %3</b>, %4. %5%6")
+            .arg(id)
+            .arg(evaluation->mistakes.size())
+            .arg(row.kind, row.cause, row.explanation,
+                 row.detail.isEmpty() ? QString() : QStringLiteral("<br>") + row.detail.toHtmlEscaped()));
 }
 
 // ---- the canvas -----------------------------------------------------------------------------------------------------
 
 void EvaluationDocks::wireCanvas() {
-    connect(&session_, &ProjectSession::viewFrameChanged, this, &EvaluationDocks::showMarks);
     connect(evaluation_, &EvaluationSession::selectionChanged, this, &EvaluationDocks::showMarks);
 }
 
@@ -224,7 +253,12 @@ void EvaluationDocks::join(LabelWorkspace& labelling) {
             labelling_->labels().select(one->mistake.objects.front());
     });
     connect(actions_.label_workspace, &QAction::toggled, this, [this](bool on) {
-        if (!on) correcting_ = false;
+        if (on) return;
+        correcting_ = false;
+        QTimer::singleShot(0, this, [this] {  // after the label workspace gave its overlays back
+            other_overlays_.clear();
+            showErrorsAlone();
+        });
     });
 }
 
@@ -235,8 +269,9 @@ void EvaluationDocks::correctTruth() {
         return;
     }
     if (!evaluation_->settings().truth_file.empty()) {
-        emit notice(tr("The ground truth is a file, which is not changed here. Import it into the project's labels "
-                       "(Label ▸ Import labels) and compare with these."));
+        emit notice(
+            tr("The ground truth is a file, which is not changed here. Import it into the project's labels "
+               "(Label ▸ Import labels) and compare with these."));
         return;
     }
     correcting_ = true;
@@ -249,23 +284,75 @@ void EvaluationDocks::correctTruth() {
     docks_[1]->show();  // the list stays, so that the next error is one key away
     if (!mistake.objects.empty()) {
         labelling_->labels().select(mistake.objects.front());
-        emit notice(tr("Correct object %1; the run is scored again after every change.").arg(mistake.objects.front()));
+        errors_->setStatus(
+            tr("Correct object %1; the run is scored again after every change.").arg(mistake.objects.front()));
     } else {
         labelling_->labels().select(std::nullopt);
-        emit notice(tr("If an object is here, draw it (B) or take the track over as a proposal (P); the run is scored "
-                       "again after every change."));
+        emit notice(
+            tr("If an object is here, draw it (B) or take the track over as a proposal (P); the run is scored "
+               "again after every change."));
     }
+}
+
+// ---- report
+// -----------------------------------------------------------------------------------------------------------
+
+void EvaluationDocks::askForReport() {
+    const auto& evaluation = evaluation_->evaluation();
+    if (!evaluation) {
+        emit notice(tr("Nothing was evaluated yet: open the Evaluation dock."));
+        return;
+    }
+    const QString name = QFileInfo(QString::fromStdString(evaluation->run.sequence.path)).completeBaseName();
+    QSettings settings;
+    const QString folder = settings.value(QStringLiteral("report/folder"), QDir::homePath()).toString();
+    QString chosen;
+    QString path = QFileDialog::getSaveFileName(
+        &window_, tr("Write a report"), QDir(folder).filePath(tr("%1 run %2.html").arg(name).arg(evaluation->run.id)),
+        tr("Web page, one file (*.html);;PDF (*.pdf)"), &chosen);
+    if (path.isEmpty()) return;
+    if (QFileInfo(path).suffix().isEmpty())
+        path += chosen.contains(QStringLiteral("pdf")) ? QStringLiteral(".pdf") : QStringLiteral(".html");
+    settings.setValue(QStringLiteral("report/folder"), QFileInfo(path).path());
+    writeReport(path);
+}
+
+void EvaluationDocks::writeReport(const QString& path) {
+    if (report_->working()) {
+        emit notice(tr("A report is being written. Wait until it is done."));
+        return;
+    }
+    report_->write(path.toStdString(), evaluation_->evaluation(), session_.media());
+}
+
+void EvaluationDocks::wireReport() {
+    report_ = new ReportWriter(this);
+    connect(actions_.report, &QAction::triggered, this, &EvaluationDocks::askForReport);
+    connect(panel_, &EvaluationPanel::reportRequested, this, &EvaluationDocks::askForReport);
+    connect(report_, &ReportWriter::progress, panel_, &EvaluationPanel::showReportProgress);
+    connect(report_, &ReportWriter::failed, this, [this](const QString& message) {
+        panel_->showReportProgress(1);
+        emit problem(message);
+    });
+    connect(report_, &ReportWriter::written, this, [this](const std::filesystem::path& path) {
+        panel_->showReportProgress(1);
+        emit notice(tr("Wrote the report %1.").arg(QString::fromStdString(path.string())));
+    });
 }
 
 void EvaluationDocks::tellChange(const std::shared_ptr<const RunEvaluation>& before) {
     const auto& now = evaluation_->evaluation();
     if (!correcting_ || !before || !now || before == now || before->run.id != now->run.id) return;
+    if (now->shown.detection.overlap_sum == before->shown.detection.overlap_sum &&
+        now->mistakes.size() == before->mistakes.size())
+        return;
     const int errors = static_cast<int>(now->mistakes.size()) - static_cast<int>(before->mistakes.size());
-    emit notice(tr("f-score %1 → %2, %3 errors (%4%5)")
-                    .arg(numberText(before->shown.detection.f_score, 4), numberText(now->shown.detection.f_score, 4))
-                    .arg(now->mistakes.size())
-                    .arg(errors > 0 ? QStringLiteral("+") : QString())
-                    .arg(errors));
+    errors_->setStatus(
+        tr("<b>Scored again:</b> f-score %1 → %2, %3 errors (%4%5)")
+            .arg(numberText(before->shown.detection.f_score, 4), numberText(now->shown.detection.f_score, 4))
+            .arg(now->mistakes.size())
+            .arg(errors > 0 ? QStringLiteral("+") : QString())
+            .arg(errors));
 }
 
 }  // namespace eyrie::ui

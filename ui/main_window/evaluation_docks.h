@@ -15,6 +15,7 @@ class ErrorsModel;
 class ErrorsPanel;
 class EvaluationPanel;
 class LabelWorkspace;
+class ReportWriter;
 class VideoView;
 class WindowActions;
 
@@ -36,21 +37,27 @@ class EvaluationDocks : public QObject {
 
     /// Goes to the next or previous error in the order of the list.
     void step(int direction);
+    /// Draws the verdicts of the frame that the canvas shows. To be called after the canvas got another frame.
+    void showMarks();
     /// Opens the object of the selected error in the label workspace.
     void correctTruth();
+    /// Writes the report; PDF where the name ends so, else HTML.
+    void writeReport(const QString& path);
 
  signals:
     void notice(const QString& message);
-    void reportRequested();
+    void problem(const QString& message);
 
  private:
     void wireList();
+    void wireReport();
+    void askForReport();
     void wireCanvas();
     void showErrors();
-    void showMarks();
     void goTo(int id);
     void wantChips();
     void updateWanted();
+    void showErrorsAlone();
     void tellChange(const std::shared_ptr<const RunEvaluation>& before);
 
     ProjectSession& session_;
@@ -63,9 +70,11 @@ class EvaluationDocks : public QObject {
     ErrorsModel* model_;
     ErrorsPanel* errors_;
     ErrorChips* chips_;
+    ReportWriter* report_;
     QList<QDockWidget*> docks_;
     QList<bool> looked_at_{false, false};
-    bool correcting_ = false;  ///< the labels are open because the truth was wrong
+    QList<bool> other_overlays_;  ///< switched off while errors are shown alone; empty: they are not
+    bool correcting_ = false;     ///< the labels are open because the truth was wrong
     std::shared_ptr<const RunEvaluation> told_;
 };
 

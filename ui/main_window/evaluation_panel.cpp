@@ -12,6 +12,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QProgressBar>
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QStackedWidget>
@@ -52,9 +53,9 @@ QString runName(const RunRecord& run) {
 
 QString differenceLine(const QString& measure, const BootstrapInterval& difference, const RunRecord& other) {
     const QString sign = difference.value >= 0 ? QStringLiteral("+") : QString();
-    const QString numbers = QStringLiteral("%1%2 (%3 – %4)")
-                                .arg(sign, numberText(difference.value, 3), numberText(difference.low, 3),
-                                     numberText(difference.high, 3));
+    const QString numbers =
+        QStringLiteral("%1%2 (%3 – %4)")
+            .arg(sign, numberText(difference.value, 3), numberText(difference.low, 3), numberText(difference.high, 3));
     const bool real = difference.low > 0 || difference.high < 0;
     if (!real)
         return QObject::tr("%1 against %2: %3, <b>not distinguishable</b>").arg(measure, runName(other), numbers);
@@ -162,8 +163,9 @@ QWidget* EvaluationPanel::buildChoices() {
     border_->setSuffix(tr(" px"));
     border_->setSpecialValueText(tr("none"));
     border_->setKeyboardTracking(false);
-    border_->setToolTip(tr("Results that come this close to the image's edge are left out, for ground truth that leaves "
-                           "cut objects out"));
+    border_->setToolTip(
+        tr("Results that come this close to the image's edge are left out, for ground truth that leaves "
+           "cut objects out"));
     for (QWidget* field : std::initializer_list<QWidget*>{truth_, measured_, other_, overlap_, border_}) {
         field->installEventFilter(this);
         field->setFocusPolicy(Qt::StrongFocus);
@@ -310,20 +312,26 @@ QWidget* EvaluationPanel::buildResult() {
     counts_ = new LineChart;
     ratios_ = new LineChart;
     for (LineChart* chart : {counts_, ratios_}) chart->setFixedHeight(190);
-    auto* report = new QToolButton;
-    report->setText(tr("Report…"));
-    report->setToolTip(tr("Write everything as one HTML or PDF file"));
-    connect(report, &QToolButton::clicked, this, &EvaluationPanel::reportRequested);
+    report_ = new QToolButton;
+    report_->setText(tr("Report…"));
+    report_->setToolTip(tr("Write everything as one HTML or PDF file (Ctrl+Shift+R)"));
+    connect(report_, &QToolButton::clicked, this, &EvaluationPanel::reportRequested);
+    report_progress_ = new QProgressBar;
+    report_progress_->hide();
+    auto* report = new QHBoxLayout;
+    report->addWidget(report_);
+    report->addWidget(report_progress_, 1);
+    report->addStretch(1);
 
     auto* rows = new QVBoxLayout(content);
     rows->setContentsMargins(6, 2, 6, 6);
     rows->addWidget(headline_);
-    rows->addWidget(table_);
     rows->addWidget(remarks_);
     rows->addWidget(tracked_);
+    rows->addWidget(table_);
     rows->addWidget(counts_);
     rows->addWidget(ratios_);
-    rows->addWidget(report, 0, Qt::AlignLeft);
+    rows->addLayout(report);
     rows->addStretch(1);
     auto* scroll = new QScrollArea;
     scroll->setWidget(content);
@@ -331,6 +339,12 @@ QWidget* EvaluationPanel::buildResult() {
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     return scroll;
+}
+
+void EvaluationPanel::showReportProgress(double share) {
+    report_progress_->setVisible(share < 1);
+    report_->setEnabled(share >= 1);
+    report_progress_->setValue(static_cast<int>(share * 100));
 }
 
 QString EvaluationPanel::explanation() const {
@@ -420,7 +434,8 @@ void EvaluationPanel::showCurves() {
     counts.value_label = tr("objects");
     counts.filled = true;
     counts.decimals = 0;
-    counts.series = {{tr("found"), kFoundColour, {}}, {tr("missed"), kMissedColour, {}}, {tr("false"), kFalseColour, {}}};
+    counts.series = {
+        {tr("found"), kFoundColour, {}}, {tr("missed"), kMissedColour, {}}, {tr("false"), kFalseColour, {}}};
     for (const FrameCounts& frame : evaluation.frames) {
         counts.places.push_back(frame.frame);
         counts.series[0].values.push_back(frame.found);
@@ -434,7 +449,8 @@ void EvaluationPanel::showCurves() {
     ratios.places = counts.places;
     ratios.top = 1.02;
     const WindowedRatios windowed = windowedRatios(evaluation.frames, window);
-    ratios.series = {{tr("precision"), kFalseColour, windowed.precision}, {tr("recall"), kRecallColour, windowed.recall}};
+    ratios.series = {{tr("precision"), kFalseColour, windowed.precision},
+                     {tr("recall"), kRecallColour, windowed.recall}};
     counts_->setData(std::move(counts));
     ratios_->setData(std::move(ratios));
     counts_->setMarker(session_.currentFrame());

@@ -8,6 +8,7 @@ class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
+class QProgressBar;
 class QStackedWidget;
 class QTableWidget;
 class QToolButton;
@@ -36,6 +37,7 @@ class EvaluationPanel : public QWidget {
     LineChart& ratios() { return *ratios_; }
     TrackedBar& tracked() { return *tracked_; }
     /// Takes this file as the ground truth.
+    void showReportProgress(double share);
     void useTruthFile(const QString& path);
 
  signals:
@@ -78,6 +80,8 @@ class EvaluationPanel : public QWidget {
     TrackedBar* tracked_;
     LineChart* counts_;
     LineChart* ratios_;
+    QToolButton* report_;
+    QProgressBar* report_progress_;
 };
 
 /// Precision and recall over a sliding window; NaN where nothing is defined.

@@ -13,6 +13,7 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 
+#include "main_window/evaluation_docks.h"
 #include "main_window/label_workspace.h"
 #include "main_window/parameter_binding.h"
 #include "main_window/review_docks.h"
@@ -55,6 +56,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     resize(kFirstSize);
     inspection_ = new Inspection(session_, this);
     docks_ = new ReviewDocks(session_, *inspection_, *this);
+    buildEvaluation();
     parameters_ = new ParameterBinding(session_, docks_->parameterForm(), this);
     timeline_binding_ = new TimelineBinding(session_, *timeline_, docks_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
@@ -137,7 +139,7 @@ void MainWindow::buildMenus() {
         }
         if (section.actions.contains(actions_->fit)) {
             menu->addSeparator();
-            for (QDockWidget* dock : docks_->docks()) menu->addAction(dock->toggleViewAction());
+            for (QDockWidget* dock : docks_->docks() + evaluation_->docks()) menu->addAction(dock->toggleViewAction());
             menu->addAction(tr("Reset the layout"), this, [this] {
                 actions_->review_workspace->trigger();
                 restoreState(default_layout_);
@@ -205,6 +207,7 @@ void MainWindow::wireSession() {
         updateTitle();
     });
     connect(&session_, &ProjectSession::viewFrameChanged, canvas_, &VideoView::setFrame);
+    connect(&session_, &ProjectSession::viewFrameChanged, evaluation_, &EvaluationDocks::showMarks);
     connect(&session_, &ProjectSession::selectionChanged, canvas_, &VideoView::setSelectedTrack);
     connect(canvas_, &VideoView::trackClicked, &session_, &ProjectSession::selectTrack);
     connect(&session_, &ProjectSession::problem, this, &MainWindow::showProblem);

@@ -14,6 +14,7 @@ class QStackedWidget;
 
 namespace eyrie::ui {
 
+class EvaluationDocks;
 class Inspection;
 class LabelTimeline;
 class LabelWorkspace;
@@ -50,6 +51,7 @@ class MainWindow : public QMainWindow {
     Inspection& inspection() { return *inspection_; }
     ReviewDocks& docks() { return *docks_; }
     LabelWorkspace& labelling() { return *labelling_; }
+    EvaluationDocks& evaluation() { return *evaluation_; }
 
  protected:
     void closeEvent(QCloseEvent* event) override;
@@ -68,6 +70,7 @@ class MainWindow : public QMainWindow {
     void wireSession();
     void wireInspection();
     void buildLabelling();
+    void buildEvaluation();
     /// The layout of the review workspace, whichever is shown.
     QByteArray reviewLayout() const;
     void openVideo();
@@ -108,6 +111,7 @@ class MainWindow : public QMainWindow {
     StatusFields* status_;
     Inspection* inspection_;
     ReviewDocks* docks_;
+    EvaluationDocks* evaluation_;
     LabelWorkspace* labelling_;
     ParameterBinding* parameters_;
     TimelineBinding* timeline_binding_;

@@ -13,6 +13,7 @@
 #include <QWidgetAction>
 
 #include "chain/run_recorder.h"
+#include "main_window/evaluation_docks.h"
 #include "main_window/key_sheet.h"
 #include "main_window/label_actions.h"
 #include "main_window/label_workspace.h"
@@ -105,10 +106,17 @@ void MainWindow::buildLabelling() {
     labelling_ =
         new LabelWorkspace({session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, overlays_, *this});
     menuBar()->insertMenu(menuBar()->actions().value(3), labelling_->menu());
+    evaluation_->join(*labelling_);
     connect(actions_->label_workspace, &QAction::toggled, this, [this](bool on) {
         labelling_->setActive(on);
         showTabTitles();
     });
+}
+
+void MainWindow::buildEvaluation() {
+    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, *this);
+    connect(evaluation_, &EvaluationDocks::notice, this, &MainWindow::showNotice);
+    connect(evaluation_, &EvaluationDocks::problem, this, &MainWindow::showProblem);
 }
 
 QByteArray MainWindow::reviewLayout() const {

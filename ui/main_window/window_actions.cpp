@@ -13,6 +13,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     open_folder = add(tr("Open folder of &images…"), {"document-open-folder", {QKeySequence(tr("Ctrl+Shift+O"))}});
     open_project = add(tr("Open &project…"), {"project-open", {QKeySequence(tr("Ctrl+P"))}});
     save_copy = add(tr("&Save project as…"), {"document-save-as", {QKeySequence(tr("Ctrl+Shift+S"))}});
+    report = add(tr("Evaluation &report…"), {"document-export",
+                                             {QKeySequence(tr("Ctrl+Shift+R"))},
+                                             QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});
     demo = add(tr("Watch the &demo scene"), {"media-playback-start", {QKeySequence(tr("Ctrl+D"))}});
     quit = add(tr("&Quit"), {"application-exit", {QKeySequence(tr("Ctrl+Q"))}});
 
@@ -41,6 +44,16 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     slower = add(tr("Slower"), {nullptr, {QKeySequence(Qt::Key_BracketLeft), QKeySequence(Qt::Key_Comma)}});
     faster = add(tr("Faster"), {nullptr, {QKeySequence(Qt::Key_BracketRight), QKeySequence(Qt::Key_Period)}});
     loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(Qt::Key_O)}}, false);
+
+    section(tr("Evaluation"));
+    next_error = add(tr("&Next error"), {"go-next", {QKeySequence(Qt::Key_N), QKeySequence(Qt::Key_F8)}});
+    previous_error =
+        add(tr("&Previous error"), {"go-previous", {QKeySequence(tr("Shift+N")), QKeySequence(tr("Shift+F8"))}});
+    wrong_truth =
+        add(tr("The &truth is wrong here…"),
+            {"document-edit",
+             {QKeySequence(tr("Ctrl+T"))},
+             QT_TR_NOOP("Open the object in the label workspace; the run is scored again after each change")});
 
     section(tr("View"));
     fit = add(tr("&Fit the window"), {"zoom-fit-best", {QKeySequence(Qt::Key_F)}});

@@ -31,6 +31,8 @@ QVariant ErrorsModel::data(const QModelIndex& index, int role) const {
             const auto chip = chips_.find(row->id);
             return chip == chips_.end() ? QVariant() : QVariant(chip->second);
         }
+        case Qt::SizeHintRole:
+            return index.column() == chip_column ? QVariant(QSize(64, 40)) : QVariant();
         case Qt::ToolTipRole:
             return tr("<b>%1</b>: %2. %3%4")
                 .arg(row->kind, row->cause, row->explanation,
@@ -104,7 +106,7 @@ QVariant ErrorsModel::headerData(int section, Qt::Orientation orientation, int r
         case track_column:
             return tr("Track");
         case cause_column:
-            return tr("Probable cause");
+            return tr("Cause");
         case detail_column:
             return tr("Detail");
         default:

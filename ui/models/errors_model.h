@@ -32,11 +32,11 @@ class ErrorsModel : public RecordModel<ErrorRow> {
     enum Column {
         chip_column,
         kind_column,
+        cause_column,
         frame_column,
         count_column,
         object_column,
         track_column,
-        cause_column,
         detail_column,
         column_count
     };

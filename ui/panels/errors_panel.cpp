@@ -2,6 +2,7 @@
 
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLabel>
 #include <QMenu>
 #include <QScrollBar>
 #include <QTableView>
@@ -23,6 +24,12 @@ ErrorsPanel::ErrorsPanel(ErrorsModel* model, QWidget* parent)
     table()->setIconSize(QSize(kChipHeight * 3 / 2, kChipHeight));
     table()->verticalHeader()->setDefaultSectionSize(kChipHeight + 4);
     table()->setColumnWidth(ErrorsModel::chip_column, kChipHeight * 3 / 2 + 10);
+    status_ = new QLabel(this);
+    status_->setWordWrap(true);
+    status_->setContentsMargins(6, 0, 6, 4);
+    status_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    status_->hide();
+    layout()->addWidget(status_);
     kinds_ = filterButton(tr("All kinds"));
     causes_ = filterButton(tr("All causes"));
     chips_due_->setSingleShot(true);
@@ -67,6 +74,15 @@ void ErrorsPanel::rebuildMenus() {
     build(
         causes_, tr("All causes"), cause_, [](const ErrorRow& row) { return row.cause; }, &ErrorsPanel::setShownCause);
     wantChips();
+}
+
+void ErrorsPanel::setStatus(const QString& text) {
+    status_->setText(text);
+    status_->setVisible(!text.isEmpty());
+}
+
+QString ErrorsPanel::status() const {
+    return status_->text();
 }
 
 void ErrorsPanel::setShownKind(const QString& kind) {

@@ -6,6 +6,7 @@
 #include "models/errors_model.h"
 #include "panels/table_panel.h"
 
+class QLabel;
 class QTimer;
 class QToolButton;
 
@@ -27,6 +28,9 @@ class ErrorsPanel : public TablePanel {
     int neighbour(int step) const;
     /// Rows that are shown, and all.
     int shownCount();
+    /// A line below the list, about the error that is looked at or what a correction changed.
+    void setStatus(const QString& text);
+    QString status() const;
     /// Ids of the rows in view that have no chip yet.
     QList<int> rowsWithoutChip() const;
     static constexpr int kChipHeight = 36;
@@ -52,6 +56,7 @@ class ErrorsPanel : public TablePanel {
     QToolButton* kinds_;
     QToolButton* causes_;
     QTimer* chips_due_;
+    QLabel* status_;
 };
 
 }  // namespace eyrie::ui

@@ -105,7 +105,7 @@ void LineChart::fill() {
     if (!places.isEmpty()) plot_->xAxis->setRange(places.front(), std::max(places.front() + 1, places.back()));
     const double top = data_.top.value_or(std::max(1.0, largest) * kHeadroom);
     // The legend lies above the curves.
-    plot_->yAxis->setRange(0, data_.series.size() > 1 ? top * (kLegendRoom - 0.1) : top);
+    plot_->yAxis->setRange(0, data_.series.size() > 1 ? top * kLegendRoom : top);
     plot_->legend->setVisible(data_.series.size() > 1);
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
