@@ -166,6 +166,7 @@ void MainWindow::wireFileActions() {
     });
     connect(docks_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
     connect(docks_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
+    docks_->wireSweeps(*parameters_);
     connect(parameters_, &ParameterBinding::problem, this, &MainWindow::showProblem);
     connect(parameters_, &ParameterBinding::notice, this, &MainWindow::showNotice);
 }

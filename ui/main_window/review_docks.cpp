@@ -5,8 +5,10 @@
 
 #include "main_window/inspector_panel.h"
 #include "main_window/motion_statistics_panel.h"
+#include "main_window/parameter_binding.h"
 #include "main_window/stacks_panel.h"
 #include "main_window/stages_panel.h"
+#include "main_window/sweep_panel.h"
 #include "panels/empty_state.h"
 #include "panels/parameter_form.h"
 #include "panels/runs_panel.h"
@@ -41,6 +43,9 @@ ReviewDocks::ReviewDocks(ProjectSession& session, Inspection& inspection, QMainW
         dock(QStringLiteral("statistics"), tr("Statistics"), statistics_, Qt::RightDockWidgetArea);
     window_.tabifyDockWidget(parameters, chart);
     window_.tabifyDockWidget(chart, statistics);
+    sweeps_ = new SweepPanel(session_);
+    window_.tabifyDockWidget(statistics,
+                             dock(QStringLiteral("sweeps"), tr("Sweeps"), sweeps_, Qt::RightDockWidgetArea));
     inspector->raise();
     window_.resizeDocks({runs, tracks}, {200, 420}, Qt::Vertical);
     window_.resizeDocks({runs, inspector}, {350, 440}, Qt::Horizontal);
@@ -59,6 +64,13 @@ QDockWidget* ReviewDocks::dock(const QString& name, const QString& title, QWidge
     window_.addDockWidget(area, dock);
     docks_.append(dock);
     return dock;
+}
+
+void ReviewDocks::wireSweeps(ParameterBinding& parameters) {
+    connect(sweeps_, &SweepPanel::applyRequested, &parameters, &ParameterBinding::setValues);
+    connect(sweeps_, &SweepPanel::savePresetRequested, &parameters, &ParameterBinding::saveAsPreset);
+    connect(sweeps_, &SweepPanel::problem, &parameters, &ParameterBinding::problem);
+    connect(sweeps_, &SweepPanel::notice, &parameters, &ParameterBinding::notice);
 }
 
 void ReviewDocks::wireRuns() {
