@@ -10,6 +10,7 @@
 #include <QPdfWriter>
 #include <QSvgRenderer>
 #include <QTextDocument>
+#include <QThread>
 #include <QUrl>
 #include <exception>
 
@@ -48,7 +49,9 @@ void setWidth(QString& html, const QString& name, double width) {
 
 }  // namespace
 
-void writePdfReport(const std::filesystem::path& path, const EvaluationReportFile& report) {
+namespace {
+
+void writePdf(const std::filesystem::path& path, const EvaluationReportFile& report) {
     const QString name = QString::fromStdString(path.string());
     const QString part = name + QStringLiteral(".part");  // readers see a whole file or none
     QFile file(part);
@@ -99,6 +102,23 @@ void writePdfReport(const std::filesystem::path& path, const EvaluationReportFil
         QFile::remove(part);
         refuse(name, QString::fromStdString(error.message()));
     }
+}
+
+}  // namespace
+
+void writePdfReport(const std::filesystem::path& path, const EvaluationReportFile& report) {
+    // Text documents lay themselves out with timers, which only threads of Qt have.
+    std::exception_ptr failure;
+    const std::unique_ptr<QThread> thread(QThread::create([&] {
+        try {
+            writePdf(path, report);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    }));
+    thread->start();
+    thread->wait();
+    if (failure) std::rethrow_exception(failure);
 }
 
 void ReportWriter::write(const std::filesystem::path& path, std::shared_ptr<const RunEvaluation> evaluation,
