@@ -48,6 +48,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
     deselect = add(tr("Select nothing"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
+    why = add(
+        tr("&Why here?"),
+        {"help-contextual", {QKeySequence(Qt::Key_W)}, QT_TR_NOOP("What decided about the place under the cursor")});
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
     review_workspace = addToggle(tr("&Review"), {nullptr, {QKeySequence(tr("Ctrl+1"))}}, true);

@@ -1,0 +1,99 @@
+#include "main_window/tuning.h"
+
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QMenu>
+
+#include "main_window/review_docks.h"
+#include "main_window/why_panel.h"
+#include "main_window/window_actions.h"
+#include "panels/parameter_form.h"
+#include "view/video_view.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr double kKeyMargin = 4;  ///< logical px around a box that is meant by the cursor
+
+QColor colourOf(CornerFate fate, const OverlayColours& colours) {
+    switch (fate) {
+        case CornerFate::moving:
+            return colours.motion_vector;
+        case CornerFate::slow:
+        case CornerFate::young:
+            return colours.stationary_corner;
+        case CornerFate::too_fast:
+        case CornerFate::parallax:
+        case CornerFate::shadow:
+            break;
+    }
+    return colours.non_vehicle;
+}
+
+}  // namespace
+
+Tuning::Tuning(const TuningParts& parts) : QObject(&parts.window), parts_(parts) {
+    buildWhy();
+}
+
+void Tuning::buildWhy() {
+    why_ = new Why(parts_.session, this);
+    why_panel_ = new WhyPanel(parts_.session, *why_);
+    why_dock_ = parts_.docks.addDock(QStringLiteral("why"), tr("Why?"), why_panel_);
+    connect(why_dock_, &QDockWidget::visibilityChanged, why_panel_, &WhyPanel::setLookedAt);
+    connect(why_panel_, &WhyPanel::parameterChosen, this, &Tuning::showParameter);
+    connect(why_, &Why::changed, this, &Tuning::showPlaceMark);
+    connect(why_dock_, &QDockWidget::visibilityChanged, this, &Tuning::showPlaceMark);
+    connect(&parts_.canvas, &VideoView::placeMenuRequested, this, &Tuning::showPlaceMenu);
+    connect(&parts_.canvas, &VideoView::cursorMoved, this, [this](std::optional<QPointF> place) { cursor_ = place; });
+    connect(parts_.actions.why, &QAction::triggered, this, [this] {
+        const QPointF middle(parts_.canvas.width() / 2.0, parts_.canvas.height() / 2.0);
+        const ViewTransform& transform = parts_.canvas.transform();
+        askWhy(cursor_.value_or(transform.imageFromView(middle)), kKeyMargin / transform.scale());
+    });
+}
+
+void Tuning::askWhy(QPointF place, double margin) {
+    if (!parts_.session.viewFrame().result) return;
+    why_dock_->show();
+    why_dock_->raise();
+    why_->want(true);
+    why_->ask(place, margin);
+}
+
+void Tuning::showParameter(const QString& name) {
+    ParameterForm& form = parts_.docks.parameterForm();
+    for (QDockWidget* dock : parts_.docks.docks()) {
+        if (dock->widget() != &form) continue;
+        dock->show();
+        dock->raise();
+    }
+    form.reveal(name);
+}
+
+void Tuning::showPlaceMenu(QPointF place, double margin, QPoint global) {
+    QMenu menu(&parts_.window);
+    QAction* why = menu.addAction(tr("Why here?"));
+    why->setShortcut(parts_.actions.why->shortcut());
+    if (menu.exec(global) == why) askWhy(place, margin);
+}
+
+void Tuning::showPlaceMark() {
+    const auto& area = why_->area();
+    if (!area || why_dock_->isHidden()) {
+        parts_.canvas.setPlaceMark(std::nullopt);
+        return;
+    }
+    PlaceMark mark;
+    mark.area = *area;
+    const auto& view = why_->view();
+    if (view && view->frame == parts_.session.viewFrame().index) {
+        const OverlayColours& colours = parts_.overlays.style().colours;
+        for (const CornerVerdict& corner : view->corners)
+            mark.dots.push_back({QPointF(corner.position.x, corner.position.y), colourOf(corner.fate, colours)});
+    }
+    parts_.canvas.setPlaceMark(std::move(mark));
+}
+
+}  // namespace eyrie::ui
