@@ -9,7 +9,7 @@
 namespace eyrie::ui {
 
 namespace {
-constexpr double kShownAround = 2;  ///< corners are shown in the area times this
+constexpr double kShownAround = 1.3;  ///< corners are shown in the area times this
 }
 
 /// What lives on the loader's thread.

@@ -203,7 +203,7 @@ void VideoView::paintPlaceMark(QPainter& painter) const {
     QVector<QLineF> lines;
     appendBox(lines, place_mark_->area, transform_, rect());
     drawEdgedLines(painter, lines, {Qt::white, colours.edge, kInspectedWidth, Qt::DotLine});
-    const double size = std::clamp(transform_.scale() * 1.2, 3.0, 9.0);
+    const double size = std::clamp(transform_.scale(), 2.0, 7.0);
     for (const PlaceMark::Dot& dot : place_mark_->dots)
         drawEdgedDots(painter, {transform_.viewFromImage(dot.place)}, size, dot.colour, colours.edge);
 }
