@@ -25,6 +25,8 @@ void addRenderCommand(CLI::App& app, int& exit_code);
 void addParamsCommand(CLI::App& app, int& exit_code);
 void addBenchCommand(CLI::App& app, int& exit_code);
 void addCompareCommand(CLI::App& app, int& exit_code);
+void addSweepCommand(CLI::App& app, int& exit_code);
+void addMergeCommand(CLI::App& app, int& exit_code);
 void addInfoCommand(CLI::App& app, int& exit_code);
 void addTrainCommand(CLI::App& app, int& exit_code);
 void addClassifyCommand(CLI::App& app, int& exit_code);

@@ -8,6 +8,8 @@
 #include "cli/evaluation_files.h"
 #include "cli/evaluation_report.h"
 #include "core/error.h"
+#include "diagnosis/mistake_csv.h"
+#include "diagnosis/run_evaluation.h"
 #include "io/homography_csv.h"
 #include "store/run_store.h"
 
@@ -26,6 +28,7 @@ struct Arguments {
     std::string homographies;
     std::string convention = "thesis";
     double mot_origin = MotOptions().first_pixel_edge;
+    std::string errors;
     bool json = false;
 };
 
@@ -119,6 +122,25 @@ RegistrationError registrationErrorOf(const Arguments& arguments, const Result& 
     return registrationError(result.registrations, truth, result.run->sequence.size);
 }
 
+/// The list of errors at the first T_ov; causes need a stored run.
+void writeErrors(const Arguments& arguments, const BoxesByFrame& truth, const Result& result,
+                 EvaluationOptions options) {
+    options.overlap = arguments.overlaps.empty() ? options.overlap : arguments.overlaps.front();
+    const EvaluationInput input = prepareEvaluation(truth, result.boxes, options);
+    const std::vector<FrameMatch> matches = matchFrames(input, options);
+    DiagnosisSource source;
+    std::optional<ProjectFile> project;
+    std::optional<RunStore> store;
+    if (result.run) {
+        project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+        store.emplace(*project);
+        source = diagnosisSource(*store, *result.run);
+    }
+    Diagnoser diagnoser(std::move(source));
+    writeMistakeCsv(arguments.errors, diagnoser.diagnose(listMistakes(truth, result.boxes, input, matches, options),
+                                                         {truth, result.boxes, input, matches, options}));
+}
+
 void evaluateAndPrint(const Arguments& arguments) {
     const MotOptions mot{arguments.mot_origin};
     EvaluationReport report;
@@ -151,6 +173,7 @@ void evaluateAndPrint(const Arguments& arguments) {
     if (!report.measures.empty()) {
         for (std::string& remark : remarksOn(report.measures.front())) report.remarks.push_back(std::move(remark));
     }
+    if (!arguments.errors.empty()) writeErrors(arguments, truth.boxes, result, options);
     std::fputs((arguments.json ? jsonText(report) : tableText(report)).c_str(), stdout);
 }
 
@@ -188,6 +211,9 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
         ->add_option("--mot-origin", arguments->mot_origin,
                      "Where the first pixel begins in MOTChallenge text: 1 by its rules, 0 in UAVDT and VisDrone")
         ->capture_default_str();
+    command->add_option("--errors", arguments->errors,
+                        "Write every miss, false alarm, switch, fragment, split and merge at the first T_ov to this "
+                        "CSV file, with probable causes where a run is measured");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] {
         if (arguments->result.empty() == arguments->project.empty()) {

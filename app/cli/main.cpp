@@ -43,6 +43,8 @@ int main(int argc, char** argv) {
     eyrie::cli::addParamsCommand(app, exit_code);
     eyrie::cli::addBenchCommand(app, exit_code);
     eyrie::cli::addCompareCommand(app, exit_code);
+    eyrie::cli::addSweepCommand(app, exit_code);
+    eyrie::cli::addMergeCommand(app, exit_code);
     eyrie::cli::addInfoCommand(app, exit_code);
     eyrie::cli::addTrainCommand(app, exit_code);
     eyrie::cli::addClassifyCommand(app, exit_code);

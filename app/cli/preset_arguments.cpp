@@ -24,6 +24,11 @@ ChainOptions PresetArguments::options() const {
     }
     ChainOptions options = builtInPreset(is_built_in ? preset : "default");
     if (!is_built_in) setParameters(describeOf(options), readPreset(preset).values);
+    applySettings(options);
+    return options;
+}
+
+void PresetArguments::applySettings(ChainOptions& options) const {
     for (const auto& setting : settings) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) {
@@ -31,7 +36,6 @@ ChainOptions PresetArguments::options() const {
         }
         setParameter(describeOf(options), setting.substr(0, equals), setting.substr(equals + 1));
     }
-    return options;
 }
 
 }  // namespace eyrie::cli

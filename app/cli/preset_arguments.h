@@ -19,6 +19,8 @@ struct PresetArguments {
     void addTo(CLI::App& command);
     /// Throws Error(parameter | input).
     ChainOptions options() const;
+    /// Only what --set says. Throws Error(parameter).
+    void applySettings(ChainOptions& options) const;
 };
 
 }  // namespace eyrie::cli

@@ -1,7 +1,10 @@
 #include <QApplication>
 #include <QCommandLineParser>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
 #include "main_window/main_window.h"
 #include "main_window/screenshot.h"
@@ -77,14 +80,43 @@ StartOptions readOptions(const QCoreApplication& application) {
     return options;
 }
 
+void nameProgram() {
+    QCoreApplication::setOrganizationName(QStringLiteral("eyrie"));
+    QCoreApplication::setApplicationName(QStringLiteral("eyrie"));
+    QCoreApplication::setApplicationVersion(QStringLiteral(EYRIE_VERSION));
+}
+
+/// Help and version need no display.
+bool asksForText(int argc, char** argv) {
+    const std::array<std::string_view, 5> questions{"-h", "--help", "--help-all", "-v", "--version"};
+    return std::any_of(argv + 1, argv + argc, [&](const char* argument) {
+        return std::find(questions.begin(), questions.end(), argument) != questions.end();
+    });
+}
+
+/// Qt would abort without a display; a reader of the message can be helped.
+void needDisplay(int argc, char** argv) {
+    const bool chosen =
+        qEnvironmentVariableIsSet("QT_QPA_PLATFORM") || std::any_of(argv + 1, argv + argc, [](const char* argument) {
+            return std::string_view(argument).starts_with("-platform");
+        });
+    if (chosen || qEnvironmentVariableIsSet("DISPLAY") || qEnvironmentVariableIsSet("WAYLAND_DISPLAY")) return;
+    refuse(QStringLiteral("there is no display to show a window on. `eyrie-cli run` processes a video without one."));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (asksForText(argc, argv)) {
+        QCoreApplication application(argc, argv);
+        nameProgram();
+        readOptions(application);
+        return 0;
+    }
+    needDisplay(argc, argv);
     QApplication::setHighDpiScaleFactorRoundingPolicy(Qt::HighDpiScaleFactorRoundingPolicy::PassThrough);
     QApplication application(argc, argv);
-    QApplication::setOrganizationName(QStringLiteral("eyrie"));
-    QApplication::setApplicationName(QStringLiteral("eyrie"));
-    QApplication::setApplicationVersion(QStringLiteral(EYRIE_VERSION));
+    nameProgram();
     QApplication::setDesktopFileName(QStringLiteral("eyrie"));
     const StartOptions options = readOptions(application);
     eyrie::ui::Theme theme(application);

@@ -8,9 +8,7 @@
 #include "detection/roi_cutter.h"
 
 namespace eyrie {
-namespace {
 
-/// Boxes of a classifier are complete, so that of two the surer one stays; segments may be parts (Teutsch §5.5.1).
 DuplicateRemovalOptions duplicatesFor(const ChainOptions& options) {
     DuplicateRemovalOptions duplicates = options.duplicates;
     if (duplicates.strategy == DuplicateStrategy::by_detector) {
@@ -19,8 +17,6 @@ DuplicateRemovalOptions duplicatesFor(const ChainOptions& options) {
     }
     return duplicates;
 }
-
-}  // namespace
 
 MotionHalf::MotionHalf(const ChainOptions& options, const SceneScale& scale)
     : registrar_(options.registration, scale), independent_motion_(options.motion, scale) {}

@@ -12,6 +12,10 @@
 
 namespace eyrie {
 
+/// Removal of duplicates as it suits the detector in use: boxes of a classifier are complete, so that of two the surer
+/// one stays; segments may be parts (Teutsch §5.5.1).
+DuplicateRemovalOptions duplicatesFor(const ChainOptions& options);
+
 /// First half of the chain, pixels → motion vectors (Teutsch chapter 4). Frames must come in ascending order.
 class MotionHalf {
  public:

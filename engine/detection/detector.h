@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/detection.h"
@@ -7,6 +9,13 @@
 #include "detection/detection_trace.h"
 
 namespace eyrie {
+
+/// What a detector makes of a motion ROI before the parameters come into play that are tuned most; see prepare().
+class PreparedArea {
+ public:
+    virtual ~PreparedArea() = default;
+    virtual std::size_t bytes() const = 0;  ///< it takes, roughly
+};
 
 /// Finds the objects of one motion ROI (Teutsch §5.4). The exchangeable step of the chain: stateless, so that
 /// `detect` may be called for several ROIs at once.
@@ -18,6 +27,17 @@ class Detector {
     /// stay empty unless the detector has a value of its own: removal counts the motion vectors. An empty ROI gives
     /// none.
     virtual std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const = 0;
+
+    /// The part of `detect` that does not depend on what changesDecisionOnly() names, for detecting in the same area
+    /// many times. Null where there is no such part.
+    virtual std::unique_ptr<const PreparedArea> prepare(const MotionRoi&) const { return nullptr; }
+    /// Exactly what `detect` gives. `prepared`: of the same area, by a detector whose other parameters are the same.
+    virtual std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* /*prepared*/) const {
+        return detect(roi);
+    }
 };
+
+/// Whether a parameter of detection, such as "gradient.quantile", has no part in prepare().
+bool changesDecisionOnly(const std::string& parameter);
 
 }  // namespace eyrie

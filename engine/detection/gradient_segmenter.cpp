@@ -21,6 +21,17 @@ LbpGradientOptions lbpOf(const GradientOptions& options) {
     return lbp;
 }
 
+/// A closing with a flat square is the same before and after thresholding, so it need not be done for every threshold.
+class ClosedGradient : public PreparedArea {
+ public:
+    std::size_t bytes() const override {
+        return closed.total() * sizeof(float) + ranked.size() * sizeof(float) + sizeof *this;
+    }
+    cv::Mat closed;             ///< CV_32FC1; below 0 outside the video
+    std::vector<float> ranked;  ///< positive gradients of the quantile area, descending
+    std::size_t counted = 0;    ///< pixels of the quantile area
+};
+
 }  // namespace
 
 GradientSegmenter::GradientSegmenter(const GradientOptions& options, const SceneScale& scale, double cluster_margin_px)
@@ -93,10 +104,37 @@ std::vector<cv::Rect2d> GradientSegmenter::segment(const MotionRoi& roi, Detecti
     return boxes;
 }
 
+std::unique_ptr<const PreparedArea> GradientSegmenter::prepare(const MotionRoi& roi) const {
+    if (roi.image.empty()) return nullptr;
+    auto prepared = std::make_unique<ClosedGradient>();
+    cv::Mat gradient = gradientOf(roi.image);
+    RankedValues ranked = rankedValues(gradient, quantileMask(roi));
+    prepared->ranked = std::move(ranked.positive);
+    prepared->counted = ranked.counted;
+    gradient.setTo(-1, roi.inside == 0);
+    closeGaps(gradient, prepared->closed);
+    return prepared;
+}
+
+std::vector<Detection> GradientSegmenter::decide(const MotionRoi& roi, const PreparedArea* prepared) const {
+    const auto* gradient = dynamic_cast<const ClosedGradient*>(prepared);
+    if (gradient == nullptr) return detect(roi);
+    const auto threshold = quantileThreshold(gradient->ranked, gradient->counted, options_.quantile);
+    if (!threshold) return detectionsOf(roi, {});
+    cv::Mat labels;
+    const std::vector<Region> regions =
+        findRegions(gradient->closed >= static_cast<double>(*threshold), options_.min_box_area_px, labels);
+    return detectionsOf(roi, component_boxes_.select(regions, labels, roi.vectors));
+}
+
 std::vector<Detection> GradientSegmenter::detect(const MotionRoi& roi, DetectionTrace* trace) const {
     if (trace != nullptr) trace->add("raw", roi.image);
     if (roi.image.empty()) return {};
-    const std::vector<cv::Rect2d> boxes = segment(roi, trace);
+    return detectionsOf(roi, segment(roi, trace), trace);
+}
+
+std::vector<Detection> GradientSegmenter::detectionsOf(const MotionRoi& roi, const std::vector<cv::Rect2d>& boxes,
+                                                       DetectionTrace* trace) const {
     if (options_.fall_back && !component_boxes_.explain(boxes, roi.vectors, trace))
         return clusterDetection(roi, cluster_margin_px_);
     std::vector<Detection> detections;

@@ -18,12 +18,18 @@ class GradientSegmenter : public Detector {
     /// Trace layers: raw, gradient, lbp mask (LBP only), quantile area, binary, closed, components.
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;
 
+    /// The closed gradient image and the ranks of its values: another quantile is another threshold of the same image.
+    std::unique_ptr<const PreparedArea> prepare(const MotionRoi& roi) const override;
+    std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* prepared) const override;
+
     /// Gradient magnitude of a CV_8UC1 image by the chosen method, CV_32FC1.
     cv::Mat gradientOf(const cv::Mat& gray) const;
 
  private:
     cv::Mat quantileMask(const MotionRoi& roi) const;
     std::vector<cv::Rect2d> segment(const MotionRoi& roi, DetectionTrace* trace) const;
+    std::vector<Detection> detectionsOf(const MotionRoi& roi, const std::vector<cv::Rect2d>& boxes,
+                                        DetectionTrace* trace = nullptr) const;
 
     GradientOptions options_;
     LbpGradientOptions lbp_;

@@ -15,7 +15,15 @@
 namespace eyrie {
 namespace {
 
-constexpr double kSupportMargin = 1.0;  ///< px; corners lie on the outline
+constexpr double kSupportMargin = 1.0;     ///< px; corners lie on the outline
+constexpr double kLowestDecision = -1000;  ///< the lowest threshold there can be
+
+/// Peaks of the decision functions of all scales, in their order.
+class DecisionPeaks : public PreparedArea {
+ public:
+    std::size_t bytes() const override { return hypotheses.capacity() * sizeof(WindowHypothesis) + sizeof *this; }
+    std::vector<WindowHypothesis> hypotheses;
+};
 
 constexpr double kNoDecision = -1e30;  ///< below: windows that were given up early
 
@@ -43,6 +51,12 @@ cv::Mat overArea(const cv::Mat& decision, cv::Size rescaled, cv::Size area) {
     return resized;
 }
 
+/// Whether the middle of a window shows something.
+bool inVideo(const MotionRoi& roi, const WindowHypothesis& found) {
+    const cv::Point centre(cvRound(found.box.x + found.box.width / 2), cvRound(found.box.y + found.box.height / 2));
+    return cv::Rect({0, 0}, roi.inside.size()).contains(centre) && roi.inside.at<uchar>(centre) != 0;
+}
+
 std::vector<cv::Rect2d> boxesOf(const std::vector<WindowHypothesis>& hypotheses) {
     std::vector<cv::Rect2d> boxes;
     for (const WindowHypothesis& hypothesis : hypotheses) boxes.push_back(hypothesis.box);
@@ -67,6 +81,34 @@ bool SlidingWindowDetector::supported(const MotionRoi& roi, const cv::Rect2d& bo
     return inside >= std::max(1.0, options_.support_share * static_cast<double>(roi.vectors.size()));
 }
 
+bool SlidingWindowDetector::accepted(const MotionRoi& roi, const WindowHypothesis& found) const {
+    return inVideo(roi, found) && supported(roi, found.box);
+}
+
+std::unique_ptr<const PreparedArea> SlidingWindowDetector::prepare(const MotionRoi& roi) const {
+    if (roi.image.empty()) return nullptr;
+    auto peaks = std::make_unique<DecisionPeaks>();
+    SlidingWindowOptions lowest = options_;
+    lowest.decision_threshold = kLowestDecision;
+    for (const double scale : options_.scales()) {
+        cv::Mat decision;
+        for (const WindowHypothesis& found : scanAtScale(scanner_, roi.image, scale, lowest, scale_, decision))
+            peaks->hypotheses.push_back(found);
+    }
+    peaks->hypotheses.shrink_to_fit();
+    return peaks;
+}
+
+std::vector<Detection> SlidingWindowDetector::decide(const MotionRoi& roi, const PreparedArea* prepared) const {
+    const auto* peaks = dynamic_cast<const DecisionPeaks*>(prepared);
+    if (peaks == nullptr) return detect(roi);
+    std::vector<WindowHypothesis> hypotheses;
+    for (const WindowHypothesis& found : peaks->hypotheses) {
+        if (found.decision >= options_.decision_threshold && accepted(roi, found)) hypotheses.push_back(found);
+    }
+    return detectionsOf(roi, suppressOverlapping(std::move(hypotheses), options_.overlap_threshold));
+}
+
 std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, DetectionTrace* trace) const {
     if (trace != nullptr) trace->add("raw", roi.image);
     if (roi.image.empty()) return {};
@@ -75,17 +117,12 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
     for (const double scale : options_.scales()) {
         cv::Mat decision;
         for (const WindowHypothesis& found : scanAtScale(scanner_, roi.image, scale, options_, scale_, decision)) {
-            const cv::Point centre(cvRound(found.box.x + found.box.width / 2),
-                                   cvRound(found.box.y + found.box.height / 2));
-            const bool in_video =
-                cv::Rect({0, 0}, roi.inside.size()).contains(centre) && roi.inside.at<uchar>(centre) != 0;
-            const bool enough = supported(roi, found.box);
-            if (in_video && enough) hypotheses.push_back(found);
-            if (trace != nullptr && in_video && options_.need_support) {
+            if (accepted(roi, found)) hypotheses.push_back(found);
+            if (trace != nullptr && options_.need_support && inVideo(roi, found)) {
                 const auto inside = static_cast<double>(pointsWithin(found.box, roi.vectors, kSupportMargin).size());
                 const double needed = std::max(1.0, options_.support_share * static_cast<double>(roi.vectors.size()));
                 trace->checks.push_back({"motion vectors in a window", "sliding_window.support_share", inside, needed,
-                                         false, enough, found.box});
+                                         false, supported(roi, found.box), found.box});
             }
         }
         if (trace != nullptr) {
@@ -102,6 +139,11 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
     if (trace != nullptr) trace->add("first suppression", roi.image, boxesOf(hypotheses));
     hypotheses = suppressOverlapping(std::move(hypotheses), options_.overlap_threshold);
     if (trace != nullptr) trace->add("second suppression", roi.image, boxesOf(hypotheses));
+    return detectionsOf(roi, hypotheses);
+}
+
+std::vector<Detection> SlidingWindowDetector::detectionsOf(const MotionRoi& roi,
+                                                           const std::vector<WindowHypothesis>& hypotheses) const {
     std::vector<Detection> detections;
     for (const WindowHypothesis& hypothesis : hypotheses) {
         Detection detection;

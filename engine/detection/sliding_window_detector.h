@@ -20,7 +20,13 @@ class SlidingWindowDetector : public Detector {
     /// suppression (raw, with the boxes left).
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;
 
+    /// Every peak of the decision function, however low.
+    std::unique_ptr<const PreparedArea> prepare(const MotionRoi& roi) const override;
+    std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* prepared) const override;
+
  private:
+    bool accepted(const MotionRoi& roi, const WindowHypothesis& found) const;
+    std::vector<Detection> detectionsOf(const MotionRoi& roi, const std::vector<WindowHypothesis>& hypotheses) const;
     bool supported(const MotionRoi& roi, const cv::Rect2d& box) const;
 
     WindowScanner scanner_;

@@ -44,23 +44,51 @@ cv::Rect2d boxInRoi(const cv::Matx23d& image_from_roi, const OrientedBox& box) {
     return {centre.x - box.width / 2, centre.y - box.length / 2, box.width, box.length};
 }
 
+class BothPrepared : public PreparedArea {
+ public:
+    std::size_t bytes() const override {
+        return sizeof *this + (window ? window->bytes() : 0) + (gradient ? gradient->bytes() : 0);
+    }
+    std::unique_ptr<const PreparedArea> window;
+    std::unique_ptr<const PreparedArea> gradient;
+};
+
 }  // namespace
 
+std::unique_ptr<const PreparedArea> WindowAndGradientDetector::prepare(const MotionRoi& roi) const {
+    auto both = std::make_unique<BothPrepared>();
+    both->window = window_->prepare(roi);
+    both->gradient = gradient_->prepare(narrowed(roi, context_));
+    return both;
+}
+
+std::vector<Detection> WindowAndGradientDetector::decide(const MotionRoi& roi, const PreparedArea* prepared) const {
+    const auto* both = dynamic_cast<const BothPrepared*>(prepared);
+    if (both == nullptr) return detect(roi);
+    return joined(roi, window_->decide(roi, both->window.get()),
+                  gradient_->decide(narrowed(roi, context_), both->gradient.get()));
+}
+
 std::vector<Detection> WindowAndGradientDetector::detect(const MotionRoi& roi, DetectionTrace* trace) const {
-    std::vector<Detection> found = window_->detect(roi, trace);
+    std::vector<Detection> windows = window_->detect(roi, trace);
     if (trace != nullptr) {
-        for (const Detection& window : found) {
+        for (const Detection& window : windows) {
             if (!window.complete) continue;
             trace->checks.push_back({"decision value of a window that stands by itself",
                                      "window_and_gradient.sure_decision", window.score, options_.sure_decision, false,
                                      window.score >= options_.sure_decision, boxInRoi(roi.image_from_roi, window.box)});
         }
     }
-    std::erase_if(found, [&](const Detection& d) { return !d.complete || d.score < options_.sure_decision; });
-    const auto windows = static_cast<std::ptrdiff_t>(found.size());
     DetectionTrace inner;
     std::vector<Detection> segments = gradient_->detect(narrowed(roi, context_), trace != nullptr ? &inner : nullptr);
     if (trace != nullptr) addWidened(*trace, inner, roi.image.size());
+    return joined(roi, std::move(windows), std::move(segments), trace);
+}
+
+std::vector<Detection> WindowAndGradientDetector::joined(const MotionRoi& roi, std::vector<Detection> found,
+                                                         std::vector<Detection> segments, DetectionTrace* trace) const {
+    std::erase_if(found, [&](const Detection& d) { return !d.complete || d.score < options_.sure_decision; });
+    const auto windows = static_cast<std::ptrdiff_t>(found.size());
     for (Detection& segment : segments) {
         const double area = segment.box.area();
         double covered_area = 0;

@@ -27,7 +27,13 @@ class WindowAndGradientDetector : public Detector {
     /// Trace layers: those of the sliding window, then those of the gradients.
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;
 
+    std::unique_ptr<const PreparedArea> prepare(const MotionRoi& roi) const override;
+    std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* prepared) const override;
+
  private:
+    std::vector<Detection> joined(const MotionRoi& roi, std::vector<Detection> found, std::vector<Detection> segments,
+                                  DetectionTrace* trace = nullptr) const;
+
     std::unique_ptr<Detector> window_;
     std::unique_ptr<Detector> gradient_;
     WindowAndGradientOptions options_;

@@ -6,7 +6,7 @@
 namespace eyrie {
 
 void closeGaps(const cv::Mat& binary, cv::Mat& closed) {
-    CV_Assert(binary.empty() || binary.type() == CV_8UC1);
+    CV_Assert(binary.empty() || binary.type() == CV_8UC1 || binary.type() == CV_32FC1);
     if (binary.empty()) {
         closed = binary.clone();
         return;

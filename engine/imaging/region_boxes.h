@@ -13,7 +13,8 @@ struct Region {
     bool cut = false;  ///< touches the edge of the image, so part of it may be missing
 };
 
-/// Morphological closing of a CV_8UC1 binary image with a 3×3 square (Teutsch §5.4.1): fills gaps up to 2 px.
+/// Morphological closing of a CV_8UC1 binary image with a 3×3 square (Teutsch §5.4.1): fills gaps up to 2 px. For
+/// CV_32FC1, thresholding the result gives what thresholding before gives.
 void closeGaps(const cv::Mat& binary, cv::Mat& closed);
 
 /// 8-connected components of a CV_8UC1 binary image, by ascending label. Boxes with an area below `min_box_area` px²

@@ -109,6 +109,20 @@ TEST_F(Evaluate, detectionsHaveNoTrackingMeasures) {
     EXPECT_THAT(table.output, testing::ContainsRegex("MOTA +– +– +–\n"));
 }
 
+TEST_F(Evaluate, theListOfErrorsNamesCausesOfAStoredRun) {
+    const auto result =
+        evaluate({"--ground-truth", truth(), "--project", project(), "--detections", "--errors", at("errors.csv")});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    std::stringstream text;
+    text << std::ifstream(at("errors.csv")).rdbuf();
+    EXPECT_THAT(text.str(), HasSubstr("kind,first_frame,last_frame,count"));
+    EXPECT_THAT(text.str(), HasSubstr("false alarm,0,"));
+    const auto refused =
+        evaluate({"--ground-truth", truth(), "--project", at("p.eyrie"), "--errors", at("no/where/errors.csv")});
+    EXPECT_EQ(refused.exit_code, 4);
+    EXPECT_THAT(refused.errors, HasSubstr("errors.csv"));
+}
+
 TEST_F(Evaluate, motChallengeTextIsRecognised) {
     const auto gt = write("gt.txt", "1,1,41.5,36.5,20,10,1,3,1\n2,1,45.5,36.5,20,10,1,3,1\n");
     const auto own = evaluate({"--ground-truth", gt, "--result", truth(), "--json"});

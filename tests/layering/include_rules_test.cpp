@@ -56,8 +56,13 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"exchange", {"core", "annotation", "formats", "store"}},
     {"scene", {"core", "io"}},
     {"store", {"core"}},
+    {"sweep",
+     {"core", "io", "registration", "motion", "stacking", "detection", "removal", "tracking", "evaluation", "chain",
+      "store"}},
     {"chain",
      {"core", "io", "registration", "motion", "stacking", "detection", "learning", "removal", "tracking", "store"}},
+    {"diagnosis",
+     {"core", "annotation", "chain", "evaluation", "exchange", "formats", "io", "motion", "store"}},
 };
 
 }  // namespace

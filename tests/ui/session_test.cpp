@@ -279,6 +279,7 @@ class SessionTest : public QObject {
         QVERIFY(ready.wait(kPatience_ms));
         QCOMPARE(problem.count(), 1);
         QCOMPARE(session.video()->frame_count, 30);
+        QCOMPARE(session.settings().gsd_m_per_px, 0.25);  // what the run was given; a next one gets it too
         session.goToFrame(20);
         QVERIFY(QTest::qWaitFor([&] { return session.viewFrame().index == 20 && session.viewFrame().result; },
                                 kPatience_ms));

@@ -1,6 +1,7 @@
 #include "view/view_transform.h"
 
 #include <QTest>
+#include <numbers>
 
 namespace eyrie::ui {
 
@@ -109,6 +110,27 @@ class ViewTransformTest : public QObject {
         t.setZoomAround({500, 350}, 2);
         t.setView({1000, 700}, 2);
         QCOMPARE(t.zoom(), 2.0);
+    }
+
+    void aTurnedPictureMapsThereAndBack() {
+        ViewTransform transform;
+        transform.setView({800, 600}, 1);
+        transform.setImageSize({320, 224});
+        transform.setZoomAround({100, 80}, 3);
+        transform.centreOn({40, 60});
+        transform.setRotation(-1.1);
+        compare(transform.viewFromImage({40, 60}), {400, 300});  // the middle stays
+        const QPointF somewhere(12.25, 91.5);
+        compare(transform.imageFromView(transform.viewFromImage(somewhere)), somewhere);
+        const QPointF before = transform.imageFromView({150, 500});
+        transform.zoomAround({150, 500}, 1.7);
+        compare(transform.imageFromView({150, 500}), before);
+        transform.panBy({10, -4});
+        compare(transform.viewFromImage(before), {160, 496});
+        transform.setRotation(std::numbers::pi / 2);  // clockwise: what pointed right points down
+        const QPointF along = transform.viewVector({1, 0});
+        QVERIFY(std::abs(along.x()) < 1e-9 && along.y() > 0);
+        compare(transform.turn().map(transform.unturnedFromImage(somewhere)), transform.viewFromImage(somewhere));
     }
 
     void visibleImageEndsAtTheImage() {

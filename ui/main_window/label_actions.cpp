@@ -63,6 +63,7 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     next_attention = add(tr("Next frame that needs attention"), {QKeySequence(Qt::Key_W)});
     next_unchecked = add(tr("Next one not checked"), {QKeySequence(Qt::Key_U)});
     follow = addToggle(tr("Keep the object in the middle"), {QKeySequence(Qt::Key_S)}, false);
+    follow_upright = addToggle(tr("… and turn the picture so that it heads up"), {}, true);
     this_frame = addToggle(tr("List objects of this frame only"), {QKeySequence(Qt::Key_H)}, false);
     deselect = add(tr("Stop drawing, select nothing"), {QKeySequence(Qt::Key_Escape)});
 

@@ -28,7 +28,7 @@ class LabelActions : public QObject {
     std::array<QAction*, 12> nudge;  ///< left, right, up, down: by 1, then by 0.1, then by 5 px
     std::array<QAction*, 8> object_class;
     QAction *next_frame, *previous_frame, *ten_on, *ten_back, *next_object, *previous_object, *next_keyframe,
-        *previous_keyframe, *next_attention, *next_unchecked, *follow, *this_frame, *deselect;
+        *previous_keyframe, *next_attention, *next_unchecked, *follow, *follow_upright, *this_frame, *deselect;
     QAction *checked, *questionable, *unseen;
     QAction *proposals, *accept, *accept_all, *accept_range, *reject, *next_proposal, *offer_again;
     QAction *track_on, *track_back, *stop_tracking;

@@ -6,6 +6,7 @@
 #include <QMenuBar>
 #include <QTimer>
 #include <QToolBar>
+#include <numbers>
 
 #include "annotation/join_suggestions.h"
 #include "annotation/object_pieces.h"
@@ -115,6 +116,7 @@ void LabelWorkspace::setActive(bool active) {
     around_.canvas.setTool(active ? tool_ : nullptr);
     actions_->setActive(active);
     showOverlays(active);
+    followObject();
     labels_->setWanted(active || labels_->isOpen());
     labelsChanged();
     around_.canvas.setFocus();
@@ -279,11 +281,17 @@ void LabelWorkspace::tell(const QString& text) {
 }
 
 void LabelWorkspace::followObject() {
-    if (!active_ || !actions_->follow->isChecked()) return;
-    const LabelledObject* object = editor_->object();
-    if (object == nullptr) return;
+    const bool following = active_ && actions_->follow->isChecked();
+    const LabelledObject* object = following ? editor_->object() : nullptr;
+    if (object == nullptr) {
+        around_.canvas.setRotation(0);
+        return;
+    }
     const auto box = LabelEditor::expectedBox(*object, around_.session.viewFrame().index, labels_->camera());
-    if (box) around_.canvas.centreOn({box->centre.x, box->centre.y});
+    if (!box) return;
+    const bool upright = actions_->follow_upright->isChecked();
+    around_.canvas.setRotation(upright ? -std::numbers::pi / 2 - box->heading : 0);
+    around_.canvas.centreOn({box->centre.x, box->centre.y});
 }
 
 }  // namespace eyrie::ui

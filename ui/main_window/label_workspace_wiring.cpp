@@ -99,10 +99,13 @@ void LabelWorkspace::wireEditActions() {
     const QPointF ways[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     for (std::size_t i = 0; i < actions_->nudge.size(); ++i)
         does(actions_->nudge[i], [this, by = ways[i % 4] * amounts[i / 4]] {
-            if (labels_->selected())
-                editor_->nudge(by.x(), by.y());
-            else if (by.x() != 0)  // without a box the arrows step, as in the other workspaces
+            if (labels_->selected()) {
+                const ViewTransform& shown = around_.canvas.transform();
+                const QPointF moved = shown.imageVector(by) * shown.scale();  // as the picture lies on screen
+                editor_->nudge(moved.x(), moved.y());
+            } else if (by.x() != 0) {  // without a box the arrows step, as in the other workspaces
                 around_.session.step((by.x() > 0 ? 1 : -1) * (std::abs(by.x()) > 1 ? 10 : 1));
+            }
         });
     for (std::size_t i = 0; i < actions_->object_class.size(); ++i)
         does(actions_->object_class[i], [this, name = builtInClasses()[i].name] { editor_->setClass(name); });
@@ -144,7 +147,8 @@ void LabelWorkspace::wireGoActions() {
     does(actions_->next_attention, [this] { editor_->nextAttention(); });
     does(actions_->next_unchecked, [this] { editor_->nextUnchecked(); });
     does(actions_->deselect, [this] { escape(); });
-    connect(actions_->follow, &QAction::toggled, this, [this] { followObject(); });
+    for (QAction* action : {actions_->follow, actions_->follow_upright})
+        connect(action, &QAction::toggled, this, [this] { followObject(); });
     connect(actions_->this_frame, &QAction::toggled, objects_, &ObjectsPanel::setThisFrameOnly);
 }
 

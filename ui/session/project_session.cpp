@@ -94,6 +94,7 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
         return;
     }
     if (pending.run) {  // its project is open already
+        adoptGsd(*pending.run);
         useRun(pending.run->id);
         emit ready(true);
         return;
@@ -142,8 +143,13 @@ void ProjectSession::showWithoutVideo(const RunRecord& run) {
         video.times_us[i] = std::llround(static_cast<double>(i) * 1e6 / std::max(0.001, info.frame_rate_hz));
     loader_.closeMedia();
     adoptVideo(mediaOfIdentity(run.sequence.path), video, false);
+    adoptGsd(run);
     useRun(run.id);
     emit ready(true);
+}
+
+void ProjectSession::adoptGsd(const RunRecord& run) {
+    if (run.scale.gsd_known) settings_.gsd_m_per_px = run.scale.gsd_m_per_px;
 }
 
 void ProjectSession::setFrameRate(double frames_per_second) {
@@ -175,7 +181,7 @@ void ProjectSession::projectOpened(const fs::path& project, const std::vector<Ru
     const RunRecord* shown = newestRun(true);
     const bool finished = shown != nullptr;
     if (!finished) shown = newestRun(false);
-    if (shown != nullptr && shown->scale.gsd_known) settings_.gsd_m_per_px = shown->scale.gsd_m_per_px;
+    if (shown != nullptr) adoptGsd(*shown);
     useRun(shown != nullptr ? std::optional(shown->id) : std::nullopt);
     emit ready(finished);
 }

@@ -127,6 +127,7 @@ class ProjectSession : public QObject {
     void projectFailed(const std::filesystem::path& project, const QString& message);
     void adoptVideo(Media media, const OpenedVideo& video, bool keep_place);
     void showWithoutVideo(const RunRecord& run);
+    void adoptGsd(const RunRecord& run);
     void useRun(std::optional<int> run_id);
     const RunRecord* findRun(int run_id) const;
     /// The newest run over this video that finished, or that has any frames; null when there is none.

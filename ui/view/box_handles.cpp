@@ -100,16 +100,19 @@ OrientedBox boxFromRearToFront(QPointF rear, QPointF front, double width) {
     return box;
 }
 
-OrientedBox boxFromCorners(QPointF a, QPointF b) {
+OrientedBox boxFromCorners(QPointF a, QPointF b, double rotation) {
     OrientedBox box;
-    const double width = std::max(kSmallestSide, std::abs(b.x() - a.x()));
-    const double height = std::max(kSmallestSide, std::abs(b.y() - a.y()));
+    const double right = (b.x() - a.x()) * std::cos(rotation) - (b.y() - a.y()) * std::sin(rotation);
+    const double down = (b.x() - a.x()) * std::sin(rotation) + (b.y() - a.y()) * std::cos(rotation);
+    const double width = std::max(kSmallestSide, std::abs(right));
+    const double height = std::max(kSmallestSide, std::abs(down));
     box.centre = {(a.x() + b.x()) / 2, (a.y() + b.y()) / 2};
     box.length = std::max(width, height);
     box.width = std::min(width, height);
     // Dragged towards the front: the way the mouse went along the longer side.
-    box.heading = width >= height ? (b.x() >= a.x() ? 0 : std::numbers::pi)
-                                  : (b.y() >= a.y() ? std::numbers::pi / 2 : -std::numbers::pi / 2);
+    const double on_screen = width >= height ? (right >= 0 ? 0 : std::numbers::pi)
+                                             : (down >= 0 ? std::numbers::pi / 2 : -std::numbers::pi / 2);
+    box.heading = std::remainder(on_screen - rotation, 2 * std::numbers::pi);
     return box;
 }
 

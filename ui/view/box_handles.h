@@ -28,7 +28,7 @@ OrientedBox draggedBox(const OrientedBox& box, BoxHandle handle, QPointF from, Q
 /// A box from the middle of a vehicle's rear to the middle of its front.
 OrientedBox boxFromRearToFront(QPointF rear, QPointF front, double width);
 
-/// An upright box from corner to corner, heading along its longer side.
-OrientedBox boxFromCorners(QPointF a, QPointF b);
+/// A box from corner to corner, heading along its longer side; upright on a picture turned by `rotation` (radians).
+OrientedBox boxFromCorners(QPointF a, QPointF b, double rotation = 0);
 
 }  // namespace eyrie::ui

@@ -93,7 +93,8 @@ void appendHeading(QVector<QLineF>& lines, const OrientedBox& box, const ViewTra
     if (!view.contains(from)) return;
     const cv::Point2d direction = box.direction();
     const double length = std::clamp(box.length * transform.scale() * 0.25, 5.0, 14.0);
-    lines.append({from, from + QPointF(direction.x, direction.y) * length});
+    const QPointF ahead = transform.viewVector({direction.x, direction.y}) / transform.scale();
+    lines.append({from, from + ahead * length});
 }
 
 }  // namespace eyrie::ui

@@ -153,7 +153,7 @@ bool LabelTool::move(const QMouseEvent& event, const CanvasPlace& place) {
     if (pressed_view_ && QLineF(*pressed_view_, event.position()).length() >= kDragThreshold) dragging_ = true;
     if (drawing_) {
         if (pressed_view_ && dragging_ && !rear_)
-            draft_ = boxFromCorners(pressed_image_, point);
+            draft_ = boxFromCorners(pressed_image_, point, place.transform.rotation());
         else
             updateDraft(point);
         emit repaintNeeded();
@@ -187,7 +187,7 @@ bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
     if (drawing_) {
         if (!was_pressed) return true;
         if (dragging_ && !rear_) {
-            finishDrawing(boxFromCorners(pressed_image_, point));
+            finishDrawing(boxFromCorners(pressed_image_, point, place.transform.rotation()));
         } else if (!rear_) {
             rear_ = point;
         } else if (!front_) {
@@ -317,7 +317,8 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
                    magnification, draft_,
                    drawing_   ? scene_.drawn_colour
                    : selected ? selected->colour
-                              : Qt::white);
+                              : Qt::white,
+                   place.transform.rotation());
     }
 }
 

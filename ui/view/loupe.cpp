@@ -3,6 +3,7 @@
 #include <QPainter>
 #include <QPainterPath>
 #include <cmath>
+#include <numbers>
 
 namespace eyrie::ui {
 
@@ -14,7 +15,7 @@ const QColor kOutside(34, 36, 40);
 }  // namespace
 
 void paintLoupe(QPainter& painter, const QImage& image, QPointF image_point, QPointF view_point, const QRectF& view,
-                double magnification, const std::optional<OrientedBox>& box, const QColor& colour) {
+                double magnification, const std::optional<OrientedBox>& box, const QColor& colour, double rotation) {
     if (image.isNull()) return;
     QPointF corner = view_point + QPointF(kDistance, -kDistance - kSide);
     if (corner.x() + kSide > view.right()) corner.setX(view_point.x() - kDistance - kSide);
@@ -30,13 +31,16 @@ void paintLoupe(QPainter& painter, const QImage& image, QPointF image_point, QPo
     painter.setBrush(kOutside);
     painter.drawPath(outline);
     painter.setClipPath(outline);
-    const double half = kSide / 2 / magnification;
+    const double half = kSide / 2 / magnification * (rotation == 0 ? 1 : std::numbers::sqrt2);
     const QRect whole = QRect(QPoint(static_cast<int>(std::floor(image_point.x() - half)),
                                      static_cast<int>(std::floor(image_point.y() - half))),
                               QPoint(static_cast<int>(std::ceil(image_point.x() + half)),
                                      static_cast<int>(std::ceil(image_point.y() + half)))) &
                         image.rect();
     painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
+    painter.translate(middle);
+    painter.rotate(rotation * 180 / std::numbers::pi);
+    painter.translate(-middle);
     if (!whole.isEmpty())
         painter.drawImage(
             QRectF(place(QPointF(whole.topLeft()) - QPointF(0.5, 0.5)), QSizeF(whole.size()) * magnification), image,
@@ -50,6 +54,9 @@ void paintLoupe(QPainter& painter, const QImage& image, QPointF image_point, QPo
         painter.setPen(QPen(colour, 1.3));
         painter.drawPolygon(polygon);
     }
+    painter.translate(middle);
+    painter.rotate(-rotation * 180 / std::numbers::pi);
+    painter.translate(-middle);
     painter.setPen(QPen(QColor(255, 255, 255, 150), 1));
     painter.drawLine(middle - QPointF(8, 0), middle - QPointF(3, 0));
     painter.drawLine(middle + QPointF(3, 0), middle + QPointF(8, 0));

@@ -17,7 +17,7 @@ void VectorLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     heads.reserve(static_cast<qsizetype>(vectors.size()));
     for (const MotionVector& vector : vectors) {
         const QPointF from = scene.transform.viewFromImage(QPointF(vector.position.x, vector.position.y));
-        const QPointF along = QPointF(vector.velocity.x, vector.velocity.y) * (factor * scene.transform.scale());
+        const QPointF along = scene.transform.viewVector(QPointF(vector.velocity.x, vector.velocity.y)) * factor;
         if (!scene.view.contains(from) && !scene.view.contains(from + along)) continue;
         lines.append({from, from + along});
         heads.append(from);

@@ -141,6 +141,12 @@ void VideoView::centreOn(QPointF image_point) {
     transformWasChanged();
 }
 
+void VideoView::setRotation(double radians) {
+    if (radians == transform_.rotation()) return;
+    transform_.setRotation(radians);
+    transformWasChanged();
+}
+
 QPointF VideoView::anchor() const {
     const QPointF cursor = mapFromGlobal(QPointF(QCursor::pos()));
     if (underMouse() && rect().contains(cursor.toPoint())) return cursor;
@@ -221,7 +227,10 @@ void VideoView::paintBadge(QPainter& painter) const {
 
 void VideoView::paintImage(QPainter& painter) const {
     if (frame_.image.isNull()) {
-        if (!transform_.imageSize().isEmpty()) painter.fillRect(transform_.imageRect(), kMissingPicture);
+        if (transform_.imageSize().isEmpty()) return;
+        painter.setTransform(transform_.turn(), true);
+        painter.fillRect(transform_.imageRect(), kMissingPicture);
+        painter.resetTransform();
         return;
     }
     const QRectF visible = transform_.visibleImage();
@@ -232,10 +241,12 @@ void VideoView::paintImage(QPainter& painter) const {
     const int right = std::min(frame_.image.width(), static_cast<int>(std::ceil(visible.right() + 0.5)));
     const int bottom = std::min(frame_.image.height(), static_cast<int>(std::ceil(visible.bottom() + 0.5)));
     const QRectF source(left, top, right - left, bottom - top);
-    const QRectF target(transform_.viewFromImage(source.topLeft() - QPointF(0.5, 0.5)),
+    const QRectF target(transform_.unturnedFromImage(source.topLeft() - QPointF(0.5, 0.5)),
                         source.size() * transform_.scale());
     painter.setRenderHint(QPainter::SmoothPixmapTransform, !transform_.sharp());
+    painter.setTransform(transform_.turn(), true);
     painter.drawImage(target, frame_.image, source);
+    painter.resetTransform();
 }
 
 void VideoView::resizeEvent(QResizeEvent*) {

@@ -51,6 +51,8 @@ class VideoView : public QWidget {
     /// Restores a remembered place: zoom (screen px per image px) and the image point in the middle.
     void restore(double zoom, QPointF centre);
     void centreOn(QPointF image_point);
+    /// Turns the picture clockwise around the middle of the canvas, radians; 0 is as filmed.
+    void setRotation(double radians);
 
     /// The canvas as it is painted, for pictures of it.
     QImage picture() const;

@@ -1,12 +1,21 @@
 #include "view/view_transform.h"
 
+#include <QPolygonF>
 #include <algorithm>
+#include <cmath>
 
 namespace eyrie::ui {
 
 namespace {
 /// Share of the view, or of the image if that is smaller, that panning always leaves covered.
 constexpr double kReachableShare = 0.2;
+
+QPointF turned(QPointF vector, double radians) {
+    if (radians == 0) return vector;
+    const double cosine = std::cos(radians);
+    const double sine = std::sin(radians);
+    return {vector.x() * cosine - vector.y() * sine, vector.x() * sine + vector.y() * cosine};
+}
 }  // namespace
 
 void ViewTransform::setImageSize(QSize image) {
@@ -16,7 +25,7 @@ void ViewTransform::setImageSize(QSize image) {
 }
 
 void ViewTransform::setView(QSizeF view, double device_pixel_ratio) {
-    const QPointF old_centre = imageFromView(QPointF(view_.width() / 2, view_.height() / 2));
+    const QPointF old_centre = imageFromView(middle());
     const double old_zoom = zoom();
     view_ = QSizeF(std::max(1.0, view.width()), std::max(1.0, view.height()));
     device_pixel_ratio_ = device_pixel_ratio > 0 ? device_pixel_ratio : 1;
@@ -29,11 +38,36 @@ void ViewTransform::setView(QSizeF view, double device_pixel_ratio) {
 }
 
 QPointF ViewTransform::viewFromImage(QPointF image_point) const {
-    return origin_ + (image_point + QPointF(0.5, 0.5)) * scale_;
+    return middle() + turned(unturnedFromImage(image_point) - middle(), rotation_);
 }
 
 QPointF ViewTransform::imageFromView(QPointF view_point) const {
-    return (view_point - origin_) / scale_ - QPointF(0.5, 0.5);
+    const QPointF unturned = middle() + turned(view_point - middle(), -rotation_);
+    return (unturned - origin_) / scale_ - QPointF(0.5, 0.5);
+}
+
+QPointF ViewTransform::unturnedFromImage(QPointF image_point) const {
+    return origin_ + (image_point + QPointF(0.5, 0.5)) * scale_;
+}
+
+QPointF ViewTransform::viewVector(QPointF image_vector) const {
+    return turned(image_vector, rotation_) * scale_;
+}
+
+QPointF ViewTransform::imageVector(QPointF view_vector) const {
+    return turned(view_vector, -rotation_) / scale_;
+}
+
+QTransform ViewTransform::turn() const {
+    if (rotation_ == 0) return {};
+    return QTransform()
+        .translate(middle().x(), middle().y())
+        .rotateRadians(rotation_)
+        .translate(-middle().x(), -middle().y());
+}
+
+void ViewTransform::setRotation(double radians) {
+    rotation_ = radians;
 }
 
 QRectF ViewTransform::imageRect() const {
@@ -42,7 +76,11 @@ QRectF ViewTransform::imageRect() const {
 
 QRectF ViewTransform::visibleImage() const {
     const QRectF whole(-0.5, -0.5, image_.width(), image_.height());
-    return QRectF(imageFromView({0, 0}), imageFromView({view_.width(), view_.height()})).intersected(whole);
+    const double right = view_.width();
+    const double bottom = view_.height();
+    const QPolygonF seen{
+        {imageFromView({0, 0}), imageFromView({right, 0}), imageFromView({right, bottom}), imageFromView({0, bottom})}};
+    return seen.boundingRect().intersected(whole);
 }
 
 double ViewTransform::fitScale() const {
@@ -63,20 +101,21 @@ void ViewTransform::zoomAround(QPointF view_point, double factor) {
 void ViewTransform::setZoomAround(QPointF view_point, double zoom) {
     const double smallest = std::min(1.0, fitScale() * device_pixel_ratio_) / 4;
     const double new_scale = std::clamp(zoom, smallest, kMaxZoom) / device_pixel_ratio_;
-    origin_ = view_point + (origin_ - view_point) * (new_scale / scale_);
+    const QPointF fixed = middle() + turned(view_point - middle(), -rotation_);
+    origin_ = fixed + (origin_ - fixed) * (new_scale / scale_);
     scale_ = new_scale;
     fitted_ = false;
 }
 
 void ViewTransform::panBy(QPointF view_delta) {
-    origin_ += view_delta;
+    origin_ += turned(view_delta, -rotation_);
     fitted_ = false;
     keepReachable();
 }
 
 void ViewTransform::centreOn(QPointF image_point) {
     fitted_ = false;
-    origin_ += QPointF(view_.width() / 2, view_.height() / 2) - viewFromImage(image_point);
+    origin_ += middle() - unturnedFromImage(image_point);
     keepReachable();
 }
 

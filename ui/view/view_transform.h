@@ -4,12 +4,13 @@
 #include <QRectF>
 #include <QSize>
 #include <QSizeF>
+#include <QTransform>
 
 namespace eyrie::ui {
 
 /// The map between an image and the widget that shows it. Arithmetic only: no widget, no screen.
 /// Image coordinates: px, pixel centres at integers, so the image covers [−0.5, size − 0.5]. View coordinates: the
-/// widget's logical pixels, origin at its top left.
+/// widget's logical pixels, origin at its top left. The picture may be turned around the middle of the view.
 class ViewTransform {
  public:
     static constexpr double kMaxZoom = 64;  ///< screen pixels per image pixel
@@ -34,9 +35,17 @@ class ViewTransform {
 
     QPointF viewFromImage(QPointF image_point) const;
     QPointF imageFromView(QPointF view_point) const;
-    /// The whole image in view coordinates.
+    /// A distance in the image as it lies in the view, and back.
+    QPointF viewVector(QPointF image_vector) const;
+    QPointF imageVector(QPointF view_vector) const;
+    /// Turns what is drawn where unturnedFromImage() says to where it belongs. Identity unless the picture is turned.
+    QTransform turn() const;
+    /// Where an image point lies before the turn.
+    QPointF unturnedFromImage(QPointF image_point) const;
+    /// The whole image in view coordinates, before the turn.
     QRectF imageRect() const;
-    /// The part of the image (image coordinates) that can be seen.
+    /// The part of the image (image coordinates) that can be seen: where the picture is turned, the upright rectangle
+    /// around it.
     QRectF visibleImage() const;
 
     /// The whole image, as large as fits; stays fitted when the widget is resized.
@@ -49,8 +58,12 @@ class ViewTransform {
     void panBy(QPointF view_delta);
     /// Brings an image point to the middle of the view.
     void centreOn(QPointF image_point);
+    /// Turns the picture clockwise by this angle (radians), around the middle of the view; 0 is upright.
+    void setRotation(double radians);
+    double rotation() const { return rotation_; }
 
  private:
+    QPointF middle() const { return {view_.width() / 2, view_.height() / 2}; }
     double fitScale() const;
     void keepReachable();
 
@@ -58,6 +71,7 @@ class ViewTransform {
     QSizeF view_{1, 1};
     double device_pixel_ratio_ = 1;
     double scale_ = 1;
+    double rotation_ = 0;
     QPointF origin_{0, 0};  ///< view position of the image's top left edge (image −0.5, −0.5)
     bool fitted_ = true;
 };

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "sweep/clip_opening.h"
+
+namespace eyrie::cli {
+
+/// Where sequences and ground truth of a sweep come from, as named on the command line.
+struct SweepSources {
+    std::vector<std::string> sequences;
+    std::vector<std::string> ground_truths;  ///< one for each sequence; of a project, at most one
+    std::vector<double> gsds;                ///< one for all, or one for each sequence
+    std::optional<double> frame_rate_hz;
+    std::string frames;
+    bool upright = false;
+    double mot_origin = 1;
+    std::string project;  ///< in place of sequences
+    std::optional<int> run;
+};
+
+/// Sequences as planned and opened.
+struct OpenedSources {
+    std::vector<SweepClip> clips;
+    std::vector<SweepInput> inputs;
+    std::vector<std::string> remarks;
+};
+
+/// Opens video files, folders and scenes; `options` are used where the scale must be estimated. Throws Error.
+OpenedSources openSequences(const SweepSources& sources, const ChainOptions& options, std::stop_token stop);
+
+/// Opens a stored run, whose motion vectors are used unless `options` make others. Ground truth is a file, or the
+/// labels of the project. Throws Error.
+OpenedSources openStoredRun(const SweepSources& sources, StoredRun run, const ChainOptions& options);
+
+}  // namespace eyrie::cli

@@ -1,0 +1,281 @@
+#include "diagnosis/diagnoser.h"
+
+#include <algorithm>
+#include <array>
+#include <list>
+#include <memory>
+#include <set>
+
+namespace eyrie {
+namespace {
+
+constexpr int kRecently = 3;  ///< frames after one that was not registered
+
+const std::vector<BoxRecord>& recordsOf(const BoxesByFrame& boxes, FrameIndex frame) {
+    static const std::vector<BoxRecord> nothing;
+    const auto found = boxes.find(frame);
+    return found == boxes.end() ? nothing : found->second;
+}
+
+bool same(const OrientedBox& a, const OrientedBox& b) {
+    return a.centre == b.centre && a.length == b.length && a.width == b.width && a.heading == b.heading;
+}
+
+/// First frame in which each object is in the ground truth.
+std::map<int, FrameIndex> firstFrames(const BoxesByFrame& truth) {
+    std::map<int, FrameIndex> first;
+    for (const auto& [frame, records] : truth)
+        for (const BoxRecord& record : records)
+            if (record.id) first.emplace(*record.id, frame);
+    return first;
+}
+
+/// Places of all mistakes by frame.
+struct Placed {
+    std::size_t mistake;
+    std::size_t place;
+};
+
+/// Objects and results of a frame that take part in splits and merges.
+struct PartsOfFrame {
+    std::set<int> split_objects, split_results, merged_objects;
+};
+
+void takeMostFrequent(DiagnosedMistake& diagnosed, const std::vector<CauseHere>& causes) {
+    std::array<int, kMistakeCauses> counts{};
+    for (const CauseHere& here : causes) ++counts[static_cast<std::size_t>(here.cause)];
+    counts[0] = 0;  // an explanation, however rare, is better than none
+    std::size_t best = causes.size();
+    for (std::size_t i = 0; i < causes.size(); ++i) {
+        const int count = counts[static_cast<std::size_t>(causes[i].cause)];
+        if (count > 0 && (best == causes.size() || count > counts[static_cast<std::size_t>(causes[best].cause)]))
+            best = i;
+    }
+    if (best == causes.size()) {
+        diagnosed.place = diagnosed.mistake.places.size() / 2;
+        return;
+    }
+    diagnosed.cause = causes[best].cause;
+    diagnosed.frames_of_cause = counts[static_cast<std::size_t>(diagnosed.cause)];
+    // The middle one of those with the cause is typical.
+    int left = diagnosed.frames_of_cause / 2;
+    for (std::size_t i = 0; i < causes.size(); ++i) {
+        if (causes[i].cause != diagnosed.cause || left-- > 0) continue;
+        diagnosed.place = i;
+        diagnosed.text = causes[i].text;
+        break;
+    }
+}
+
+/// Causes of switches and fragments follow from the other mistakes and from who found what.
+class IdentityCauses {
+ public:
+    IdentityCauses(const Comparison& comparison, const std::vector<DiagnosedMistake>& all)
+        : comparison_(comparison), all_(all) {
+        for (const FrameMatch& match : comparison.matches)
+            for (const MatchedPair& pair : match.pairs) {
+                const auto& object = recordsOf(comparison.truth, match.frame)[static_cast<std::size_t>(pair.truth)];
+                const auto& track = recordsOf(comparison.result, match.frame)[static_cast<std::size_t>(pair.result)];
+                if (object.id && track.id) found_[*track.id][match.frame] = *object.id;
+            }
+        for (const auto& [frame, records] : comparison.result)
+            for (const BoxRecord& record : records)
+                if (record.id) last_seen_[*record.id] = frame;
+    }
+
+    void explainSwitch(DiagnosedMistake& diagnosed) const {
+        const Mistake& mistake = diagnosed.mistake;
+        const int object = mistake.objects.front();
+        const int before = mistake.tracks.front();
+        const int after = mistake.tracks.back();
+        diagnosed.frames_of_cause = 1;
+        const auto other = lastObjectOf(after, mistake.last_frame, object);
+        const auto went_to = objectAt(before, mistake.last_frame);
+        if (other || (went_to && *went_to != object)) {
+            diagnosed.cause = MistakeCause::swapped;
+            diagnosed.text =
+                other ? "track " + std::to_string(after) + " followed object " + std::to_string(*other)
+                      : "track " + std::to_string(before) + " now follows object " + std::to_string(*went_to);
+            return;
+        }
+        const auto last = last_seen_.find(before);
+        if (last != last_seen_.end() && last->second >= mistake.last_frame) {
+            diagnosed.cause = MistakeCause::track_left;
+            diagnosed.text = "track " + std::to_string(before) + " goes on to frame " + std::to_string(last->second);
+            return;
+        }
+        diagnosed.cause = MistakeCause::track_ended;
+        if (last != last_seen_.end())
+            diagnosed.text = "track " + std::to_string(before) + " ends in frame " + std::to_string(last->second);
+        if (const DiagnosedMistake* miss = missWithin(object, mistake.first_frame, mistake.last_frame))
+            diagnosed.text += std::string(diagnosed.text.empty() ? "" : ", then: ") + nameOf(miss->cause);
+    }
+    void explainFragment(DiagnosedMistake& diagnosed) const {
+        const Mistake& mistake = diagnosed.mistake;
+        const DiagnosedMistake* miss = missWithin(mistake.objects.front(), mistake.first_frame, mistake.last_frame);
+        if (miss == nullptr) return;
+        diagnosed.cause = miss->cause;
+        diagnosed.text = miss->text;
+        diagnosed.frames_of_cause = 1;
+    }
+
+ private:
+    std::optional<int> objectAt(int track, FrameIndex frame) const {
+        const auto frames = found_.find(track);
+        if (frames == found_.end()) return std::nullopt;
+        const auto here = frames->second.find(frame);
+        return here == frames->second.end() ? std::nullopt : std::optional(here->second);
+    }
+    /// The object that a track found last before a frame, unless it is `object`.
+    std::optional<int> lastObjectOf(int track, FrameIndex before, int object) const {
+        const auto frames = found_.find(track);
+        if (frames == found_.end()) return std::nullopt;
+        auto last = frames->second.lower_bound(before);
+        if (last == frames->second.begin()) return std::nullopt;
+        --last;
+        return last->second == object ? std::nullopt : std::optional(last->second);
+    }
+    const DiagnosedMistake* missWithin(int object, FrameIndex first, FrameIndex last) const {
+        const DiagnosedMistake* found = nullptr;
+        for (const DiagnosedMistake& one : all_) {
+            const Mistake& m = one.mistake;
+            if (m.kind != MistakeKind::miss || m.objects.empty() || m.objects.front() != object) continue;
+            if (m.last_frame < first || m.first_frame > last) continue;
+            if (found == nullptr || m.count() > found->mistake.count()) found = &one;
+        }
+        return found;
+    }
+
+    const Comparison& comparison_;
+    const std::vector<DiagnosedMistake>& all_;
+    std::map<int, std::map<FrameIndex, int>> found_;  ///< per track: the object it found in each frame
+    std::map<int, FrameIndex> last_seen_;             ///< per track
+};
+
+}  // namespace
+
+class Diagnoser::FrameLookup {
+ public:
+    FrameLookup(Diagnoser& owner, FrameIndex frame) : owner_(owner), frame_(frame) {}
+
+    /// Null where nothing is stored. Valid while the lookup lives.
+    const BoxFacts* at(const OrientedBox& box) {
+        if (!owner_.source_.frame_result) return nullptr;
+        for (const Known& known : owner_.known_[frame_])
+            if (same(known.box, box)) return &copies_.emplace_back(known.facts);
+        if (!read_) {
+            read_ = true;
+            result_ = owner_.source_.frame_result(frame_);
+        }
+        if (!result_) return nullptr;
+        const DiagnosisSource& source = owner_.source_;
+        const BoxFacts& facts =
+            copies_.emplace_back(factsAt(box, *result_, source.options, source.scale, owner_.upright_));
+        owner_.known_[frame_].push_back({box, facts});
+        return &facts;
+    }
+
+ private:
+    Diagnoser& owner_;
+    FrameIndex frame_;
+    bool read_ = false;
+    std::optional<FrameResult> result_;
+    std::list<BoxFacts> copies_;  ///< the known ones move when more are added
+};
+
+std::vector<DiagnosedMistake> Diagnoser::diagnose(std::vector<Mistake> mistakes, const Comparison& comparison,
+                                                  const std::stop_token& stop) {
+    if (upright_ != comparison.options.upright) known_.clear();
+    upright_ = comparison.options.upright;
+    std::vector<DiagnosedMistake> diagnosed;
+    diagnosed.reserve(mistakes.size());
+    for (Mistake& mistake : mistakes) {
+        diagnosed.emplace_back();
+        diagnosed.back().mistake = std::move(mistake);
+    }
+    std::map<FrameIndex, std::vector<Placed>> by_frame;
+    std::map<FrameIndex, PartsOfFrame> parts;
+    for (std::size_t m = 0; m < diagnosed.size(); ++m) {
+        const Mistake& mistake = diagnosed[m].mistake;
+        for (std::size_t p = 0; p < mistake.places.size(); ++p) {
+            const MistakePlace& place = mistake.places[p];
+            by_frame[place.frame].push_back({m, p});
+            PartsOfFrame& here = parts[place.frame];
+            if (mistake.kind == MistakeKind::split) {
+                here.split_objects.insert(place.truth.begin(), place.truth.end());
+                here.split_results.insert(place.results.begin(), place.results.end());
+            }
+            if (mistake.kind == MistakeKind::merge) here.merged_objects.insert(place.truth.begin(), place.truth.end());
+        }
+    }
+    const std::map<int, FrameIndex> first_frames = firstFrames(comparison.truth);
+    std::vector<std::vector<CauseHere>> causes(diagnosed.size());
+    for (std::size_t m = 0; m < diagnosed.size(); ++m) causes[m].resize(diagnosed[m].mistake.places.size());
+
+    FrameIndex unregistered = -1000;
+    std::size_t position = 0;  // of the frame among those compared
+    for (const auto& [frame, placed] : by_frame) {
+        if (stop.stop_requested()) break;
+        while (comparison.matches[position].frame != frame) ++position;
+        FrameLookup lookup(*this, frame);
+        const PartsOfFrame& here = parts[frame];
+        for (const auto& [m, p] : placed) {
+            const Mistake& mistake = diagnosed[m].mistake;
+            if (mistake.kind == MistakeKind::id_switch || mistake.kind == MistakeKind::fragment) continue;
+            const MistakePlace& place = mistake.places[p];
+            PlaceEvidence evidence{.truth = recordsOf(comparison.truth, frame),
+                                   .result = recordsOf(comparison.result, frame),
+                                   .frame = comparison.input.frames[position],
+                                   .match = comparison.matches[position],
+                                   .min_overlap = comparison.options.overlap,
+                                   .upright = comparison.options.upright,
+                                   .facts = lookup.at(place.box),
+                                   .object_facts = {},
+                                   .frames_needed = source_.options.motion.min_age};
+            if (evidence.facts != nullptr && evidence.facts->registration == RegistrationState::failed)
+                unregistered = frame;
+            evidence.recently_unregistered = frame - unregistered <= kRecently;
+            switch (mistake.kind) {
+                case MistakeKind::miss: {
+                    const int object = place.truth.front();
+                    evidence.in_split = here.split_objects.contains(object);
+                    evidence.in_merge = here.merged_objects.contains(object);
+                    FrameIndex since = source_.first_frame;
+                    if (!mistake.objects.empty())
+                        since = std::max(since, first_frames.at(mistake.objects.front()));
+                    else
+                        since = std::max(since, mistake.first_frame);
+                    evidence.frames_in_view = frame - since;
+                    causes[m][p] = causeOfMiss(place, evidence);
+                    break;
+                }
+                case MistakeKind::false_alarm:
+                    evidence.in_split = here.split_results.contains(place.results.front());
+                    causes[m][p] = causeOfFalseAlarm(place, evidence);
+                    break;
+                case MistakeKind::split:
+                    causes[m][p] = causeOfSplit(place, evidence);
+                    break;
+                case MistakeKind::merge:
+                    for (const int object : place.truth) {
+                        const auto& record = recordsOf(comparison.truth, frame)[static_cast<std::size_t>(object)];
+                        if (const BoxFacts* facts = lookup.at(record.box)) evidence.object_facts.push_back(facts);
+                    }
+                    causes[m][p] = causeOfMerge(place, evidence);
+                    break;
+                case MistakeKind::id_switch:
+                case MistakeKind::fragment:
+                    break;
+            }
+        }
+    }
+    for (std::size_t m = 0; m < diagnosed.size(); ++m) takeMostFrequent(diagnosed[m], causes[m]);
+    const IdentityCauses identities(comparison, diagnosed);
+    for (DiagnosedMistake& one : diagnosed) {
+        if (one.mistake.kind == MistakeKind::id_switch) identities.explainSwitch(one);
+        if (one.mistake.kind == MistakeKind::fragment) identities.explainFragment(one);
+    }
+    return diagnosed;
+}
+
+}  // namespace eyrie

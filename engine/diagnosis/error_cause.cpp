@@ -1,0 +1,342 @@
+#include "diagnosis/error_cause.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace eyrie {
+namespace {
+
+constexpr double kNearMiss = 0.25;      ///< of T_ov: from here on a box is off rather than elsewhere
+constexpr double kOnObject = 0.3;       ///< share of a false box on a found object
+constexpr double kBesideIgnored = 1.6;  ///< boxes grown by this still touch what does not count
+constexpr double kShadowReach = 2.0;    ///< lengths of the object
+constexpr double kShadowTurn = 0.45;    ///< radians
+constexpr double kShadowSpeed = 0.4;    ///< share by which speeds may differ
+constexpr double kParallaxTurn = 0.35;  ///< radians from the direction in which the ground moves
+constexpr double kParallaxFlow = 0.3;   ///< px/frame, a camera that stands still shows no parallax
+constexpr double kSlowest = 0.02;       ///< px/frame, below that a velocity has no direction
+
+double length(cv::Point2d v) {
+    return std::hypot(v.x, v.y);
+}
+
+/// Angle between two directions in [0, π]; π where one has none.
+double angleBetween(cv::Point2d a, cv::Point2d b) {
+    const double product = length(a) * length(b);
+    if (length(a) < kSlowest || length(b) < kSlowest) return 3.15;
+    return std::acos(std::clamp((a.x * b.x + a.y * b.y) / product, -1.0, 1.0));
+}
+
+std::string number(double value, int decimals) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+const BoxRecord& at(const std::vector<BoxRecord>& records, int index) {
+    return records[static_cast<std::size_t>(index)];
+}
+
+std::string nameOf(const char* what, const std::optional<int>& id) {
+    return id ? std::string(what) + " " + std::to_string(*id) : std::string("another ") + what;
+}
+
+const MatchedPair* pairOfResult(const FrameMatch& match, int result) {
+    for (const MatchedPair& pair : match.pairs)
+        if (pair.result == result) return &pair;
+    return nullptr;
+}
+
+/// The result that overlaps a missed object most.
+struct Candidate {
+    int result = -1;
+    double overlap = 0;
+    const MatchedPair* taken = nullptr;  ///< the object it found instead
+};
+Candidate nearestResult(const OrientedBox& box, const PlaceEvidence& evidence, bool taken) {
+    Candidate best;
+    for (const int index : evidence.frame.results) {
+        const MatchedPair* pair = pairOfResult(evidence.match, index);
+        if ((pair != nullptr) != taken) continue;
+        const OrientedBox& other = at(evidence.result, index).box;
+        const double shared = evidence.upright ? overlap(box.upright(), other.upright()) : overlap(box, other);
+        if (shared > best.overlap) best = {index, shared, pair};
+    }
+    return best;
+}
+
+std::string offText(double overlap, double needed) {
+    return "overlap " + number(overlap, 2) + ", " + number(needed, 2) + " is needed";
+}
+
+CauseHere rejectedAs(const BoxFacts& facts) {
+    const std::string vectors = std::to_string(facts.rejected_vectors) + " motion vectors in the box";
+    switch (facts.rejection) {
+        case Rejection::duplicate:
+            return {MistakeCause::removed_duplicate, "a detection here was fused into another"};
+        case Rejection::outlier:
+            return {MistakeCause::removed_outlier, vectors};
+        case Rejection::size:
+            return {MistakeCause::removed_size, ""};
+        case Rejection::none:
+            break;
+    }
+    return {};
+}
+
+/// What the stages before tracking tell of a missed object.
+CauseHere stageThatLost(const BoxFacts& facts, const PlaceEvidence& evidence) {
+    const double needed = evidence.min_overlap;
+    if (facts.tentative.overlap >= needed) return {MistakeCause::tentative, ""};
+    if (facts.kept.overlap >= needed)
+        return {MistakeCause::not_associated, "a detection overlaps it by " + number(facts.kept.overlap, 2)};
+    if (facts.rejected.overlap >= needed) return rejectedAs(facts);
+    if (facts.kept.overlap >= kNearMiss * needed && facts.kept.overlap > 0)
+        return {MistakeCause::box_off, "detection: " + offText(facts.kept.overlap, needed)};
+    if (facts.registration == RegistrationState::failed) return {MistakeCause::unregistered, facts.reason};
+    if (!facts.clusters.empty())
+        return {MistakeCause::not_detected, std::to_string(facts.motion_vectors) + " motion vectors in a cluster"};
+    if (facts.motion_vectors > 0) {
+        const std::string text = std::to_string(facts.motion_vectors) + " motion vectors, " +
+                                 std::to_string(facts.vectors_needed) + " make a cluster";
+        return {
+            facts.motion_vectors < facts.vectors_needed ? MistakeCause::too_few_vectors : MistakeCause::not_clustered,
+            text};
+    }
+    if (evidence.frames_in_view < evidence.frames_needed)
+        return {MistakeCause::too_new, "in view for " + std::to_string(evidence.frames_in_view + 1) +
+                                           " frames, corners are judged after " +
+                                           std::to_string(evidence.frames_needed)};
+    if (facts.corners > 0)
+        return {MistakeCause::too_slow, std::to_string(facts.corners) + " corners, none counts as moving"};
+    return {MistakeCause::no_corners, ""};
+}
+
+/// The counting object that a false result moves along with, −1: none.
+int companionOf(const BoxRecord& alarm, cv::Point2d velocity, const PlaceEvidence& evidence) {
+    for (const MatchedPair& pair : evidence.match.pairs) {
+        const BoxRecord& found = at(evidence.result, pair.result);
+        const OrientedBox& box = at(evidence.truth, pair.truth).box;
+        const double reach = kShadowReach * std::max(box.length, box.width);
+        if (length(alarm.box.centre - box.centre) > reach) continue;
+        const double speed = length(found.velocity);
+        if (angleBetween(found.velocity, velocity) > kShadowTurn) continue;
+        if (std::abs(speed - length(velocity)) > kShadowSpeed * speed) continue;
+        return pair.truth;
+    }
+    return -1;
+}
+
+bool looksLikeParallax(cv::Point2d flow, cv::Point2d velocity) {
+    if (length(flow) < kParallaxFlow || length(velocity) > length(flow)) return false;
+    const double turn = angleBetween(flow, velocity);
+    return turn < kParallaxTurn || (turn < 3.1416 && turn > 3.14159 - kParallaxTurn);
+}
+
+/// What a false alarm has to do with objects of the ground truth.
+std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const PlaceEvidence& evidence) {
+    if (evidence.in_split) return CauseHere{MistakeCause::split, "a part of an object"};
+    for (const MatchedPair& pair : evidence.match.pairs) {
+        const BoxRecord& object = at(evidence.truth, pair.truth);
+        if (containment(alarm.box, object.box) >= kOnObject)
+            return CauseHere{MistakeCause::duplicate, nameOf("object", object.id) + " is found by " +
+                                                          nameOf("track", at(evidence.result, pair.result).id)};
+    }
+    double best = 0;
+    int nearest = -1;
+    for (const int missed : evidence.match.missed) {
+        const double shared = overlap(alarm.box, at(evidence.truth, missed).box);
+        if (shared <= best) continue;
+        best = shared;
+        nearest = missed;
+    }
+    if (nearest >= 0)
+        return CauseHere{MistakeCause::box_off,
+                         nameOf("object", at(evidence.truth, nearest).id) + ": " + offText(best, evidence.min_overlap)};
+    for (const int index : evidence.frame.ignored_truth) {
+        const BoxRecord& ignored = at(evidence.truth, index);
+        if (overlap(alarm.box.scaled(kBesideIgnored, kBesideIgnored),
+                    ignored.box.scaled(kBesideIgnored, kBesideIgnored)) > 0)
+            return CauseHere{MistakeCause::ignored_object,
+                             ignored.object_class.empty() ? std::string() : "beside a " + ignored.object_class};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+CauseHere causeOfMiss(const MistakePlace& place, const PlaceEvidence& evidence) {
+    if (evidence.in_split) return {MistakeCause::split, ""};
+    const Candidate taken = nearestResult(place.box, evidence, true);
+    const Candidate free = nearestResult(place.box, evidence, false);
+    if (evidence.in_merge || taken.overlap >= evidence.min_overlap) {
+        if (taken.taken == nullptr) return {MistakeCause::merged, ""};
+        return {MistakeCause::merged, "its box went to " + nameOf("object", at(evidence.truth, taken.taken->truth).id)};
+    }
+    for (const int index : evidence.frame.border_results) {
+        const OrientedBox& other = at(evidence.result, index).box;
+        if ((evidence.upright ? overlap(place.box.upright(), other.upright()) : overlap(place.box, other)) >=
+            evidence.min_overlap)
+            return {MistakeCause::at_border, ""};
+    }
+    if (free.overlap > 0 && free.overlap >= kNearMiss * evidence.min_overlap)
+        return {MistakeCause::box_off, offText(free.overlap, evidence.min_overlap)};
+    if (evidence.facts == nullptr) return {};
+    return stageThatLost(*evidence.facts, evidence);
+}
+
+CauseHere causeOfFalseAlarm(const MistakePlace& place, const PlaceEvidence& evidence) {
+    const BoxRecord& alarm = at(evidence.result, place.results.front());
+    if (const auto related = relationToTruth(alarm, evidence)) return *related;
+    const BoxFacts* facts = evidence.facts;
+    if (evidence.recently_unregistered || (facts != nullptr && facts->registration == RegistrationState::failed))
+        return {MistakeCause::unregistered, facts != nullptr ? facts->reason : std::string()};
+    if (alarm.origin == eyrie::nameOf(StateOrigin::predicted)) return {MistakeCause::coasting, ""};
+    const bool has_own = length(alarm.velocity) >= kSlowest || facts == nullptr;
+    const cv::Point2d velocity = has_own ? alarm.velocity : facts->velocity;
+    if (const int companion = companionOf(alarm, velocity, evidence); companion >= 0)
+        return {MistakeCause::shadow, "moves along beside " + nameOf("object", at(evidence.truth, companion).id)};
+    if (facts == nullptr) return {};
+    if (looksLikeParallax(facts->flow, velocity))
+        return {MistakeCause::parallax, number(length(velocity), 2) + " px/frame along the camera's own motion of " +
+                                            number(length(facts->flow), 2)};
+    if (facts->motion_vectors > 0)
+        return {MistakeCause::unlabelled, std::to_string(facts->motion_vectors) + " motion vectors of " +
+                                              number(length(facts->velocity), 2) + " px/frame"};
+    return {};
+}
+
+CauseHere causeOfSplit(const MistakePlace&, const PlaceEvidence& evidence) {
+    if (evidence.facts == nullptr) return {};
+    const std::size_t clusters = evidence.facts->clusters.size();
+    if (clusters == 0) return {};
+    if (clusters > 1) return {MistakeCause::clustered_apart, std::to_string(clusters) + " clusters"};
+    return {MistakeCause::segmented_apart, ""};
+}
+
+CauseHere causeOfMerge(const MistakePlace&, const PlaceEvidence& evidence) {
+    if (evidence.object_facts.size() < 2) return {};
+    const auto shared = [&](auto list) {
+        for (const int index : list(*evidence.object_facts.front())) {
+            std::size_t others = 0;
+            for (const BoxFacts* facts : evidence.object_facts) {
+                const std::vector<int>& own = list(*facts);
+                others += std::find(own.begin(), own.end(), index) != own.end() ? 1 : 0;
+            }
+            if (others > 1) return true;
+        }
+        return false;
+    };
+    if (shared([](const BoxFacts& f) -> const std::vector<int>& { return f.clusters; }))
+        return {MistakeCause::clustered_together, ""};
+    if (shared([](const BoxFacts& f) -> const std::vector<int>& { return f.covering; }))
+        return {MistakeCause::segmented_together, ""};
+    return {MistakeCause::tracked_together, ""};
+}
+
+const char* nameOf(MistakeCause cause) {
+    static constexpr const char* names[kMistakeCauses] = {"unknown",
+                                                          "not registered",
+                                                          "just came into view",
+                                                          "no corners",
+                                                          "too slow",
+                                                          "too few vectors",
+                                                          "not clustered",
+                                                          "not detected",
+                                                          "removed as duplicate",
+                                                          "removed as outlier",
+                                                          "removed by size",
+                                                          "not associated",
+                                                          "track not confirmed",
+                                                          "box off",
+                                                          "merged",
+                                                          "split",
+                                                          "at the border",
+                                                          "duplicate",
+                                                          "ignored object",
+                                                          "coasting",
+                                                          "shadow",
+                                                          "parallax",
+                                                          "nothing labelled",
+                                                          "swapped",
+                                                          "track ended",
+                                                          "track left",
+                                                          "clustered together",
+                                                          "segmented together",
+                                                          "tracked together",
+                                                          "clustered apart",
+                                                          "segmented apart"};
+    return names[static_cast<std::size_t>(cause)];
+}
+
+const char* explanationOf(MistakeCause cause) {
+    switch (cause) {
+        case MistakeCause::unknown:
+            return "Nothing that the run stored explains it.";
+        case MistakeCause::unregistered:
+            return "The camera's motion could not be measured in this frame or just before (registration.*).";
+        case MistakeCause::too_new:
+            return "It has not been in view long enough for its corners to be judged (motion.min_age).";
+        case MistakeCause::no_corners:
+            return "No corner was found in the box (registration.*: more, or weaker, corners).";
+        case MistakeCause::too_slow:
+            return "There are corners in the box, but none moves fast enough (motion.min_speed, motion.sigma_factor).";
+        case MistakeCause::too_few_vectors:
+            return "Too few motion vectors for a cluster (clustering.min_members, clustering.min_density_share).";
+        case MistakeCause::not_clustered:
+            return "Its motion vectors lie too far apart or move too differently (clustering.along, "
+                   "clustering.across).";
+        case MistakeCause::not_detected:
+            return "It was clustered, but segmentation or classifier found no box there (detection.*).";
+        case MistakeCause::removed_duplicate:
+            return "It was detected, but fused into another detection (duplicates.*).";
+        case MistakeCause::removed_outlier:
+            return "It was detected, but had too few motion vectors inside (outliers.min_vectors).";
+        case MistakeCause::removed_size:
+            return "It was detected, but its size was out of bounds (outliers.min_length and others).";
+        case MistakeCause::not_associated:
+            return "It was detected, but belongs to no track of the result (tracking.*).";
+        case MistakeCause::tentative:
+            return "It was followed, but the track was not confirmed (tracking.*).";
+        case MistakeCause::box_off:
+            return "A box is there, but overlaps by less than T_ov.";
+        case MistakeCause::merged:
+            return "It was taken for one with a neighbour.";
+        case MistakeCause::split:
+            return "The object was found in several parts.";
+        case MistakeCause::at_border:
+            return "It was found, but its result lies so near to the image's edge that it was left out.";
+        case MistakeCause::duplicate:
+            return "A second box on an object that is found already (duplicates.*).";
+        case MistakeCause::ignored_object:
+            return "It lies beside an object that does not count, such as a person or a standing vehicle.";
+        case MistakeCause::coasting:
+            return "The track went on by prediction although nothing was detected (tracking.*).";
+        case MistakeCause::shadow:
+            return "It moves along beside an object: probably its shadow (motion.shadow.*).";
+        case MistakeCause::parallax:
+            return "It moves as a standing thing above the ground seems to under this camera (motion.parallax.*).";
+        case MistakeCause::unlabelled:
+            return "It moves steadily, but no object is there. The ground truth may lack it.";
+        case MistakeCause::swapped:
+            return "The tracks of two objects were exchanged.";
+        case MistakeCause::track_ended:
+            return "The old track ended and another began.";
+        case MistakeCause::track_left:
+            return "The old track went on, but not on this object.";
+        case MistakeCause::clustered_together:
+            return "One motion cluster has vectors of both (clustering.across, clustering.along).";
+        case MistakeCause::segmented_together:
+            return "Two clusters, but one detection covers both (detection.*).";
+        case MistakeCause::tracked_together:
+            return "Two detections, but one track (tracking.*).";
+        case MistakeCause::clustered_apart:
+            return "Its motion vectors fell into several clusters (clustering.along).";
+        case MistakeCause::segmented_apart:
+            return "One cluster gave several detections (detection.*).";
+    }
+    return "";
+}
+
+}  // namespace eyrie

@@ -1,0 +1,52 @@
+#include "diagnosis/mistake_csv.h"
+
+#include "core/angle.h"
+#include "io/atomic_file.h"
+#include "io/csv_reader.h"
+#include "io/number_text.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kDecimals = 2;
+
+std::string idsText(const std::vector<int>& ids) {
+    std::string text;
+    for (const int id : ids) {
+        if (!text.empty()) text += ' ';
+        text += std::to_string(id);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string mistakeTable(const std::vector<DiagnosedMistake>& mistakes, char separator) {
+    std::string table;
+    const auto row = [&](const std::vector<std::string>& fields) {
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            if (i > 0) table += separator;
+            table += separator == ',' ? csvField(fields[i]) : fields[i];
+        }
+        table += '\n';
+    };
+    row({"kind", "first_frame", "last_frame", "count", "objects", "tracks", "frame", "x", "y", "length", "width",
+         "heading", "cause", "detail"});
+    for (const DiagnosedMistake& one : mistakes) {
+        const Mistake& mistake = one.mistake;
+        const MistakePlace& place = mistake.places[one.place];
+        const OrientedBox& box = place.box;
+        row({nameOf(mistake.kind), std::to_string(mistake.first_frame), std::to_string(mistake.last_frame),
+             std::to_string(mistake.count()), idsText(mistake.objects), idsText(mistake.tracks),
+             std::to_string(place.frame), fixedText(box.centre.x, kDecimals), fixedText(box.centre.y, kDecimals),
+             fixedText(box.length, kDecimals), fixedText(box.width, kDecimals),
+             fixedText(degreesFromRadians(box.heading), kDecimals), nameOf(one.cause), one.text});
+    }
+    return table;
+}
+
+void writeMistakeCsv(const std::filesystem::path& path, const std::vector<DiagnosedMistake>& mistakes) {
+    writeFileAtomically(path, mistakeTable(mistakes));
+}
+
+}  // namespace eyrie

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnoser.h"
+
+namespace eyrie {
+
+/// The list as a table: kind, first_frame, last_frame, count, objects and tracks (ids with blanks between), frame and
+/// box (x, y, length, width in px, heading in degrees) of the place that shows the cause, cause, detail. `separator`:
+/// ',' for files, a tab for the clipboard.
+std::string mistakeTable(const std::vector<DiagnosedMistake>& mistakes, char separator = ',');
+
+/// Throws Error(output); the file is either complete or as it was before.
+void writeMistakeCsv(const std::filesystem::path& path, const std::vector<DiagnosedMistake>& mistakes);
+
+}  // namespace eyrie

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "store/project_file.h"
+#include "sweep/sweep_runner.h"
+
+namespace eyrie {
+
+/// Opens a sequence for a sweep: fills in size, frames, digest and, unless it is set already, `upright` of the planned
+/// clip; only the true boxes of its frames are kept. Its scale must be set. Throws Error(input | parameter), also where
+/// no true box lies in the frames.
+SweepInput openClip(SweepClip& clip, const ClipFrames::Open& open, FrameRange range, const BoxesByFrame& truth,
+                    const StageCacheOptions& options = {});
+
+/// A finished or stopped run of a project, to be swept behind its motion vectors.
+struct StoredRun {
+    SweepClip clip;  ///< all but ground truth and digest
+    ChainOptions options;
+    FrameRange range;
+    std::vector<FrameMotion> motion;
+};
+/// Throws Error(parameter) when the project has no such run, Error(project).
+StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id = {});
+
+/// Whether all boxes lie along the image's axes, so that there may be no headings in them.
+bool allUpright(const BoxesByFrame& boxes);
+
+}  // namespace eyrie

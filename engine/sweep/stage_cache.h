@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "chain/chain_options.h"
+#include "core/box_record.h"
+#include "core/frame_result.h"
+#include "sweep/area_table.h"
+#include "sweep/clip_frames.h"
+#include "sweep/memo.h"
+#include "sweep/parameter_stage.h"
+#include "tracking/track_finishing.h"
+
+namespace eyrie {
+
+/// What the chain finds in a clip. Parts are shared between results that agree in them.
+struct ClipResult {
+    std::shared_ptr<const BoxesByFrame> detections;  ///< kept ones, without ids
+    std::shared_ptr<const BoxesByFrame> tracks;      ///< finished
+};
+
+struct StageCacheOptions {
+    std::size_t frame_bytes = std::size_t{1} << 31U;  ///< frames kept in memory
+    std::size_t area_bytes = std::size_t{1} << 30U;   ///< what detectors prepared, kept in memory
+};
+
+/// Runs the chain over one clip again and again with changed parameters. Each time only what lies behind the first
+/// changed parameter is done, and of that only what is not known from before: motion vectors of the clip, clusters,
+/// detections of search areas that did not change, what a detector prepared in them. Results are those of ChainRun to
+/// the last bit. Several threads may ask for results at once and share what they have in common; one alone uses all
+/// cores.
+class StageCache {
+ public:
+    /// Throws Error(parameter) for a range outside the video, Error(input) when it cannot be opened.
+    StageCache(ClipFrames::Open open, FrameRange range, const SceneScale& scale, StageCacheOptions options = {});
+
+    /// Motion vectors of a stored run over exactly these frames, made with `options`: used instead of computing them.
+    void useStoredMotion(const ChainOptions& options, std::vector<FrameMotion> motion);
+
+    /// Told while a stage works through the frames of the clip one by one; from any thread, must be quick. Not to be
+    /// changed while run() works.
+    using Progress = std::function<void(SweepStage stage, int done, int total)>;
+    void tellProgress(Progress progress) { progress_ = std::move(progress); }
+
+    /// Nothing when `stop` was requested meanwhile. Throws Error(input | parameter).
+    std::optional<ClipResult> run(const ChainOptions& options, const std::stop_token& stop);
+
+    const ClipFrames& frames() const { return frames_; }
+    const SceneScale& scale() const { return scale_; }
+    /// How often each stage was computed for the whole clip so far.
+    int timesComputed(SweepStage stage) const { return computed_[static_cast<std::size_t>(stage)]; }
+    /// Search areas in which a detector worked, and those whose detections were known already.
+    long areasSearched() const { return areas_searched_; }
+    long areasKnown() const { return areas_known_; }
+
+ private:
+    using Motion = std::vector<FrameMotion>;
+    using Clusters = std::vector<std::vector<MotionCluster>>;
+    using Detections = std::vector<std::vector<Detection>>;
+    struct Prepared;
+    struct Detected {
+        Detections frames;   ///< kept and rejected ones
+        BoxesByFrame boxes;  ///< kept ones
+    };
+
+    std::shared_ptr<const Motion> motion(const ChainOptions& options, const std::stop_token& stop);
+    std::shared_ptr<const Clusters> clusters(const ChainOptions& options, const Motion& motion,
+                                             const std::stop_token& stop);
+    std::shared_ptr<const Detections> found(const ChainOptions& options, const Motion& motion,
+                                            const std::stop_token& stop);
+    std::shared_ptr<const Detected> detected(const ChainOptions& options, const Motion& motion,
+                                             const std::stop_token& stop);
+    std::shared_ptr<const std::vector<TimedState>> states(const ChainOptions& options, const Motion& motion,
+                                                          const Detections& detections, const std::stop_token& stop);
+    std::shared_ptr<const BoxesByFrame> tracks(const ChainOptions& options, const Motion& motion,
+                                               const std::vector<TimedState>& states);
+
+    std::shared_ptr<Motion> computeMotion(const ChainOptions& options, const std::stop_token& stop);
+    std::shared_ptr<Clusters> differenceClusters(const ChainOptions& options, const Motion& motion,
+                                                 const std::stop_token& stop);
+    Detections detectionsByStacks(const ChainOptions& options, const Motion& motion, const std::stop_token& stop);
+    void forFrames(const std::stop_token& stop,
+                   const std::function<void(std::size_t, ClipFrames::Reader&)>& work) const;
+    void tell(SweepStage stage, int done) const;
+    void count(SweepStage stage) { ++computed_[static_cast<std::size_t>(stage)]; }
+
+    ClipFrames frames_;
+    SceneScale scale_;
+    StageCacheOptions options_;
+    Progress progress_;
+    Memo<Motion> motion_{2};
+    Memo<Clusters> clusters_{6};
+    Memo<AreaTable<Prepared>> prepared_{2};
+    Memo<AreaTable<std::vector<Detection>>> areas_{8};
+    Memo<Detections> found_{6};
+    Memo<Detected> detected_{6};
+    Memo<std::vector<TimedState>> states_{6};
+    Memo<BoxesByFrame> tracks_{6};
+    std::array<std::atomic<int>, kSweepStageCount> computed_{};
+    std::atomic<long> areas_searched_{0};
+    std::atomic<long> areas_known_{0};
+};
+
+}  // namespace eyrie

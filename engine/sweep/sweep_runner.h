@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/box_record.h"
+#include "sweep/stage_cache.h"
+#include "sweep/sweep_figures.h"
+#include "sweep/sweep_plan.h"
+
+namespace eyrie {
+
+/// A sequence of the plan, opened.
+struct SweepInput {
+    std::unique_ptr<StageCache> cache;
+    BoxesByFrame truth;  ///< of the frames that are swept
+};
+
+/// The true boxes of the frames of a clip. Throws Error(input) naming `ground_truth` when there is none.
+BoxesByFrame truthWithin(const BoxesByFrame& truth, FrameIndex first, FrameIndex last, const std::string& ground_truth);
+
+/// A point that was measured.
+struct SweepPoint {
+    int position = 0;
+    double seconds = 0;  ///< wall clock, with what it shares with others if it came first
+    std::vector<SweepFigures> figures;
+};
+
+struct SweepProgress {
+    int points_done = 0;
+    int points_total = 0;
+    double seconds = 0;
+    double points_per_second = 0;  ///< 0 until known
+    double seconds_left = 0;       ///< 0 until known
+    std::string doing;             ///< what all points wait for: "independent motion, frame 120 of 401"; else empty
+};
+
+struct SweepRunOptions {
+    int threads = 0;                                  ///< 0: as many as there are cores
+    std::function<void(const SweepPoint&)> on_point;  ///< one call at a time, from any thread; what it throws ends
+                                                      ///< the sweep
+    std::function<void(const SweepProgress&)> on_progress{};  ///< likewise; must not throw
+};
+
+/// Measures the points at `positions` (in this order, several at once) and answers how many; fewer than asked for when
+/// `stop` was requested. `inputs` belong to the plan's clips. What was handed to `on_point` is done whatever happens
+/// later. Throws Error(input | parameter) and what `on_point` throws.
+int runSweep(const SweepPlan& plan, const std::vector<SweepInput>& inputs, const std::vector<int>& positions,
+             const std::stop_token& stop, const SweepRunOptions& options);
+
+}  // namespace eyrie

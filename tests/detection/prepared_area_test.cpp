@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/parameter.h"
+#include "detection/detector_factory.h"
+#include "detection/trained_window_model.h"
+#include "support/driven_scene.h"
+
+namespace eyrie {
+namespace {
+
+using test::drivenScene;
+
+void expectSame(const std::vector<Detection>& a, const std::vector<Detection>& b, const std::string& what) {
+    ASSERT_EQ(a.size(), b.size()) << what;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].box.centre, b[i].box.centre) << what;
+        EXPECT_EQ(a[i].box.length, b[i].box.length) << what;
+        EXPECT_EQ(a[i].box.width, b[i].box.width) << what;
+        EXPECT_EQ(a[i].box.heading, b[i].box.heading) << what;
+        EXPECT_EQ(a[i].score, b[i].score) << what;
+        EXPECT_EQ(a[i].complete, b[i].complete) << what;
+        EXPECT_EQ(a[i].cluster, b[i].cluster) << what;
+    }
+}
+
+/// Areas in the middle of the image and at its edge, where part of them is padding.
+std::vector<MotionRoi> areas() {
+    std::vector<MotionRoi> all;
+    for (const double heading : {0.0, 0.4, 1.2, 2.3, -1.9}) {
+        all.push_back(test::roiOf(drivenScene(heading)));
+        all.push_back(test::roiOf(drivenScene(heading, {12, 9}, 3)));
+        all.push_back(test::roiOf(drivenScene(heading, {310, 120}, 4)));
+    }
+    return all;
+}
+
+struct LateChange {
+    DetectionMethod method;
+    std::string name;
+    std::vector<std::string> values;
+};
+
+}  // namespace
+
+TEST(PreparedArea, DecidesWithOtherParametersAsItWouldDetect) {
+    const std::vector<LateChange> changes{
+        {DetectionMethod::gradient, "gradient.quantile", {"0.01", "0.05", "0.12", "0.35", "0.7", "1"}},
+        {DetectionMethod::gradient, "gradient.min_box_area", {"1", "60", "400"}},
+        {DetectionMethod::gradient, "gradient.need_support", {"false", "true"}},
+        {DetectionMethod::gradient, "gradient.support_share", {"0", "0.5"}},
+        {DetectionMethod::gradient, "gradient.handle_cut", {"false", "true"}},
+        {DetectionMethod::gradient, "gradient.core_margin", {"0", "2"}},
+        {DetectionMethod::gradient, "gradient.join_components", {"false", "true"}},
+        {DetectionMethod::gradient, "gradient.vehicle_length", {"2", "8"}},
+        {DetectionMethod::gradient, "gradient.vehicle_width", {"1", "4"}},
+        {DetectionMethod::gradient, "gradient.growth_along", {"0", "1"}},
+        {DetectionMethod::gradient, "gradient.growth_across", {"0", "1"}},
+        {DetectionMethod::gradient, "gradient.length_correction", {"0", "2"}},
+        {DetectionMethod::gradient, "gradient.width_correction", {"0", "2"}},
+        {DetectionMethod::gradient, "gradient.fall_back", {"false", "true"}},
+        {DetectionMethod::gradient, "gradient.fall_back_share", {"0", "1"}},
+        {DetectionMethod::gradient, "detection.cluster_margin", {"0", "3"}},
+        {DetectionMethod::mser, "gradient.min_box_area", {"1", "60"}},
+        {DetectionMethod::sliding_window, "sliding_window.decision_threshold", {"-1000", "-3", "0", "2", "50"}},
+        {DetectionMethod::sliding_window, "sliding_window.overlap_threshold", {"0", "0.4", "1"}},
+        {DetectionMethod::sliding_window, "sliding_window.need_support", {"false", "true"}},
+        {DetectionMethod::sliding_window, "sliding_window.support_share", {"0", "0.9"}},
+        {DetectionMethod::sliding_window, "sliding_window.fall_back", {"false", "true"}},
+        {DetectionMethod::window_and_gradient, "window_and_gradient.sure_decision", {"-5", "1", "100"}},
+        {DetectionMethod::window_and_gradient, "window_and_gradient.most_covered", {"0", "1"}},
+        {DetectionMethod::window_and_gradient, "gradient.quantile", {"0.05", "0.5"}},
+    };
+    const auto rois = areas();
+    for (const LateChange& change : changes) {
+        EXPECT_TRUE(changesDecisionOnly(change.name)) << change.name;
+        DetectionOptions options;
+        options.method = change.method;
+        options.sliding_window = test::drivenSceneWindow();
+        options.window_and_gradient.sure_decision = 1;
+        const auto preparing = makeDetector(options, test::kContractScale);
+        for (const std::string& value : change.values) {
+            setParameter(describeOf(options), change.name, value);
+            const auto changed = makeDetector(options, test::kContractScale);
+            for (const MotionRoi& roi : rois) {
+                const auto prepared = preparing->prepare(roi);
+                expectSame(changed->detect(roi), changed->decide(roi, prepared.get()), change.name + " = " + value);
+            }
+        }
+    }
+}
+
+TEST(PreparedArea, NamesOnlyParametersThatExist) {
+    DetectionOptions options;
+    int late = 0;
+    for (const Parameter& parameter : listParameters(describeOf(options))) late += changesDecisionOnly(parameter.name);
+    EXPECT_EQ(late, 23);
+    EXPECT_FALSE(changesDecisionOnly("gradient.lbp_threshold"));
+    EXPECT_FALSE(changesDecisionOnly("gradient.quantile_area"));
+    EXPECT_FALSE(changesDecisionOnly("detection.extend_along"));
+}
+
+TEST(PreparedArea, OfAnEmptyAreaIsNothing) {
+    DetectionOptions options;
+    options.method = DetectionMethod::gradient;
+    const auto detector = makeDetector(options, test::kContractScale);
+    EXPECT_EQ(detector->prepare({}), nullptr);
+    EXPECT_TRUE(detector->decide({}, nullptr).empty());
+}
+
+}  // namespace eyrie

@@ -1,0 +1,176 @@
+#include "evaluation/error_list.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "evaluation/evaluate.h"
+#include "evaluation/evaluation_boxes.h"
+#include "formats/motchallenge.h"
+#include "support/shared_data.h"
+
+namespace eyrie {
+namespace {
+
+using test::boxes;
+using test::car;
+using test::ignored;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<Mistake> listOf(const BoxesByFrame& truth, const BoxesByFrame& result, EvaluationOptions options = {}) {
+    const EvaluationInput input = prepareEvaluation(truth, result, options);
+    return listMistakes(truth, result, input, matchFrames(input, options), options);
+}
+
+std::vector<Mistake> ofKind(const std::vector<Mistake>& mistakes, MistakeKind kind) {
+    std::vector<Mistake> found;
+    for (const Mistake& mistake : mistakes)
+        if (mistake.kind == kind) found.push_back(mistake);
+    return found;
+}
+
+int sumOf(const std::vector<Mistake>& mistakes, MistakeKind kind) {
+    int sum = 0;
+    for (const Mistake& mistake : ofKind(mistakes, kind)) sum += mistake.count();
+    return sum;
+}
+
+BoxRecord part(FrameIndex frame, int id, double x, double length) {
+    BoxRecord record = car(frame, id, x);
+    record.box.length = length;
+    return record;
+}
+
+}  // namespace
+
+TEST(ErrorList, aPerfectResultHasNone) {
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 54), car(1, 2, 150)});
+    EXPECT_THAT(listOf(truth, truth), IsEmpty());
+}
+
+TEST(ErrorList, missesOfConsecutiveFramesAreOneEntry) {
+    // Object 1 is missed in 1, 2 and 4 and found in 0, 3; object 2 is missed in frame 2 alone.
+    const BoxesByFrame truth =
+        boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50), car(4, 1, 50), car(2, 2, 150)});
+    const auto mistakes = listOf(truth, boxes({car(0, 7, 50), car(3, 7, 50)}));
+    const auto misses = ofKind(mistakes, MistakeKind::miss);
+    ASSERT_EQ(misses.size(), 3u);
+    EXPECT_EQ(misses[0].first_frame, 1);
+    EXPECT_EQ(misses[0].last_frame, 2);
+    EXPECT_EQ(misses[0].count(), 2);
+    EXPECT_THAT(misses[0].objects, ElementsAre(1));
+    EXPECT_THAT(misses[0].places[1].truth, ElementsAre(0));
+    EXPECT_EQ(misses[0].places[1].box.centre.x, 50);
+    EXPECT_THAT(misses[1].objects, ElementsAre(2));
+    EXPECT_EQ(misses[2].first_frame, 4);
+}
+
+TEST(ErrorList, falseAlarmsAreGroupedByTrack) {
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50)});
+    const auto mistakes = listOf(
+        truth, boxes({car(0, 7, 50), car(1, 7, 50), car(2, 7, 50), car(0, 8, 150), car(1, 8, 150), car(2, 9, 150)}));
+    const auto alarms = ofKind(mistakes, MistakeKind::false_alarm);
+    ASSERT_EQ(alarms.size(), 2u);
+    EXPECT_THAT(alarms[0].tracks, ElementsAre(8));
+    EXPECT_EQ(alarms[0].count(), 2);
+    EXPECT_THAT(alarms[1].tracks, ElementsAre(9));
+    EXPECT_THAT(alarms[1].places[0].results, ElementsAre(1));
+}
+
+TEST(ErrorList, detectionsAreGroupedByWhereTheyAre) {
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50)});
+    const auto mistakes =
+        listOf(truth, boxes({car(0, {}, 150), car(1, {}, 154), car(2, {}, 250), car(0, {}, 50), car(1, {}, 50)}));
+    const auto alarms = ofKind(mistakes, MistakeKind::false_alarm);
+    ASSERT_EQ(alarms.size(), 2u);
+    EXPECT_EQ(alarms[0].count(), 2);  // 150 and 154 overlap by 16 / 24
+    EXPECT_EQ(alarms[1].first_frame, 2);
+    EXPECT_THAT(ofKind(mistakes, MistakeKind::id_switch), IsEmpty());
+    EXPECT_THAT(ofKind(mistakes, MistakeKind::fragment), IsEmpty());
+}
+
+TEST(ErrorList, aSwitchNamesBothTracksAndTheGap) {
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50)});
+    const auto mistakes = listOf(truth, boxes({car(0, 7, 50), car(3, 8, 50)}));
+    const auto switches = ofKind(mistakes, MistakeKind::id_switch);
+    ASSERT_EQ(switches.size(), 1u);
+    EXPECT_THAT(switches[0].tracks, ElementsAre(7, 8));
+    EXPECT_EQ(switches[0].first_frame, 0);
+    EXPECT_EQ(switches[0].last_frame, 3);
+    EXPECT_EQ(switches[0].places[0].frame, 3);
+}
+
+TEST(ErrorList, aFragmentLastsUntilTheObjectIsFoundAgain) {
+    const BoxesByFrame truth =
+        boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50), car(4, 1, 50), car(5, 1, 50)});
+    const auto mistakes = listOf(truth, boxes({car(0, 7, 50), car(3, 7, 50), car(4, 7, 50)}));
+    const auto fragments = ofKind(mistakes, MistakeKind::fragment);
+    ASSERT_EQ(fragments.size(), 2u);
+    EXPECT_EQ(fragments[0].first_frame, 1);
+    EXPECT_EQ(fragments[0].last_frame, 2);
+    EXPECT_EQ(fragments[1].first_frame, 5);
+    EXPECT_THAT(fragments[0].tracks, ElementsAre(7));
+}
+
+TEST(ErrorList, partsSideBySideAreASplitButCopiesAreNot) {
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50)});
+    const auto split = ofKind(listOf(truth, boxes({part(0, 7, 45, 9), part(0, 8, 55, 9)})), MistakeKind::split);
+    ASSERT_EQ(split.size(), 1u);
+    EXPECT_THAT(split[0].objects, ElementsAre(1));
+    EXPECT_THAT(split[0].tracks, ElementsAre(7, 8));
+    EXPECT_THAT(split[0].places[0].results, ElementsAre(0, 1));
+    EXPECT_THAT(ofKind(listOf(truth, boxes({car(0, 7, 50), car(0, 8, 51)})), MistakeKind::split), IsEmpty());
+}
+
+TEST(ErrorList, oneBoxOverTwoObjectsIsAMerge) {
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(0, 2, 72), car(1, 1, 50), car(1, 2, 72)});
+    const auto wide = part(0, 7, 61, 42);
+    const auto merges = ofKind(listOf(truth, boxes({wide, part(1, 7, 61, 42)})), MistakeKind::merge);
+    ASSERT_EQ(merges.size(), 1u);
+    EXPECT_EQ(merges[0].count(), 2);
+    EXPECT_THAT(merges[0].objects, ElementsAre(1, 2));
+    EXPECT_THAT(merges[0].tracks, ElementsAre(7));
+    // Both found by their own results: the third is a false alarm, not a merge.
+    EXPECT_THAT(ofKind(listOf(boxes({car(0, 1, 50), car(0, 2, 72)}), boxes({wide, car(0, 8, 50), car(0, 9, 72)})),
+                       MistakeKind::merge),
+                IsEmpty());
+}
+
+TEST(ErrorList, ignoredObjectsMakeNoMistakes) {
+    const BoxesByFrame truth = boxes({car(0, 1, 50), ignored(car(0, 2, 150))});
+    EXPECT_THAT(listOf(truth, boxes({car(0, 7, 50), car(0, 8, 152)})), IsEmpty());
+    EXPECT_THAT(listOf(truth, boxes({car(0, 7, 50)})), IsEmpty());
+}
+
+TEST(ErrorList, namesAreWords) {
+    EXPECT_STREQ(nameOf(MistakeKind::false_alarm), "false alarm");
+    for (int kind = 0; kind < kMistakeKinds; ++kind) EXPECT_STRNE(nameOf(static_cast<MistakeKind>(kind)), "");
+}
+
+/// The list is another view of the same counts, whatever the data and the convention.
+TEST(ErrorList, sumsAreTheMeasures) {
+    EYRIE_NEED_SHARED_DATA("trackeval_parity");
+    for (const char* name : {"clean", "noisy", "harsh"}) {
+        const auto folder = test::sharedData("trackeval_parity") / name;
+        const BoxesByFrame truth = readMotTruth(folder / "gt.txt", {});
+        const BoxesByFrame result = readMotResult(folder / "result.txt", {});
+        ASSERT_FALSE(result.empty());
+        for (const Convention convention : {Convention::thesis, Convention::trackeval}) {
+            for (const double t_ov : {0.1, 0.5}) {
+                EvaluationOptions options;
+                options.convention = convention;
+                options.overlap = t_ov;
+                const Measures measures = evaluate(truth, result, options);
+                const auto mistakes = listOf(truth, result, options);
+                EXPECT_EQ(sumOf(mistakes, MistakeKind::miss), measures.detection.false_negatives) << name;
+                EXPECT_EQ(sumOf(mistakes, MistakeKind::false_alarm), measures.detection.false_positives) << name;
+                ASSERT_TRUE(measures.tracking);
+                EXPECT_EQ(sumOf(mistakes, MistakeKind::id_switch), measures.tracking->id_switches) << name;
+                EXPECT_EQ(sumOf(mistakes, MistakeKind::fragment), measures.tracking->fragments)
+                    << name << " " << nameOf(convention);
+            }
+        }
+    }
+}
+
+}  // namespace eyrie
