@@ -8,7 +8,7 @@
 namespace eyrie::explaining {
 namespace {
 
-constexpr double kCornerMargin = 1;     ///< px; corners lie on outlines
+constexpr double kCornerMargin = 1;  ///< px; corners lie on outlines
 
 /// How two motion vectors stand to each other, as linkage sees them (eq. of Linkage::joins).
 struct Gap {

@@ -150,8 +150,8 @@ FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
         cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& part) {
             for (int i = part.start; i < part.end; ++i) {
                 const auto at = static_cast<std::size_t>(i);
-                const MotionRoi roi = cutMotionRoi(known.frame, known.clusters[at], i, result.motion,
-                                                   options.detection, source_.scale);
+                const MotionRoi roi =
+                    cutMotionRoi(known.frame, known.clusters[at], i, result.motion, options.detection, source_.scale);
                 known.rois[at] = roi.box;
                 per_cluster[at] = detector_->detect(roi);
             }
@@ -163,10 +163,8 @@ FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
     }
     result.clusters = known.clusters;
     result.rois = known.rois;
-    result.detections =
-        removeDuplicates(known.found, result.motion, duplicatesFor(options), source_.scale);
-    result.detections =
-        removeOutliers(std::move(result.detections), result.motion, options.outliers, source_.scale);
+    result.detections = removeDuplicates(known.found, result.motion, duplicatesFor(options), source_.scale);
+    result.detections = removeOutliers(std::move(result.detections), result.motion, options.outliers, source_.scale);
     return result;
 }
 
@@ -212,8 +210,7 @@ void Preview::adoptIds(std::vector<TrackState>& tracks, const std::vector<TrackS
 
 std::optional<PreviewedFrame> Preview::now(FrameIndex frame, const ChainOptions& options, int range,
                                            const std::stop_token& stop) {
-    if (known(frame) == nullptr)
-        throw Error(ErrorKind::project, "the run has not done frame " + std::to_string(frame));
+    if (known(frame) == nullptr) throw Error(ErrorKind::project, "the run has not done frame " + std::to_string(frame));
     if (!prepareMotion(frame, options, range, stop) || stop.stop_requested()) return std::nullopt;
     PreviewedFrame previewed;
     if (reachesBack(options)) {

@@ -166,6 +166,8 @@ void MainWindow::wireFileActions() {
     });
     connect(docks_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
     connect(docks_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
+    connect(tuning_, &Tuning::storedParametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
+    connect(tuning_, &Tuning::runRequested, actions_->run, &QAction::trigger);
     connect(parameters_, &ParameterBinding::problem, this, &MainWindow::showProblem);
     connect(parameters_, &ParameterBinding::notice, this, &MainWindow::showNotice);
 }

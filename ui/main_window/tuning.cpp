@@ -3,7 +3,9 @@
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QMenu>
+#include <QVBoxLayout>
 
+#include "main_window/preview_bar.h"
 #include "main_window/review_docks.h"
 #include "main_window/why_panel.h"
 #include "main_window/window_actions.h"
@@ -35,6 +37,7 @@ QColor colourOf(CornerFate fate, const OverlayColours& colours) {
 
 Tuning::Tuning(const TuningParts& parts) : QObject(&parts.window), parts_(parts) {
     buildWhy();
+    buildPreview();
 }
 
 void Tuning::buildWhy() {
@@ -52,6 +55,61 @@ void Tuning::buildWhy() {
         const ViewTransform& transform = parts_.canvas.transform();
         askWhy(cursor_.value_or(transform.imageFromView(middle)), kKeyMargin / transform.scale());
     });
+}
+
+void Tuning::buildPreview() {
+    preview_ = new LivePreview(parts_.session, this);
+    preview_bar_ = new PreviewBar(*preview_);
+    if (auto* column = qobject_cast<QVBoxLayout*>(parts_.canvas.parentWidget()->layout()))
+        column->insertWidget(column->indexOf(&parts_.canvas), preview_bar_);
+    // Queued: the settings of the next run take the value over first.
+    ParameterForm& form = parts_.docks.parameterForm();
+    connect(&form, &ParameterForm::valueChanged, preview_, &LivePreview::parametersEdited, Qt::QueuedConnection);
+    connect(&form, &ParameterForm::presetChosen, preview_, &LivePreview::parametersEdited, Qt::QueuedConnection);
+    connect(parts_.actions.live_preview, &QAction::toggled, preview_, &LivePreview::setEnabled);
+    connect(preview_bar_, &PreviewBar::runRequested, this, &Tuning::runRequested);
+    connect(preview_bar_, &PreviewBar::discardRequested, this, [this] {
+        preview_->discard();
+        emit storedParametersRequested();
+    });
+    connect(preview_, &LivePreview::changed, this, &Tuning::showPreview);
+    // Queued: after the canvas got the stored frame, before it is painted.
+    connect(&parts_.session, &ProjectSession::viewFrameChanged, this, &Tuning::showPreview, Qt::QueuedConnection);
+}
+
+void Tuning::showPreview() {
+    if (!preview_->active()) {
+        if (!std::exchange(preview_shown_, false)) return;
+        parts_.canvas.setBadge({});
+        parts_.canvas.setFrame(parts_.session.viewFrame());
+        markStale(false);
+        return;
+    }
+    const ViewFrame& stored = parts_.session.viewFrame();
+    if (!stored.result) return;
+    if (!std::exchange(preview_shown_, true)) markStale(true);
+    ViewFrame shown = stored;
+    shown.trails.clear();
+    const auto view = preview_->view();
+    auto result = std::make_shared<FrameResult>();
+    if (view)
+        *result = view->previewed.result;
+    else  // nothing of the run may pass for a preview
+        result->motion = stored.result->motion;
+    shown.result = std::move(result);
+    parts_.canvas.setFrame(std::move(shown));
+    parts_.canvas.setBadge(view ? tr("Preview") : tr("Preview …"));
+}
+
+void Tuning::markStale(bool stale) {
+    const QString mark = tr(" (stored run)");
+    const QWidget* form = &parts_.docks.parameterForm();
+    for (QDockWidget* dock : parts_.docks.docks()) {
+        if (dock->widget() == form || dock->objectName() == QLatin1String("runs")) continue;
+        QString title = dock->windowTitle();
+        if (title.endsWith(mark)) title.chop(mark.size());
+        dock->setWindowTitle(stale ? title + mark : title);
+    }
 }
 
 void Tuning::askWhy(QPointF place, double margin) {

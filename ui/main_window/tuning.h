@@ -4,6 +4,7 @@
 #include <QPointF>
 #include <optional>
 
+#include "session/live_preview.h"
 #include "session/why.h"
 
 class QDockWidget;
@@ -12,6 +13,7 @@ class QMainWindow;
 namespace eyrie::ui {
 
 class OverlaySettings;
+class PreviewBar;
 class ReviewDocks;
 class VideoView;
 class WhyPanel;
@@ -27,7 +29,7 @@ struct TuningParts {
     QMainWindow& window;
 };
 
-/// The tools of who tunes the chain by looking: "Why?".
+/// The tools of who tunes the chain by looking: "Why?" and the live preview.
 class Tuning : public QObject {
     Q_OBJECT
 
@@ -36,13 +38,23 @@ class Tuning : public QObject {
 
     WhyPanel& whyPanel() { return *why_panel_; }
     Why& why() { return *why_; }
+    LivePreview& preview() { return *preview_; }
+    PreviewBar& previewBar() { return *preview_bar_; }
     /// Asks about a place, image coordinates, and shows the answer.
     void askWhy(QPointF place, double margin = 0);
     /// Opens the form of parameters at one of them.
     void showParameter(const QString& name);
 
+ signals:
+    /// The form is to show the parameters of the run again.
+    void storedParametersRequested();
+    void runRequested();
+
  private:
     void buildWhy();
+    void buildPreview();
+    void showPreview();
+    void markStale(bool stale);
     void showPlaceMenu(QPointF place, double margin, QPoint global);
     void showPlaceMark();
 
@@ -50,6 +62,9 @@ class Tuning : public QObject {
     Why* why_;
     WhyPanel* why_panel_;
     QDockWidget* why_dock_;
+    LivePreview* preview_;
+    PreviewBar* preview_bar_;
+    bool preview_shown_ = false;
     std::optional<QPointF> cursor_;  ///< over the canvas, image coordinates
 };
 

@@ -51,6 +51,11 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     why = add(
         tr("&Why here?"),
         {"help-contextual", {QKeySequence(Qt::Key_W)}, QT_TR_NOOP("What decided about the place under the cursor")});
+    live_preview = addToggle(tr("Live &preview of parameters"),
+                             {nullptr,
+                              {QKeySequence(Qt::Key_P)},
+                              QT_TR_NOOP("Show the present frame with each parameter that is moved in the form")},
+                             true);
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
     review_workspace = addToggle(tr("&Review"), {nullptr, {QKeySequence(tr("Ctrl+1"))}}, true);

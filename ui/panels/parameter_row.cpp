@@ -13,7 +13,7 @@ namespace eyrie::ui {
 namespace {
 
 // One width for all kinds of fields, so that they stand in a column.
-constexpr int kFieldCharacters = 15;
+constexpr int kFieldCharacters = 23;
 constexpr int kFlash_ms = 900;
 
 /// "min speed" for "motion.min_speed".
