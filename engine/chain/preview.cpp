@@ -97,7 +97,8 @@ Preview::Known* Preview::known(FrameIndex frame) {
     return &made;
 }
 
-bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int range, const std::stop_token& stop) {
+bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int range, int wanted_frames,
+                            const std::stop_token& stop) {
     const std::string wanted = textOf(options, PreviewStart::registration, PreviewStart::motion);
     if (wanted == textOf(source_.options, PreviewStart::registration, PreviewStart::motion)) {
         if (!motions_.empty()) frames_.clear();
@@ -106,7 +107,8 @@ bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int r
         return true;
     }
     const FrameIndex first = std::max(source_.first_frame, frame - range);
-    if (motions_for_ == wanted && motions_.count(frame) > 0 && motions_.count(first) > 0) return true;
+    const FrameIndex first_wanted = std::max(source_.first_frame, frame - wanted_frames);
+    if (motions_for_ == wanted && motions_.count(frame) > 0 && motions_.count(first_wanted) > 0) return true;
     const std::string registration = textOf(options, PreviewStart::registration, PreviewStart::registration);
     if (!window_ || window_for_ != registration) {
         window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
@@ -115,7 +117,7 @@ bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int r
     const FrameIndex begin = std::max(0, first - MotionWindow::reachFor(options.motion));
     if (!window_->cover(begin, frame, source_.pixels, stop)) return false;
     motions_.clear();
-    for (FrameMotion& motion : window_->motions(options.motion, frame - first + 1)) {
+    for (FrameMotion& motion : window_->motions(options.motion, frame - first_wanted + 1)) {
         const FrameIndex index = motion.frame;
         motions_[index] = std::move(motion);
     }
@@ -211,7 +213,7 @@ void Preview::adoptIds(std::vector<TrackState>& tracks, const std::vector<TrackS
 std::optional<PreviewedFrame> Preview::now(FrameIndex frame, const ChainOptions& options, int range,
                                            const std::stop_token& stop) {
     if (known(frame) == nullptr) throw Error(ErrorKind::project, "the run has not done frame " + std::to_string(frame));
-    if (!prepareMotion(frame, options, range, stop) || stop.stop_requested()) return std::nullopt;
+    if (!prepareMotion(frame, options, range, 0, stop) || stop.stop_requested()) return std::nullopt;
     PreviewedFrame previewed;
     if (reachesBack(options)) {
         auto replayed = byReplay(frame, options, stop);
@@ -238,6 +240,7 @@ std::optional<PreviewedFrame> Preview::withTracks(FrameIndex frame, const ChainO
                                                   const std::function<void(int)>& progress) {
     auto previewed = now(frame, options, range, stop);
     if (!previewed || previewed->tracks_final || reachesBack(options)) return previewed;
+    if (!prepareMotion(frame, options, range, range, stop)) return std::nullopt;
     Tracker tracker(options.tracking, source_.scale);
     for (FrameIndex before = std::max(source_.first_frame, frame - range); before < frame; ++before) {
         if (stop.stop_requested()) return std::nullopt;

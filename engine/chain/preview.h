@@ -57,7 +57,9 @@ class Preview {
         std::vector<OrientedBox> rois;
     };
     Known* known(FrameIndex frame);
-    bool prepareMotion(FrameIndex frame, const ChainOptions& options, int range, const std::stop_token& stop);
+    /// Motion of the frame and `wanted_frames` before it; registers `range` frames before, which serve later wishes.
+    bool prepareMotion(FrameIndex frame, const ChainOptions& options, int range, int wanted_frames,
+                       const std::stop_token& stop);
     const FrameMotion& motionOf(const Known& known) const;
     FrameResult secondHalf(Known& known, const ChainOptions& options);
     std::optional<PreviewedFrame> byReplay(FrameIndex frame, const ChainOptions& options, const std::stop_token& stop);

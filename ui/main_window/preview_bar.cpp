@@ -15,16 +15,13 @@ constexpr std::size_t kMostNamed = 2;  ///< … and in the bar itself
 
 PreviewBar::PreviewBar(LivePreview& preview, QWidget* parent) : QFrame(parent), preview_(preview) {
     setObjectName(QStringLiteral("preview_bar"));
-    mark_ = new QLabel(tr("Preview"), this);
-    mark_->setStyleSheet(QStringLiteral("background: #ffc828; color: #1e1800; border-radius: 4px; padding: 2px 8px;"));
     text_ = new QLabel(this);
     text_->setTextFormat(Qt::PlainText);
     text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     range_ = new QSpinBox(this);
     range_->setRange(0, kMostRange);
     range_->setValue(preview_.range());
-    range_->setPrefix(tr("tracks over "));
-    range_->setSuffix(tr(" frames"));
+    range_->setSuffix(tr(" frames back"));
     range_->setKeyboardTracking(false);
     range_->setToolTip(
         tr("Frames before this one that are done with the new parameters, too, so that tracks are "
@@ -34,7 +31,6 @@ PreviewBar::PreviewBar(LivePreview& preview, QWidget* parent) : QFrame(parent), 
     discard_->setToolTip(tr("Back to the parameters and the results of the run"));
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 3, 8, 3);
-    layout->addWidget(mark_);
     layout->addWidget(text_, 1);
     layout->addWidget(range_);
     layout->addWidget(run_);

@@ -28,7 +28,6 @@ class PreviewBar : public QFrame {
     void refresh();
 
     LivePreview& preview_;
-    QLabel* mark_;
     QLabel* text_;
     QSpinBox* range_;
     QPushButton* run_;

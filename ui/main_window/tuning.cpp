@@ -102,7 +102,7 @@ void Tuning::showPreview() {
 }
 
 void Tuning::markStale(bool stale) {
-    const QString mark = tr(" (stored run)");
+    const QString mark = tr(" (stored)");
     const QWidget* form = &parts_.docks.parameterForm();
     for (QDockWidget* dock : parts_.docks.docks()) {
         if (dock->widget() == form || dock->objectName() == QLatin1String("runs")) continue;

@@ -1,0 +1,163 @@
+#include "main_window/tuning.h"
+
+#include <QDockWidget>
+#include <QSignalSpy>
+#include <QSlider>
+#include <QTest>
+
+#include "main_window/main_window.h"
+#include "main_window/preview_bar.h"
+#include "main_window/review_docks.h"
+#include "main_window/why_panel.h"
+#include "main_window/window_actions.h"
+#include "panels/parameter_form.h"
+#include "panels/parameter_row.h"
+#include "ui/ui_support.h"
+#include "view/video_view.h"
+
+namespace eyrie::ui {
+
+using test::kPatience_ms;
+
+class TuningTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+    std::unique_ptr<MainWindow> window_;
+
+    static bool waitFor(const std::function<bool()>& condition) { return QTest::qWaitFor(condition, kPatience_ms); }
+    ProjectSession& session() { return window_->session(); }
+    Tuning& tuning() { return window_->tuning(); }
+    LivePreview& preview() { return tuning().preview(); }
+
+    /// A window that shows frame 40 of a finished run.
+    bool showRun() {
+        window_ = std::make_unique<MainWindow>();
+        window_->resize(1200, 800);
+        window_->show();
+        QSignalSpy ready(&session(), &ProjectSession::ready);
+        session().openMedia(test::sceneUnderTest(60));
+        if (!ready.wait(kPatience_ms)) return false;
+        session().settings().gsd_m_per_px = 0.25;
+        QSignalSpy finished(&session(), &ProjectSession::runFinished);
+        session().startRun();
+        if (!finished.wait(kPatience_ms)) return false;
+        session().goToFrame(40);
+        return waitFor(
+            [&] { return session().viewFrame().index == 40 && session().viewFrame().result && session().runData(); });
+    }
+    ParameterRow* row(const char* name) {
+        for (auto* row : window_->docks().parameterForm().findChildren<ParameterRow*>())
+            if (row->name() == QLatin1String(name)) return row;
+        return nullptr;
+    }
+    void slide(const char* name, int steps) {
+        auto* slider = row(name)->findChild<QSlider*>();
+        slider->setValue(slider->value() + steps);
+    }
+
+ private slots:
+    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void cleanup() {
+        window_.reset();
+        home_.reset();
+    }
+
+    void whyIsAnsweredWithTheStepsAndALinkToTheParameter() {
+        QVERIFY(showRun());
+        QVERIFY(tuning().whyPanel().explanation().contains(QStringLiteral("press W")));
+        QVERIFY(!session().viewFrame().result->tracks.empty());
+        const cv::Point2d centre = session().viewFrame().result->tracks.front().box.centre;
+        tuning().askWhy(QPointF(centre.x, centre.y), 2);
+        QVERIFY(waitFor([&] { return tuning().why().view() && !tuning().why().waiting(); }));
+        QVERIFY(tuning().why().view()->told.found);
+        QVERIFY(tuning().whyPanel().text().contains(QStringLiteral("Found: track")));
+        QVERIFY(tuning().whyPanel().text().contains(QStringLiteral("clustering.min_members")));
+        // The answer follows its track through the frames.
+        session().goToFrame(45);
+        QVERIFY(waitFor([&] { return tuning().why().view() && tuning().why().view()->frame == 45; }));
+        QVERIFY(tuning().why().view()->told.found);
+        // The ground, where nothing is.
+        tuning().askWhy(QPointF(30, 165));
+        QVERIFY(waitFor([&] { return tuning().why().view() && !tuning().why().view()->told.found; }));
+        const QString parameter = QString::fromStdString(tuning().why().view()->told.parameter);
+        QVERIFY(!parameter.isEmpty());
+        emit tuning().whyPanel().parameterChosen(parameter);
+        QVERIFY(waitFor([&] {
+            QWidget* focused = window_->focusWidget();
+            return focused != nullptr && row(parameter.toLatin1().constData())->isAncestorOf(focused);
+        }));
+    }
+
+    void aMovedSliderShowsThePresentFrameAtOnce() {
+        QVERIFY(showRun());
+        const auto stored = session().viewFrame().result;
+        QVERIFY(!stored->detections.empty());
+        QVERIFY(tuning().previewBar().isHidden());
+        slide("clustering.min_members", 6);
+        QVERIFY(waitFor([&] { return preview().view() != nullptr; }));
+        qInfo("first picture after %.0f ms", preview().view()->milliseconds);
+        QVERIFY(!tuning().previewBar().isHidden());
+        QVERIFY(tuning().previewBar().text().startsWith(QStringLiteral("clustering.min_members 3 →")));
+        QVERIFY(waitFor([&] { return window_->canvas().frame().result != stored; }));
+        QVERIFY(waitFor([&] { return preview().framesLeft() == 0; }));
+        QVERIFY(preview().view()->previewed.tracks_final);
+        // Lists that still tell of the run say so.
+        bool marked = false;
+        for (QDockWidget* dock : window_->docks().docks())
+            marked = marked || dock->windowTitle().contains(QStringLiteral("(stored)"));
+        QVERIFY(marked);
+        // Another frame is previewed, too.
+        session().goToFrame(41);
+        QVERIFY(waitFor([&] { return preview().view() && preview().view()->frame == 41; }));
+        emit tuning().previewBar().discardRequested();
+        QVERIFY(!preview().active());
+        QVERIFY(waitFor([&] { return window_->canvas().frame().result == session().viewFrame().result; }));
+        QCOMPARE(row("clustering.min_members")->value(), QStringLiteral("3"));
+    }
+
+    void draggingAnswersAllTheTime() {
+        QVERIFY(showRun());
+        int answers = 0;
+        std::shared_ptr<const PreviewView> last;
+        connect(&preview(), &LivePreview::changed, this, [&] {
+            if (preview().view() && preview().view() != last) ++answers;
+            last = preview().view();
+        });
+        auto* slider = row("gradient.quantile")->findChild<QSlider*>();
+        const int begin = slider->value();
+        for (int step = 1; step <= 40; ++step) {
+            slider->setValue(begin + step);
+            QTest::qWait(15);
+        }
+        QVERIFY2(answers >= 5, qPrintable(QString::number(answers)));
+        const double shown = row("gradient.quantile")->value().toDouble();
+        QVERIFY(waitFor([&] { return preview().framesLeft() == 0; }));
+        QCOMPARE(session().settings().options.detection.gradient.quantile, shown);
+    }
+
+    void switchedOffNothingIsComputed() {
+        QVERIFY(showRun());
+        window_->actions().live_preview->setChecked(false);
+        slide("clustering.min_members", 6);
+        QTest::qWait(100);
+        QVERIFY(!preview().active());
+        window_->actions().live_preview->setChecked(true);
+        QVERIFY(waitFor([&] { return preview().view() != nullptr; }));
+        window_->actions().live_preview->setChecked(false);
+        QVERIFY(!preview().active());
+    }
+
+    void valuesThatCannotBeAreSaid() {
+        QVERIFY(showRun());
+        session().settings().options.detection.sliding_window.model = "no such model";
+        preview().parametersEdited();
+        QVERIFY(waitFor([&] { return !preview().problem().isEmpty(); }));
+        QVERIFY(tuning().previewBar().text().contains(QStringLiteral("no such model")));
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::TuningTest)
+#include "tuning_test.moc"
