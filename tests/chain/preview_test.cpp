@@ -142,8 +142,11 @@ TEST(Preview, tracksKeepTheIdsOfTheRun) {
     options.tracking.acceleration = 5;
     const auto now = preview.now(35, options, 30, {});
     for (const TrackState& track : now->result.tracks) {
-        for (const TrackState& stored : run.stored(35).tracks)
-            if (overlap(track.box, stored.box) > 0.6) EXPECT_EQ(track.id, stored.id);
+        for (const TrackState& stored : run.stored(35).tracks) {
+            if (overlap(track.box, stored.box) > 0.6) {
+                EXPECT_EQ(track.id, stored.id);
+            }
+        }
     }
 }
 

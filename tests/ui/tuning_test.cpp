@@ -3,8 +3,10 @@
 #include <QDockWidget>
 #include <QSignalSpy>
 #include <QSlider>
+#include <QTableWidget>
 #include <QTest>
 
+#include "main_window/comparison_window.h"
 #include "main_window/main_window.h"
 #include "main_window/preview_bar.h"
 #include "main_window/review_docks.h"
@@ -14,6 +16,7 @@
 #include "panels/parameter_row.h"
 #include "ui/ui_support.h"
 #include "view/video_view.h"
+#include "view/wipe_split.h"
 
 namespace eyrie::ui {
 
@@ -146,6 +149,52 @@ class TuningTest : public QObject {
         QVERIFY(waitFor([&] { return preview().view() != nullptr; }));
         window_->actions().live_preview->setChecked(false);
         QVERIFY(!preview().active());
+    }
+
+    void twoRunsAreComparedOnTheSameFrames() {
+        QVERIFY(showRun());
+        ComparisonWindow& alone = tuning().compareRuns();
+        QCOMPARE(alone.differences().rowCount(), 0);
+        alone.close();
+        session().settings().options.clustering.min_members = 200;  // finds nothing
+        QSignalSpy finished(&session(), &ProjectSession::runFinished);
+        session().startRun();
+        QVERIFY(finished.wait(kPatience_ms));
+        QVERIFY(waitFor([&] { return session().runs().size() == 2 && session().runs().back().frames_done == 60; }));
+        QTest::qWait(0);
+        ComparisonWindow& comparison = tuning().compareRuns();
+        comparison.choose(1, 2);
+        QVERIFY(waitFor([&] { return comparison.differences().rowCount() > 0; }));
+        QCOMPARE(comparison.parameters().rowCount(), 1);
+        QCOMPARE(comparison.parameters().item(0, 0)->text(), QStringLiteral("clustering.min_members"));
+        QCOMPARE(comparison.parameters().item(0, 2)->text(), QStringLiteral("200"));
+        for (int row = 0; row < comparison.differences().rowCount(); ++row)
+            QCOMPARE(comparison.differences().item(row, 2)->text(), QStringLiteral("only in A"));
+        // The largest stands first; going to it shows the same place of the same frame in both.
+        const double size = comparison.differences().item(0, 0)->data(Qt::DisplayRole).toDouble();
+        const int last = comparison.differences().rowCount() - 1;
+        QVERIFY(size >= comparison.differences().item(last, 0)->data(Qt::DisplayRole).toDouble());
+        comparison.differences().setCurrentCell(0, 0);
+        emit comparison.differences().cellClicked(0, 0);
+        VideoView& a = comparison.views().first();
+        VideoView& b = comparison.views().second();
+        QVERIFY(waitFor([&] { return a.frame().index == comparison.frame() && b.frame().index == a.frame().index; }));
+        QVERIFY(a.frame().result && b.frame().result);
+        QVERIFY(!a.frame().result->tracks.empty());
+        QVERIFY(b.frame().result->tracks.empty());
+        a.zoomBy(2);
+        QCOMPARE(b.transform().zoom(), a.transform().zoom());
+        const QPointF middle_a = a.transform().imageFromView(QPointF(a.width() / 2.0, a.height() / 2.0));
+        const QPointF middle_b = b.transform().imageFromView(QPointF(b.width() / 2.0, b.height() / 2.0));
+        QVERIFY(QLineF(middle_a, middle_b).length() < 1);
+        comparison.views().setWipe(true);
+        QCOMPARE(a.size(), b.size());
+        comparison.views().setBorder(0.25);
+        QVERIFY(!b.mask().contains(QPoint(2, 10)));
+        QVERIFY(a.mask().contains(QPoint(2, 10)));
+        comparison.playback().play(0);
+        QVERIFY(waitFor([&] { return comparison.frame() > 20; }));
+        comparison.playback().pause();
     }
 
     void valuesThatCannotBeAreSaid() {

@@ -5,6 +5,7 @@
 #include <QMenu>
 #include <QVBoxLayout>
 
+#include "main_window/comparison_window.h"
 #include "main_window/preview_bar.h"
 #include "main_window/review_docks.h"
 #include "main_window/why_panel.h"
@@ -38,6 +39,7 @@ QColor colourOf(CornerFate fate, const OverlayColours& colours) {
 Tuning::Tuning(const TuningParts& parts) : QObject(&parts.window), parts_(parts) {
     buildWhy();
     buildPreview();
+    connect(parts_.actions.compare, &QAction::triggered, this, [this] { compareRuns(); });
 }
 
 void Tuning::buildWhy() {
@@ -118,6 +120,18 @@ void Tuning::askWhy(QPointF place, double margin) {
     why_dock_->raise();
     why_->want(true);
     why_->ask(place, margin);
+}
+
+ComparisonWindow& Tuning::compareRuns() {
+    if (!comparison_) {
+        comparison_ = new ComparisonWindow(parts_.session, parts_.overlays, &parts_.window);
+        comparison_->setAttribute(Qt::WA_DeleteOnClose);
+    }
+    parts_.session.playback().pause();
+    comparison_->show();
+    comparison_->raise();
+    comparison_->activateWindow();
+    return *comparison_;
 }
 
 void Tuning::showParameter(const QString& name) {

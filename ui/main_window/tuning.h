@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QPointF>
+#include <QPointer>
 #include <optional>
 
 #include "session/live_preview.h"
@@ -12,6 +13,7 @@ class QMainWindow;
 
 namespace eyrie::ui {
 
+class ComparisonWindow;
 class OverlaySettings;
 class PreviewBar;
 class ReviewDocks;
@@ -42,6 +44,8 @@ class Tuning : public QObject {
     PreviewBar& previewBar() { return *preview_bar_; }
     /// Asks about a place, image coordinates, and shows the answer.
     void askWhy(QPointF place, double margin = 0);
+    /// A and B of the project's runs.
+    ComparisonWindow& compareRuns();
     /// Opens the form of parameters at one of them.
     void showParameter(const QString& name);
 
@@ -64,6 +68,7 @@ class Tuning : public QObject {
     QDockWidget* why_dock_;
     LivePreview* preview_;
     PreviewBar* preview_bar_;
+    QPointer<ComparisonWindow> comparison_;
     bool preview_shown_ = false;
     std::optional<QPointF> cursor_;  ///< over the canvas, image coordinates
 };

@@ -56,6 +56,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                               {QKeySequence(Qt::Key_P)},
                               QT_TR_NOOP("Show the present frame with each parameter that is moved in the form")},
                              true);
+    compare = add(
+        tr("&Compare two runs…"),
+        {nullptr, {QKeySequence(tr("Ctrl+B"))}, QT_TR_NOOP("A and B on the same frames, side by side or with a wipe")});
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
     review_workspace = addToggle(tr("&Review"), {nullptr, {QKeySequence(tr("Ctrl+1"))}}, true);

@@ -101,6 +101,11 @@ void VideoView::setBadge(const QString& text) {
     update();
 }
 
+void VideoView::setBadgeOnRight(bool on_right) {
+    badge_on_right_ = on_right;
+    update();
+}
+
 void VideoView::setTool(CanvasTool* tool) {
     tool_ = tool;
     updateCursorShape();
@@ -217,7 +222,8 @@ void VideoView::paintPlaceMark(QPainter& painter) const {
 void VideoView::paintBadge(QPainter& painter) const {
     if (badge_.isEmpty()) return;
     const QRectF text = painter.fontMetrics().boundingRect(badge_);
-    const QRectF plate(10, 10, text.width() + 20, text.height() + 10);
+    QRectF plate(10, 10, text.width() + 20, text.height() + 10);
+    if (badge_on_right_) plate.moveRight(width() - 10);
     painter.setPen(Qt::NoPen);
     painter.setBrush(kBadgeGround);
     painter.drawRoundedRect(plate, 4, 4);

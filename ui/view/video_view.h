@@ -39,6 +39,7 @@ class VideoView : public QWidget {
     void setPlaceMark(std::optional<PlaceMark> mark);
     /// A few words that stand on the picture, such as "preview"; empty: none.
     void setBadge(const QString& text);
+    void setBadgeOnRight(bool on_right);
     /// What the mouse does and what is drawn on top; null: the canvas' own. Must outlive the view, or be taken away.
     void setTool(CanvasTool* tool);
     CanvasTool* tool() const { return tool_; }
@@ -108,6 +109,7 @@ class VideoView : public QWidget {
     std::optional<OrientedBox> inspected_area_;
     std::optional<PlaceMark> place_mark_;
     QString badge_;
+    bool badge_on_right_ = false;
     std::optional<QPointF> drag_from_;  ///< view point of the last drag step
     QPointF pressed_at_;
     bool dragged_ = false;
