@@ -16,7 +16,7 @@ struct IndependentMotionOptions {
     double sigma_factor = 4;     ///< threshold in deviations of the background's residual speed; 0: not used
     double max_speed_m_s = 70;   ///< faster corners are tracking errors; only where GSD is known; 0: no limit
     bool follow_turns = true;    ///< the velocity of corners whose path bends is carried on to the present
-    bool find_slow = true;       ///< second test over a longer baseline
+    bool find_slow = false;      ///< second test over a longer baseline
     int slow_baseline = 15;      ///< frames of the second test
     int slow_min_age = 10;       ///< frames a corner must have been tracked for it
     double slow_min_speed_m_s = 0.7;

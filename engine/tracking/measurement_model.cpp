@@ -207,4 +207,11 @@ BoxMeasurement MeasurementModel::reconstructed(const Reconstruction& reconstruct
     return m;
 }
 
+BoxMeasurement MeasurementModel::placed(const OrientedBox& box) const {
+    BoxMeasurement m;
+    m.box = box;
+    m.along = m.across = position_floor_;
+    return m;
+}
+
 }  // namespace eyrie

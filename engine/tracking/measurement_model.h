@@ -50,6 +50,8 @@ class MeasurementModel {
     Update update(const OrientedBox& box, const Detection& detection, const OrientedBox& predicted,
                   bool size_known) const;
     BoxMeasurement reconstructed(const Reconstruction& reconstruction) const;
+    /// A place alone; size, heading and velocity are not measured.
+    BoxMeasurement placed(const OrientedBox& box) const;
     BoxProcessNoise processNoise() const { return process_; }
 
     /// Speed below which a velocity tells no direction in this frame, px/frame.

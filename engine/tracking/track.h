@@ -29,6 +29,8 @@ struct Track {
     int abreast_streak = 0;        ///< the same, for parts side by side
     bool merged = false;           ///< its detection covers other tracks, too
     bool stopped = false;          ///< lost while slow
+    bool recognised = false;       ///< without a detection in this frame, but found by its appearance
+    int recognised_streak = 0;     ///< frames in a row
 
     explicit Track(const BoxMeasurement& first) : filter(first) {}
     /// As the rest of the chain sees it.

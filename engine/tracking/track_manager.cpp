@@ -10,6 +10,7 @@ namespace {
 constexpr int kScoreFrames = 32;       ///< window of TrackState::score
 constexpr double kLeavingSeconds = 3;  ///< longest way out of the image without evidence
 constexpr double kStopping = 0.7;      ///< what is left of a stopping track's velocity after a frame
+constexpr double kSoonStopped = 3;     ///< times stop_speed from which a track may stop soon
 constexpr double kAlikeSpeeds = 0.3;   ///< difference of velocities that move alike, as a share
 
 int hitsWithin(std::uint64_t history, int frames) {
@@ -52,6 +53,8 @@ TrackManager::TrackManager(const TrackerOptions& o, const SceneScale& scale)
       max_missing_tentative_(o.max_missing_tentative),
       max_missing_(std::max(2, framesOf(o.max_missing_s, scale))),
       max_stopped_(framesOf(o.max_stopped_s, scale)),
+      max_standing_(framesOf(o.max_standing_s, scale)),
+      appearance_(o.appearance),
       max_leaving_(framesOf(kLeavingSeconds, scale)),
       max_failed_(std::max(3, framesOf(o.max_failed_s, scale))),
       max_reconstructed_(o.max_reconstructed),
@@ -73,6 +76,8 @@ void TrackManager::count(Track& track, double slow_speed) const {
     if (detected) track.reconstructed_streak = 0;
     if (track.origin == StateOrigin::reconstructed) ++track.reconstructed_streak;
     track.predicted_streak = track.origin == StateOrigin::predicted ? track.predicted_streak + 1 : 0;
+    track.recognised_streak = track.recognised ? track.recognised_streak + 1 : 0;
+    if (track.recognised) track.predicted_streak = 1;
 
     if (track.status == TrackStatus::tentative) {
         if (hitsWithin(track.history, confirm_window_) >= confirm_hits_) track.status = TrackStatus::confirmed;
@@ -91,6 +96,19 @@ void TrackManager::count(Track& track, double slow_speed) const {
 bool TrackManager::mayBeReconstructed(const Track& track) const {
     const int limit = track.hits >= supported_hits_ ? std::max(max_reconstructed_, max_supported_) : max_reconstructed_;
     return track.reconstructed_streak < limit;
+}
+
+bool TrackManager::mayBeRecognised(const Track& track, double slow_speed) const {
+    if (appearance_ == AppearanceUse::none || track.status == TrackStatus::tentative) return false;
+    if (track.recognised_streak >= max_standing_) return false;
+    return appearance_ == AppearanceUse::lost || track.stopped ||
+           track.filter.speed() < std::max(stop_speed_, slow_speed);
+}
+
+bool TrackManager::worthRemembering(const Track& track, double slow_speed) const {
+    if (appearance_ == AppearanceUse::none || track.status == TrackStatus::tentative || track.merged) return false;
+    return appearance_ == AppearanceUse::lost ||
+           track.filter.speed() < kSoonStopped * std::max(stop_speed_, slow_speed);
 }
 
 bool TrackManager::givesUpParts(const Track& track) const {
@@ -179,14 +197,15 @@ void TrackManager::suppressDuplicates(std::vector<Track>& tracks, double slow_sp
             Track& goes = first_stays ? tracks[j] : tracks[i];
             gone[first_stays ? j : i] = 1;
             // The older one lost its object and the younger one found it: one life, the younger one's evidence.
-            if (stays.predicted_streak >= 2 && goes.origin == StateOrigin::detected) {
+            if ((stays.predicted_streak >= 2 || stays.recognised) && goes.origin == StateOrigin::detected) {
                 stays.filter = goes.filter;
                 stays.vectors = std::move(goes.vectors);
                 stays.origin = StateOrigin::detected;
                 stays.history |= 1U;
                 ++stays.hits;
                 stays.missing = stays.predicted_streak = stays.reconstructed_streak = 0;
-                stays.stopped = false;
+                stays.stopped = stays.recognised = false;
+                stays.recognised_streak = 0;
                 if (stays.status == TrackStatus::coasting) stays.status = TrackStatus::confirmed;
             }
         }
@@ -203,7 +222,7 @@ void TrackManager::suppressDuplicates(std::vector<Track>& tracks, double slow_sp
 bool TrackManager::wouldDuplicate(const OrientedBox& box, cv::Point2d velocity, const std::vector<Track>& tracks,
                                   double slow_speed) const {
     return suppress_duplicates_ && std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
-               return track.predicted_streak < 2 &&
+               return track.predicted_streak < 2 && !track.recognised &&
                       alike(box, velocity, track.filter.box(), track.filter.velocity(), slow_speed);
            });
 }

@@ -20,6 +20,10 @@ class TrackManager {
     void count(Track& track, double slow_speed) const;
     /// Whether the track may be rebuilt from motion vectors once more.
     bool mayBeReconstructed(const Track& track) const;
+    /// Whether a track without evidence in this frame may be looked for by its appearance.
+    bool mayBeRecognised(const Track& track, double slow_speed) const;
+    /// Whether it is worth remembering what the track looks like.
+    bool worthRemembering(const Track& track, double slow_speed) const;
     /// Whether the track's size is known well enough to judge detections by it.
     bool established(const Track& track) const { return track.hits >= confirm_hits_; }
     /// Whether the track was in separate parts for so long that it must be several objects.
@@ -55,6 +59,8 @@ class TrackManager {
     int max_missing_tentative_;
     int max_missing_;
     int max_stopped_;
+    int max_standing_;
+    AppearanceUse appearance_;
     int max_leaving_;
     int max_failed_;
     int max_reconstructed_;

@@ -14,6 +14,7 @@ namespace eyrie {
 namespace {
 
 constexpr int kGrowthsToBelieve = 2;  ///< detections in a row beyond the box after which the box was too small
+constexpr double kLeastReach = 2;     ///< px around the prediction in which an object is looked for by its looks
 constexpr int kHitsToBeMerged = 3;    ///< detections that show a track beside an established one to be real
 
 const SceneScale& checked(const SceneScale& scale) {
@@ -46,17 +47,19 @@ Tracker::Tracker(const TrackerOptions& options, const SceneScale& scale)
     : options_(options),
       model_(options, checked(scale)),
       manager_(options, scale),
+      looks_(options.appearance_agreement),
       gate_(std::max(options.distance_gate_px, scale.px(options.distance_gate_m))) {}
 
 void Tracker::reset() {
     tracks_.clear();
+    looks_.clear();
     next_id_ = 1;
     frozen_frames_ = 0;
     failed_frames_ = 0;
 }
 
 std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vector<Detection>& detections,
-                                      TrackingTrace* trace) {
+                                      TrackingTrace* trace, const cv::Mat& gray) {
     if (trace != nullptr) *trace = {};
     model_.startFrame(motion.image_size, motion.background_speed_sigma);
     if (isCut(motion.registration)) tracks_.clear();
@@ -69,7 +72,7 @@ std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vect
             break;
         case RegistrationState::first:
         case RegistrationState::registered:
-            follow(motion, detections, trace);
+            follow(motion, detections, trace, gray);
             break;
     }
     std::vector<TrackState> states;
@@ -115,7 +118,8 @@ void Tracker::predict(const FrameMotion& motion) {
     frozen_frames_ = 0;
 }
 
-void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace) {
+void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
+                     const cv::Mat& gray) {
     failed_frames_ = 0;
     predict(motion);
     std::vector<const Detection*> found;
@@ -137,10 +141,15 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     for (std::size_t j = 0; j < tracks_.size(); ++j) {
         keepSeenVectors(tracks_[j].vectors, vectors);
         updateTrack(tracks_[j], association.tracks[j], found, vectors);
+        recognise(tracks_[j], gray);
         manager_.count(tracks_[j], model_.slowSpeed());
     }
     if (trace != nullptr) traceEnds(motion.image_size, *trace);
-    std::erase_if(tracks_, [&](const Track& track) { return manager_.ended(track, motion.image_size); });
+    std::erase_if(tracks_, [&](const Track& track) {
+        const bool over = manager_.ended(track, motion.image_size);
+        if (over) looks_.forget(track.id);
+        return over;
+    });
     manager_.suppressDuplicates(tracks_, model_.slowSpeed());
     if (trace != nullptr) {
         for (TracedTrack& traced : trace->tracks) {
@@ -151,6 +160,15 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     }
     startTracks(found, association.used, positions, trace);
     if (options_.use_vectors) associateMotionVectors(vectors);
+}
+
+void Tracker::recognise(Track& track, const cv::Mat& gray) {
+    track.recognised = false;
+    if (track.origin == StateOrigin::detected && manager_.worthRemembering(track, model_.slowSpeed()))
+        looks_.remember(track.id, gray, track.filter.box());
+    if (track.origin != StateOrigin::predicted || !manager_.mayBeRecognised(track, model_.slowSpeed())) return;
+    const auto found = looks_.find(track.id, gray, track.filter.box(), std::max(kLeastReach, gate_));
+    track.recognised = found && track.filter.update(model_.placed(*found));
 }
 
 std::vector<MovingBox> Tracker::predictedBoxes() const {

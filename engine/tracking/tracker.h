@@ -6,6 +6,7 @@
 #include "core/motion_vector.h"
 #include "core/scene_scale.h"
 #include "core/track_state.h"
+#include "tracking/appearance.h"
 #include "tracking/measurement_model.h"
 #include "tracking/track.h"
 #include "tracking/track_manager.h"
@@ -25,7 +26,7 @@ class Tracker {
     /// tracks are predicted, in a frozen one nothing moves, and after a cut all tracks end. `trace`, if given, receives
     /// how detections and tracks were joined.
     std::vector<TrackState> next(const FrameMotion& motion, const std::vector<Detection>& detections,
-                                 TrackingTrace* trace = nullptr);
+                                 TrackingTrace* trace = nullptr, const cv::Mat& gray = {});
 
     /// Forgets all tracks; ids start from 1 again.
     void reset();
@@ -33,7 +34,9 @@ class Tracker {
  private:
     void coastThroughFrozen();
     void coastThroughFailed(const FrameMotion& motion);
-    void follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace);
+    void follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
+                const cv::Mat& gray);
+    void recognise(Track& track, const cv::Mat& gray);
     void predict(const FrameMotion& motion);
     std::vector<MovingBox> predictedBoxes() const;
     OverlapMatrix overlapMatrix(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
@@ -55,6 +58,7 @@ class Tracker {
     TrackerOptions options_;
     MeasurementModel model_;
     TrackManager manager_;
+    AppearanceMemory looks_;
     double gate_ = 0;  ///< px
     std::vector<Track> tracks_;
     TrackId next_id_ = 1;

@@ -98,6 +98,15 @@ void describeLife(TrackerOptions& o, ParameterVisitor& v) {
         {"m/s", "A track that gets lost while slower than this is taken to have stopped: it stays where it is.", ""});
     v.real("tracking.max_stopped", o.max_stopped_s, 0, 600,
            {"s", "How long a stopped track is kept without a detection.", ""});
+    v.choice("tracking.appearance", o.appearance, {"none", "stopped", "lost"},
+             {"",
+              "Which lost tracks are looked for by what they looked like when they were detected last. stopped: those "
+              "that were slow; a vehicle that stands keeps its track and its id until it moves on.",
+              ""});
+    v.real("tracking.appearance_agreement", o.appearance_agreement, 0.1, 1,
+           {"", "Normalised correlation from which a lost track is taken for found.", ""});
+    v.real("tracking.max_standing", o.max_standing_s, 0, 3600,
+           {"s", "How long a track is kept by its appearance alone.", ""});
     v.real("tracking.max_failed", o.max_failed_s, 0, 60,
            {"s", "All tracks end when the registration failed for longer than this.", ""});
     v.real("tracking.min_visible", o.min_visible, 0, 1,

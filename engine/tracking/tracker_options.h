@@ -11,6 +11,13 @@ enum class SplitMergeRule {
     containment      ///< parts lie in the predicted box; a merged box covers several predicted boxes and is larger
 };
 
+/// Which lost tracks are looked for by what they looked like.
+enum class AppearanceUse {
+    none,
+    stopped,  ///< those that were slow when they got lost
+    lost      ///< all reliable ones
+};
+
 /// Parameters of the tracker (Teutsch ch. 6). Metres are turned into pixels once, in the tracker's constructor; pixel
 /// values beside them are floors for noise that does not shrink with the object.
 struct TrackerOptions {
@@ -45,6 +52,9 @@ struct TrackerOptions {
     double max_missing_s = 0.3;
     double stop_speed = 2.0;
     double max_stopped_s = 1.0;
+    AppearanceUse appearance = AppearanceUse::none;
+    double appearance_agreement = 0.85;
+    double max_standing_s = 60;
     double max_failed_s = 0.5;
     double min_visible = 0.02;
     bool suppress_duplicates = true;
