@@ -17,6 +17,7 @@
 #include "cli/input.h"
 #include "cli/method_times.h"
 #include "cli/preset_arguments.h"
+#include "cli/sweep_times.h"
 #include "core/error.h"
 #include "store/project_file.h"
 #include "store/result_writer.h"
@@ -163,6 +164,17 @@ void printMethods(const std::vector<MethodTimes>& methods) {
     }
 }
 
+void printSweep(const SweepTimes& times) {
+    std::printf("\ntuning on these %d frames, gradient based segmentation\n", times.frames);
+    std::printf("%-52s%10.2f s\n", "one run with its evaluation", times.run_s);
+    std::printf("%-52s%10.2f s   %.1fx faster than %d runs\n", "46 quantiles at once", times.sweep_s, times.speedUp(),
+                times.sweep_points);
+    std::printf("%-52s%10.2f s\n", "figures after a changed clustering parameter", times.clustering_s);
+    std::printf("%-52s%10.2f s\n", "figures after a changed parameter of removal", times.removal_s);
+    std::printf("%-52s%10.2f s\n", "figures after a changed tracking parameter", times.tracking_s);
+    std::printf("%-52s%10.2f ms\n", "one frame again after a changed quantile", times.preview_ms);
+}
+
 void printTable(const VideoInfo& video, const std::vector<Column>& columns, const std::vector<Sample>& baseline) {
     std::printf("%s, %dx%d; median (10th percentile) ms per frame, one frame after the other\n\n%-28s",
                 video.path.string().c_str(), video.size.width, video.size.height, "stage");
@@ -196,7 +208,7 @@ void printTable(const VideoInfo& video, const std::vector<Column>& columns, cons
 }
 
 void printJson(const std::vector<Column>& columns, const std::vector<Sample>& baseline, const Sample& read,
-               const std::vector<MethodTimes>& methods) {
+               const std::vector<MethodTimes>& methods, const SweepTimes& sweep) {
     nlohmann::ordered_json json;
     json["read_ms"] = read.median();
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -214,6 +226,10 @@ void printJson(const std::vector<Column>& columns, const std::vector<Sample>& ba
                                    {"detection_ms", method.detection_ms},
                                    {"tracking_ms", method.tracking_ms}});
     }
+    json["sweep"] = {
+        {"frames", sweep.frames},          {"run_s", sweep.run_s},           {"quantiles_s", sweep.sweep_s},
+        {"quantiles", sweep.sweep_points}, {"speed_up", sweep.speedUp()},    {"clustering_s", sweep.clustering_s},
+        {"removal_s", sweep.removal_s},    {"tracking_s", sweep.tracking_s}, {"preview_ms", sweep.preview_ms}};
     std::puts(json.dump(2).c_str());
 }
 
@@ -238,11 +254,13 @@ void bench(const Arguments& arguments) {
         baseline.push_back(measureBaseline(frames, corners));
     }
     const std::vector<MethodTimes> methods = measureMethods(frames, options, scale, kWarmUpFrames);
+    const SweepTimes sweep = measureSweep(frames, options, scale);
     if (arguments.json) {
-        printJson(columns, baseline, read, methods);
+        printJson(columns, baseline, read, methods, sweep);
     } else {
         printTable(source->info(), columns, baseline);
         printMethods(methods);
+        printSweep(sweep);
     }
 }
 

@@ -72,11 +72,15 @@ SweepCriterion criterionOf(const Arguments& arguments, const SweepPlan& plan) {
     return criterion;
 }
 
-void refuseTooMany(const SweepPlan& plan, std::size_t points, bool yes) {
-    if (yes || points <= static_cast<std::size_t>(kManyPoints)) return;
-    throw Error(ErrorKind::parameter, "the sweep has " + std::to_string(points) + " points (" +
-                                          std::to_string(plan.pointCount()) +
-                                          " in all); add --yes if that is meant, or use a larger step");
+/// Before anything is read: a million values take their time.
+void refuseTooMany(const std::vector<std::string>& axes, bool yes) {
+    double points = 1;
+    for (const std::string& axis : axes) points *= countValues(axis);
+    if (yes || points <= kManyPoints) return;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.0f", points);
+    throw Error(ErrorKind::parameter,
+                "the sweep has " + std::string(text) + " points; add --yes if that is meant, or use a larger step");
 }
 
 /// Runs what is missing; answers whether all was done.
@@ -120,6 +124,7 @@ int sweep(const Arguments& arguments) {
         throw Error(ErrorKind::parameter,
                     "--out: name the file that the points are written to, e.g. --out sweep.eyrie");
     measureText(arguments.criterion);
+    refuseTooMany(arguments.axes, arguments.yes);
     std::optional<StoredRun> run;
     if (!arguments.sources.project.empty()) {
         ProjectFile project = ProjectFile::open(arguments.sources.project, ProjectFile::Mode::read_only);
@@ -133,7 +138,7 @@ int sweep(const Arguments& arguments) {
     plan.overlaps = arguments.overlaps;
     plan.vehicles_only = arguments.vehicles_only;
     plan.border = arguments.border;
-    refuseTooMany(plan, chosenPositions(plan, arguments.shard).size(), arguments.yes);
+    chosenPositions(plan, arguments.shard);  // shows a wrong shard before anything is opened
 
     const InterruptGuard interrupt;
     OpenedSources opened = run ? openStoredRun(arguments.sources, std::move(*run), base)

@@ -1,5 +1,7 @@
 #include "cli/sweep_inputs.h"
 
+#include <algorithm>
+
 #include "annotation/ignore_regions.h"
 #include "chain/scale_estimation.h"
 #include "cli/evaluation_files.h"
@@ -56,7 +58,7 @@ BoxesByFrame labelsOfProject(const SweepSources& sources, const StoredRun& run, 
     options.image = sequence.size;
     clip.upright = sources.upright;
     BoxesByFrame truth = groundTruthBoxes(labels, cameraMotionOf(store, sequence.id), options);
-    if (truth.empty()) {
+    if (std::all_of(truth.begin(), truth.end(), [](const auto& entry) { return entry.second.empty(); })) {
         throw Error(ErrorKind::input, sources.project + ": has no labels in the frames of run " +
                                           std::to_string(run.clip.run) +
                                           "; name a file with --ground-truth, or label or import some");

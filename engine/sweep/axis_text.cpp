@@ -56,6 +56,18 @@ std::vector<std::string> rangeValues(const std::string& name, const std::vector<
 
 }  // namespace
 
+double countValues(const std::string& text) {
+    const std::string spec(trimmed(std::string_view(text).substr(text.find('=') + 1)));
+    if (spec.empty()) return 0;
+    const std::vector<std::string> parts = splitAt(spec, ':');
+    if (parts.size() != 3) return static_cast<double>(splitAt(spec, ',').size());
+    const auto from = parseReal(parts[0]);
+    const auto step = parseReal(parts[1]);
+    const auto to = parseReal(parts[2]);
+    if (!from || !step || !to || *step == 0) return 0;
+    return std::max(0.0, std::floor((*to - *from) / *step + 1e-9) + 1);
+}
+
 SweepAxis parseAxis(const std::string& text, const ChainOptions& base) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
@@ -81,10 +93,15 @@ SweepAxis parseAxis(const std::string& text, const ChainOptions& base) {
     } else {
         axis.values = splitAt(spec, ',');
     }
+    // Of a range the ends tell whether all is within the limits, and the first step whether all are whole numbers.
+    const bool range = number && parts.size() == 3;
     std::set<std::string> seen;
-    for (std::string& value : axis.values) {
-        setParameter(describeOf(options), axis.name, value);  // out of range, or not read
+    for (std::size_t i = 0; i < axis.values.size(); ++i) {
+        std::string& value = axis.values[i];
+        if (!range || i < 2 || i + 1 == axis.values.size())
+            setParameter(describeOf(options), axis.name, value);  // out of range, or not read
         // As the chain itself would write it, so that "on" and "true" are one value.
+        if (range) continue;
         if (number) {
             value = tidyText(*parseReal(value));
         } else if (declared->kind == ParameterKind::flag) {

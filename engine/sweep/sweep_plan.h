@@ -62,6 +62,9 @@ inline constexpr int kManyPoints = 10000;
 /// nothing between A and B, a step of 0, a value out of range or twice, more than ten million values.
 SweepAxis parseAxis(const std::string& text, const ChainOptions& base);
 
+/// How many values such a text names, without reading them; 0 where none can be told.
+double countValues(const std::string& text);
+
 /// Throws Error(parameter): no axis or more than two, the same twice, no sequence, overlaps outside (0, 1], more than
 /// ten million points; Error(input) where a value names a model that cannot be used.
 void check(const SweepPlan& plan);

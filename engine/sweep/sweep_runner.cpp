@@ -1,5 +1,8 @@
 #include "sweep/sweep_runner.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -12,6 +15,8 @@
 
 namespace eyrie {
 namespace {
+
+constexpr int kBackgroundNiceness = 10;
 
 using Clock = std::chrono::steady_clock;
 
@@ -48,6 +53,7 @@ class Work {
 
  private:
     void work() {
+        if (options_.background) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kBackgroundNiceness);
         try {
             while (!stop_.stop_requested()) {
                 const std::size_t at = next_.fetch_add(1);
@@ -96,7 +102,14 @@ class Work {
 
     void finish(const SweepPoint& point) {
         const std::scoped_lock lock(mutex_);
-        if (options_.on_point) options_.on_point(point);
+        if (error_) return;
+        try {
+            if (options_.on_point) options_.on_point(point);
+        } catch (...) {
+            error_ = std::current_exception();  // before another thread comes with its point
+            stop_.request_stop();
+            return;
+        }
         ++progress_.points_done;
         progress_.doing.clear();
         const double now = secondsSince(start_);
@@ -141,10 +154,12 @@ class Work {
 BoxesByFrame truthWithin(const BoxesByFrame& truth, FrameIndex first, FrameIndex last,
                          const std::string& ground_truth) {
     BoxesByFrame within(truth.lower_bound(first), truth.upper_bound(last));
-    if (within.empty()) {
-        const std::string known = truth.empty() ? "none at all"
-                                                : "only in frames " + std::to_string(truth.begin()->first) + " to " +
-                                                      std::to_string(truth.rbegin()->first);
+    const auto holdsBoxes = [](const auto& entry) { return !entry.second.empty(); };
+    if (std::none_of(within.begin(), within.end(), holdsBoxes)) {
+        const std::string known = std::none_of(truth.begin(), truth.end(), holdsBoxes)
+                                      ? "none at all"
+                                      : "only in frames " + std::to_string(truth.begin()->first) + " to " +
+                                            std::to_string(truth.rbegin()->first);
         throw Error(ErrorKind::input, ground_truth + ": holds no box in the frames to be swept, " +
                                           std::to_string(first) + " to " + std::to_string(last) + ", " + known +
                                           "; is it the truth of this video, and does it count frames alike?");

@@ -7,29 +7,24 @@
 #include "chain/chain.h"
 #include "chain/chain_run.h"
 #include "core/error.h"
-#include "support/moving_scene.h"
+#include "sweep/sweep_scene.h"
 
 namespace eyrie {
 namespace {
 
-const SceneScale kScale{0.2, 25, true};
-
-test::MovingScene scene() {
-    test::MovingScene scene;
-    scene.frames = 36;
-    return scene;
-}
+const SceneScale& kScale = test::kSweepScale;
+constexpr int kFrames = test::kSweepFrames;
 
 ClipFrames::Open opener() {
-    return [] { return std::make_unique<test::MemorySource>(scene()); };
+    return test::sweepSource;
 }
 
 /// What a run of its own gives: the chain over every frame, then finishing.
 class OwnRun : public ChainObserver {
  public:
     explicit OwnRun(const ChainOptions& options) {
-        test::MemorySource source(scene());
-        const RunSummary summary = ChainRun(options, kScale).run(source, {}, *this, {});
+        const auto source = test::sweepSource();
+        const RunSummary summary = ChainRun(options, kScale).run(*source, {}, *this, {});
         EXPECT_EQ(summary.outcome, RunOutcome::finished) << summary.message;
         for (const auto& [frame, state] : finishTracks(states_, motions_, options.finishing, kScale))
             tracks_.emplace_back(frame, state.id, state.box, state.velocity, state.score);
@@ -86,9 +81,7 @@ void expectAsARunOfItsOwn(StageCache& cache, const ChainOptions& options, const 
 }
 
 ChainOptions base() {
-    ChainOptions options;
-    options.detection.method = DetectionMethod::gradient;
-    return options;
+    return test::sweepBase();
 }
 
 }  // namespace
@@ -105,6 +98,7 @@ TEST(StageCache, GivesWhatARunOfItsOwnGivesWhateverChangesAndInWhateverOrder) {
         {{"outliers.min_vectors", "1"}, {"outliers.min_density_share", "0"}},
         {{"duplicates.strategy", "suppress"}},
         {{"tracking.min_overlap", "0.05"}},
+        {{"tracking.appearance", "lost"}, {"tracking.max_supported", "0"}},
         {{"finishing.constant_size", "false"}},
         {{"stacking.enabled", "true"}, {"stacking.min_height", "4"}},
         {{"stacking.enabled", "true"}, {"stacking.min_height", "4"}, {"gradient.quantile", "0.2"}},
@@ -206,16 +200,16 @@ TEST(StageCache, StopsAndGoesOn) {
 TEST(StageCache, UsesTheMotionOfAStoredRun) {
     std::vector<FrameMotion> stored;
     {
-        test::MemorySource source(scene());
+        const auto source = test::sweepSource();
         MotionHalf half(base(), kScale);
-        for (int i = 4; i < 30; ++i) {
+        for (int i = 4; i < 28; ++i) {
             StageTimes times{};
-            stored.push_back(half.next(source.read(i, false), times));
+            stored.push_back(half.next(source->read(i, false), times));
         }
     }
-    StageCache with(opener(), {4, 29}, kScale);
+    StageCache with(opener(), {4, 27}, kScale);
     with.useStoredMotion(base(), stored);
-    StageCache without(opener(), {4, 29}, kScale);
+    StageCache without(opener(), {4, 27}, kScale);
     const auto a = with.run(base(), {});
     const auto b = without.run(base(), {});
     EXPECT_EQ(with.timesComputed(SweepStage::motion), 0);
@@ -238,9 +232,9 @@ TEST(StageCache, ReportsWhatCannotBeDone) {
     EXPECT_THROW(cache.run(options, {}), Error);
     EXPECT_TRUE(cache.run(base(), {}).has_value());
     const auto broken = [] {
-        return std::make_unique<test::MemorySource>(36, cv::Size(320, 240), [](int index) -> cv::Mat {
+        return std::make_unique<test::MemorySource>(kFrames, cv::Size(320, 240), [](int index) -> cv::Mat {
             if (index == 20) throw Error(ErrorKind::input, "frame 20 cannot be decoded");
-            return scene().draw(index);
+            return test::sweepPictures()[static_cast<std::size_t>(index)];
         });
     };
     StageCache damaged(broken, {}, kScale);

@@ -168,6 +168,7 @@ void MainWindow::wireFileActions() {
     connect(docks_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
     connect(tuning_, &Tuning::storedParametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
     connect(tuning_, &Tuning::runRequested, actions_->run, &QAction::trigger);
+    docks_->wireSweeps(*parameters_);
     connect(parameters_, &ParameterBinding::problem, this, &MainWindow::showProblem);
     connect(parameters_, &ParameterBinding::notice, this, &MainWindow::showNotice);
 }

@@ -62,6 +62,21 @@ void ParameterBinding::setValue(const std::string& name, const std::string& valu
     show();
 }
 
+void ParameterBinding::setValues(const std::vector<std::pair<std::string, std::string>>& values) {
+    try {
+        setParameters(describeOf(session_.settings().options), values);
+        emit notice(tr("The next run uses the parameters of this point."));
+    } catch (const Error& error) {
+        emit problem(QString::fromUtf8(error.what()));
+    }
+    show();
+}
+
+void ParameterBinding::saveAsPreset(const ChainOptions& options) {
+    session_.settings().options = options;
+    savePreset();
+}
+
 void ParameterBinding::adoptRunParameters() {
     if (!session_.runData()) return;
     try {

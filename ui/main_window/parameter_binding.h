@@ -21,6 +21,10 @@ class ParameterBinding : public QObject {
     void adoptRunParameters();
     /// Sets one parameter of the next run; its name and value must be right.
     void setValue(const std::string& name, const std::string& value);
+    /// Sets several parameters of the next run, those of a point of a sweep.
+    void setValues(const std::vector<std::pair<std::string, std::string>>& values);
+    /// Asks for a name and keeps these parameters as a preset.
+    void saveAsPreset(const ChainOptions& options);
 
  signals:
     void problem(const QString& message);

@@ -6,8 +6,10 @@
 
 #include "main_window/inspector_panel.h"
 #include "main_window/motion_statistics_panel.h"
+#include "main_window/parameter_binding.h"
 #include "main_window/stacks_panel.h"
 #include "main_window/stages_panel.h"
+#include "main_window/sweep_panel.h"
 #include "panels/empty_state.h"
 #include "panels/parameter_form.h"
 #include "panels/runs_panel.h"
@@ -42,6 +44,9 @@ ReviewDocks::ReviewDocks(ProjectSession& session, Inspection& inspection, QMainW
         dock(QStringLiteral("statistics"), tr("Statistics"), statistics_, Qt::RightDockWidgetArea);
     window_.tabifyDockWidget(parameters, chart);
     window_.tabifyDockWidget(chart, statistics);
+    sweeps_ = new SweepPanel(session_);
+    window_.tabifyDockWidget(statistics,
+                             dock(QStringLiteral("sweeps"), tr("Sweeps"), sweeps_, Qt::RightDockWidgetArea));
     inspector->raise();
     window_.resizeDocks({runs, tracks}, {200, 420}, Qt::Vertical);
     window_.resizeDocks({runs, inspector}, {350, 440}, Qt::Horizontal);
@@ -72,6 +77,13 @@ QDockWidget* ReviewDocks::addDock(const QString& name, const QString& title, QWi
     for (QDockWidget* known : docks_)
         if (known->widget() == inspector_) known->raise();
     return added;
+}
+
+void ReviewDocks::wireSweeps(ParameterBinding& parameters) {
+    connect(sweeps_, &SweepPanel::applyRequested, &parameters, &ParameterBinding::setValues);
+    connect(sweeps_, &SweepPanel::savePresetRequested, &parameters, &ParameterBinding::saveAsPreset);
+    connect(sweeps_, &SweepPanel::problem, &parameters, &ParameterBinding::problem);
+    connect(sweeps_, &SweepPanel::notice, &parameters, &ParameterBinding::notice);
 }
 
 void ReviewDocks::wireRuns() {

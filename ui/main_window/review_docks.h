@@ -15,11 +15,13 @@ namespace eyrie::ui {
 class Inspection;
 class InspectorPanel;
 class MotionStatisticsPanel;
+class ParameterBinding;
 class ParameterForm;
 class RunsPanel;
 class StacksPanel;
 class StageTimesChart;
 class StagesPanel;
+class SweepPanel;
 class TracksPanel;
 
 /// The docks of the review workspace and how their lists follow the session.
@@ -38,6 +40,10 @@ class ReviewDocks : public QObject {
     StagesPanel& stages() { return *stages_; }
     StacksPanel& stacks() { return *stacks_; }
     MotionStatisticsPanel& statistics() { return *statistics_; }
+    SweepPanel& sweeps() { return *sweeps_; }
+
+    /// What a sweep found goes into the parameters of the next run.
+    void wireSweeps(ParameterBinding& parameters);
 
  signals:
     void runRequested();
@@ -62,6 +68,7 @@ class ReviewDocks : public QObject {
     StagesPanel* stages_;
     StacksPanel* stacks_;
     MotionStatisticsPanel* statistics_;
+    SweepPanel* sweeps_;
     QList<QDockWidget*> docks_;
     std::optional<int> parameters_wanted_of_;  ///< run whose parameters are taken over once they are read
 };

@@ -1,0 +1,174 @@
+#include "sweep/sweep_plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "sweep/sweep_scene.h"
+
+namespace eyrie {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string refusal(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::parameter);
+        return error.what();
+    }
+    return "accepted";
+}
+
+std::string refusedAxis(const std::string& text) {
+    return refusal([&] { parseAxis(text, {}); });
+}
+
+}  // namespace
+
+TEST(SweepAxis, RangesHoldBothEndsInTidyNumbers) {
+    EXPECT_THAT(parseAxis("gradient.quantile=0.1:0.1:0.5", {}).values, ElementsAre("0.1", "0.2", "0.3", "0.4", "0.5"));
+    EXPECT_EQ(parseAxis("gradient.quantile=0.05:0.01:0.5", {}).values.size(), 46U);
+    EXPECT_EQ(parseAxis("gradient.quantile=0.05:0.01:0.5", {}).values[10], "0.15");
+    EXPECT_THAT(parseAxis("outliers.min_vectors=1:2:8", {}).values, ElementsAre("1", "3", "5", "7"));
+    EXPECT_THAT(parseAxis("outliers.min_vectors=3:-1:1", {}).values, ElementsAre("3", "2", "1"));
+    EXPECT_THAT(parseAxis(" gradient.quantile = 0.2 : 1 : 0.2 ", {}).values, ElementsAre("0.2"));
+}
+
+TEST(SweepAxis, ListsMayBeNumbersWordsAndSwitches) {
+    EXPECT_THAT(parseAxis("gradient.quantile=0.5, 0.10,0.3", {}).values, ElementsAre("0.5", "0.1", "0.3"));
+    EXPECT_THAT(parseAxis("detection.method=gradient,mser", {}).values, ElementsAre("gradient", "mser"));
+    EXPECT_THAT(parseAxis("stacking.enabled=off,on", {}).values, ElementsAre("false", "true"));
+    EXPECT_THAT(parseAxis("sliding_window.model=/a/b.m,/c:d.m", {}).values, ElementsAre("/a/b.m", "/c:d.m"));
+}
+
+TEST(SweepAxis, CountsWithoutReading) {
+    EXPECT_EQ(countValues("gradient.quantile=0.05:0.01:0.5"), 46);
+    EXPECT_EQ(countValues("a=0:0.000001:1"), 1000001);
+    EXPECT_EQ(countValues("a=5:1:1"), 0);
+    EXPECT_EQ(countValues("a=1:0:5"), 0);
+    EXPECT_EQ(countValues("a="), 0);
+    EXPECT_EQ(countValues("a=x,y,z"), 3);
+    EXPECT_EQ(countValues("0.5"), 1);
+}
+
+TEST(SweepAxis, RefusesWhatCannotBeMeant) {
+    EXPECT_THAT(refusedAxis("gradient.quantile=0.5:0.1:0.1"), HasSubstr("is empty"));
+    EXPECT_THAT(refusedAxis("gradient.quantile=0.1:0:0.5"), HasSubstr("step of 0"));
+    EXPECT_THAT(refusedAxis("gradient.quantile="), HasSubstr("no value"));
+    EXPECT_THAT(refusedAxis("gradient.quantile"), HasSubstr("expected NAME="));
+    EXPECT_THAT(refusedAxis("gradient.quantil=0.1"), HasSubstr("the nearest is \"gradient.quantile\""));
+    EXPECT_THAT(refusedAxis("gradient.quantile=0.1:0.1:7"), HasSubstr("expected 0.001..1"));
+    EXPECT_THAT(refusedAxis("gradient.quantile=a:b:c"), HasSubstr("in numbers"));
+    EXPECT_THAT(refusedAxis("gradient.quantile=0.1:0.2"), HasSubstr("neither"));
+    EXPECT_THAT(refusedAxis("gradient.quantile=0.1,,0.2"), HasSubstr("expected"));
+    EXPECT_THAT(refusedAxis("gradient.quantile=nan"), HasSubstr("expected"));
+    EXPECT_THAT(refusedAxis("gradient.quantile=0:1e-30:1"), HasSubstr("ten million"));
+    EXPECT_THAT(refusedAxis("gradient.quantile=0.1,0.10"), HasSubstr("twice"));
+    EXPECT_THAT(refusedAxis("stacking.enabled=on,true"), HasSubstr("twice"));
+    EXPECT_THAT(refusedAxis("outliers.min_vectors=1:0.5:3"), HasSubstr("expected"));
+    EXPECT_THAT(refusedAxis("detection.method=magic"), HasSubstr("one of"));
+}
+
+TEST(SweepPlan, CountsPositionsWithTheLastAxisFastest) {
+    const SweepPlan plan = test::sweepPlan({"gradient.quantile=0.1,0.2,0.3", "outliers.min_vectors=2,4"});
+    EXPECT_EQ(plan.pointCount(), 6);
+    EXPECT_THAT(plan.indicesOf(5), ElementsAre(2, 1));
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(plan.positionOf(plan.indicesOf(i)), i);
+    EXPECT_EQ(plan.describe(1), "gradient.quantile = 0.1, outliers.min_vectors = 4");
+    EXPECT_DOUBLE_EQ(plan.optionsOf(4).detection.gradient.quantile, 0.3);
+    EXPECT_EQ(plan.optionsOf(4).outliers.min_vectors, 2);
+    EXPECT_EQ(plan.optionsOf(4).detection.method, DetectionMethod::gradient);
+}
+
+TEST(SweepPlan, WorksSoThatTheEarlierStageChangesSlowest) {
+    EXPECT_THAT(workOrder(test::sweepPlan({"gradient.quantile=0.1,0.2,0.3", "outliers.min_vectors=2,4"})),
+                ElementsAre(0, 1, 2, 3, 4, 5));
+    EXPECT_THAT(workOrder(test::sweepPlan({"outliers.min_vectors=2,4", "gradient.quantile=0.1,0.2,0.3"})),
+                ElementsAre(0, 3, 1, 4, 2, 5));
+}
+
+TEST(SweepPlan, ShardsDoEachPointOnce) {
+    const std::vector<int> order = workOrder(test::sweepPlan({"gradient.quantile=0.05:0.01:0.5"}));
+    for (const int count : {1, 3, 7, 46, 50}) {
+        std::vector<int> joined;
+        for (int i = 1; i <= count; ++i) {
+            const auto shard = shardOf(order, i, count);
+            joined.insert(joined.end(), shard.begin(), shard.end());
+        }
+        EXPECT_EQ(joined, order) << count;
+    }
+    EXPECT_THAT(refusal([&] { shardOf(order, 0, 3); }), HasSubstr("expected I/N"));
+    EXPECT_THAT(refusal([&] { shardOf(order, 4, 3); }), HasSubstr("expected I/N"));
+}
+
+TEST(SweepPlan, RefusesPlansThatCannotBeCarriedOut) {
+    SweepPlan plan = test::sweepPlan({"gradient.quantile=0.1,0.2"});
+    EXPECT_NO_THROW(check(plan));
+    plan.overlaps = {0};
+    EXPECT_THAT(refusal([&] { check(plan); }), HasSubstr("overlap"));
+    plan = test::sweepPlan({"gradient.quantile=0.1,0.2", "gradient.quantile=0.3"});
+    EXPECT_THAT(refusal([&] { check(plan); }), HasSubstr("twice"));
+    plan = test::sweepPlan({});
+    EXPECT_THAT(refusal([&] { check(plan); }), HasSubstr("one or two"));
+    plan = test::sweepPlan({"gradient.quantile=0.1"});
+    plan.clips.clear();
+    EXPECT_THAT(refusal([&] { check(plan); }), HasSubstr("no sequence"));
+    plan = test::sweepPlan({"registration.max_corners=100:1:5000", "gradient.quantile=0.1:0.0001:0.9"});
+    EXPECT_THAT(refusal([&] { check(plan); }), HasSubstr("at most"));
+    plan = test::sweepPlan({"sliding_window.model=nowhere.eyriemodel"});
+    plan.base = parameterValues([] {
+        ChainOptions options;
+        options.detection.method = DetectionMethod::sliding_window;
+        return options;
+    }());
+    try {
+        check(plan);
+        FAIL() << "a model that does not exist";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        EXPECT_THAT(error.what(), HasSubstr("sliding_window.model = nowhere.eyriemodel"));
+    }
+}
+
+TEST(SweepPlan, SurvivesItsFileAndKnowsItsLike) {
+    SweepPlan plan = test::sweepPlan({"gradient.quantile=0.1,0.2", "detection.method=gradient,mser"});
+    plan.border = 2.5;
+    plan.vehicles_only = true;
+    SweepPlan read = planFrom(textOf(plan), "here");
+    EXPECT_EQ(textOf(read), textOf(plan));
+    EXPECT_EQ(differenceOf(plan, read), "");
+    read.clips[0].sequence = "/elsewhere/clip.mp4";
+    EXPECT_EQ(differenceOf(plan, read), "");
+    read.clips[0].digest = "1";
+    EXPECT_THAT(differenceOf(plan, read), HasSubstr("sequence 1"));
+    read = plan;
+    read.axes[0].values.pop_back();
+    EXPECT_THAT(differenceOf(plan, read), HasSubstr("values of gradient.quantile"));
+    read = plan;
+    read.base[3].second = "?";
+    EXPECT_THAT(differenceOf(plan, read), HasSubstr(plan.base[3].first));
+    read = plan;
+    read.engine_version = "9";
+    EXPECT_THAT(differenceOf(plan, read), HasSubstr("versions"));
+    read = plan;
+    read.overlaps.push_back(0.5);
+    EXPECT_THAT(differenceOf(plan, read), HasSubstr("overlaps"));
+    for (const char* damaged : {"", "{", "[]", "{}", R"({"eyrie_sweep":1})", R"({"eyrie_sweep":7})"})
+        EXPECT_THROW(planFrom(damaged, "here"), Error) << damaged;
+}
+
+TEST(SweepPlan, DigestsTellClipsAndTruthsApart) {
+    const auto source = test::sweepSource();
+    const Frame first = source->read(0, false);
+    BoxesByFrame truth = test::sweepTruth();
+    const std::string digest = digestOf(first, truth);
+    EXPECT_EQ(digest, digestOf(source->read(0, false), test::sweepTruth()));
+    EXPECT_NE(digest, digestOf(source->read(1, false), truth));
+    truth[3][0].ignore = true;
+    EXPECT_NE(digest, digestOf(first, truth));
+}
+
+}  // namespace eyrie
