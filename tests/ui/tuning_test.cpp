@@ -8,12 +8,16 @@
 
 #include "main_window/comparison_window.h"
 #include "main_window/main_window.h"
+#include "main_window/preset_dialog.h"
 #include "main_window/preview_bar.h"
 #include "main_window/review_docks.h"
+#include "main_window/training_dialog.h"
 #include "main_window/why_panel.h"
 #include "main_window/window_actions.h"
 #include "panels/parameter_form.h"
 #include "panels/parameter_row.h"
+#include "panels/sweep_chart.h"
+#include "store/annotation_store.h"
 #include "ui/ui_support.h"
 #include "view/video_view.h"
 #include "view/wipe_split.h"
@@ -195,6 +199,103 @@ class TuningTest : public QObject {
         comparison.playback().play(0);
         QVERIFY(waitFor([&] { return comparison.frame() > 20; }));
         comparison.playback().pause();
+    }
+
+    void presetsArePartOfTheProject() {
+        QVERIFY(showRun());
+        PresetStore store;
+        store.useProject(session().project());
+        ChainOptions night;
+        night.motion.min_speed_m_s = 2.5;
+        store.save("night", night);
+        PresetDialog dialog(store, ChainOptions(), window_.get());
+        dialog.select(QStringLiteral("night"));
+        QCOMPARE(dialog.selected(), QStringLiteral("night"));
+        QCOMPARE(dialog.differences().rowCount(), 1);
+        QCOMPARE(dialog.differences().item(0, 0)->text(), QStringLiteral("motion.min_speed"));
+        QCOMPARE(dialog.differences().item(0, 1)->text(), QStringLiteral("2.5"));
+        dialog.renameSelected(QStringLiteral("default"));
+        QVERIFY(dialog.message().contains(QStringLiteral("built in")));
+        dialog.renameSelected(QStringLiteral("dusk"));
+        QCOMPARE(dialog.selected(), QStringLiteral("dusk"));
+        const QString file = QString::fromStdString((*home_ / "evening.json").string());
+        dialog.exportSelected(file);
+        dialog.removeSelected();
+        QCOMPARE(dialog.selected(), QStringLiteral("default"));
+        QCOMPARE(store.names().size(), builtInPresets().size());
+        dialog.importFile(file);
+        QCOMPARE(dialog.selected(), QStringLiteral("evening"));
+        QCOMPARE(store.load("evening").motion.min_speed_m_s, 2.5);
+        dialog.importFile(QStringLiteral("/nowhere/x.json"));
+        QVERIFY(dialog.message().contains(QStringLiteral("/nowhere/x.json")));
+        QSignalSpy used(&dialog, &PresetDialog::useRequested);
+        dialog.select(QStringLiteral("default"));
+        dialog.removeSelected();
+        QVERIFY(dialog.message().contains(QStringLiteral("built in")));
+    }
+
+    void trainingSaysWhatIsMissing() {
+        QVERIFY(showRun());
+        TrainingDialog dialog(session().project(), window_.get());
+        dialog.setFile(QString::fromStdString((*home_ / "own.eyriemodel").string()));
+        QSignalSpy failed(&dialog.training(), &LabelTraining::failed);
+        dialog.start();
+        QVERIFY(failed.wait(kPatience_ms));
+        QVERIFY2(dialog.message().contains(QStringLiteral("no labelled vehicles")), qPrintable(dialog.message()));
+        dialog.addProject(QStringLiteral("/nowhere/p.eyrie"));
+        dialog.start();
+        QVERIFY(failed.wait(kPatience_ms));
+        QVERIFY(dialog.message().contains(QStringLiteral("/nowhere/p.eyrie")) ||
+                dialog.message().contains(QStringLiteral("no labelled vehicles")));
+    }
+
+    void labelsBecomeAClassifierBesideTheShippedOne() {
+        const auto images = test::writeScene(*home_ / "images", 40);
+        const std::filesystem::path path = *home_ / "labels.eyrie";
+        {
+            // Both vehicles of the scene, labelled in each frame.
+            ProjectFile project = ProjectFile::create(path);
+            SequenceRecord sequence;
+            sequence.path = images.string();
+            sequence.size = {240, 180};
+            sequence.frame_count = 40;
+            const int id = ensureSequence(project, sequence);
+            AnnotationStore store(project, id);
+            for (int vehicle = 0; vehicle < 2; ++vehicle) {
+                LabelledObject object;
+                object.id = store.newObjectId();
+                object.object_class = "car";
+                for (int f = 0; f < 40; ++f) {
+                    Keyframe key;
+                    key.frame = f;
+                    key.box = {{20.0 + 3 * f + 70 * vehicle + 10.5, 50.0 + 60 * vehicle + 5}, 22, 11, 0};
+                    object.keyframes.push_back(key);
+                }
+                object.last_frame = 39;
+                AnnotationEdit edit;
+                edit.name = "add";
+                edit.objects.push_back({std::nullopt, object});
+                store.apply(edit);
+            }
+        }
+        TrainingDialog dialog(path, nullptr);
+        dialog.setKinds(DescriptorKind::dct, ClassifierKind::random_naive_bayes);
+        dialog.setEvery(2);
+        dialog.options().hard_negative_rounds = 0;
+        const QString file = QString::fromStdString((*home_ / "own.eyriemodel").string());
+        dialog.setFile(file);
+        QSignalSpy finished(&dialog.training(), &LabelTraining::finished);
+        QSignalSpy failed(&dialog.training(), &LabelTraining::failed);
+        dialog.start();
+        QVERIFY(waitFor([&] { return !finished.isEmpty() || !failed.isEmpty(); }));
+        QVERIFY2(failed.isEmpty(), qPrintable(dialog.message()));
+        QVERIFY(dialog.message().contains(QStringLiteral("last third")));
+        QCOMPARE(dialog.chart().data().series.size(), std::size_t{2});
+        QVERIFY(std::filesystem::exists(file.toStdString()));
+        dialog.start();
+        dialog.training().cancel();
+        QSignalSpy stopped(&dialog.training(), &LabelTraining::stopped);
+        QVERIFY(waitFor([&] { return !dialog.training().running(); }));
     }
 
     void valuesThatCannotBeAreSaid() {

@@ -238,6 +238,10 @@ void ComparisonWindow::goToFrame(FrameIndex frame) {
 void ComparisonWindow::showPair(const ViewFrame& first, const ViewFrame& second) {
     views_->first().setFrame(first);
     views_->second().setFrame(second);
+    std::optional<PlaceMark> mark;
+    if (mark_ && mark_->first == first.index) mark = PlaceMark{mark_->second, {}};
+    views_->first().setPlaceMark(mark);
+    views_->second().setPlaceMark(mark);
     const QSignalBlocker quiet(slider_);
     slider_->setValue(first.index);
     ++shown_;
@@ -316,6 +320,7 @@ void ComparisonWindow::goToDifference(int row) {
     if (index >= found.size()) return;
     playback_.pause();
     goToFrame(found[index].worst_frame);
+    mark_ = std::pair(found[index].worst_frame, found[index].box);
     const ViewTransform& transform = views_->first().transform();
     const double zoom = std::clamp(transform.zoom(), 1.5, kCloseUp);
     views_->centreOn(QPointF(found[index].box.centre.x, found[index].box.centre.y), zoom);

@@ -65,6 +65,7 @@ class ComparisonWindow : public QWidget {
     double shown_per_second_ = 0;
     QElapsedTimer since_;
     std::shared_ptr<const RunComparison> comparison_;
+    std::optional<std::pair<FrameIndex, OrientedBox>> mark_;  ///< the difference that was gone to
     QString problem_;
     QComboBox* first_;
     QComboBox* second_;

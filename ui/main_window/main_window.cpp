@@ -167,6 +167,9 @@ void MainWindow::wireFileActions() {
     connect(docks_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
     connect(docks_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
     connect(tuning_, &Tuning::storedParametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
+    connect(tuning_, &Tuning::parameterRequested, parameters_, [this](const QString& name, const QString& value) {
+        parameters_->setValue(name.toStdString(), value.toStdString());
+    });
     connect(tuning_, &Tuning::runRequested, actions_->run, &QAction::trigger);
     docks_->wireSweeps(*parameters_);
     connect(parameters_, &ParameterBinding::problem, this, &MainWindow::showProblem);

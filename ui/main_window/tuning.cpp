@@ -8,6 +8,7 @@
 #include "main_window/comparison_window.h"
 #include "main_window/preview_bar.h"
 #include "main_window/review_docks.h"
+#include "main_window/training_dialog.h"
 #include "main_window/why_panel.h"
 #include "main_window/window_actions.h"
 #include "panels/parameter_form.h"
@@ -40,6 +41,7 @@ Tuning::Tuning(const TuningParts& parts) : QObject(&parts.window), parts_(parts)
     buildWhy();
     buildPreview();
     connect(parts_.actions.compare, &QAction::triggered, this, [this] { compareRuns(); });
+    connect(parts_.actions.train, &QAction::triggered, this, &Tuning::train);
 }
 
 void Tuning::buildWhy() {
@@ -120,6 +122,16 @@ void Tuning::askWhy(QPointF place, double margin) {
     why_dock_->raise();
     why_->want(true);
     why_->ask(place, margin);
+}
+
+void Tuning::train() {
+    auto* dialog = new TrainingDialog(parts_.session.project(), &parts_.window);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &TrainingDialog::useRequested, this, [this](const QString& file) {
+        emit parameterRequested(QStringLiteral("sliding_window.model"), file);
+        preview_->parametersEdited();
+    });
+    dialog->open();
 }
 
 ComparisonWindow& Tuning::compareRuns() {

@@ -53,11 +53,14 @@ class Tuning : public QObject {
     /// The form is to show the parameters of the run again.
     void storedParametersRequested();
     void runRequested();
+    /// A parameter of the next run is to be set.
+    void parameterRequested(const QString& name, const QString& value);
 
  private:
     void buildWhy();
     void buildPreview();
     void showPreview();
+    void train();
     void markStale(bool stale);
     void showPlaceMenu(QPointF place, double margin, QPoint global);
     void showPlaceMark();

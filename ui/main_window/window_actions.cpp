@@ -26,6 +26,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                        {"go-last", {QKeySequence(tr("Ctrl+L"))}, QT_TR_NOOP("Show each frame as the run finishes it")},
                        false);
 
+    train =
+        add(tr("Train from &labels…"), {nullptr, {}, QT_TR_NOOP("A classifier of your own for the sliding window")});
+
     section(tr("Playback"));
     play = add(tr("&Play"), {"media-playback-start", {QKeySequence(Qt::Key_Space)}});
     step_back = add(tr("Step back"), {"media-skip-backward", {QKeySequence(Qt::Key_Left)}});

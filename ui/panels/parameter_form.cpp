@@ -84,6 +84,11 @@ QWidget* ParameterForm::makePresetLine() {
     layout->addWidget(label);
     layout->addWidget(presets_, 1);
     layout->addWidget(save_preset_);
+    auto* all = new QToolButton(line);
+    all->setText(tr("Presets…"));
+    all->setToolTip(tr("Compare, rename, delete, export and import presets"));
+    layout->addWidget(all);
+    connect(all, &QToolButton::clicked, this, &ParameterForm::presetsRequested);
     connect(presets_, &QComboBox::activated, this, [this] { emit presetChosen(presets_->currentText()); });
     connect(save_preset_, &QToolButton::clicked, this, &ParameterForm::savePresetRequested);
     return line;

@@ -54,6 +54,8 @@ class ParameterForm : public QWidget {
     void presetChosen(const QString& name);
     /// Keep the present values as a preset.
     void savePresetRequested();
+    /// Show all presets.
+    void presetsRequested();
 
  private:
     struct Group {
