@@ -26,6 +26,7 @@ class StatusFields;
 class TimelineBinding;
 class TimelineView;
 class TransportBar;
+class Tuning;
 class VideoView;
 class WelcomePanel;
 class WindowActions;
@@ -52,6 +53,7 @@ class MainWindow : public QMainWindow {
     ReviewDocks& docks() { return *docks_; }
     LabelWorkspace& labelling() { return *labelling_; }
     EvaluationDocks& evaluation() { return *evaluation_; }
+    Tuning& tuning() { return *tuning_; }
 
  protected:
     void closeEvent(QCloseEvent* event) override;
@@ -112,6 +114,7 @@ class MainWindow : public QMainWindow {
     Inspection* inspection_;
     ReviewDocks* docks_;
     EvaluationDocks* evaluation_;
+    Tuning* tuning_;
     LabelWorkspace* labelling_;
     ParameterBinding* parameters_;
     TimelineBinding* timeline_binding_;
