@@ -52,7 +52,7 @@ const char* nameOf(MistakeCause cause);
 const char* explanationOf(MistakeCause cause);
 
 /// What is known of a mistake in one frame.
-struct PlaceEvidence {
+struct MistakeEvidence {
     const std::vector<BoxRecord>& truth;   ///< records of the frame
     const std::vector<BoxRecord>& result;  ///< records of the frame
     const EvaluationFrame& frame;
@@ -75,9 +75,9 @@ struct CauseHere {
 };
 
 /// Misses: the last stage that still had the object decides.
-CauseHere causeOfMiss(const MistakePlace& place, const PlaceEvidence& evidence);
-CauseHere causeOfFalseAlarm(const MistakePlace& place, const PlaceEvidence& evidence);
-CauseHere causeOfSplit(const MistakePlace& place, const PlaceEvidence& evidence);
-CauseHere causeOfMerge(const MistakePlace& place, const PlaceEvidence& evidence);
+CauseHere causeOfMiss(const MistakePlace& place, const MistakeEvidence& evidence);
+CauseHere causeOfFalseAlarm(const MistakePlace& place, const MistakeEvidence& evidence);
+CauseHere causeOfSplit(const MistakePlace& place, const MistakeEvidence& evidence);
+CauseHere causeOfMerge(const MistakePlace& place, const MistakeEvidence& evidence);
 
 }  // namespace eyrie

@@ -23,8 +23,10 @@
 #include "main_window/stacks_panel.h"
 #include "main_window/stage_chips.h"
 #include "main_window/status_fields.h"
+#include "main_window/tuning.h"
 #include "main_window/window_actions.h"
 #include "session/inspection.h"
+#include "session/live_preview.h"
 #include "view/timeline_view.h"
 #include "view/verdict_layer.h"
 #include "view/video_view.h"
@@ -116,6 +118,10 @@ void MainWindow::buildLabelling() {
 void MainWindow::buildEvaluation() {
     evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, *this);
     connect(evaluation_, &EvaluationDocks::notice, this, &MainWindow::showNotice);
+    // A preview takes the verdicts away, which are those of the stored run; they come back with it.
+    connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
+        if (!tuning_->preview().active()) evaluation_->showMarks();
+    });
     connect(evaluation_, &EvaluationDocks::problem, this, &MainWindow::showProblem);
 }
 
