@@ -123,6 +123,20 @@ class TuningTest : public QObject {
         QCOMPARE(row("clustering.min_members")->value(), QStringLiteral("3"));
     }
 
+    void whatIsMovedFirstIsMovedOnTheRunShown() {
+        QVERIFY(showRun());
+        ParameterForm& form = window_->docks().parameterForm();
+        emit form.presetChosen(QStringLiteral("thesis"));
+        QVERIFY(waitFor([&] { return preview().active(); }));  // a preset is meant as it is
+        QVERIFY(preview().differences().size() > 10);
+        preview().discard();
+        slide("clustering.min_members", 6);
+        QVERIFY(waitFor([&] { return preview().active(); }));
+        QCOMPARE(preview().differences().size(), std::size_t{1});
+        QCOMPARE(QString::fromStdString(preview().differences().front().name),
+                 QStringLiteral("clustering.min_members"));
+    }
+
     void draggingAnswersAllTheTime() {
         QVERIFY(showRun());
         int answers = 0;

@@ -76,6 +76,7 @@ void PreviewBar::refresh() {
         text += tr(" · computing …");
     }
     text_->setText(text);
+    listed.prepend(text);
     text_->setToolTip(listed.join(QLatin1Char('\n')));
 }
 

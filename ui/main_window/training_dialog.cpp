@@ -87,7 +87,7 @@ TrainingDialog::TrainingDialog(const std::filesystem::path& project, QWidget* pa
         progress_->setValue(static_cast<int>(1000 * share));
         message_->setText(phase);
     });
-    connect(&training_, &LabelTraining::finished, this, &TrainingDialog::show);
+    connect(&training_, &LabelTraining::finished, this, &TrainingDialog::showReport);
     connect(&training_, &LabelTraining::failed, this, [this](const QString& text) {
         message_->setText(text);
         enable();
@@ -194,7 +194,7 @@ void TrainingDialog::start() {
     enable();
 }
 
-void TrainingDialog::show(const std::shared_ptr<const TrainingReport>& report) {
+void TrainingDialog::showReport(const std::shared_ptr<const TrainingReport>& report) {
     report_ = report;
     SweepChartData curves;
     curves.x_label = tr("false positive rate");

@@ -42,7 +42,7 @@ class TrainingDialog : public QDialog {
 
  private:
     QWidget* buildSettings();
-    void show(const std::shared_ptr<const TrainingReport>& report);
+    void showReport(const std::shared_ptr<const TrainingReport>& report);
     void enable();
 
     TrainingOptions options_;

@@ -5,6 +5,7 @@
 #include <QMenu>
 #include <QVBoxLayout>
 
+#include "chain/replay.h"
 #include "main_window/comparison_window.h"
 #include "main_window/preview_bar.h"
 #include "main_window/review_docks.h"
@@ -68,7 +69,7 @@ void Tuning::buildPreview() {
         column->insertWidget(column->indexOf(&parts_.canvas), preview_bar_);
     // Queued: the settings of the next run take the value over first.
     ParameterForm& form = parts_.docks.parameterForm();
-    connect(&form, &ParameterForm::valueChanged, preview_, &LivePreview::parametersEdited, Qt::QueuedConnection);
+    connect(&form, &ParameterForm::valueChanged, this, &Tuning::parameterMoved, Qt::QueuedConnection);
     connect(&form, &ParameterForm::presetChosen, preview_, &LivePreview::parametersEdited, Qt::QueuedConnection);
     connect(parts_.actions.live_preview, &QAction::toggled, preview_, &LivePreview::setEnabled);
     connect(preview_bar_, &PreviewBar::runRequested, this, &Tuning::runRequested);
@@ -79,6 +80,17 @@ void Tuning::buildPreview() {
     connect(preview_, &LivePreview::changed, this, &Tuning::showPreview);
     // Queued: after the canvas got the stored frame, before it is painted.
     connect(&parts_.session, &ProjectSession::viewFrameChanged, this, &Tuning::showPreview, Qt::QueuedConnection);
+}
+
+void Tuning::parameterMoved(const QString& name, const QString& value) {
+    const auto& run = parts_.session.runData();
+    // The first thing that is moved while another preset stands in the form: the run is meant, with this one changed.
+    if (run && preview_->enabled() && !preview_->active() && parts_.docks.parameterForm().modifiedCount() == 1 &&
+        differencesBetween(storedOptions(run->parameters), parts_.session.settings().options).size() > 1) {
+        emit storedParametersRequested();
+        emit parameterRequested(name, value);
+    }
+    preview_->parametersEdited();
 }
 
 void Tuning::showPreview() {

@@ -59,6 +59,7 @@ class Tuning : public QObject {
  private:
     void buildWhy();
     void buildPreview();
+    void parameterMoved(const QString& name, const QString& value);
     void showPreview();
     void train();
     void markStale(bool stale);

@@ -167,8 +167,9 @@ std::vector<std::pair<std::string, std::string>> ParameterForm::values() const {
     return values;
 }
 
-bool ParameterForm::isModified() const {
-    return std::any_of(rows_.begin(), rows_.end(), [](const ParameterRow* row) { return row->isModified(); });
+int ParameterForm::modifiedCount() const {
+    return static_cast<int>(
+        std::count_if(rows_.begin(), rows_.end(), [](const ParameterRow* row) { return row->isModified(); }));
 }
 
 void ParameterForm::onRowChanged(const QString& name, const QString& value) {

@@ -34,7 +34,9 @@ class ParameterForm : public QWidget {
     /// All values as shown, in the order of declaration.
     std::vector<std::pair<std::string, std::string>> values() const;
     /// Whether any value differs from its default.
-    bool isModified() const;
+    bool isModified() const { return modifiedCount() > 0; }
+    /// How many values differ from their defaults.
+    int modifiedCount() const;
 
     /// Names to choose from and the one the values started from.
     void setPresets(const QStringList& names, const QString& current);
