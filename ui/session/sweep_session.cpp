@@ -12,6 +12,7 @@ namespace eyrie::ui {
 
 namespace {
 constexpr auto kPulse = std::chrono::milliseconds(120);
+constexpr qint64 kShareOfDrawing = 20;  ///< the table is drawn again after this many times what drawing took
 }  // namespace
 
 /// What the worker needs to know; copied, so that the session may go on changing.
@@ -206,7 +207,17 @@ void SweepSession::take() {
     }
     if (!points.empty() && growing_) {
         for (SweepPoint& point : points) growing_->points[point.position] = std::move(point.figures);
-        if (table_ == growing_) emit tableChanged();
+        grown_ = true;
+    }
+    // A table of many points takes its time to be drawn: most of the time belongs to the user.
+    if (grown_ && growing_ && table_ == growing_ &&
+        (!since_shown_.isValid() || since_shown_.elapsed() >= kShareOfDrawing * showing_took_ms_)) {
+        QElapsedTimer took;
+        took.start();
+        grown_ = false;
+        emit tableChanged();
+        showing_took_ms_ = took.elapsed();
+        since_shown_.start();
     }
     if (progress) {
         progress_ = *progress;
@@ -215,6 +226,7 @@ void SweepSession::take() {
 }
 
 void SweepSession::ended(bool whole, const QString& problem) {
+    since_shown_.invalidate();
     take();
     pulse_.stop();
     running_ = false;
