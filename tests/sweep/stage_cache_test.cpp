@@ -98,6 +98,7 @@ TEST(StageCache, GivesWhatARunOfItsOwnGivesWhateverChangesAndInWhateverOrder) {
         {{"outliers.min_vectors", "1"}, {"outliers.min_density_share", "0"}},
         {{"duplicates.strategy", "suppress"}},
         {{"tracking.min_overlap", "0.05"}},
+        {{"tracking.appearance", "lost"}, {"tracking.max_supported", "0"}},
         {{"finishing.constant_size", "false"}},
         {{"stacking.enabled", "true"}, {"stacking.min_height", "4"}},
         {{"stacking.enabled", "true"}, {"stacking.min_height", "4"}, {"gradient.quantile", "0.2"}},
