@@ -115,9 +115,10 @@ SweepChartData tradeOffOf(const SweepTable& table, SweepView view, const SweepCr
         const double overlap = criterion.overlap.value_or(table.plan.overlaps.front());
         const std::string& name = table.plan.axes[1].name;
         const QString short_name = text(name.substr(name.find('.') + 1));
-        for (int other = 0; other < others; ++other)
-            add(short_name + QLatin1Char(' ') + text(table.plan.axes[1].values[static_cast<std::size_t>(other)]),
-                overlap, other);
+        for (int other = 0; other < others; ++other) {
+            const QString value = text(table.plan.axes[1].values[static_cast<std::size_t>(other)]);
+            add(other == 0 ? short_name + QLatin1Char(' ') + value : value, overlap, other);
+        }
     } else {
         for (const double overlap : table.plan.overlaps) {
             if (!criterion.overlap || *criterion.overlap == overlap) add(overlapName(overlap), overlap, 0);

@@ -150,6 +150,10 @@ void SweepChart::fillCurves() {
         mark->addData(0, best.x(), best.y());
         mark->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(Qt::black, 2), Qt::NoBrush, 12));
     }
+    int widest = 1;
+    for (const SweepChartData::Series& series : data_.series)
+        widest = std::max(widest, fontMetrics().horizontalAdvance(series.name));
+    plot_->legend->setWrap(std::max(1, (width() - 20) / (widest + 56)));
     plot_->legend->setVisible(!data_.series.empty());
 }
 
