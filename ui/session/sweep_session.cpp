@@ -1,5 +1,8 @@
 #include "session/sweep_session.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <exception>
 #include <utility>
 
@@ -12,6 +15,7 @@ namespace eyrie::ui {
 
 namespace {
 constexpr auto kPulse = std::chrono::milliseconds(120);
+constexpr int kNiceness = 15;
 constexpr qint64 kShareOfDrawing = 20;  ///< the table is drawn again after this many times what drawing took
 }  // namespace
 
@@ -139,6 +143,8 @@ void SweepSession::begin(Job job) {
 void SweepSession::work(const Job& job, const std::stop_token& stop) {
     QString problem;
     bool whole = false;
+    // This thread does nothing but sweeps; those that it starts inherit its priority.
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     try {
         SweepPlan plan;
         OpenedRun opened;
@@ -180,7 +186,6 @@ void SweepSession::work(const Job& job, const std::stop_token& stop) {
             refreshList();
         });
         SweepRunOptions options;
-        options.background = true;
         options.on_point = [&](const SweepPoint& point) {
             storePoint(file, id, point);
             const std::scoped_lock lock(mutex_);
