@@ -73,6 +73,9 @@ LabelledObject withKeyframe(LabelledObject object, const Keyframe& keyframe);
 /// The object with the box of a frame changed and everything else of that frame kept: a keyframe that is made by it
 /// takes over the flags that hold there.
 LabelledObject withBox(LabelledObject object, FrameIndex frame, const OrientedBox& box, bool heading_set);
+/// The object with the length and width that `box` has in a frame, in all its keyframes; sizes follow the local scale
+/// of the camera's motion where the frames are connected. Centres, headings and flags stay.
+LabelledObject withSize(LabelledObject object, FrameIndex frame, const OrientedBox& box, const CameraMotion& camera);
 /// The object without its keyframe of that frame. Its last keyframe is never removed (the object is to be deleted
 /// then); `last_frame` stays.
 LabelledObject withoutKeyframe(LabelledObject object, FrameIndex frame);

@@ -38,6 +38,15 @@ LabelledObject withBox(LabelledObject object, FrameIndex frame, const OrientedBo
     return withKeyframe(std::move(object), keyframe);
 }
 
+LabelledObject withSize(LabelledObject object, FrameIndex frame, const OrientedBox& box, const CameraMotion& camera) {
+    for (Keyframe& keyframe : object.keyframes) {
+        const OrientedBox there = carriedBox(box, frame, keyframe.frame, camera).value_or(box);
+        keyframe.box.length = there.length;
+        keyframe.box.width = there.width;
+    }
+    return object;
+}
+
 LabelledObject withoutKeyframe(LabelledObject object, FrameIndex frame) {
     const auto place = placeOf(object.keyframes, frame);
     if (object.keyframes.size() > 1 && place != object.keyframes.end() && place->frame == frame) {

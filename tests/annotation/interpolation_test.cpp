@@ -219,6 +219,24 @@ TEST(Keyframes, AreSetReplacedAndRemoved) {
     EXPECT_EQ(car.keyframes.size(), 1U) << "one always stays";
 }
 
+TEST(Keyframes, TakeTheSizeOfOneOnTheGround) {
+    using test::flyingView;
+    const CameraMotion camera(test::stepsOf(flyingView, 80));
+    const OrientedBox right{{40, 60}, 22, 9, 0.3};
+    const OrientedBox wrong{{90, 70}, 30, 12, 0.3};
+    LabelledObject car =
+        object(1, {keyframe(0, seen(right, flyingView(0))), keyframe(80, seen(wrong, flyingView(80)))}, 80);
+    const OrientedBox before = car.keyframes[1].box;
+    car = withSize(std::move(car), 0, seen(right, flyingView(0)), camera);
+    const OrientedBox& after = car.keyframes[1].box;
+    EXPECT_NEAR(after.length, 22 * 1.16, 0.01) << "the camera has come nearer";
+    EXPECT_NEAR(after.width, 9 * 1.16, 0.01);
+    EXPECT_EQ(after.centre, before.centre);
+    EXPECT_EQ(after.heading, before.heading);
+    car = withSize(std::move(car), 80, after, {});
+    EXPECT_EQ(car.keyframes[0].box.length, after.length) << "nothing is known of the camera";
+}
+
 TEST(Interpolation, AllObjectsOfAFrame) {
     AnnotationSet set;
     set.objects[7] = object(7, {keyframe(0, {{1, 1}, 20, 9, 0})}, 5);

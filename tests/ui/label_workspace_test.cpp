@@ -182,6 +182,22 @@ class LabelWorkspaceTest : public QObject {
         QCOMPARE(object(*window, id).last_frame, 10);
     }
 
+    void theSizeOfOneBoxGoesToAllKeyframes() {
+        const auto window = labellingWindow(12);
+        QVERIFY(window);
+        const ObjectId id = draw(*window, {40, 60}, {58, 60});
+        go(*window, 10);
+        key(*window, Qt::Key_K);
+        const double drawn = object(*window, id).keyframes.front().box.length;
+        OrientedBox longer = object(*window, id).keyframes.back().box;
+        longer.length = 25;
+        QVERIFY(window->labelling().editor().setBox(id, 10, longer, false, QStringLiteral("longer")));
+        key(*window, Qt::Key_K, Qt::ShiftModifier);
+        QVERIFY(std::abs(object(*window, id).keyframes.front().box.length - 25) < 0.5);  // the camera comes nearer
+        key(*window, Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(object(*window, id).keyframes.front().box.length, drawn);
+    }
+
     void copyingABoxMovesOn() {
         const auto window = labellingWindow(8);
         QVERIFY(window);

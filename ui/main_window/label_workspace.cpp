@@ -241,6 +241,7 @@ void LabelWorkspace::enableActions() {
     actions_->redo->setToolTip(labels_->canRedo() ? tr("Redo: %1 (Ctrl+Shift+Z)").arg(labels_->redoName())
                                                   : tr("Redo"));
     for (QAction* action : {actions_->keyframe,
+                            actions_->spread_size,
                             actions_->copy_on,
                             actions_->copy_back,
                             actions_->delete_keyframe,

@@ -20,6 +20,7 @@
 #include "main_window/status_fields.h"
 #include "main_window/timeline_binding.h"
 #include "main_window/transport_bar.h"
+#include "main_window/tuning.h"
 #include "main_window/welcome_panel.h"
 #include "main_window/window_actions.h"
 #include "panels/message_bar.h"
@@ -55,6 +56,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     resize(kFirstSize);
     inspection_ = new Inspection(session_, this);
     docks_ = new ReviewDocks(session_, *inspection_, *this);
+    tuning_ = new Tuning({session_, *canvas_, *docks_, *actions_, overlays_, *this});
     parameters_ = new ParameterBinding(session_, docks_->parameterForm(), this);
     timeline_binding_ = new TimelineBinding(session_, *timeline_, docks_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
@@ -164,6 +166,11 @@ void MainWindow::wireFileActions() {
     });
     connect(docks_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
     connect(docks_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
+    connect(tuning_, &Tuning::storedParametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
+    connect(tuning_, &Tuning::parameterRequested, parameters_, [this](const QString& name, const QString& value) {
+        parameters_->setValue(name.toStdString(), value.toStdString());
+    });
+    connect(tuning_, &Tuning::runRequested, actions_->run, &QAction::trigger);
     docks_->wireSweeps(*parameters_);
     connect(parameters_, &ParameterBinding::problem, this, &MainWindow::showProblem);
     connect(parameters_, &ParameterBinding::notice, this, &MainWindow::showNotice);

@@ -25,6 +25,7 @@ class StatusFields;
 class TimelineBinding;
 class TimelineView;
 class TransportBar;
+class Tuning;
 class VideoView;
 class WelcomePanel;
 class WindowActions;
@@ -50,6 +51,7 @@ class MainWindow : public QMainWindow {
     Inspection& inspection() { return *inspection_; }
     ReviewDocks& docks() { return *docks_; }
     LabelWorkspace& labelling() { return *labelling_; }
+    Tuning& tuning() { return *tuning_; }
 
  protected:
     void closeEvent(QCloseEvent* event) override;
@@ -108,6 +110,7 @@ class MainWindow : public QMainWindow {
     StatusFields* status_;
     Inspection* inspection_;
     ReviewDocks* docks_;
+    Tuning* tuning_;
     LabelWorkspace* labelling_;
     ParameterBinding* parameters_;
     TimelineBinding* timeline_binding_;

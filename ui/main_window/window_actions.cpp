@@ -26,6 +26,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                        {"go-last", {QKeySequence(tr("Ctrl+L"))}, QT_TR_NOOP("Show each frame as the run finishes it")},
                        false);
 
+    train =
+        add(tr("Train from &labels…"), {nullptr, {}, QT_TR_NOOP("A classifier of your own for the sliding window")});
+
     section(tr("Playback"));
     play = add(tr("&Play"), {"media-playback-start", {QKeySequence(Qt::Key_Space)}});
     step_back = add(tr("Step back"), {"media-skip-backward", {QKeySequence(Qt::Key_Left)}});
@@ -48,6 +51,17 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
     deselect = add(tr("Select nothing"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
+    why = add(
+        tr("&Why here?"),
+        {"help-contextual", {QKeySequence(Qt::Key_W)}, QT_TR_NOOP("What decided about the place under the cursor")});
+    live_preview = addToggle(tr("Live &preview of parameters"),
+                             {nullptr,
+                              {QKeySequence(Qt::Key_P)},
+                              QT_TR_NOOP("Show the present frame with each parameter that is moved in the form")},
+                             true);
+    compare = add(
+        tr("&Compare two runs…"),
+        {nullptr, {QKeySequence(tr("Ctrl+B"))}, QT_TR_NOOP("A and B on the same frames, side by side or with a wipe")});
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
     review_workspace = addToggle(tr("&Review"), {nullptr, {QKeySequence(tr("Ctrl+1"))}}, true);

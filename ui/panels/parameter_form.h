@@ -12,6 +12,7 @@
 class QComboBox;
 class QLabel;
 class QLineEdit;
+class QScrollArea;
 class QToolButton;
 class QVBoxLayout;
 
@@ -41,6 +42,9 @@ class ParameterForm : public QWidget {
     void setReadOnly(bool read_only);
     void setFilterText(const QString& text);
     void setModifiedOnly(bool modified_only);
+    /// Brings a parameter into sight, whatever is searched for, and sets the keyboard to its field; false when there is
+    /// none of the name.
+    bool reveal(const QString& name);
     /// Every value that differs back to its default, each told by valueChanged().
     void resetAll();
 
@@ -50,6 +54,8 @@ class ParameterForm : public QWidget {
     void presetChosen(const QString& name);
     /// Keep the present values as a preset.
     void savePresetRequested();
+    /// Show all presets.
+    void presetsRequested();
 
  private:
     struct Group {
@@ -74,6 +80,7 @@ class ParameterForm : public QWidget {
     QLineEdit* search_;
     QToolButton* modified_only_;
     QToolButton* reset_all_;
+    QScrollArea* scroll_;
     QWidget* rows_area_;
     QVBoxLayout* rows_layout_;
     QLabel* nothing_;

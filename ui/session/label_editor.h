@@ -36,6 +36,8 @@ class LabelEditor : public QObject {
     bool setBox(ObjectId id, FrameIndex frame, const OrientedBox& box, bool turned, const QString& what);
     void nudge(double right_px, double down_px);
     void turn(double radians);
+    /// The size of the box as it is shown goes to all keyframes: vehicles keep theirs.
+    void spreadSize();
     /// A keyframe of the box as it is shown.
     void setKeyframe();
     /// The box becomes a keyframe of the next (or former) frame, carried on the ground, and that frame is shown.
