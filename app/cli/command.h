@@ -32,6 +32,7 @@ void addTrainCommand(CLI::App& app, int& exit_code);
 void addClassifyCommand(CLI::App& app, int& exit_code);
 void addClassifyTestCommand(CLI::App& app, int& exit_code);
 void addImportCommand(CLI::App& app, int& exit_code);
+void addReportCommand(CLI::App& app, int& exit_code);
 void addExportCommand(CLI::App& app, int& exit_code);
 
 }  // namespace eyrie::cli

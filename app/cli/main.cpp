@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
     int exit_code = eyrie::cli::exit_ok;
     eyrie::cli::addRunCommand(app, exit_code);
     eyrie::cli::addEvaluateCommand(app, exit_code);
+    eyrie::cli::addReportCommand(app, exit_code);
     eyrie::cli::addRenderCommand(app, exit_code);
     eyrie::cli::addParamsCommand(app, exit_code);
     eyrie::cli::addBenchCommand(app, exit_code);

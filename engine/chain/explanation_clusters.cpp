@@ -8,7 +8,7 @@
 namespace eyrie::explaining {
 namespace {
 
-constexpr double kCornerMargin = 1;     ///< px; corners lie on outlines
+constexpr double kCornerMargin = 1;  ///< px; corners lie on outlines
 
 /// How two motion vectors stand to each other, as linkage sees them (eq. of Linkage::joins).
 struct Gap {
@@ -214,9 +214,12 @@ bool tellClusters(Story& story, std::vector<int>& clusters) {
                 link.aside / linkage.across > link.ahead / linkage.along ? "clustering.across" : "clustering.along");
         const Gap gap =
             nextOutside(result.motion, std::set<int>(cluster.members.begin(), cluster.members.end()), linkage);
+        const bool split = !gap.too_far && !gap.too_different;
         if (gap.other >= 0 && gap.distance < 4)
-            story.note("clustering", "the nearest vector outside is " + gapText(gap, linkage, story),
-                       parameterOf(gap, linkage, story));
+            story.note("clustering",
+                       "the nearest vector outside is " + gapText(gap, linkage, story) +
+                           (split ? "; they came apart when a cluster that is too large was split" : ""),
+                       split ? "clustering.split_width" : parameterOf(gap, linkage, story));
     }
     if (clusters.size() > 1)
         story.note("clustering", "the vectors here belong to " + std::to_string(clusters.size()) + " clusters",

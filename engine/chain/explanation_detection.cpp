@@ -29,6 +29,34 @@ std::string checkText(const DetectionTrace::Check& check) {
            numberText(check.limit);
 }
 
+/// Checks of one kind that ended alike.
+struct Alike {
+    const DetectionTrace::Check* first = nullptr;
+    int count = 0;
+    double lowest = 0;
+    double highest = 0;
+};
+
+void addTo(std::vector<Alike>& groups, const DetectionTrace::Check& check) {
+    for (Alike& group : groups) {
+        if (group.first->what != check.what || group.first->passed != check.passed) continue;
+        ++group.count;
+        group.lowest = std::min(group.lowest, check.value);
+        group.highest = std::max(group.highest, check.value);
+        return;
+    }
+    groups.push_back({&check, 1, check.value, check.value});
+}
+
+std::string groupText(const Alike& group) {
+    if (group.count == 1) return checkText(*group.first);
+    const std::string values = group.lowest < group.highest
+                                   ? numberText(group.lowest) + " … " + numberText(group.highest)
+                                   : numberText(group.lowest);
+    return group.first->what + ", " + std::to_string(group.count) + " times: " + values +
+           (group.first->at_most ? ", at most " : ", at least ") + numberText(group.first->limit);
+}
+
 /// How close a failed check came, 1: to its limit.
 double closeness(const DetectionTrace::Check& check) {
     const double gap = std::abs(check.value - check.limit) / std::max(std::abs(check.limit), 1.0);
@@ -54,18 +82,20 @@ bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<i
                             ? ", from a stack of " + std::to_string(search.roi.stack_layers) + " layers"
                             : std::string()),
                    "detection.extend_along");
+        std::vector<Alike> groups;
         for (const DetectionTrace::Check& check : search.trace.checks) {
             if (!concerns(check, search.roi, evidence.area)) continue;
-            if (check.passed) {
-                story.pass("detection", checkText(check), check.parameter);
-                continue;
-            }
-            // Where others passed, a failed one is no more than a remark.
-            if (detections.empty())
-                story.fail("detection", checkText(check), check.parameter);
-            else
-                story.note("detection", checkText(check), check.parameter);
-            if (decider == nullptr || closeness(check) >= closeness(*decider)) decider = &check;
+            addTo(groups, check);
+            if (!check.passed && (decider == nullptr || closeness(check) >= closeness(*decider))) decider = &check;
+        }
+        for (const Alike& group : groups) {
+            const std::string& parameter = group.first->parameter;
+            if (group.first->passed)
+                story.pass("detection", groupText(group), parameter);
+            else if (detections.empty())
+                story.fail("detection", groupText(group), parameter);
+            else  // where others passed, a failed one is no more than a remark
+                story.note("detection", groupText(group), parameter);
         }
     }
     if (!detections.empty()) {

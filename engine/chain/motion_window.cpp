@@ -5,7 +5,8 @@
 namespace eyrie {
 namespace {
 
-constexpr int kSettling = 12;  ///< frames until the corners are spread as in the middle of a run
+constexpr int kLongestWayOn = 30;  ///< frames; farther on, starting anew is as quick
+constexpr int kSettling = 12;      ///< frames until the corners are spread as in the middle of a run
 
 }  // namespace
 
@@ -17,16 +18,23 @@ bool MotionWindow::cover(FrameIndex first, FrameIndex last, const std::function<
                          const std::stop_token& stop) {
     const bool covered = !frames_.empty() && frames_.front().index <= first && frames_.back().index == last;
     if (covered) return true;
-    std::vector<Frame> frames;
-    std::vector<RegisteredFrame> registered;
-    Registrar registrar(options_, scale_);
-    for (FrameIndex frame = first; frame <= last; ++frame) {
-        if (stop.stop_requested()) return false;
-        frames.push_back(pixels(frame));
-        registered.push_back(registrar.next(frames.back()));
+    const bool goes_on = !frames_.empty() && frames_.front().index <= first && frames_.back().index < last &&
+                         last - frames_.back().index <= kLongestWayOn;
+    if (!goes_on) {
+        frames_.clear();
+        registered_.clear();
+        registrar_.emplace(options_, scale_);
     }
-    frames_ = std::move(frames);
-    registered_ = std::move(registered);
+    for (FrameIndex frame = goes_on ? frames_.back().index + 1 : first; frame <= last; ++frame) {
+        if (stop.stop_requested()) return false;
+        Frame read = pixels(frame);
+        registered_.push_back(registrar_->next(read));
+        frames_.push_back(std::move(read));
+    }
+    const auto spare =
+        std::min(frames_.size() - 1, static_cast<std::size_t>(std::max(0, first - frames_.front().index)));
+    frames_.erase(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(spare));
+    registered_.erase(registered_.begin(), registered_.begin() + static_cast<std::ptrdiff_t>(spare));
     return true;
 }
 

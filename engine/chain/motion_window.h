@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -22,8 +23,8 @@ class MotionWindow {
     /// Frames before the wanted one that are needed for speeds to be measured as in a run.
     static int reachFor(const IndependentMotionOptions& options);
 
-    /// Registers the frames from `first` to `last` unless that was done; false when `stop` was requested meanwhile.
-    /// Throws Error(input) when pixels cannot be read.
+    /// Registers the frames from `first` to `last` unless that was done, going on from where it is if it can; false
+    /// when `stop` was requested meanwhile. Throws Error(input) when pixels cannot be read.
     bool cover(FrameIndex first, FrameIndex last, const std::function<Frame(FrameIndex)>& pixels,
                const std::stop_token& stop);
 
@@ -36,6 +37,7 @@ class MotionWindow {
     SceneScale scale_;
     std::vector<Frame> frames_;
     std::vector<RegisteredFrame> registered_;
+    std::optional<Registrar> registrar_;  ///< as it is after the last of them
 };
 
 }  // namespace eyrie

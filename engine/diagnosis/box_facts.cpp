@@ -42,6 +42,7 @@ BoxFacts factsAt(const OrientedBox& box, const FrameResult& result, const ChainO
     const FrameMotion& motion = result.motion;
     facts.registration = motion.registration.state;
     facts.reason = motion.registration.reason;
+    facts.image = motion.image_size;
     if (motion.registration.state == RegistrationState::registered) {
         const Homography& step = motion.registration.current_from_previous;
         facts.flow = step.apply(box.centre) - box.centre;

@@ -19,6 +19,7 @@ struct NearBox {
 struct BoxFacts {
     RegistrationState registration = RegistrationState::registered;
     std::string reason;  ///< why the frame could not be registered
+    cv::Size image;      ///< px
     cv::Point2d flow;    ///< px, how the ground moves through the image at the place since the frame before
 
     int corners = 0;            ///< in the box, standing and moving

@@ -223,15 +223,15 @@ std::vector<DiagnosedMistake> Diagnoser::diagnose(std::vector<Mistake> mistakes,
             const Mistake& mistake = diagnosed[m].mistake;
             if (mistake.kind == MistakeKind::id_switch || mistake.kind == MistakeKind::fragment) continue;
             const MistakePlace& place = mistake.places[p];
-            PlaceEvidence evidence{.truth = recordsOf(comparison.truth, frame),
-                                   .result = recordsOf(comparison.result, frame),
-                                   .frame = comparison.input.frames[position],
-                                   .match = comparison.matches[position],
-                                   .min_overlap = comparison.options.overlap,
-                                   .upright = comparison.options.upright,
-                                   .facts = lookup.at(place.box),
-                                   .object_facts = {},
-                                   .frames_needed = source_.options.motion.min_age};
+            MistakeEvidence evidence{.truth = recordsOf(comparison.truth, frame),
+                                     .result = recordsOf(comparison.result, frame),
+                                     .frame = comparison.input.frames[position],
+                                     .match = comparison.matches[position],
+                                     .min_overlap = comparison.options.overlap,
+                                     .upright = comparison.options.upright,
+                                     .facts = lookup.at(place.box),
+                                     .object_facts = {},
+                                     .frames_needed = source_.options.motion.min_age};
             if (evidence.facts != nullptr && evidence.facts->registration == RegistrationState::failed)
                 unregistered = frame;
             evidence.recently_unregistered = frame - unregistered <= kRecently;

@@ -54,7 +54,7 @@ struct Candidate {
     double overlap = 0;
     const MatchedPair* taken = nullptr;  ///< the object it found instead
 };
-Candidate nearestResult(const OrientedBox& box, const PlaceEvidence& evidence, bool taken) {
+Candidate nearestResult(const OrientedBox& box, const MistakeEvidence& evidence, bool taken) {
     Candidate best;
     for (const int index : evidence.frame.results) {
         const MatchedPair* pair = pairOfResult(evidence.match, index);
@@ -86,7 +86,7 @@ CauseHere rejectedAs(const BoxFacts& facts) {
 }
 
 /// What the stages before tracking tell of a missed object.
-CauseHere stageThatLost(const BoxFacts& facts, const PlaceEvidence& evidence) {
+CauseHere stageThatLost(const BoxFacts& facts, const MistakeEvidence& evidence) {
     const double needed = evidence.min_overlap;
     if (facts.tentative.overlap >= needed) return {MistakeCause::tentative, ""};
     if (facts.kept.overlap >= needed)
@@ -105,8 +105,8 @@ CauseHere stageThatLost(const BoxFacts& facts, const PlaceEvidence& evidence) {
             text};
     }
     if (evidence.frames_in_view < evidence.frames_needed)
-        return {MistakeCause::too_new, "in view for " + std::to_string(evidence.frames_in_view + 1) +
-                                           " frames, corners are judged after " +
+        return {MistakeCause::too_new, "came into view " + std::to_string(evidence.frames_in_view) +
+                                           " frames before, corners are judged after " +
                                            std::to_string(evidence.frames_needed)};
     if (facts.corners > 0)
         return {MistakeCause::too_slow, std::to_string(facts.corners) + " corners, none counts as moving"};
@@ -114,7 +114,7 @@ CauseHere stageThatLost(const BoxFacts& facts, const PlaceEvidence& evidence) {
 }
 
 /// The counting object that a false result moves along with, −1: none.
-int companionOf(const BoxRecord& alarm, cv::Point2d velocity, const PlaceEvidence& evidence) {
+int companionOf(const BoxRecord& alarm, cv::Point2d velocity, const MistakeEvidence& evidence) {
     for (const MatchedPair& pair : evidence.match.pairs) {
         const BoxRecord& found = at(evidence.result, pair.result);
         const OrientedBox& box = at(evidence.truth, pair.truth).box;
@@ -135,7 +135,7 @@ bool looksLikeParallax(cv::Point2d flow, cv::Point2d velocity) {
 }
 
 /// What a false alarm has to do with objects of the ground truth.
-std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const PlaceEvidence& evidence) {
+std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const MistakeEvidence& evidence) {
     if (evidence.in_split) return CauseHere{MistakeCause::split, "a part of an object"};
     for (const MatchedPair& pair : evidence.match.pairs) {
         const BoxRecord& object = at(evidence.truth, pair.truth);
@@ -166,7 +166,7 @@ std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const PlaceEvid
 
 }  // namespace
 
-CauseHere causeOfMiss(const MistakePlace& place, const PlaceEvidence& evidence) {
+CauseHere causeOfMiss(const MistakePlace& place, const MistakeEvidence& evidence) {
     if (evidence.in_split) return {MistakeCause::split, ""};
     const Candidate taken = nearestResult(place.box, evidence, true);
     const Candidate free = nearestResult(place.box, evidence, false);
@@ -186,10 +186,13 @@ CauseHere causeOfMiss(const MistakePlace& place, const PlaceEvidence& evidence) 
     return stageThatLost(*evidence.facts, evidence);
 }
 
-CauseHere causeOfFalseAlarm(const MistakePlace& place, const PlaceEvidence& evidence) {
+CauseHere causeOfFalseAlarm(const MistakePlace& place, const MistakeEvidence& evidence) {
     const BoxRecord& alarm = at(evidence.result, place.results.front());
-    if (const auto related = relationToTruth(alarm, evidence)) return *related;
     const BoxFacts* facts = evidence.facts;
+    if (facts != nullptr && !facts->image.empty() &&
+        !cv::Rect2d(-0.5, -0.5, facts->image.width, facts->image.height).contains(alarm.box.centre))
+        return {MistakeCause::outside_image, ""};
+    if (const auto related = relationToTruth(alarm, evidence)) return *related;
     if (evidence.recently_unregistered || (facts != nullptr && facts->registration == RegistrationState::failed))
         return {MistakeCause::unregistered, facts != nullptr ? facts->reason : std::string()};
     if (alarm.origin == eyrie::nameOf(StateOrigin::predicted)) return {MistakeCause::coasting, ""};
@@ -207,7 +210,7 @@ CauseHere causeOfFalseAlarm(const MistakePlace& place, const PlaceEvidence& evid
     return {};
 }
 
-CauseHere causeOfSplit(const MistakePlace&, const PlaceEvidence& evidence) {
+CauseHere causeOfSplit(const MistakePlace&, const MistakeEvidence& evidence) {
     if (evidence.facts == nullptr) return {};
     const std::size_t clusters = evidence.facts->clusters.size();
     if (clusters == 0) return {};
@@ -215,7 +218,7 @@ CauseHere causeOfSplit(const MistakePlace&, const PlaceEvidence& evidence) {
     return {MistakeCause::segmented_apart, ""};
 }
 
-CauseHere causeOfMerge(const MistakePlace&, const PlaceEvidence& evidence) {
+CauseHere causeOfMerge(const MistakePlace&, const MistakeEvidence& evidence) {
     if (evidence.object_facts.size() < 2) return {};
     const auto shared = [&](auto list) {
         for (const int index : list(*evidence.object_facts.front())) {
@@ -255,6 +258,7 @@ const char* nameOf(MistakeCause cause) {
                                                           "at the border",
                                                           "duplicate",
                                                           "ignored object",
+                                                          "outside the image",
                                                           "coasting",
                                                           "shadow",
                                                           "parallax",
@@ -311,6 +315,8 @@ const char* explanationOf(MistakeCause cause) {
             return "A second box on an object that is found already (duplicates.*).";
         case MistakeCause::ignored_object:
             return "It lies beside an object that does not count, such as a person or a standing vehicle.";
+        case MistakeCause::outside_image:
+            return "Its middle lies outside the image: the track goes on after the object has left.";
         case MistakeCause::coasting:
             return "The track went on by prediction although nothing was detected (tracking.*).";
         case MistakeCause::shadow:

@@ -31,6 +31,7 @@ enum class MistakeCause {
     at_border,           ///< found, but by a result so near to the image's edge that it was left out
     duplicate,           ///< false: a second box on an object that is found
     ignored_object,      ///< false: beside an object that does not count
+    outside_image,       ///< false: its middle lies outside the image
     coasting,            ///< false: the track went on without a detection
     shadow,              ///< false: moves along beside an object
     parallax,            ///< false: moves the way a standing thing above the ground seems to
@@ -51,7 +52,7 @@ const char* nameOf(MistakeCause cause);
 const char* explanationOf(MistakeCause cause);
 
 /// What is known of a mistake in one frame.
-struct PlaceEvidence {
+struct MistakeEvidence {
     const std::vector<BoxRecord>& truth;   ///< records of the frame
     const std::vector<BoxRecord>& result;  ///< records of the frame
     const EvaluationFrame& frame;
@@ -74,9 +75,9 @@ struct CauseHere {
 };
 
 /// Misses: the last stage that still had the object decides.
-CauseHere causeOfMiss(const MistakePlace& place, const PlaceEvidence& evidence);
-CauseHere causeOfFalseAlarm(const MistakePlace& place, const PlaceEvidence& evidence);
-CauseHere causeOfSplit(const MistakePlace& place, const PlaceEvidence& evidence);
-CauseHere causeOfMerge(const MistakePlace& place, const PlaceEvidence& evidence);
+CauseHere causeOfMiss(const MistakePlace& place, const MistakeEvidence& evidence);
+CauseHere causeOfFalseAlarm(const MistakePlace& place, const MistakeEvidence& evidence);
+CauseHere causeOfSplit(const MistakePlace& place, const MistakeEvidence& evidence);
+CauseHere causeOfMerge(const MistakePlace& place, const MistakeEvidence& evidence);
 
 }  // namespace eyrie

@@ -105,13 +105,15 @@ void StageCache::tell(SweepStage stage, int done) const {
 
 void StageCache::forFrames(const std::stop_token& stop,
                            const std::function<void(std::size_t, ClipFrames::Reader&)>& work) const {
-    inPieces(static_cast<std::size_t>(frames_.count()), [&](std::size_t begin, std::size_t end) {
+    const auto piece = [&](std::size_t begin, std::size_t end) {
         ClipFrames::Reader reader = frames_.reader();
         for (std::size_t i = begin; i < end; ++i) {
             leaveIf(stop);
             work(i, reader);
         }
-    });
+    };
+    const auto count = static_cast<std::size_t>(frames_.count());
+    options_.all_cores ? inPieces(count, piece) : piece(0, count);
 }
 
 void StageCache::useStoredMotion(const ChainOptions& options, std::vector<FrameMotion> motion) {

@@ -27,6 +27,8 @@ struct ClipResult {
 struct StageCacheOptions {
     std::size_t frame_bytes = std::size_t{1} << 31U;  ///< frames kept in memory
     std::size_t area_bytes = std::size_t{1} << 30U;   ///< what detectors prepared, kept in memory
+    /// False: everything is done on the thread that asks, at its priority, for work behind a window.
+    bool all_cores = true;
 };
 
 /// Runs the chain over one clip again and again with changed parameters. Each time only what lies behind the first

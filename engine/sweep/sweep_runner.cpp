@@ -1,8 +1,5 @@
 #include "sweep/sweep_runner.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -15,8 +12,6 @@
 
 namespace eyrie {
 namespace {
-
-constexpr int kBackgroundNiceness = 10;
 
 using Clock = std::chrono::steady_clock;
 
@@ -53,7 +48,6 @@ class Work {
 
  private:
     void work() {
-        if (options_.background) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kBackgroundNiceness);
         try {
             while (!stop_.stop_requested()) {
                 const std::size_t at = next_.fetch_add(1);

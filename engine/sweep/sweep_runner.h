@@ -42,7 +42,6 @@ struct SweepRunOptions {
     int threads = 0;                                  ///< 0: as many as there are cores
     std::function<void(const SweepPoint&)> on_point;  ///< one call at a time, from any thread; what it throws ends
                                                       ///< the sweep
-    bool background = false;  ///< at low priority, so that a window stays quick
     std::function<void(const SweepProgress&)> on_progress{};  ///< likewise; must not throw
 };
 

@@ -251,6 +251,7 @@ TEST_F(Causes, falseAlarms) {
     stored[3];
     EXPECT_EQ(falseAlarm(car(3, 8, 300)).cause, MistakeCause::unknown);
     EXPECT_EQ(falseAlarm(car(3, 8, 55)).cause, MistakeCause::duplicate);
+    EXPECT_EQ(falseAlarm(car(3, 8, 650)).cause, MistakeCause::outside_image);
     BoxRecord predicted = car(3, 8, 300);
     predicted.origin = "predicted";
     EXPECT_EQ(falseAlarm(predicted).cause, MistakeCause::coasting);

@@ -61,6 +61,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
       "store"}},
     {"chain",
      {"core", "io", "registration", "motion", "stacking", "detection", "learning", "removal", "tracking", "store"}},
+    {"report", {"core", "chain", "diagnosis", "evaluation", "io", "store"}},
     {"diagnosis",
      {"core", "annotation", "chain", "evaluation", "exchange", "formats", "io", "motion", "store"}},
 };

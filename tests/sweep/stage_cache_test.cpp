@@ -179,6 +179,7 @@ TEST(StageCache, FramesThatDoNotFitIntoMemoryAreReadAgain) {
     StageCacheOptions small;
     small.frame_bytes = 1000;
     small.area_bytes = 1000;
+    small.all_cores = false;
     StageCache cache(opener(), {}, kScale, small);
     EXPECT_FALSE(cache.frames().inMemory());
     expectAsARunOfItsOwn(cache, base(), "read again");

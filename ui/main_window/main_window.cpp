@@ -13,6 +13,7 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 
+#include "main_window/evaluation_docks.h"
 #include "main_window/label_workspace.h"
 #include "main_window/parameter_binding.h"
 #include "main_window/review_docks.h"
@@ -20,6 +21,7 @@
 #include "main_window/status_fields.h"
 #include "main_window/timeline_binding.h"
 #include "main_window/transport_bar.h"
+#include "main_window/tuning.h"
 #include "main_window/welcome_panel.h"
 #include "main_window/window_actions.h"
 #include "panels/message_bar.h"
@@ -55,6 +57,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     resize(kFirstSize);
     inspection_ = new Inspection(session_, this);
     docks_ = new ReviewDocks(session_, *inspection_, *this);
+    tuning_ = new Tuning({session_, *canvas_, *docks_, *actions_, overlays_, *this});
+    buildEvaluation();
     parameters_ = new ParameterBinding(session_, docks_->parameterForm(), this);
     timeline_binding_ = new TimelineBinding(session_, *timeline_, docks_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
@@ -137,7 +141,7 @@ void MainWindow::buildMenus() {
         }
         if (section.actions.contains(actions_->fit)) {
             menu->addSeparator();
-            for (QDockWidget* dock : docks_->docks()) menu->addAction(dock->toggleViewAction());
+            for (QDockWidget* dock : docks_->docks() + evaluation_->docks()) menu->addAction(dock->toggleViewAction());
             menu->addAction(tr("Reset the layout"), this, [this] {
                 actions_->review_workspace->trigger();
                 restoreState(default_layout_);
@@ -164,6 +168,11 @@ void MainWindow::wireFileActions() {
     });
     connect(docks_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
     connect(docks_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
+    connect(tuning_, &Tuning::storedParametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
+    connect(tuning_, &Tuning::parameterRequested, parameters_, [this](const QString& name, const QString& value) {
+        parameters_->setValue(name.toStdString(), value.toStdString());
+    });
+    connect(tuning_, &Tuning::runRequested, actions_->run, &QAction::trigger);
     docks_->wireSweeps(*parameters_);
     connect(parameters_, &ParameterBinding::problem, this, &MainWindow::showProblem);
     connect(parameters_, &ParameterBinding::notice, this, &MainWindow::showNotice);
@@ -206,6 +215,7 @@ void MainWindow::wireSession() {
         updateTitle();
     });
     connect(&session_, &ProjectSession::viewFrameChanged, canvas_, &VideoView::setFrame);
+    connect(&session_, &ProjectSession::viewFrameChanged, evaluation_, &EvaluationDocks::showMarks);
     connect(&session_, &ProjectSession::selectionChanged, canvas_, &VideoView::setSelectedTrack);
     connect(canvas_, &VideoView::trackClicked, &session_, &ProjectSession::selectTrack);
     connect(&session_, &ProjectSession::problem, this, &MainWindow::showProblem);

@@ -14,6 +14,7 @@ class QStackedWidget;
 
 namespace eyrie::ui {
 
+class EvaluationDocks;
 class Inspection;
 class LabelTimeline;
 class LabelWorkspace;
@@ -25,6 +26,7 @@ class StatusFields;
 class TimelineBinding;
 class TimelineView;
 class TransportBar;
+class Tuning;
 class VideoView;
 class WelcomePanel;
 class WindowActions;
@@ -50,6 +52,8 @@ class MainWindow : public QMainWindow {
     Inspection& inspection() { return *inspection_; }
     ReviewDocks& docks() { return *docks_; }
     LabelWorkspace& labelling() { return *labelling_; }
+    EvaluationDocks& evaluation() { return *evaluation_; }
+    Tuning& tuning() { return *tuning_; }
 
  protected:
     void closeEvent(QCloseEvent* event) override;
@@ -68,6 +72,7 @@ class MainWindow : public QMainWindow {
     void wireSession();
     void wireInspection();
     void buildLabelling();
+    void buildEvaluation();
     /// The layout of the review workspace, whichever is shown.
     QByteArray reviewLayout() const;
     void openVideo();
@@ -108,6 +113,8 @@ class MainWindow : public QMainWindow {
     StatusFields* status_;
     Inspection* inspection_;
     ReviewDocks* docks_;
+    EvaluationDocks* evaluation_;
+    Tuning* tuning_;
     LabelWorkspace* labelling_;
     ParameterBinding* parameters_;
     TimelineBinding* timeline_binding_;

@@ -13,6 +13,7 @@
 #include <QWidgetAction>
 
 #include "chain/run_recorder.h"
+#include "main_window/evaluation_docks.h"
 #include "main_window/key_sheet.h"
 #include "main_window/label_actions.h"
 #include "main_window/label_workspace.h"
@@ -22,9 +23,12 @@
 #include "main_window/stacks_panel.h"
 #include "main_window/stage_chips.h"
 #include "main_window/status_fields.h"
+#include "main_window/tuning.h"
 #include "main_window/window_actions.h"
 #include "session/inspection.h"
+#include "session/live_preview.h"
 #include "view/timeline_view.h"
+#include "view/verdict_layer.h"
 #include "view/video_view.h"
 
 namespace eyrie::ui {
@@ -81,6 +85,7 @@ QMenu* MainWindow::buildOverlayMenu() {
         colour(OverlayKind::tracks, colours.track);
         colour(OverlayKind::stacks, colours.stack);
         colour(OverlayKind::ground_truth, colours.ground_truth);
+        colour(OverlayKind::verdicts, verdictColour(VerdictKind::false_alarm, overlays_.palette()));
         timeline_->setPalette(overlays_.palette());
     };
     connect(&overlays_, &OverlaySettings::changed, this, refresh);
@@ -103,10 +108,21 @@ void MainWindow::buildLabelling() {
     labelling_ =
         new LabelWorkspace({session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, overlays_, *this});
     menuBar()->insertMenu(menuBar()->actions().value(3), labelling_->menu());
+    evaluation_->join(*labelling_);
     connect(actions_->label_workspace, &QAction::toggled, this, [this](bool on) {
         labelling_->setActive(on);
         showTabTitles();
     });
+}
+
+void MainWindow::buildEvaluation() {
+    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, *this);
+    connect(evaluation_, &EvaluationDocks::notice, this, &MainWindow::showNotice);
+    // A preview takes the verdicts away, which are those of the stored run; they come back with it.
+    connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
+        if (!tuning_->preview().active()) evaluation_->showMarks();
+    });
+    connect(evaluation_, &EvaluationDocks::problem, this, &MainWindow::showProblem);
 }
 
 QByteArray MainWindow::reviewLayout() const {

@@ -4,6 +4,7 @@
 
 #include "chain/replay.h"
 #include "core/error.h"
+#include "main_window/preset_dialog.h"
 #include "panels/parameter_form.h"
 
 namespace eyrie::ui {
@@ -20,7 +21,21 @@ ParameterBinding::ParameterBinding(ProjectSession& session, ParameterForm& form,
     });
     connect(&form_, &ParameterForm::presetChosen, this, &ParameterBinding::choosePreset);
     connect(&form_, &ParameterForm::savePresetRequested, this, &ParameterBinding::savePreset);
+    connect(&form_, &ParameterForm::presetsRequested, this, [this] {
+        PresetDialog dialog(presets_, session_.settings().options, form_.window());
+        connect(&dialog, &PresetDialog::useRequested, this, &ParameterBinding::usePreset);
+        dialog.exec();
+        show();
+    });
+    connect(&session_, &ProjectSession::projectChanged, this, [this] {
+        presets_.useProject(session_.project());
+        show();
+    });
     show();
+}
+
+void ParameterBinding::usePreset(const QString& name) {
+    emit form_.presetChosen(name);  // as if it were chosen there, so that the preview follows, too
 }
 
 void ParameterBinding::show() {

@@ -33,6 +33,7 @@ class ParameterBinding : public QObject {
  private:
     void show();
     void choosePreset(const QString& name);
+    void usePreset(const QString& name);
     void savePreset();
 
     ProjectSession& session_;

@@ -2,6 +2,7 @@
 
 #include <QDockWidget>
 #include <QMainWindow>
+#include <algorithm>
 
 #include "main_window/inspector_panel.h"
 #include "main_window/motion_statistics_panel.h"
@@ -64,6 +65,18 @@ QDockWidget* ReviewDocks::dock(const QString& name, const QString& title, QWidge
     window_.addDockWidget(area, dock);
     docks_.append(dock);
     return dock;
+}
+
+QDockWidget* ReviewDocks::addDock(const QString& name, const QString& title, QWidget* content) {
+    const auto last_on_right = std::find_if(docks_.rbegin(), docks_.rend(), [this](QDockWidget* known) {
+        return window_.dockWidgetArea(known) == Qt::RightDockWidgetArea;
+    });
+    QDockWidget* neighbour = last_on_right == docks_.rend() ? nullptr : *last_on_right;
+    QDockWidget* added = dock(name, title, content, Qt::RightDockWidgetArea);
+    if (neighbour != nullptr) window_.tabifyDockWidget(neighbour, added);
+    for (QDockWidget* known : docks_)
+        if (known->widget() == inspector_) known->raise();
+    return added;
 }
 
 void ReviewDocks::wireSweeps(ParameterBinding& parameters) {

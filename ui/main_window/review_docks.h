@@ -33,6 +33,8 @@ class ReviewDocks : public QObject {
     ReviewDocks(ProjectSession& session, Inspection& inspection, QMainWindow& window);
 
     const QList<QDockWidget*>& docks() const { return docks_; }
+    /// Adds a dock beside the others on the right, behind them. Before the window's layout is restored.
+    QDockWidget* addDock(const QString& name, const QString& title, QWidget* content);
     ParameterForm& parameterForm() { return *form_; }
     StageTimesChart& stageTimes() { return *chart_; }
     StagesPanel& stages() { return *stages_; }

@@ -56,6 +56,7 @@ SweepForm::SweepForm(QWidget* parent) : QWidget(parent) {
     overlaps_->setToolTip(tr("Overlaps T_ov from which on a box counts as found"));
     auto* overlap_label = new QLabel(tr("T_ov"), this);
     auto* overlap_line = new QHBoxLayout;
+    overlap_line->setSpacing(6);
     overlap_line->addWidget(overlap_label);
     overlap_line->addWidget(overlaps_);
     grid->addLayout(overlap_line, 4, 2);

@@ -276,6 +276,13 @@ void SweepPanel::showTable() {
     if (clicked_ && *clicked_ < table->plan.pointCount())
         text += QStringLiteral("<br>") + tr("Chosen: %1").arg(pointText(*table, *clicked_, judged));
     best_->setText(text);
+    if (sweeps_.running() && list_->currentData().toInt() == table->id) {
+        for (SweepRecord record : sweeps_.sweeps()) {
+            if (record.id != table->id) continue;
+            record.points_done = static_cast<int>(table->points.size());
+            list_->setItemText(list_->currentIndex(), titleOf(record));
+        }
+    }
     const bool any = chosenPoint().has_value();
     apply_->setEnabled(any);
     save_->setEnabled(any);

@@ -96,6 +96,9 @@ SweepChartData tradeOffOf(const SweepTable& table, SweepView view, const SweepCr
     const bool alarms = view == SweepView::false_alarms;
     data.x_label = alarms ? QObject::tr("false alarms per frame") : QObject::tr("recall");
     data.y_label = alarms ? QObject::tr("recall") : QObject::tr("precision");
+    const bool one_overlap = criterion.overlap || table.plan.axes.size() == 2;
+    if (one_overlap)
+        data.y_label += QObject::tr(" at %1").arg(overlapName(criterion.overlap.value_or(table.plan.overlaps.front())));
     int colour = 0;
     const int others = table.plan.axes.size() == 2 ? static_cast<int>(table.plan.axes[1].values.size()) : 1;
     const auto add = [&](const QString& name, double overlap, int other) {
@@ -110,8 +113,12 @@ SweepChartData tradeOffOf(const SweepTable& table, SweepView view, const SweepCr
     if (others > 1) {
         // A line for each value of the second parameter, as fig. 7.8 has one for each T_dov.
         const double overlap = criterion.overlap.value_or(table.plan.overlaps.front());
-        for (int other = 0; other < others; ++other)
-            add(text(table.plan.axes[1].values[static_cast<std::size_t>(other)]), overlap, other);
+        const std::string& name = table.plan.axes[1].name;
+        const QString short_name = text(name.substr(name.find('.') + 1));
+        for (int other = 0; other < others; ++other) {
+            const QString value = text(table.plan.axes[1].values[static_cast<std::size_t>(other)]);
+            add(other == 0 ? short_name + QLatin1Char(' ') + value : value, overlap, other);
+        }
     } else {
         for (const double overlap : table.plan.overlaps) {
             if (!criterion.overlap || *criterion.overlap == overlap) add(overlapName(overlap), overlap, 0);

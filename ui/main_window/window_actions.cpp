@@ -13,6 +13,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     open_folder = add(tr("Open folder of &images…"), {"document-open-folder", {QKeySequence(tr("Ctrl+Shift+O"))}});
     open_project = add(tr("Open &project…"), {"project-open", {QKeySequence(tr("Ctrl+P"))}});
     save_copy = add(tr("&Save project as…"), {"document-save-as", {QKeySequence(tr("Ctrl+Shift+S"))}});
+    report = add(tr("Evaluation &report…"), {"document-export",
+                                             {QKeySequence(tr("Ctrl+Shift+R"))},
+                                             QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});
     demo = add(tr("Watch the &demo scene"), {"media-playback-start", {QKeySequence(tr("Ctrl+D"))}});
     quit = add(tr("&Quit"), {"application-exit", {QKeySequence(tr("Ctrl+Q"))}});
 
@@ -25,6 +28,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     follow = addToggle(tr("&Follow the run"),
                        {"go-last", {QKeySequence(tr("Ctrl+L"))}, QT_TR_NOOP("Show each frame as the run finishes it")},
                        false);
+
+    train =
+        add(tr("Train from &labels…"), {nullptr, {}, QT_TR_NOOP("A classifier of your own for the sliding window")});
 
     section(tr("Playback"));
     play = add(tr("&Play"), {"media-playback-start", {QKeySequence(Qt::Key_Space)}});
@@ -42,12 +48,33 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     faster = add(tr("Faster"), {nullptr, {QKeySequence(Qt::Key_BracketRight), QKeySequence(Qt::Key_Period)}});
     loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(Qt::Key_O)}}, false);
 
+    section(tr("Evaluation"));
+    next_error = add(tr("&Next error"), {"go-next", {QKeySequence(Qt::Key_N), QKeySequence(Qt::Key_F8)}});
+    previous_error =
+        add(tr("&Previous error"), {"go-previous", {QKeySequence(tr("Shift+N")), QKeySequence(tr("Shift+F8"))}});
+    wrong_truth =
+        add(tr("The &truth is wrong here…"),
+            {"document-edit",
+             {QKeySequence(tr("Ctrl+T"))},
+             QT_TR_NOOP("Open the object in the label workspace; the run is scored again after each change")});
+
     section(tr("View"));
     fit = add(tr("&Fit the window"), {"zoom-fit-best", {QKeySequence(Qt::Key_F)}});
     one_to_one = add(tr("Actual size (1:1)"), {"zoom-original", {QKeySequence(Qt::Key_1)}});
     zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
     deselect = add(tr("Select nothing"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
+    why = add(
+        tr("&Why here?"),
+        {"help-contextual", {QKeySequence(Qt::Key_W)}, QT_TR_NOOP("What decided about the place under the cursor")});
+    live_preview = addToggle(tr("Live &preview of parameters"),
+                             {nullptr,
+                              {QKeySequence(Qt::Key_P)},
+                              QT_TR_NOOP("Show the present frame with each parameter that is moved in the form")},
+                             true);
+    compare = add(
+        tr("&Compare two runs…"),
+        {nullptr, {QKeySequence(tr("Ctrl+B"))}, QT_TR_NOOP("A and B on the same frames, side by side or with a wipe")});
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
     review_workspace = addToggle(tr("&Review"), {nullptr, {QKeySequence(tr("Ctrl+1"))}}, true);
@@ -101,7 +128,8 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
                              {OverlayKind::detections, tr("&Detections"), Qt::Key_D},
                              {OverlayKind::tracks, tr("&Tracks"), Qt::Key_T},
                              {OverlayKind::stacks, tr("Image &stacks"), Qt::Key_S},
-                             {OverlayKind::ground_truth, tr("&Ground truth"), Qt::Key_U}};
+                             {OverlayKind::ground_truth, tr("&Ground truth"), Qt::Key_U},
+                             {OverlayKind::verdicts, tr("Errors (found, missed, false)"), Qt::Key_Q}};
     for (const Entry& entry : entries) {
         QAction* action = addToggle(entry.text, {nullptr, {QKeySequence(entry.key)}}, overlays.isVisible(entry.kind));
         overlay[static_cast<size_t>(entry.kind)] = action;

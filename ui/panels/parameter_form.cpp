@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QScrollArea>
+#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -41,6 +42,7 @@ ParameterForm::ParameterForm(QWidget* parent)
       search_(new QLineEdit(this)),
       modified_only_(new QToolButton(this)),
       reset_all_(new QToolButton(this)),
+      scroll_(new QScrollArea(this)),
       rows_area_(new QWidget(this)),
       rows_layout_(new QVBoxLayout(rows_area_)),
       nothing_(new QLabel(this)),
@@ -50,11 +52,10 @@ ParameterForm::ParameterForm(QWidget* parent)
     rows_layout_->setContentsMargins(0, 0, 0, 0);
     rows_layout_->addWidget(nothing_);
     rows_layout_->addStretch(1);
-    auto* scroll = new QScrollArea(this);
-    scroll->setWidget(rows_area_);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll_->setWidget(rows_area_);
+    scroll_->setWidgetResizable(true);
+    scroll_->setFrameShape(QFrame::NoFrame);
+    scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
 
     help_->setWordWrap(true);
     help_->setTextFormat(Qt::RichText);
@@ -66,7 +67,7 @@ ParameterForm::ParameterForm(QWidget* parent)
     layout->setContentsMargins(4, 4, 4, 4);
     layout->addWidget(makePresetLine());
     layout->addWidget(makeSearchLine());
-    layout->addWidget(scroll, 1);
+    layout->addWidget(scroll_, 1);
     layout->addWidget(help_);
     refresh();
 }
@@ -83,6 +84,11 @@ QWidget* ParameterForm::makePresetLine() {
     layout->addWidget(label);
     layout->addWidget(presets_, 1);
     layout->addWidget(save_preset_);
+    auto* all = new QToolButton(line);
+    all->setText(tr("Presets…"));
+    all->setToolTip(tr("Compare, rename, delete, export and import presets"));
+    layout->addWidget(all);
+    connect(all, &QToolButton::clicked, this, &ParameterForm::presetsRequested);
     connect(presets_, &QComboBox::activated, this, [this] { emit presetChosen(presets_->currentText()); });
     connect(save_preset_, &QToolButton::clicked, this, &ParameterForm::savePresetRequested);
     return line;
@@ -161,8 +167,9 @@ std::vector<std::pair<std::string, std::string>> ParameterForm::values() const {
     return values;
 }
 
-bool ParameterForm::isModified() const {
-    return std::any_of(rows_.begin(), rows_.end(), [](const ParameterRow* row) { return row->isModified(); });
+int ParameterForm::modifiedCount() const {
+    return static_cast<int>(
+        std::count_if(rows_.begin(), rows_.end(), [](const ParameterRow* row) { return row->isModified(); }));
 }
 
 void ParameterForm::onRowChanged(const QString& name, const QString& value) {
@@ -218,6 +225,26 @@ void ParameterForm::setFilterText(const QString& text) {
 
 void ParameterForm::setModifiedOnly(bool modified_only) {
     modified_only_->setChecked(modified_only);
+}
+
+bool ParameterForm::reveal(const QString& name) {
+    for (const Group& group : groups_) {
+        for (ParameterRow* row : group.rows) {
+            if (row->name() != name) continue;
+            search_->clear();
+            modified_only_->setChecked(false);
+            group.section->setExpanded(true);
+            help_->setText(row->helpText());
+            // Sections that were folded take their room with the next layout.
+            QTimer::singleShot(0, row, [this, row] {
+                scroll_->ensureWidgetVisible(row, 0, scroll_->height() / 3);
+                row->setFocus();
+                row->flash();
+            });
+            return true;
+        }
+    }
+    return false;
 }
 
 void ParameterForm::resetAll() {

@@ -12,6 +12,7 @@
 class QComboBox;
 class QLabel;
 class QLineEdit;
+class QScrollArea;
 class QToolButton;
 class QVBoxLayout;
 
@@ -33,7 +34,9 @@ class ParameterForm : public QWidget {
     /// All values as shown, in the order of declaration.
     std::vector<std::pair<std::string, std::string>> values() const;
     /// Whether any value differs from its default.
-    bool isModified() const;
+    bool isModified() const { return modifiedCount() > 0; }
+    /// How many values differ from their defaults.
+    int modifiedCount() const;
 
     /// Names to choose from and the one the values started from.
     void setPresets(const QStringList& names, const QString& current);
@@ -41,6 +44,9 @@ class ParameterForm : public QWidget {
     void setReadOnly(bool read_only);
     void setFilterText(const QString& text);
     void setModifiedOnly(bool modified_only);
+    /// Brings a parameter into sight, whatever is searched for, and sets the keyboard to its field; false when there is
+    /// none of the name.
+    bool reveal(const QString& name);
     /// Every value that differs back to its default, each told by valueChanged().
     void resetAll();
 
@@ -50,6 +56,8 @@ class ParameterForm : public QWidget {
     void presetChosen(const QString& name);
     /// Keep the present values as a preset.
     void savePresetRequested();
+    /// Show all presets.
+    void presetsRequested();
 
  private:
     struct Group {
@@ -74,6 +82,7 @@ class ParameterForm : public QWidget {
     QLineEdit* search_;
     QToolButton* modified_only_;
     QToolButton* reset_all_;
+    QScrollArea* scroll_;
     QWidget* rows_area_;
     QVBoxLayout* rows_layout_;
     QLabel* nothing_;

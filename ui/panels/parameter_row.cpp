@@ -3,6 +3,7 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QTimer>
 #include <QToolButton>
 #include <algorithm>
 
@@ -12,7 +13,8 @@ namespace eyrie::ui {
 namespace {
 
 // One width for all kinds of fields, so that they stand in a column.
-constexpr int kFieldCharacters = 15;
+constexpr int kFieldCharacters = 23;
+constexpr int kFlash_ms = 900;
 
 /// "min speed" for "motion.min_speed".
 QString shownName(const QString& name) {
@@ -39,6 +41,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, QWidget* parent)
       editor_(makeParameterEditor(parameter, this)),
       reset_(new QToolButton(this)) {
     label_->setBuddy(editor_);
+    setFocusProxy(editor_);
     label_->setWordWrap(true);
     editor_->setAccessibleName(name_);
     editor_->focusProxy()->setAccessibleName(name_);
@@ -120,6 +123,17 @@ QString ParameterRow::helpText() const {
         text += QStringLiteral("<br><i>%1</i>").arg(QString::fromStdString(parameter_.text.source).toHtmlEscaped());
     }
     return text;
+}
+
+void ParameterRow::flash() {
+    setAutoFillBackground(true);
+    setBackgroundRole(QPalette::Highlight);
+    label_->setForegroundRole(QPalette::HighlightedText);
+    QTimer::singleShot(kFlash_ms, this, [this] {
+        setBackgroundRole(QPalette::NoRole);
+        setAutoFillBackground(false);
+        label_->setForegroundRole(QPalette::NoRole);
+    });
 }
 
 void ParameterRow::enterEvent(QEnterEvent* event) {

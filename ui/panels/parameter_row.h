@@ -26,6 +26,8 @@ class ParameterRow : public QWidget {
     void setReadOnly(bool read_only);
     /// Whether every word is in the name, help, source or unit.
     bool matches(const QStringList& words) const;
+    /// Shows for a moment which row is meant.
+    void flash();
     /// Range, default, help and source, as rich text.
     QString helpText() const;
 

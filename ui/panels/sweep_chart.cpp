@@ -46,8 +46,14 @@ SweepChart::SweepChart(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot
     plot_->setFocusPolicy(Qt::NoFocus);
     plot_->setMouseTracking(true);
     plot_->installEventFilter(this);
-    plot_->axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignRight | Qt::AlignBottom);
-    plot_->setNotAntialiasedElements(QCP::aePlottables);
+    // Above the curves, where it hides none of them.
+    plot_->plotLayout()->insertRow(0);
+    plot_->plotLayout()->addElement(0, 0, plot_->legend);
+    plot_->plotLayout()->setRowStretchFactor(0, 0.001);
+    plot_->legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
+    plot_->legend->setWrap(6);
+    plot_->legend->setMargins(QMargins(2, 2, 2, 2));
+    margins_ = new QCPMarginGroup(plot_);
     plot_->setAntialiasedElements(QCP::aePlottables);
     applyColours();
 }
@@ -70,6 +76,7 @@ void SweepChart::fill() {
     plot_->clearPlottables();
     plot_->clearItems();
     if (scale_ != nullptr) {
+        plot_->axisRect()->setMarginGroup(QCP::msTop | QCP::msBottom, nullptr);
         plot_->plotLayout()->remove(scale_);
         plot_->plotLayout()->simplify();
         scale_ = nullptr;
@@ -143,6 +150,10 @@ void SweepChart::fillCurves() {
         mark->addData(0, best.x(), best.y());
         mark->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(Qt::black, 2), Qt::NoBrush, 12));
     }
+    int widest = 1;
+    for (const SweepChartData::Series& series : data_.series)
+        widest = std::max(widest, fontMetrics().horizontalAdvance(series.name));
+    plot_->legend->setWrap(std::max(1, (width() - 20) / (widest + 56)));
     plot_->legend->setVisible(!data_.series.empty());
 }
 
@@ -167,7 +178,9 @@ void SweepChart::fillMap() {
     map->setTightBoundary(false);
     map->setGradient(brightnessGradient());
     scale_ = new QCPColorScale(plot_);
-    plot_->plotLayout()->addElement(0, 1, scale_);
+    plot_->plotLayout()->addElement(1, 1, scale_);
+    plot_->axisRect()->setMarginGroup(QCP::msTop | QCP::msBottom, margins_);
+    scale_->setMarginGroup(QCP::msTop | QCP::msBottom, margins_);
     scale_->setType(QCPAxis::atRight);
     map->setColorScale(scale_);
     scale_->setGradient(brightnessGradient());

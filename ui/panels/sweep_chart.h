@@ -6,6 +6,7 @@
 
 class QCustomPlot;
 class QCPColorScale;
+class QCPMarginGroup;
 
 namespace eyrie::ui {
 
@@ -46,6 +47,7 @@ class SweepChart : public QWidget {
 
     SweepChartData data_;
     QCustomPlot* plot_;
+    QCPMarginGroup* margins_;  ///< keeps the heat map and its scale at one height
     QCPColorScale* scale_ = nullptr;
 };
 

@@ -7,8 +7,6 @@
 #include "core/error.h"
 #include "detection/segmentation_views.h"
 #include "session/queued_call.h"
-#include "store/project_file.h"
-#include "store/run_store.h"
 
 namespace eyrie::ui {
 
@@ -20,41 +18,6 @@ GeneralSegmentation generalSegmentation(const MotionRoi& roi, const SceneScale& 
     return {drawSegments(roi.image, superpixelSegments(roi, scale)), drawSegments(roi.image, watershedSegments(roi)),
             drawSegments(roi.image, graphCutSegments(roi))};
 }
-
-/// A run with its own connection to project and video.
-class OpenRun {
- public:
-    OpenRun(const ReplayRun& run, const std::stop_token& stop)
-        : pictures_(run.media.open({}, stop)),
-          project_(ProjectFile::open(run.project)),
-          store_(project_),
-          run_id_(run.run_id) {}
-
-    ReplaySource source(std::function<void(FrameIndex)> about_to_read) {
-        const auto record = store_.run(run_id_);
-        if (!record) throw Error(ErrorKind::project, "the project has no run " + std::to_string(run_id_));
-        ReplaySource source;
-        source.options = storedOptions(store_.parameters(run_id_));
-        source.scale = record->scale;
-        source.first_frame = record->first_frame;
-        source.pixels = [this, about_to_read = std::move(about_to_read)](FrameIndex frame) {
-            about_to_read(frame);
-            return pictures_->read(frame, false);
-        };
-        source.motion_of = [this](FrameIndex frame) -> std::optional<FrameMotion> {
-            auto result = store_.frameResult(run_id_, frame);
-            if (!result) return std::nullopt;
-            return std::move(result->motion);
-        };
-        return source;
-    }
-
- private:
-    std::unique_ptr<FrameSource> pictures_;
-    ProjectFile project_;
-    RunStore store_;
-    int run_id_;
-};
 
 }  // namespace
 

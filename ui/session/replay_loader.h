@@ -1,24 +1,16 @@
 #pragma once
 
 #include <QObject>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
 
 #include "chain/replay.h"
-#include "session/media.h"
+#include "session/open_run.h"
 #include "session/task_thread.h"
 
 namespace eyrie::ui {
-
-/// A stored run and where its pictures come from.
-struct ReplayRun {
-    Media media;
-    std::filesystem::path project;
-    int run_id = 0;
-};
 
 /// What is to be looked at in one frame.
 struct ReplayWish {

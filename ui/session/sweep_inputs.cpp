@@ -48,8 +48,10 @@ OpenedRun openRunForSweep(const std::filesystem::path& project_path, int run_id,
         truth = plainBoxes(readLabels(truth_file, "auto", options).boxes);
     }
     const Media media = mediaOfIdentity(opened.clip.sequence, opened.clip.scale.frame_rate_hz);
+    StageCacheOptions cache;
+    cache.all_cores = false;  // the sweep's own threads give way to the window, helpers of OpenCV would not
     SweepInput input = openClip(
-        opened.clip, [media, stop] { return media.open({}, stop); }, run.range, truth);
+        opened.clip, [media, stop] { return media.open({}, stop); }, run.range, truth, cache);
     opened.options = run.options;
     input.cache->useStoredMotion(run.options, std::move(run.motion));
     opened.inputs.push_back(std::move(input));

@@ -1,5 +1,8 @@
 #include "session/sweep_session.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <exception>
 #include <utility>
 
@@ -12,6 +15,8 @@ namespace eyrie::ui {
 
 namespace {
 constexpr auto kPulse = std::chrono::milliseconds(120);
+constexpr int kNiceness = 15;
+constexpr qint64 kShareOfDrawing = 20;  ///< the table is drawn again after this many times what drawing took
 }  // namespace
 
 /// What the worker needs to know; copied, so that the session may go on changing.
@@ -138,6 +143,8 @@ void SweepSession::begin(Job job) {
 void SweepSession::work(const Job& job, const std::stop_token& stop) {
     QString problem;
     bool whole = false;
+    // This thread does nothing but sweeps; those that it starts inherit its priority.
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     try {
         SweepPlan plan;
         OpenedRun opened;
@@ -179,7 +186,6 @@ void SweepSession::work(const Job& job, const std::stop_token& stop) {
             refreshList();
         });
         SweepRunOptions options;
-        options.background = true;
         options.on_point = [&](const SweepPoint& point) {
             storePoint(file, id, point);
             const std::scoped_lock lock(mutex_);
@@ -206,7 +212,17 @@ void SweepSession::take() {
     }
     if (!points.empty() && growing_) {
         for (SweepPoint& point : points) growing_->points[point.position] = std::move(point.figures);
-        if (table_ == growing_) emit tableChanged();
+        grown_ = true;
+    }
+    // A table of many points takes its time to be drawn: most of the time belongs to the user.
+    if (grown_ && growing_ && table_ == growing_ &&
+        (!since_shown_.isValid() || since_shown_.elapsed() >= kShareOfDrawing * showing_took_ms_)) {
+        QElapsedTimer took;
+        took.start();
+        grown_ = false;
+        emit tableChanged();
+        showing_took_ms_ = took.elapsed();
+        since_shown_.start();
     }
     if (progress) {
         progress_ = *progress;
@@ -215,6 +231,7 @@ void SweepSession::take() {
 }
 
 void SweepSession::ended(bool whole, const QString& problem) {
+    since_shown_.invalidate();
     take();
     pulse_.stop();
     running_ = false;

@@ -81,7 +81,10 @@ class SweepSession : public QObject {
     SweepProgress progress_;
     std::stop_source stop_;
     std::shared_ptr<SweepTable> growing_;  ///< of the sweep at work
-    QTimer pulse_;                         ///< takes over what the threads have reported
+    QElapsedTimer since_shown_;            ///< the table that grows
+    qint64 showing_took_ms_ = 0;
+    bool grown_ = false;  ///< since it was shown
+    QTimer pulse_;        ///< takes over what the threads have reported
 
     std::mutex mutex_;  ///< of what follows
     std::vector<SweepPoint> new_points_;

@@ -14,12 +14,13 @@ class QPainter;
 namespace eyrie::ui {
 
 /// The kinds of overlay, in the order they are painted.
-enum class OverlayKind { rois, corners, vectors, clusters, ground_truth, detections, tracks, stacks };
-inline constexpr int kOverlayKindCount = 8;
+enum class OverlayKind { rois, corners, vectors, clusters, ground_truth, detections, tracks, stacks, verdicts };
+inline constexpr int kOverlayKindCount = 9;
 
 /// How overlays are drawn, whichever frame they belong to.
 struct OverlayStyle {
     OverlayColours colours = overlayColours(PaletteKind::thesis);
+    PaletteKind palette = PaletteKind::thesis;
     double vector_length_factor = 5;  ///< a vector is drawn as long as this many frames of motion
     bool labels = true;
     bool trails = true;

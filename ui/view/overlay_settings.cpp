@@ -15,6 +15,7 @@ void OverlaySettings::setVisible(OverlayKind kind, bool visible) {
 
 void OverlaySettings::setPalette(PaletteKind palette) {
     style_.colours = overlayColours(palette);
+    style_.palette = palette;
     adopt(palette_, palette);
 }
 

@@ -33,7 +33,7 @@ class OverlaySettings : public QObject {
     template <class Value>
     void adopt(Value& field, Value value);
 
-    std::array<bool, kOverlayKindCount> visible_{false, false, true, true, true, true, true, false};
+    std::array<bool, kOverlayKindCount> visible_{false, false, true, true, true, true, true, false, true};
     OverlayStyle style_;
     PaletteKind palette_ = PaletteKind::thesis;
 };

@@ -1,5 +1,6 @@
 #include "view/video_view.h"
 
+#include <QContextMenuEvent>
 #include <QMouseEvent>
 #include <QNativeGestureEvent>
 #include <QPainter>
@@ -16,12 +17,15 @@
 #include "view/track_layer.h"
 #include "view/truth_layer.h"
 #include "view/vector_layer.h"
+#include "view/verdict_layer.h"
 
 namespace eyrie::ui {
 
 namespace {
 const QColor kGround(34, 36, 40);          ///< around the picture, in both themes: overlays keep their contrast
 const QColor kMissingPicture(58, 61, 66);  ///< where a picture should be and is not
+const QColor kBadgeGround(255, 200, 40);
+const QColor kBadgeText(30, 24, 0);
 constexpr double kWheelStep = 1.25;
 constexpr double kDragThreshold = 4;
 constexpr double kHitMargin = 4;  ///< logical px around a box that still count as hit
@@ -37,6 +41,7 @@ VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(paren
     layers_.push_back(std::make_unique<DetectionLayer>());
     layers_.push_back(std::make_unique<TrackLayer>());
     layers_.push_back(std::make_unique<StackLayer>());
+    layers_.push_back(std::make_unique<VerdictLayer>());
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setAttribute(Qt::WA_OpaquePaintEvent);
@@ -80,9 +85,35 @@ void VideoView::setStacks(FrameIndex frame, std::vector<StackMark> stacks) {
     update();
 }
 
+void VideoView::setVerdicts(FrameIndex frame, bool evaluated, std::vector<VerdictMark> verdicts,
+                            std::vector<BoxRecord> ground_truth) {
+    if (frame != frame_.index) return;
+    frame_.evaluated = evaluated;
+    frame_.verdicts = std::move(verdicts);
+    frame_.ground_truth = std::move(ground_truth);
+    update();
+}
+
 void VideoView::setInspectedArea(std::optional<OrientedBox> area) {
     if (!area && !inspected_area_) return;
     inspected_area_ = area;
+    update();
+}
+
+void VideoView::setPlaceMark(std::optional<PlaceMark> mark) {
+    if (!mark && !place_mark_) return;
+    place_mark_ = std::move(mark);
+    update();
+}
+
+void VideoView::setBadge(const QString& text) {
+    if (badge_ == text) return;
+    badge_ = text;
+    update();
+}
+
+void VideoView::setBadgeOnRight(bool on_right) {
+    badge_on_right_ = on_right;
     update();
 }
 
@@ -175,6 +206,8 @@ void VideoView::paint(QPainter& painter) const {
             if (settings_.isVisible(layer->kind())) layer->paint(painter, scene);
         paintInspectedArea(painter);
     }
+    paintPlaceMark(painter);
+    paintBadge(painter);
     if (tool_ != nullptr) tool_->paint(painter, {transform_, frame_.image, QRectF(rect())});
 }
 
@@ -184,6 +217,29 @@ void VideoView::paintInspectedArea(QPainter& painter) const {
     appendBox(lines, *inspected_area_, transform_, rect());
     appendHeading(lines, *inspected_area_, transform_, rect());
     drawEdgedLines(painter, lines, {settings_.style().colours.stack, settings_.style().colours.edge, kInspectedWidth});
+}
+
+void VideoView::paintPlaceMark(QPainter& painter) const {
+    if (!place_mark_) return;
+    const OverlayColours& colours = settings_.style().colours;
+    QVector<QLineF> lines;
+    appendBox(lines, place_mark_->area, transform_, rect());
+    drawEdgedLines(painter, lines, {Qt::white, colours.edge, kInspectedWidth, Qt::DotLine});
+    const double size = std::clamp(transform_.scale(), 2.0, 7.0);
+    for (const PlaceMark::Dot& dot : place_mark_->dots)
+        drawEdgedDots(painter, {transform_.viewFromImage(dot.place)}, size, dot.colour, colours.edge);
+}
+
+void VideoView::paintBadge(QPainter& painter) const {
+    if (badge_.isEmpty()) return;
+    const QRectF text = painter.fontMetrics().boundingRect(badge_);
+    QRectF plate(10, 10, text.width() + 20, text.height() + 10);
+    if (badge_on_right_) plate.moveRight(width() - 10);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(kBadgeGround);
+    painter.drawRoundedRect(plate, 4, 4);
+    painter.setPen(kBadgeText);
+    painter.drawText(plate, Qt::AlignCenter, badge_);
 }
 
 void VideoView::paintImage(QPainter& painter) const {
@@ -309,6 +365,13 @@ void VideoView::keyReleaseEvent(QKeyEvent* event) {
     space_held_ = false;
     updateCursorShape();
     if (tapped) emit playToggled();
+}
+
+void VideoView::contextMenuEvent(QContextMenuEvent* event) {
+    if (tool_ != nullptr || !frame_.result) return;
+    emit placeMenuRequested(transform_.imageFromView(event->pos()), kHitMargin / transform_.scale(),
+                            event->globalPos());
+    event->accept();
 }
 
 void VideoView::leaveEvent(QEvent*) {

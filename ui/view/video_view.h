@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "view/overlay_settings.h"
+#include "view/place_mark.h"
 #include "view/view_frame.h"
 #include "view/view_transform.h"
 
@@ -32,8 +33,16 @@ class VideoView : public QWidget {
     void setSelectedTrack(std::optional<TrackId> track);
     /// The image stacks of a frame, which come later than the frame itself; ignored when another one is shown.
     void setStacks(FrameIndex frame, std::vector<StackMark> stacks);
+    /// What the evaluation says of a frame, which comes apart from it; ignored when another one is shown.
+    void setVerdicts(FrameIndex frame, bool evaluated, std::vector<VerdictMark> verdicts,
+                     std::vector<BoxRecord> ground_truth);
     /// The search area that is looked at more closely, image coordinates.
     void setInspectedArea(std::optional<OrientedBox> area);
+    /// The place that is asked about; nothing: none.
+    void setPlaceMark(std::optional<PlaceMark> mark);
+    /// A few words that stand on the picture, such as "preview"; empty: none.
+    void setBadge(const QString& text);
+    void setBadgeOnRight(bool on_right);
     /// What the mouse does and what is drawn on top; null: the canvas' own. Must outlive the view, or be taken away.
     void setTool(CanvasTool* tool);
     CanvasTool* tool() const { return tool_; }
@@ -63,6 +72,8 @@ class VideoView : public QWidget {
     /// The user pointed at a place, image coordinates; `margin`: px of the image within which something is meant. Comes
     /// after trackClicked().
     void placeClicked(QPointF image_point, double margin);
+    /// The context menu of a place is asked for, image coordinates; `margin` as above.
+    void placeMenuRequested(QPointF image_point, double margin, QPoint global);
     /// The space bar was tapped while the canvas had the focus.
     void playToggled();
 
@@ -78,11 +89,14 @@ class VideoView : public QWidget {
     void keyPressEvent(QKeyEvent* event) override;
     void keyReleaseEvent(QKeyEvent* event) override;
     void leaveEvent(QEvent* event) override;
+    void contextMenuEvent(QContextMenuEvent* event) override;
 
  private:
     void paint(QPainter& painter) const;
     void paintImage(QPainter& painter) const;
     void paintInspectedArea(QPainter& painter) const;
+    void paintPlaceMark(QPainter& painter) const;
+    void paintBadge(QPainter& painter) const;
     void adoptSize();
     void transformWasChanged();
     void reportCursor(QPointF view_point);
@@ -96,6 +110,9 @@ class VideoView : public QWidget {
     ViewTransform transform_;
     std::optional<TrackId> selected_track_;
     std::optional<OrientedBox> inspected_area_;
+    std::optional<PlaceMark> place_mark_;
+    QString badge_;
+    bool badge_on_right_ = false;
     std::optional<QPointF> drag_from_;  ///< view point of the last drag step
     QPointF pressed_at_;
     bool dragged_ = false;

@@ -8,6 +8,7 @@
 #include "core/frame_result.h"
 #include "view/stack_mark.h"
 #include "view/trail.h"
+#include "view/verdict_mark.h"
 
 namespace eyrie::ui {
 
@@ -20,7 +21,9 @@ struct ViewFrame {
     std::shared_ptr<const FrameResult> result;  ///< null when the run has no such frame
     std::vector<Trail> trails;                  ///< ascending track id
     std::vector<BoxRecord> ground_truth;
-    std::vector<StackMark> stacks;  ///< empty until somebody asked for them: they are not stored
+    bool evaluated = false;             ///< the frame was compared with ground truth
+    std::vector<VerdictMark> verdicts;  ///< what came of it
+    std::vector<StackMark> stacks;      ///< empty until somebody asked for them: they are not stored
 };
 
 }  // namespace eyrie::ui

@@ -1,0 +1,106 @@
+#include "evaluation/result_difference.h"
+
+#include <gtest/gtest.h>
+
+namespace eyrie {
+namespace {
+
+void put(BoxesByFrame& boxes, FrameIndex frame, std::optional<int> id, double x, double length = 20) {
+    BoxRecord record;
+    record.frame = frame;
+    record.id = id;
+    record.box = {{x, 50}, length, 10, 0};
+    boxes[frame].push_back(record);
+}
+
+TEST(ResultDifference, nothingBetweenAResultAndItself) {
+    BoxesByFrame boxes;
+    for (int f = 0; f < 5; ++f) {
+        put(boxes, f, 1, 10 + f);
+        put(boxes, f, std::nullopt, 80);
+    }
+    EXPECT_TRUE(differencesOf(boxes, boxes).empty());
+    EXPECT_TRUE(differencesOf({}, {}).empty());
+}
+
+TEST(ResultDifference, objectsOfOneOnlyAreCountedOverTheirFrames) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    for (int f = 0; f < 10; ++f) {
+        put(a, f, 1, 10 + f);
+        put(b, f, 7, 10 + f);
+        if (f >= 3 && f != 5) put(a, f, 2, 100);  // a gap of one frame is none
+        if (f < 2) put(b, f, 9, 200);
+    }
+    const auto found = differencesOf(a, b);
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].kind, DifferenceKind::only_first);
+    EXPECT_EQ(found[0].first_id, 2);
+    EXPECT_EQ(found[0].first_frame, 3);
+    EXPECT_EQ(found[0].last_frame, 9);
+    EXPECT_EQ(found[0].size, 6);
+    EXPECT_EQ(found[1].kind, DifferenceKind::only_second);
+    EXPECT_EQ(found[1].second_id, 9);
+    EXPECT_EQ(found[1].size, 2);
+    EXPECT_FALSE(found[1].first_id);
+}
+
+TEST(ResultDifference, boxesThatDifferAreWorstWhereTheyOverlapLeast) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    for (int f = 0; f < 4; ++f) {
+        put(a, f, 1, 50, 20);
+        put(b, f, 1, 50, f == 2 ? 8 : 10);  // overlaps of 0.5, and 0.4 in frame 2
+    }
+    const auto found = differencesOf(a, b);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].kind, DifferenceKind::box);
+    EXPECT_EQ(found[0].worst_frame, 2);
+    EXPECT_NEAR(found[0].size, 3 * 0.5 + 0.6, 1e-9);
+}
+
+TEST(ResultDifference, anIdThatChangesInOneOnly) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    for (int f = 0; f < 6; ++f) {
+        put(a, f, 1, 50);
+        put(b, f, f < 3 ? 4 : 5, 50);
+    }
+    const auto found = differencesOf(a, b);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].kind, DifferenceKind::identity);
+    EXPECT_EQ(found[0].worst_frame, 3);
+    EXPECT_EQ(found[0].first_id, 1);
+    EXPECT_EQ(found[0].second_id, 5);
+}
+
+TEST(ResultDifference, detectionsWithoutIdsAreJoinedByTheirPlace) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    for (int f = 0; f < 4; ++f) {
+        put(a, f, std::nullopt, 10 + 2 * f);
+        put(a, f, std::nullopt, 300);
+        b[f];
+    }
+    const auto found = differencesOf(a, b);
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].size, 4);
+    EXPECT_EQ(found[1].size, 4);
+}
+
+TEST(ResultDifference, twoResultsChangedRoundGiveTheSameDifferencesChangedRound) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    put(a, 0, 1, 10);
+    put(a, 1, 1, 12);
+    put(b, 1, 3, 80);
+    const auto there = differencesOf(a, b);
+    const auto back = differencesOf(b, a);
+    ASSERT_EQ(there.size(), back.size());
+    EXPECT_EQ(there[0].kind, DifferenceKind::only_first);
+    EXPECT_EQ(back[0].kind, DifferenceKind::only_second);
+    EXPECT_EQ(there[0].size, back[0].size);
+}
+
+}  // namespace
+}  // namespace eyrie
