@@ -51,7 +51,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"detection", {"core", "imaging", "learning"}},
     {"learning", {"core", "imaging"}},
     {"removal", {"core"}},
-    {"tracking", {"core"}},
+    {"tracking", {"core", "imaging"}},
     {"evaluation", {"core"}},
     {"exchange", {"core", "annotation", "formats", "store"}},
     {"scene", {"core", "io"}},
