@@ -62,8 +62,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"chain",
      {"core", "io", "registration", "motion", "stacking", "detection", "learning", "removal", "tracking", "store"}},
     {"report", {"core", "chain", "diagnosis", "evaluation", "io", "store"}},
-    {"diagnosis",
-     {"core", "annotation", "chain", "evaluation", "exchange", "formats", "io", "motion", "store"}},
+    {"diagnosis", {"core", "annotation", "chain", "evaluation", "exchange", "formats", "io", "motion", "store"}},
 };
 
 }  // namespace

@@ -1,13 +1,10 @@
 #include "main_window/main_window.h"
 
-#include <QCloseEvent>
 #include <QDockWidget>
-#include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMenu>
 #include <QMenuBar>
-#include <QMimeData>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
@@ -374,51 +371,6 @@ void MainWindow::showRecent() {
         settings_.clearRecent();
         showRecent();
     });
-}
-
-void MainWindow::restoreView() {
-    const ProjectView view = settings_.projectView(session_.project());
-    if (!view.layout.isEmpty() && !labelling_->active()) restoreState(view.layout);
-    showTabTitles();
-    if (view.zoom > 0)
-        canvas_->restore(view.zoom, view.centre);
-    else
-        canvas_->fit();
-    if (view.frame > 0) session_.goToFrame(view.frame);
-}
-
-void MainWindow::rememberView() {
-    if (shown_project_.empty()) return;
-    const ViewTransform& transform = canvas_->transform();
-    const QPointF middle(transform.viewSize().width() / 2, transform.viewSize().height() / 2);
-    settings_.setProjectView(shown_project_, {reviewLayout(), transform.fitted() ? 0 : transform.zoom(),
-                                              transform.imageFromView(middle), session_.currentFrame()});
-    shown_project_.clear();
-}
-
-void MainWindow::closeEvent(QCloseEvent* event) {
-    rememberView();
-    settings_.setGeometry(saveGeometry());
-    settings_.setLayout(reviewLayout());
-    session_.stopRun();  // the run's own thread finishes storing while the program goes down
-    event->accept();
-}
-
-void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    for (const QUrl& url : event->mimeData()->urls())
-        if (url.isLocalFile()) {
-            event->acceptProposedAction();
-            return;
-        }
-}
-
-void MainWindow::dropEvent(QDropEvent* event) {
-    for (const QUrl& url : event->mimeData()->urls()) {
-        if (!url.isLocalFile()) continue;
-        event->acceptProposedAction();
-        openPath(url.toLocalFile());
-        return;
-    }
 }
 
 }  // namespace eyrie::ui

@@ -1,11 +1,15 @@
-// The part of MainWindow that deals with how things are shown: zoom, overlays, sheets.
+// The part of MainWindow that deals with how things are shown: zoom, overlays, sheets, what is
+// remembered of a view, what is dropped on the window.
 #include <QApplication>
+#include <QCloseEvent>
 #include <QDoubleSpinBox>
+#include <QDragEnterEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QMimeData>
 #include <QPainter>
 #include <QSignalBlocker>
 #include <QTabBar>
@@ -190,6 +194,51 @@ void MainWindow::wireViewActions() {
     });
     connect(canvas_, &VideoView::cursorMoved, status_, &StatusFields::showCursor);
     connect(canvas_, &VideoView::transformChanged, status_, [this] { status_->showZoom(canvas_->transform().zoom()); });
+}
+
+void MainWindow::restoreView() {
+    const ProjectView view = settings_.projectView(session_.project());
+    if (!view.layout.isEmpty() && !labelling_->active()) restoreState(view.layout);
+    showTabTitles();
+    if (view.zoom > 0)
+        canvas_->restore(view.zoom, view.centre);
+    else
+        canvas_->fit();
+    if (view.frame > 0) session_.goToFrame(view.frame);
+}
+
+void MainWindow::rememberView() {
+    if (shown_project_.empty()) return;
+    const ViewTransform& transform = canvas_->transform();
+    const QPointF middle(transform.viewSize().width() / 2, transform.viewSize().height() / 2);
+    settings_.setProjectView(shown_project_, {reviewLayout(), transform.fitted() ? 0 : transform.zoom(),
+                                              transform.imageFromView(middle), session_.currentFrame()});
+    shown_project_.clear();
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    rememberView();
+    settings_.setGeometry(saveGeometry());
+    settings_.setLayout(reviewLayout());
+    session_.stopRun();  // the run's own thread finishes storing while the program goes down
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    for (const QUrl& url : event->mimeData()->urls())
+        if (url.isLocalFile()) {
+            event->acceptProposedAction();
+            return;
+        }
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    for (const QUrl& url : event->mimeData()->urls()) {
+        if (!url.isLocalFile()) continue;
+        event->acceptProposedAction();
+        openPath(url.toLocalFile());
+        return;
+    }
 }
 
 }  // namespace eyrie::ui

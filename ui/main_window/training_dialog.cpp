@@ -201,7 +201,7 @@ void TrainingDialog::showReport(const std::shared_ptr<const TrainingReport>& rep
     curves.y_label = tr("true positive rate");
     curves.share = true;
     curves.series = {seriesOf(report->own, tr("this one"), 0, true),
-                   seriesOf(report->shipped, tr("shipped with the program"), 1, false)};
+                     seriesOf(report->shipped, tr("shipped with the program"), 1, false)};
     chart_->setData(std::move(curves));
     message_->setText(
         tr("Trained on %1; tested on %2. Area under the curve %3, of the shipped model %4. Written to %5.")
