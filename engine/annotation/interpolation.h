@@ -43,7 +43,8 @@ enum class PathShape {
 /// keyframes are taken through the camera's motion. Sizes grow and shrink with the map's local scale. Where the
 /// keyframes stand at least half a box length apart the heading is the direction of the path, unless a keyframe sets
 /// it: then the turn against the path is interpolated by the shorter arc; elsewhere headings are, by the shorter arc.
-/// After the last keyframe the box stands still on the ground until `last_frame`; before the first there is none.
+/// After the last keyframe the box stands still on the ground until `last_frame` (what does so for ten frames or more
+/// brakes until there); before the first there is none.
 /// Flags come from the keyframe before. Takes O(log n) for n frames and keyframes.
 LabelledBox boxAt(const LabelledObject& object, FrameIndex frame, const CameraMotion& camera,
                   PathShape shape = PathShape::smooth);
@@ -57,6 +58,8 @@ struct LabelledBoxOf {
 /// All objects that exist in a frame (those outside the image included), ascending ids.
 std::vector<LabelledBoxOf> boxesAt(const AnnotationSet& set, FrameIndex frame, const CameraMotion& camera);
 
+/// Whether an object stands still after its last keyframe for so long that it must have braked before.
+bool standsAtItsEnd(const LabelledObject& object);
 /// First frame of an object (that of its first keyframe).
 FrameIndex firstFrameOf(const LabelledObject& object);
 /// The last keyframe at or before a frame; nothing before the first.

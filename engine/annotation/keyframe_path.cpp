@@ -40,11 +40,43 @@ bool KeyframePath::moving(std::size_t piece) const {
     return lengthOf(knots_[piece + 1].point - knots_[piece].point) >= std::max(1.0, length / 2);
 }
 
+std::optional<KeyframePath::Turns> KeyframePath::turnsOf(std::size_t piece) const {
+    if (shape_ == PathShape::straight || !along_headings_) return std::nullopt;
+    if (!knots_[piece].heading_set || !knots_[piece + 1].heading_set || !moving(piece)) return std::nullopt;
+    const double along = angleOf(knots_[piece + 1].point - knots_[piece].point);
+    const Turns turns{turnBetween(along, knots_[piece].heading), turnBetween(along, knots_[piece + 1].heading)};
+    if (std::abs(turns.leave) > kSharpestHalfTurn || std::abs(turns.arrive) > kSharpestHalfTurn) return std::nullopt;
+    return turns;
+}
+
+double KeyframePath::speedOn(std::size_t piece) const {
+    const double speed = lengthOf(slope(piece));
+    const auto turns = turnsOf(piece);
+    const double half = turns ? std::abs(turns->arrive - turns->leave) / 2 : 0;
+    // An arc is longer than its chord.
+    return half > 1e-3 ? speed * half / std::sin(half) : speed;
+}
+
+double KeyframePath::speedAt(std::size_t knot) const {
+    if (stands_after_ && knot + 1 == count_) return 0;
+    if (count_ == 2 && !stands_after_) return speedOn(0);
+    if (knot > 0 && knot + 1 < count_) {
+        const double before = knots_[knot].time - knots_[knot - 1].time;
+        const double after = knots_[knot + 1].time - knots_[knot].time;
+        const double a = speedOn(knot - 1);
+        const double b = speedOn(knot);
+        return std::min((a * after + b * before) / (before + after), kLongestTangent * std::min(a, b));
+    }
+    const double own = speedOn(knot == 0 ? 0 : knot - 1);
+    const double neighbour = speedAt(knot == 0 ? 1 : knot - 1);
+    return std::clamp(2 * own - neighbour, 0.0, kLongestTangent * own);
+}
+
 cv::Point2d KeyframePath::velocityAt(std::size_t piece, std::size_t knot) const {
     const cv::Point2d free = tangent(knot);
-    const double speed = lengthOf(free);
+    const double speed = speedAt(knot);
     const bool headed = knots_[piece].heading_set && knots_[piece + 1].heading_set && moving(piece);
-    if (!along_headings_ || !headed || speed < 1e-9) return free;
+    if (!along_headings_ || !headed || lengthOf(free) < 1e-9) return free;
     const double heading = knots_[knot].heading;
     const double turn = std::abs(turnBetween(angleOf(free), heading));
     // What skids or is pushed does not drive where it heads.
@@ -53,7 +85,8 @@ cv::Point2d KeyframePath::velocityAt(std::size_t piece, std::size_t knot) const 
 }
 
 cv::Point2d KeyframePath::tangent(std::size_t knot) const {
-    if (count_ == 2) return slope(0);
+    if (stands_after_ && knot + 1 == count_) return {0, 0};
+    if (count_ == 2 && !stands_after_) return slope(0);
     if (knot > 0 && knot + 1 < count_) {
         const double before = knots_[knot].time - knots_[knot - 1].time;
         const double after = knots_[knot + 1].time - knots_[knot].time;
@@ -74,17 +107,13 @@ cv::Point2d KeyframePath::tangent(std::size_t knot) const {
 /// Where on its way a vehicle is that drives a curve: a cubic through place and heading at both ends, passed at a speed
 /// that changes smoothly from end to end. How it turns and how it brakes are then told apart.
 std::optional<KeyframePath::Drive> KeyframePath::driven(std::size_t piece, double share) const {
-    if (shape_ == PathShape::straight || !along_headings_) return std::nullopt;
-    if (!knots_[piece].heading_set || !knots_[piece + 1].heading_set || !moving(piece)) return std::nullopt;
+    const auto turns = turnsOf(piece);
+    if (!turns || std::abs(turns->arrive - turns->leave) < kLeastTurn) return std::nullopt;
     const cv::Point2d chord = knots_[piece + 1].point - knots_[piece].point;
     const double length = lengthOf(chord);
     const double along = angleOf(chord);
-    const double leave = turnBetween(along, knots_[piece].heading);
-    const double arrive = turnBetween(along, knots_[piece + 1].heading);
+    const auto [leave, arrive] = *turns;
     const double turn = arrive - leave;
-    if (std::abs(leave) > kSharpestHalfTurn || std::abs(arrive) > kSharpestHalfTurn || std::abs(turn) < kLeastTurn) {
-        return std::nullopt;
-    }
     // The cubic that is nearest to an arc of this turn.
     const double pull = length / std::pow(std::cos(turn / 4), 2);
     const cv::Point2d first = cv::Point2d(std::cos(along + leave), std::sin(along + leave)) * pull;
@@ -102,8 +131,8 @@ std::optional<KeyframePath::Drive> KeyframePath::driven(std::size_t piece, doubl
     }
     const double whole = way[kSteps];
     const double duration = knots_[piece + 1].time - knots_[piece].time;
-    const double start = std::min(lengthOf(tangent(piece)) * duration, kLongestTangent * whole);
-    const double end = std::min(lengthOf(tangent(piece + 1)) * duration, kLongestTangent * whole);
+    const double start = std::min(speedAt(piece) * duration, kLongestTangent * whole);
+    const double end = std::min(speedAt(piece + 1) * duration, kLongestTangent * whole);
     const double t = share;
     const double gone = whole * t * t * (3 - 2 * t) + start * t * (t - 1) * (t - 1) + end * t * t * (t - 1);
     const auto next = std::upper_bound(way.begin() + 1, way.end() - 1, gone);

@@ -24,6 +24,8 @@ class KeyframePath {
  public:
     /// `along_headings`: directions of movement are headings, which they are on the ground, not in a moving picture.
     KeyframePath(PathShape shape, bool along_headings) : shape_(shape), along_headings_(along_headings) {}
+    /// After the last knot the object stands: it brakes until there.
+    void setStandsAfter(bool stands) { stands_after_ = stands; }
     void add(const Knot& knot) { knots_[count_++] = knot; }
     static constexpr std::size_t kMaxKnots = 6;
 
@@ -44,6 +46,16 @@ class KeyframePath {
     cv::Point2d slope(std::size_t piece) const;
     /// Velocity at a knot: of the parabola through it and its neighbours.
     cv::Point2d tangent(std::size_t knot) const;
+    /// Turns of the chord to the headings at both ends of a piece that is driven along them.
+    struct Turns {
+        double leave = 0;
+        double arrive = 0;
+    };
+    std::optional<Turns> turnsOf(std::size_t piece) const;
+    /// Speed on a piece: along the curve where it is driven along its headings.
+    double speedOn(std::size_t piece) const;
+    /// Speed at a knot, from the speeds beside it.
+    double speedAt(std::size_t knot) const;
     /// The same for one piece: where both its headings are set, vehicles drive along them.
     cv::Point2d velocityAt(std::size_t piece, std::size_t knot) const;
     struct Drive {
@@ -56,6 +68,7 @@ class KeyframePath {
 
     PathShape shape_;
     bool along_headings_;
+    bool stands_after_ = false;
     std::array<Knot, kMaxKnots> knots_;
     std::size_t count_ = 0;
 };

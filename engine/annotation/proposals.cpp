@@ -42,7 +42,9 @@ Proposal propose(const DenseTrack& track, const AnnotationSet& labelled, const C
     proposal.track = track.id;
     proposal.object.object_class = options.object_class;
     proposal.object.origin = ObjectOrigin::proposal_accepted;
-    proposal.object.keyframes = reduceToKeyframes(track.boxes, camera, options.reduction);
+    ReductionOptions reduction = options.reduction;
+    reduction.thorough = true;  // every keyframe less is one less to check
+    proposal.object.keyframes = reduceToKeyframes(track.boxes, camera, reduction);
     proposal.object.last_frame = track.boxes.back().frame;
     proposal.max_corner_px = reductionError(proposal.object, track.boxes, camera).corner_px;
     proposal.same_as = labelledAlready(track, labelled, camera, options.min_overlap_with_object);

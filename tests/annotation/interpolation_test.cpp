@@ -73,6 +73,48 @@ TEST(Interpolation, ACarThatStopsNeverRunsOnOrBack) {
     }
 }
 
+TEST(Interpolation, WhatStandsAfterItsLastKeyframeBrakesUntilThere) {
+    const auto braking = [](double t) {
+        const double s = std::min(t, 60.0);
+        return OrientedBox{{10 + 3 * s - 0.025 * s * s, 60}, 20, 9, 0};
+    };
+    std::vector<Keyframe> keyframes;
+    for (const int frame : {0, 60}) keyframes.push_back(keyframe(frame, seen(braking(frame), test::flyingView(frame))));
+    const auto car = object(1, keyframes, 100);
+    for (int frame = 0; frame <= 100; ++frame) {
+        EXPECT_LT(test::cornerDistance(boxAt(car, frame, flying).box, seen(braking(frame), test::flyingView(frame))),
+                  1e-6)
+            << frame;
+    }
+    // An end that was put a few frames later says nothing of the kind.
+    const auto driving = object(1, keyframes, 65);
+    const OrientedBox middle{(braking(0).centre + braking(60).centre) / 2, 20, 9, 0};
+    EXPECT_LT(test::cornerDistance(boxAt(driving, 30, flying).box, seen(middle, test::flyingView(30))), 1e-6);
+}
+
+TEST(Interpolation, ACarThatTurnsACornerAtOneSpeedNeedsFourKeyframes) {
+    // 60 px straight on, a quarter of a circle with radius 25 px, 60 px straight on; 1.5 px a frame.
+    const double arc = 25 * kPi / 2;
+    const auto turning = [&](double t) {
+        const double way = 1.5 * t;
+        const double angle = std::clamp((way - 60) / 25, 0.0, kPi / 2);
+        cv::Point2d at(std::min(way, 60.0) + 25 * std::sin(angle), 25 - 25 * std::cos(angle));
+        at.y += std::max(0.0, way - 60 - arc);
+        return OrientedBox{at, 20, 9, angle};
+    };
+    std::vector<Keyframe> keyframes;
+    for (const int frame : {0, 40, 66, 106}) {
+        keyframes.push_back(keyframe(frame, seen(turning(frame), test::flyingView(frame)), true));
+    }
+    const auto car = object(1, keyframes, 106);
+    for (int frame = 0; frame <= 106; ++frame) {
+        const OrientedBox box = boxAt(car, frame, flying).box;
+        const OrientedBox truth = seen(turning(frame), test::flyingView(frame));
+        EXPECT_LT(test::cornerDistance(box, truth), 0.8) << frame;
+        EXPECT_GT(overlap(box, truth), 0.9) << frame;
+    }
+}
+
 TEST(Interpolation, WithoutHomographiesItRunsInTheImageAndSaysSo) {
     const auto car = object(1, {keyframe(0, {{0, 0}, 20, 9, 0}), keyframe(10, {{100, 50}, 30, 12, 0})}, 15);
     const CameraMotion nothing;

@@ -47,6 +47,7 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
         nudge[i] = add(tr("Move the box %1 by %2").arg(names[i % 4], amounts[i / 4]),
                        {QKeySequence(QKeyCombination(steps[i / 4], arrows[i % 4]))}, true);
     loupe = addToggle(tr("Loupe beside the cursor"), {QKeySequence(Qt::Key_M)}, true);
+    stack_loupe = addToggle(tr("The object's image stack beside the loupe"), {QKeySequence(tr("Shift+M"))}, true);
 
     section(tr("Class"));
     for (std::size_t i = 0; i < object_class.size(); ++i)

@@ -22,6 +22,7 @@
 #include "session/label_chips.h"
 #include "session/label_classes.h"
 #include "session/label_scene.h"
+#include "session/label_stacks.h"
 #include "session/label_tracking.h"
 #include "view/label_timeline.h"
 #include "view/label_tool.h"
@@ -48,6 +49,7 @@ LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&aroun
     wireIdentity();
     wireFiles();
     wireChips();
+    wireStacks();
     around_.rows.hide();
 }
 
@@ -56,6 +58,7 @@ void LabelWorkspace::buildDocks() {
     objects_ = new ObjectsPanel(model_);
     inspector_ = new ObjectInspector;
     chips_ = new LabelChips(around_.session, *labels_, this);
+    stacks_ = new LabelStacks(around_.session, *labels_, this);
     grid_ = new ChipGrid;
     const auto dock = [this](const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
         auto* made = new QDockWidget(title, &around_.window);

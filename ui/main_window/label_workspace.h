@@ -19,6 +19,7 @@ namespace eyrie::ui {
 class ChipGrid;
 class LabelActions;
 class LabelChips;
+class LabelStacks;
 class LabelTimeline;
 class LabelTool;
 class LabelTracking;
@@ -75,10 +76,13 @@ class LabelWorkspace : public QObject {
     void wireTool();
     void wireEditActions();
     void wireGoActions();
+    void turnBy(double radians);
     void wireProposals();
     void wireIdentity();
     void wireFiles();
     void wireChips();
+    void wireStacks();
+    void showStack();
     void showChips();
     void showOverlays(bool label);
     void labelsChanged();
@@ -111,6 +115,7 @@ class LabelWorkspace : public QObject {
     ObjectsPanel* objects_;
     ObjectInspector* inspector_;
     LabelChips* chips_;
+    LabelStacks* stacks_;
     ChipGrid* grid_;
     QTimer chips_due_;
     bool chips_looked_at_ = false;

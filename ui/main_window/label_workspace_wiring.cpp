@@ -10,14 +10,11 @@
 #include "main_window/label_files.h"
 #include "main_window/label_rows.h"
 #include "main_window/label_workspace.h"
-#include "panels/chip_grid.h"
 #include "panels/message_bar.h"
 #include "panels/object_inspector.h"
 #include "panels/objects_panel.h"
-#include "session/label_chips.h"
 #include "session/label_classes.h"
 #include "session/label_tracking.h"
-#include "view/image_convert.h"
 #include "view/label_timeline.h"
 #include "view/label_tool.h"
 #include "view/video_view.h"
@@ -94,8 +91,8 @@ void LabelWorkspace::wireEditActions() {
     does(actions_->occluded, [this] { editor_->toggleOccluded(); });
     does(actions_->outside, [this] { editor_->toggleOutside(); });
     does(actions_->ignore, [this] { editor_->toggleIgnore(); });
-    does(actions_->turn_left, [this] { editor_->turn(-kDegree); });
-    does(actions_->turn_right, [this] { editor_->turn(kDegree); });
+    does(actions_->turn_left, [this] { turnBy(-kDegree); });
+    does(actions_->turn_right, [this] { turnBy(kDegree); });
     const double amounts[] = {1, 0.1, 5};
     const QPointF ways[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     for (std::size_t i = 0; i < actions_->nudge.size(); ++i)
@@ -104,6 +101,7 @@ void LabelWorkspace::wireEditActions() {
                 const ViewTransform& shown = around_.canvas.transform();
                 const QPointF moved = shown.imageVector(by) * shown.scale();  // as the picture lies on screen
                 editor_->nudge(moved.x(), moved.y());
+                tool_->showNudged();
             } else if (by.x() != 0) {  // without a box the arrows step, as in the other workspaces
                 around_.session.step((by.x() > 0 ? 1 : -1) * (std::abs(by.x()) > 1 ? 10 : 1));
             }
@@ -133,6 +131,11 @@ void LabelWorkspace::wireEditActions() {
         around_.session.goToFrame(later ? firstFrameOf(*candidate) : candidate->last_frame);
         labels_->setSelection({*main, other}, main);
     });
+}
+
+void LabelWorkspace::turnBy(double radians) {
+    editor_->turn(radians);
+    if (labels_->selected()) tool_->showNudged();
 }
 
 void LabelWorkspace::wireGoActions() {
@@ -314,49 +317,6 @@ void LabelWorkspace::wireFiles() {
         LabelExportDialog dialog(*labels_, &around_.window);
         dialog.exec();
     });
-}
-
-// ---- chips ----------------------------------------------------------------------------------------------------------
-
-void LabelWorkspace::wireChips() {
-    chips_due_.setSingleShot(true);
-    chips_due_.setInterval(250);  // not while keys are held
-    connect(&chips_due_, &QTimer::timeout, this, &LabelWorkspace::showChips);
-    connect(docks_[2], &QDockWidget::visibilityChanged, this, [this](bool visible) {
-        chips_looked_at_ = visible;
-        if (visible) chips_due_.start();
-    });
-    connect(chips_, &LabelChips::ready, this, [this](ObjectId id, const std::vector<LabelChip>& chips) {
-        if (labels_->selected() != id) return;
-        std::vector<ChipCard> cards;
-        for (const LabelChip& cut : chips) {
-            Chip chip;
-            chip.title = cut.keyframe ? tr("%1 ◆").arg(cut.frame) : QString::number(cut.frame);
-            chip.values = cut.gray;
-            chip.image = wrapImage(cut.gray);
-            const QPointF middle((cut.gray.cols - 1) / 2.0, (cut.gray.rows - 1) / 2.0);
-            const QPointF half(cut.box.width / 2, cut.box.height / 2);
-            chip.boxes.push_back(QRectF(middle - half, middle + half));
-            ChipCard card;
-            card.id = cut.frame;
-            card.chips.push_back(std::move(chip));
-            cards.push_back(std::move(card));
-        }
-        grid_->setCards(std::move(cards));
-        grid_->setMarkedCard(around_.session.currentFrame());
-    });
-    connect(grid_, &ChipGrid::cardClicked, &around_.session, &ProjectSession::goToFrame);
-    connect(&around_.session, &ProjectSession::frameChanged, grid_, &ChipGrid::setMarkedCard);
-}
-
-void LabelWorkspace::showChips() {
-    if (!active_ || !chips_looked_at_) return;
-    if (labels_->selected()) {
-        chips_->request(*labels_->selected());
-    } else {
-        chips_->cancel();
-        grid_->setCards({});
-    }
 }
 
 }  // namespace eyrie::ui

@@ -195,7 +195,10 @@ void LabelEditor::endHere() {
     }
     changed.last_frame = end;
     changed.origin = originAfterChange(changed.origin);
-    applyObject(named(tr("End %1 here")), std::move(changed));
+    const bool now_stands = standsAtItsEnd(changed) && !standsAtItsEnd(*object()) && changed.keyframes.size() > 1;
+    const FrameIndex from = changed.keyframes.back().frame;
+    if (applyObject(named(tr("End %1 here")), std::move(changed)) && now_stands)
+        emit labels_.notice(tr("It stands from frame %1 on and brakes until there.").arg(from));
 }
 
 // ---- flags, class, review -------------------------------------------------------------------------------------------
