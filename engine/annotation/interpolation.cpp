@@ -26,6 +26,23 @@ std::optional<OrientedBox> mapped(const OrientedBox& box, const Homography& targ
     return result;
 }
 
+/// Boxes along the image's axes are those of somebody (or some file) who does not turn boxes: drawn with any other
+/// heading they would not be to the last digit.
+bool isUpright(const Keyframe& keyframe) {
+    if (!keyframe.heading_set) return false;
+    const double quarters = keyframe.box.heading / (kPi / 2);
+    return std::abs(quarters - std::round(quarters)) < 1e-9;
+}
+
+/// Whether boxes between a keyframe and the next (after the last one: the one before) stay upright in the image,
+/// however the camera turns. One alone may just lie so.
+bool staysUpright(const std::vector<Keyframe>& keyframes, std::size_t here) {
+    if (keyframes.size() < 2) return false;
+    const Keyframe& a = keyframes[here];
+    const Keyframe& b = keyframes[here + 1 < keyframes.size() ? here + 1 : here - 1];
+    return isUpright(a) && isUpright(b) && std::abs(turnBetween(a.box.heading, b.box.heading)) < 1e-9;
+}
+
 /// Keyframes as knots in the image of a reference frame, over the ground or as they are.
 class KnotMaker {
  public:
@@ -40,7 +57,8 @@ class KnotMaker {
                     box->length,
                     box->width,
                     box->heading,
-                    keyframe.heading_set};
+                    keyframe.heading_set,
+                    isUpright(keyframe)};
     }
 
     bool onGround() const { return camera_ != nullptr; }
@@ -127,6 +145,7 @@ std::optional<PathBox> evaluate(const LabelledObject& object, std::size_t here, 
         if (!carried) return std::nullopt;
         result.box = *carried;
     }
+    if (staysUpright(keyframes, here)) result.box.heading = keyframes[here].box.heading;
     result.box.heading = wrapPi(result.box.heading);
     return result;
 }

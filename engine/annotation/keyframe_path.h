@@ -16,6 +16,7 @@ struct Knot {
     double width = 0;
     double heading = 0;
     bool heading_set = false;
+    bool upright = false;  ///< its heading is that of the image's axes and says nothing of where it drives
 };
 
 /// The path through a few neighbouring keyframes. A piece i runs from knot i to knot i + 1; `share` is how far along
@@ -46,16 +47,22 @@ class KeyframePath {
     cv::Point2d slope(std::size_t piece) const;
     /// Velocity at a knot: of the parabola through it and its neighbours.
     cv::Point2d tangent(std::size_t knot) const;
+    /// The same as a piece takes it that ends there.
+    cv::Point2d tangentIn(std::size_t piece, std::size_t knot) const;
     /// Turns of the chord to the headings at both ends of a piece that is driven along them.
     struct Turns {
         double leave = 0;
         double arrive = 0;
     };
     std::optional<Turns> turnsOf(std::size_t piece) const;
+    /// Whether both headings of a piece are set and mean where the vehicle heads.
+    bool headed(std::size_t piece) const;
     /// Speed on a piece: along the curve where it is driven along its headings.
     double speedOn(std::size_t piece) const;
-    /// Speed at a knot, from the speeds beside it.
-    double speedAt(std::size_t knot) const;
+    /// Speed at one end of a piece, from the speeds beside it.
+    double speedIn(std::size_t piece, std::size_t knot) const;
+    /// How much a piece learns from the one beyond the knot, 0 … 1.
+    double trust(std::size_t piece, std::size_t knot) const;
     /// The same for one piece: where both its headings are set, vehicles drive along them.
     cv::Point2d velocityAt(std::size_t piece, std::size_t knot) const;
     struct Drive {

@@ -115,6 +115,32 @@ TEST(Interpolation, ACarThatTurnsACornerAtOneSpeedNeedsFourKeyframes) {
     }
 }
 
+TEST(Interpolation, APixelBetweenNearKeyframesDoesNotBendTheLongWayAfterThem) {
+    // 2 px a frame; the second keyframe, four frames after the first, was set 1.5 px too far.
+    const auto car = object(
+        1, {keyframe(0, {{0, 30}, 20, 9, 0}), keyframe(4, {{9.5, 30}, 20, 9, 0}), keyframe(84, {{168, 30}, 20, 9, 0})},
+        84);
+    const auto camera = CameraMotion::standing(0, 84);
+    for (int frame = 0; frame <= 84; ++frame) EXPECT_NEAR(boxAt(car, frame, camera).box.centre.x, 2 * frame, 1.8);
+}
+
+TEST(Interpolation, UprightBoxesStayUprightAndDoNotSteer) {
+    const auto at = [](double t) { return OrientedBox{{50 + 2 * t, 100 + 1.2 * t}, 24, 14, 0}; };
+    std::vector<Keyframe> keyframes;
+    for (const int frame : {0, 50, 100}) {
+        OrientedBox box = at(frame);
+        box.centre = seen(box, test::flyingView(frame)).centre;
+        keyframes.push_back(keyframe(frame, box, true));
+    }
+    const auto car = object(1, keyframes, 100);
+    for (int frame = 0; frame <= 100; frame += 5) {
+        const OrientedBox box = boxAt(car, frame, flying).box;
+        const cv::Point2d truth = seen(at(frame), test::flyingView(frame)).centre;
+        EXPECT_LT(cv::norm(box.centre - truth), 1e-6) << frame;
+        EXPECT_NEAR(box.heading, 0, 1e-9) << frame;
+    }
+}
+
 TEST(Interpolation, WithoutHomographiesItRunsInTheImageAndSaysSo) {
     const auto car = object(1, {keyframe(0, {{0, 0}, 20, 9, 0}), keyframe(10, {{100, 50}, 30, 12, 0})}, 15);
     const CameraMotion nothing;
