@@ -113,6 +113,25 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QCOMPARE(object(*window, id).last_frame, 10);
     }
 
+    void aBoxIsDrawnAnewForTheSelectedObject() {
+        const auto window = labellingWindow(12);
+        QVERIFY(window);
+        const ObjectId id = draw(*window, {40, 60}, {58, 60});
+        go(*window, 8);
+        key(*window, Qt::Key_B, Qt::ControlModifier);
+        click(*window, 60, 80);
+        click(*window, 60, 104, Qt::ShiftModifier);
+        click(*window, 66, 92);
+        QCOMPARE(window->labelling().labels().annotations().objects.size(), std::size_t(1));
+        QCOMPARE(object(*window, id).last_frame, 8);
+        const Keyframe& drawn = object(*window, id).keyframes.back();
+        QVERIFY(drawn.heading_set);
+        QVERIFY(std::abs(drawn.box.heading - std::numbers::pi / 2) < 0.05);
+        QVERIFY(std::abs(drawn.box.length - 24) < 1 && std::abs(drawn.box.width - 12) < 1);
+        draw(*window, {140, 60}, {158, 60});  // and the next one is a new one again
+        QCOMPARE(window->labelling().labels().annotations().objects.size(), std::size_t(2));
+    }
+
     void theSizeOfOneBoxGoesToAllKeyframes() {
         const auto window = labellingWindow(12);
         QVERIFY(window);

@@ -25,6 +25,7 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     draw = addToggle(tr("&Draw: click rear, then front (Shift: then width)"), {QKeySequence(Qt::Key_B)}, false);
     draw->setIcon(QIcon::fromTheme(QStringLiteral("draw-rectangle")));
     draw->setIconText(tr("Draw"));
+    redraw = add(tr("Draw the box of the selected object anew in this frame"), {QKeySequence(tr("Ctrl+B"))});
     region = addToggle(tr("Draw an ignore region: corners, double click ends"), {QKeySequence(Qt::Key_Z)}, false);
     delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Shift+Z"))});
     keyframe = add(tr("Set a keyframe here"), {QKeySequence(Qt::Key_K)});

@@ -30,6 +30,13 @@ void LabelWorkspace::wireTool() {
     connect(tool_, &LabelTool::drawingChanged, actions_->draw, &QAction::setChecked);
     connect(tool_, &LabelTool::boxDrawn, this,
             [this](const OrientedBox& box, FrameIndex frame) { editor_->add(box, frame); });
+    connect(tool_, &LabelTool::boxRedrawn, this, [this](ObjectId id, FrameIndex frame, const OrientedBox& box) {
+        editor_->setBox(id, frame, box, true, tr("Draw box of %1 anew"));
+    });
+    connect(actions_->redraw, &QAction::triggered, this, [this] {
+        if (labels_->selected() && labels_->mayEdit()) tool_->startDrawing(labels_->selected());
+        around_.canvas.setFocus();
+    });
     connect(tool_, &LabelTool::boxChanged, this,
             [this](ObjectId id, FrameIndex frame, const OrientedBox& box, bool turned, bool resized) {
                 const QString what = turned    ? tr("Turn box of %1")

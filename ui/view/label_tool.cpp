@@ -70,8 +70,9 @@ void LabelTool::addRegionCorner(QPointF point) {
     emit repaintNeeded();
 }
 
-void LabelTool::startDrawing() {
+void LabelTool::startDrawing(std::optional<ObjectId> object) {
     cancel();
+    redrawn_ = object;
     drawing_ = true;
     emit drawingChanged(true);
     emit repaintNeeded();
@@ -81,6 +82,7 @@ bool LabelTool::cancel() {
     const bool something = drawing_ || handle_ || region_;
     const bool was_region = std::exchange(region_, std::nullopt).has_value();
     const bool was_drawing = std::exchange(drawing_, false);
+    redrawn_.reset();
     rear_.reset();
     front_.reset();
     handle_.reset();
@@ -98,8 +100,12 @@ double LabelTool::usualWidth(double length) const {
 
 void LabelTool::finishDrawing(const OrientedBox& box) {
     const FrameIndex frame = scene_.frame;
+    const std::optional<ObjectId> object = redrawn_;
     cancel();
-    emit boxDrawn(box, frame);
+    if (object)
+        emit boxRedrawn(*object, frame, box);
+    else
+        emit boxDrawn(box, frame);
 }
 
 void LabelTool::updateDraft(QPointF point) {
@@ -337,7 +343,7 @@ void LabelTool::paintLoupes(QPainter& painter, const CanvasPlace& place) const {
     } else {
         return;
     }
-    paintLoupe(painter, place.image, loupe, drawing_ ? nullptr : stackHere());
+    paintLoupe(painter, place.image, loupe, drawing_ && !redrawn_ ? nullptr : stackHere());
 }
 
 void LabelTool::setStack(std::optional<LoupeStack> stack) {

@@ -35,8 +35,8 @@ class LabelTool : public QObject, public CanvasTool {
     void showNudged();
 
     /// The next clicks draw an object: rear, front, and its width where no size is known or Shift is held. Dragging
-    /// draws an upright one.
-    void startDrawing();
+    /// draws an upright one. With an object its box is drawn anew.
+    void startDrawing(std::optional<ObjectId> object = std::nullopt);
     bool drawing() const { return drawing_; }
     /// The next clicks are the corners of an ignore region; a double click or the right button ends it.
     void startRegion();
@@ -63,6 +63,7 @@ class LabelTool : public QObject, public CanvasTool {
     void regionDrawingChanged(bool drawing);
     /// At least three corners, px of the frame.
     void regionDrawn(const std::vector<cv::Point2d>& polygon, eyrie::FrameIndex frame);
+    void boxRedrawn(eyrie::ObjectId object, eyrie::FrameIndex frame, const eyrie::OrientedBox& box);
     void boxDrawn(const eyrie::OrientedBox& box, eyrie::FrameIndex frame);
     /// `turned`: by its turning handle.
     void boxChanged(eyrie::ObjectId object, eyrie::FrameIndex frame, const eyrie::OrientedBox& box, bool turned,
@@ -87,6 +88,7 @@ class LabelTool : public QObject, public CanvasTool {
     std::optional<LoupeStack> stack_;
     QTimer nudged_;  ///< runs while the loupe stands beside a box that keys move
     bool drawing_ = false;
+    std::optional<ObjectId> redrawn_;  ///< whose box is drawn; nothing: a new object's
     std::optional<QPointF> rear_;
     std::optional<QPointF> front_;
     std::optional<QPointF> pressed_view_;  ///< while the button is down
