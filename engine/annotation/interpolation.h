@@ -79,6 +79,10 @@ LabelledObject withBox(LabelledObject object, FrameIndex frame, const OrientedBo
 /// The object with the length and width that `box` has in a frame, in all its keyframes; sizes follow the local scale
 /// of the camera's motion where the frames are connected. Centres, headings and flags stay.
 LabelledObject withSize(LabelledObject object, FrameIndex frame, const OrientedBox& box, const CameraMotion& camera);
+/// What a keyframe corrects, carried over to all other keyframes: the box it shows is compared with the one that the
+/// others would show there, and place (in the vehicle's own axes), size and heading of theirs change in the same way.
+/// As it is where the frame has no keyframe or no other is left.
+LabelledObject withCorrectionSpread(LabelledObject object, FrameIndex frame, const CameraMotion& camera);
 /// The object without its keyframe of that frame. Its last keyframe is never removed (the object is to be deleted
 /// then); `last_frame` stays.
 LabelledObject withoutKeyframe(LabelledObject object, FrameIndex frame);

@@ -305,6 +305,32 @@ TEST(Keyframes, TakeTheSizeOfOneOnTheGround) {
     EXPECT_EQ(car.keyframes[0].box.length, after.length) << "nothing is known of the camera";
 }
 
+TEST(Keyframes, TakeOverWhatOneOfThemCorrects) {
+    // A track that is 2 px behind its vehicle and a quarter too long, all the way; the vehicle turns.
+    const CameraMotion camera(test::stepsOf(test::flyingView, 100));
+    const auto truth = [](double t) {
+        const double angle = 0.01 * t;
+        return OrientedBox{{200 * std::sin(angle), 200 - 200 * std::cos(angle)}, 20, 9, angle};
+    };
+    std::vector<Keyframe> keyframes;
+    for (const int frame : {0, 30, 60, 90}) {
+        OrientedBox box = truth(frame);
+        box.centre = box.toImage({-2, 0});
+        box.length *= 1.25;
+        keyframes.push_back(keyframe(frame, seen(box, test::flyingView(frame)), true));
+    }
+    auto car = object(1, keyframes, 90);
+    car = withBox(std::move(car), 45, seen(truth(45), test::flyingView(45)), true);
+    const auto corrected = withCorrectionSpread(car, 45, camera);
+    ASSERT_EQ(corrected.keyframes.size(), 5U);
+    for (const Keyframe& entry : corrected.keyframes) {
+        EXPECT_LT(test::cornerDistance(entry.box, seen(truth(entry.frame), test::flyingView(entry.frame))), 1.0)
+            << entry.frame;
+    }
+    EXPECT_EQ(withCorrectionSpread(car, 46, camera).keyframes[0].box.length, car.keyframes[0].box.length)
+        << "there is no keyframe that corrects";
+}
+
 TEST(Interpolation, AllObjectsOfAFrame) {
     AnnotationSet set;
     set.objects[7] = object(7, {keyframe(0, {{1, 1}, 20, 9, 0})}, 5);

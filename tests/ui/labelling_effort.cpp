@@ -164,6 +164,26 @@ class Robot : public test::Labelling {
         }
     }
 
+    /// What a track is wrong in throughout is put right once, in the middle of its life; then its keyframes one by one.
+    void correctProposal(ObjectId id, const Truth& truth) {
+        if (worst(id, truth) >= kEnough) return;
+        const auto present = [&]() -> const LabelledObject& { return labels().annotations().objects.at(id); };
+        auto middle = truth.counted.lower_bound((firstFrameOf(present()) + present().last_frame) / 2);
+        if (middle == truth.counted.end() || middle->first > present().last_frame) middle = truth.counted.begin();
+        if (likeness(id, middle->first, middle->second) > 0) {
+            correct(id, middle->first, middle->second);
+            press(Qt::Key_K, Qt::ControlModifier);
+        }
+        std::vector<FrameIndex> frames;
+        for (const Keyframe& keyframe : present().keyframes) frames.push_back(keyframe.frame);
+        for (const FrameIndex frame : frames) {
+            const auto box = truth.counted.find(frame);
+            if (box == truth.counted.end() || worst(id, truth) >= kEnough) continue;
+            if (likeness(id, frame, box->second) < 0.8) correct(id, frame, box->second);
+        }
+        finish(id, truth);
+    }
+
     ObjectId drawFromNothing(const Truth& truth) {
         const auto& [frame, box] = *truth.counted.begin();
         jump(frame);
@@ -229,13 +249,13 @@ void print(const char* what, std::size_t vehicles, const Work& work, double keyf
         what, vehicles, work.clicks, work.keys, work.clicks / n, work.keys / n, keyframes / n, worst);
 }
 
-void fromNothing(Robot& robot, const std::map<int, Truth>& truth) {
+void fromNothing(Robot& robot, const std::map<int, Truth>& truth, std::size_t vehicles) {
     // The longest lives: the most work.
     std::vector<const Truth*> longest;
     for (const auto& [id, known] : truth) longest.push_back(&known);
     std::sort(longest.begin(), longest.end(),
               [](const Truth* a, const Truth* b) { return a->counted.size() > b->counted.size(); });
-    longest.resize(std::min<std::size_t>(3, longest.size()));
+    longest.resize(std::min(vehicles, longest.size()));
     robot.work = {};
     double keyframes = 0;
     double worst = 1;
@@ -292,7 +312,7 @@ void fromProposals(Robot& robot, const std::map<int, Truth>& truth) {
             id = robot.drawFromNothing(known);
             ++drawn;
         } else {
-            robot.finish(id, known);
+            robot.correctProposal(id, known);
         }
         untouched += robot.work.clicks == before.clicks && robot.work.keys == before.keys ? 1 : 0;
         if (id == 0) continue;
@@ -315,9 +335,12 @@ int main(int argc, char** argv) {
     QApplication application(argc, argv);
     const auto truth = readTruth(argv[2]);
     const bool upright = argc > 5 && std::string(argv[5]) == "upright";
-    for (const bool proposals : {false, true}) {
+    for (int way = 0; way < 3; ++way) {
         Robot robot(argv[1], std::stod(argv[3]), std::stod(argv[4]), upright);
         if (!robot.open()) return 1;
-        proposals ? fromProposals(robot, truth) : fromNothing(robot, truth);
+        if (way == 2)
+            fromProposals(robot, truth);
+        else
+            fromNothing(robot, truth, way == 0 ? 3 : truth.size());
     }
 }

@@ -30,6 +30,8 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Shift+Z"))});
     keyframe = add(tr("Set a keyframe here"), {QKeySequence(Qt::Key_K)});
     spread_size = add(tr("Give this size to all keyframes of the object"), {QKeySequence(tr("Shift+K"))});
+    spread_correction =
+        add(tr("Correct all keyframes of the object as this one was corrected"), {QKeySequence(tr("Ctrl+K"))});
     copy_on = add(tr("Copy the box to the next frame and go there"), {QKeySequence(Qt::Key_C)});
     copy_back = add(tr("Copy the box to the frame before and go there"), {QKeySequence(tr("Shift+C"))});
     delete_keyframe = add(tr("Delete this keyframe"), {QKeySequence(Qt::Key_Delete)});

@@ -243,15 +243,34 @@ void LabelWorkspace::enableActions() {
     actions_->undo->setToolTip(labels_->canUndo() ? tr("Undo: %1 (Ctrl+Z)").arg(labels_->undoName()) : tr("Undo"));
     actions_->redo->setToolTip(labels_->canRedo() ? tr("Redo: %1 (Ctrl+Shift+Z)").arg(labels_->redoName())
                                                   : tr("Redo"));
-    for (QAction* action : {actions_->keyframe,      actions_->redraw,        actions_->spread_size,
-                            actions_->copy_on,       actions_->copy_back,     actions_->delete_keyframe,
-                            actions_->delete_object, actions_->end_here,      actions_->occluded,
-                            actions_->outside,       actions_->ignore,        actions_->turn_left,
-                            actions_->turn_right,    actions_->checked,       actions_->questionable,
-                            actions_->unseen,        actions_->join,          actions_->fuse,
-                            actions_->split,         actions_->swap,          actions_->renumber,
-                            actions_->delete_before, actions_->delete_after,  actions_->track_on,
-                            actions_->track_back,    actions_->next_keyframe, actions_->previous_keyframe})
+    for (QAction* action : {actions_->keyframe,
+                            actions_->redraw,
+                            actions_->spread_size,
+                            actions_->spread_correction,
+                            actions_->copy_on,
+                            actions_->copy_back,
+                            actions_->delete_keyframe,
+                            actions_->delete_object,
+                            actions_->end_here,
+                            actions_->occluded,
+                            actions_->outside,
+                            actions_->ignore,
+                            actions_->turn_left,
+                            actions_->turn_right,
+                            actions_->checked,
+                            actions_->questionable,
+                            actions_->unseen,
+                            actions_->join,
+                            actions_->fuse,
+                            actions_->split,
+                            actions_->swap,
+                            actions_->renumber,
+                            actions_->delete_before,
+                            actions_->delete_after,
+                            actions_->track_on,
+                            actions_->track_back,
+                            actions_->next_keyframe,
+                            actions_->previous_keyframe})
         action->setEnabled(any);
     for (QAction* action : {actions_->accept, actions_->reject}) action->setEnabled(proposal);
     for (QAction* action : {actions_->accept_all, actions_->accept_range, actions_->next_proposal})

@@ -90,6 +90,7 @@ void LabelWorkspace::wireEditActions() {
     does(actions_->try_to_write, [this] { labels_->tryToWrite(); });
     does(actions_->keyframe, [this] { editor_->setKeyframe(); });
     does(actions_->spread_size, [this] { editor_->spreadSize(); });
+    does(actions_->spread_correction, [this] { editor_->spreadCorrection(); });
     does(actions_->copy_on, [this] { editor_->copyOn(1); });
     does(actions_->copy_back, [this] { editor_->copyOn(-1); });
     does(actions_->delete_keyframe, [this] { editor_->deleteKeyframe(); });

@@ -142,6 +142,16 @@ void LabelEditor::spreadSize() {
     applyObject(named(tr("Size of %1 in all keyframes")), withSize(*object(), frame(), *box, labels_.camera()));
 }
 
+void LabelEditor::spreadCorrection() {
+    if (!ready()) return;
+    if (keyframeAt(*object(), frame()) == nullptr || object()->keyframes.size() < 2) {
+        emit labels_.notice(tr("Correct the box here first: what changes goes to the other keyframes."));
+        return;
+    }
+    applyObject(named(tr("Correction of %1 in all keyframes")),
+                withCorrectionSpread(*object(), frame(), labels_.camera()));
+}
+
 void LabelEditor::setKeyframe() {
     const auto box = shownBox();
     if (!box || keyframeAt(*object(), frame()) != nullptr) return;

@@ -38,6 +38,8 @@ class LabelEditor : public QObject {
     void turn(double radians);
     /// The size of the box as it is shown goes to all keyframes: vehicles keep theirs.
     void spreadSize();
+    /// What the keyframe shown corrects goes to all others: taken over tracks are wrong in the same way throughout.
+    void spreadCorrection();
     /// A keyframe of the box as it is shown.
     void setKeyframe();
     /// The box becomes a keyframe of the next (or former) frame, carried on the ground, and that frame is shown.
