@@ -1,6 +1,6 @@
 // Not a test: how much work labelling is, for reports. A robot with an annotator's eyes and hands labels a clip with
-// known truth through the window, by mouse and keys, until every box overlaps the truth by 0.7 or more.
-//   ninja labelling_effort && bin/labelling_effort CLIP TRUTH.csv GSD RATE [upright]
+// known truth through the window, by mouse and keys, until every box overlaps the truth by as much as asked for.
+//   ninja labelling_effort && bin/labelling_effort CLIP TRUTH.csv GSD RATE OVERLAP [upright]
 #include <QApplication>
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace eyrie::ui {
 namespace {
 
-constexpr double kEnough = 0.7;
+double enough = 0.7;  ///< overlap with the truth that a box must have
 
 /// A vehicle as it is: all its boxes, and those that count.
 struct Truth {
@@ -126,18 +126,20 @@ class Robot : public test::Labelling {
         jump(frame);
         choose(id);
         const auto expected = LabelEditor::expectedBox(labels().annotations().objects.at(id), frame, labels().camera());
+        const double scale = window_->canvas().transform().scale();
         OrientedBox moved = expected.value_or(truth);
         moved.centre = truth.centre;
         if (upright_) moved.centre += moved.centre - moved.upright().centre;
         if (expected && likeness(*expected, truth) > 0.85) {
             press(Qt::Key_K);
-        } else if (expected && likeness(moved, truth) > 0.85 && cv::norm(expected->centre - truth.centre) > 2) {
+        } else if (expected && likeness(moved, truth) > 0.85 && cv::norm(expected->centre - truth.centre) * scale > 8) {
             drag(expected->centre, truth.centre);
         } else {
             press(Qt::Key_B, Qt::ControlModifier);
             drawBox(truth);
         }
-        if (likeness(id, frame, truth) < kEnough) {
+        if (likeness(id, frame, truth) < enough) {
+            choose(id);
             press(Qt::Key_B, Qt::ControlModifier);
             drawBox(truth);
         }
@@ -147,7 +149,7 @@ class Robot : public test::Labelling {
     void finish(ObjectId id, const Truth& truth) {
         for (int round = 0; round < 60; ++round) {
             FrameIndex worst = -1;
-            double least = kEnough;
+            double least = enough;
             for (const auto& [frame, box] : truth.counted) {
                 const double like = likeness(id, frame, box);
                 if (like < least) {
@@ -166,7 +168,7 @@ class Robot : public test::Labelling {
 
     /// What a track is wrong in throughout is put right once, in the middle of its life; then its keyframes one by one.
     void correctProposal(ObjectId id, const Truth& truth) {
-        if (worst(id, truth) >= kEnough) return;
+        if (worst(id, truth) >= enough) return;
         const auto present = [&]() -> const LabelledObject& { return labels().annotations().objects.at(id); };
         auto middle = truth.counted.lower_bound((firstFrameOf(present()) + present().last_frame) / 2);
         if (middle == truth.counted.end() || middle->first > present().last_frame) middle = truth.counted.begin();
@@ -178,7 +180,7 @@ class Robot : public test::Labelling {
         for (const Keyframe& keyframe : present().keyframes) frames.push_back(keyframe.frame);
         for (const FrameIndex frame : frames) {
             const auto box = truth.counted.find(frame);
-            if (box == truth.counted.end() || worst(id, truth) >= kEnough) continue;
+            if (box == truth.counted.end() || worst(id, truth) >= enough) continue;
             if (likeness(id, frame, box->second) < 0.8) correct(id, frame, box->second);
         }
         finish(id, truth);
@@ -330,11 +332,12 @@ void fromProposals(Robot& robot, const std::map<int, Truth>& truth) {
 
 int main(int argc, char** argv) {
     using namespace eyrie::ui;
-    if (argc < 5) return 2;
+    if (argc < 6) return 2;
+    enough = std::stod(argv[5]);
     qputenv("QT_QPA_PLATFORM", "offscreen");
     QApplication application(argc, argv);
     const auto truth = readTruth(argv[2]);
-    const bool upright = argc > 5 && std::string(argv[5]) == "upright";
+    const bool upright = argc > 6 && std::string(argv[6]) == "upright";
     for (int way = 0; way < 3; ++way) {
         Robot robot(argv[1], std::stod(argv[3]), std::stod(argv[4]), upright);
         if (!robot.open()) return 1;
