@@ -200,6 +200,65 @@ class SweepPanelTest : public QObject {
         QCOMPARE(pointsOf(panel), std::size_t(481));
     }
 
+    void severalRunsAreSweptOverTogether() {
+        const auto window = windowWithRun(24);
+        QVERIFY(window);
+        QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
+        window->session().settings().options.tracking.min_overlap = 0.4;
+        window->session().startRun();
+        QVERIFY(finished.wait(kPatience_ms));
+        QVERIFY(runIsRead(*window));
+        QCOMPARE(window->session().currentRun(), 2);
+        SweepPanel& panel = window->docks().sweeps();
+        QAction* other = nullptr;
+        for (QAction* action : panel.form().findChildren<QAction*>())
+            if (action->text().startsWith(QStringLiteral("Run 1"))) other = action;
+        QVERIFY(other != nullptr && other->isEnabled());
+        other->trigger();
+        QVERIFY(other->isChecked());
+        panel.form().setAxis(0, QStringLiteral("gradient.quantile"), QStringLiteral("0.1,0.2"));
+        QCOMPARE(panel.form().request().other_runs, std::vector<int>{1});
+        SweepRequest both = request({"gradient.quantile=0.1,0.2"});
+        both.other_runs = {1};
+        QSignalSpy failed(&panel.sweeps(), &SweepSession::failed);
+        panel.sweeps().start(both);
+        QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
+        QVERIFY2(failed.isEmpty(), qPrintable(failed.isEmpty() ? QString() : failed.first().first().toString()));
+        const SweepTable& table = *panel.sweeps().table();
+        QCOMPARE(table.plan.clips.size(), std::size_t(2));
+        QCOMPARE(table.plan.clips[0].run, 2);
+        QCOMPARE(table.plan.clips[1].run, 1);
+        QCOMPARE(table.points.size(), std::size_t(2));
+        panel.sweeps().resume(table.id);  // nothing is left to do
+        QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
+        QVERIFY(failed.isEmpty());
+    }
+
+    void oneOfTwoWindowsWorksOnASweep() {
+        const auto window = windowWithRun(40);
+        QVERIFY(window);
+        SweepSession& first = window->docks().sweeps().sweeps();
+        first.start(request({"gradient.quantile=0.02:0.002:0.98"}));
+        QVERIFY(waitFor([&] { return pointsOf(window->docks().sweeps()) > 2; }));
+        MainWindow other;
+        other.session().open(window->session().project());
+        QVERIFY(runIsRead(other));
+        SweepSession& second = other.docks().sweeps().sweeps();
+        QVERIFY(waitFor([&] { return second.table() != nullptr; }));
+        QSignalSpy failed(&second, &SweepSession::failed);
+        second.resume(second.table()->id);
+        QVERIFY(waitFor([&] { return !failed.isEmpty(); }));
+        QVERIFY2(failed.first().first().toString().contains(QStringLiteral("is being worked on by process")),
+                 qPrintable(failed.first().first().toString()));
+        QVERIFY(first.running());
+        first.cancel();
+        QVERIFY(waitFor([&] { return !first.running(); }));
+        QSignalSpy progressed(&second, &SweepSession::progressed);
+        second.resume(second.table()->id);
+        QVERIFY(waitFor([&] { return progressed.size() > 3; }));
+        QCOMPARE(failed.size(), 1);
+    }
+
     void saysWhatIsMissing() {
         const auto window = windowWithRun(24);
         QVERIFY(window);

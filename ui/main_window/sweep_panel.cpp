@@ -1,6 +1,7 @@
 #include "main_window/sweep_panel.h"
 
 #include <QComboBox>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLocale>
 #include <QMessageBox>
@@ -239,6 +240,14 @@ void SweepPanel::showRun() {
     if (known) options = storedOptions(session_.runData()->parameters);
     form_->setParameters(listParameters(describeOf(options)));
     form_->setRun(known ? tr("run %1").arg(*session_.currentRun()) : QString());
+    std::vector<std::pair<int, QString>> runs;
+    for (const RunRecord& run : session_.runs()) {
+        if (run.frames_done == 0) continue;
+        const QString name = QString::fromStdString(run.name.empty() ? run.preset : run.name);
+        const QString video = QFileInfo(QString::fromStdString(run.sequence.path)).fileName();
+        runs.emplace_back(run.id, tr("Run %1 · %2 · %3").arg(run.id).arg(name, video));
+    }
+    form_->setRuns(runs, session_.currentRun());
 }
 
 void SweepPanel::showList() {

@@ -10,6 +10,7 @@
 #include "detection/model_location.h"
 #include "exchange/project_labels.h"
 #include "learning/background_mining.h"
+#include "learning/labelled_frames.h"
 #include "session/media.h"
 #include "session/queued_call.h"
 #include "store/annotation_store.h"
@@ -18,9 +19,6 @@ namespace eyrie::ui {
 
 namespace {
 
-/// What a frame without vehicles is searched for.
-const OrientedBox kTypicalVehicle{{0, 0}, 21.5, 10, 0};
-constexpr int kOthersPerVehicle = 4;
 constexpr double kHeldOut = 0.25;        ///< share of the vehicles that whole held-out sequences have at least
 constexpr double kHeldOutEnd = 1 / 3.0;  ///< of a single sequence
 constexpr auto kProgressInterval = std::chrono::milliseconds(80);
@@ -40,23 +38,15 @@ LabelledSequence readSequence(const SequenceRecord& record, const LabelBoxes& bo
     const Media media = mediaOfIdentity(record.path);
     sequence.name = media.name;
     const auto source = media.open({}, stop);
-    int position = 0;
-    for (const auto& [frame, labels] : boxes) {
-        if (stop.stop_requested()) break;
-        if (position++ % every != 0 || frame < 0 || frame >= source->info().frame_count) continue;
-        LabelledImage image;
-        image.gray = source->read(frame, false).gray;
-        image.source = image.group = sequence.name;
-        for (const LabelBox& label : labels) {
-            const bool vehicle = isVehicleClass(label.object_class) && !label.ignore &&
-                                 label.occlusion == Occlusion::none && label.box.area() > 0;
-            (vehicle ? image.vehicles : image.unclear).push_back(label.box);
-        }
-        sequence.vehicles += static_cast<int>(image.vehicles.size());
-        sequence.images.push_back(std::move(image));
-        say(QObject::tr("Reading %1").arg(QString::fromStdString(sequence.name)),
-            static_cast<double>(position) / static_cast<double>(boxes.size()));
-    }
+    TrainingBoxes training;
+    for (const auto& [frame, labels] : boxes)
+        for (const LabelBox& label : labels)
+            training[frame].push_back(trainingBoxOf(label, label.occlusion != Occlusion::none));
+    sequence.images = labelledImagesOf(
+        training, sequence.name, source->info().frame_count, every,
+        [&](FrameIndex frame) { return source->read(frame, false).gray; }, stop,
+        [&](double share) { say(QObject::tr("Reading %1").arg(QString::fromStdString(sequence.name)), share); });
+    for (const LabelledImage& image : sequence.images) sequence.vehicles += static_cast<int>(image.vehicles.size());
     return sequence;
 }
 
@@ -75,16 +65,6 @@ std::vector<LabelledSequence> readProjects(const TrainingWish& wish, const Say& 
         }
     }
     return all;
-}
-
-SampleSet samplesOf(const std::vector<LabelledImage>& images, std::uint64_t seed) {
-    SampleSet samples;
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        const int others = kOthersPerVehicle * std::max<int>(1, static_cast<int>(images[i].vehicles.size()));
-        SampleSet cut = samplesFromImage(images[i], others, kTypicalVehicle, seed + i);
-        std::move(cut.begin(), cut.end(), std::back_inserter(samples));
-    }
-    return samples;
 }
 
 RocCurve rocOf(const VehicleModel& model, const SampleSet& samples) {
@@ -165,8 +145,8 @@ void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) 
         auto report = std::make_shared<TrainingReport>();
         report->held_out = holdOut(std::move(sequences), train, test);
         const auto seed = static_cast<std::uint64_t>(wish.options.seed);
-        const SampleSet samples = samplesOf(train, seed);
-        const SampleSet held_out = samplesOf(test, seed + 100'000);
+        const SampleSet samples = samplesFromImages(train, seed);
+        const SampleSet held_out = samplesFromImages(test, seed + 100'000);
         report->samples = countsOf(samples);
         report->held_out += QStringLiteral(" – ") + countsOf(held_out);
         TrainingRecord record;
@@ -176,7 +156,7 @@ void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) 
         watch.progress = [&](const TrainingProgress& step) { say(QString::fromStdString(step.phase), step.share); };
         std::uint64_t round = 0;
         const auto more = [&](const VehicleModel& model, int wanted) {
-            return mineBackground(model, train, kTypicalVehicle, wanted, seed + 1000 * ++round, watch);
+            return mineBackground(model, train, typicalVehicle(), wanted, seed + 1000 * ++round, watch);
         };
         const auto model = trainModel(samples, wish.options, record, watch, more);
         if (!model || stop.stop_requested()) return end([this] { emit stopped(); });
