@@ -188,6 +188,12 @@ TEST_F(Sweep, RefusesBadInputBeforeItBegins) {
     refused({"--parameter", "detection.method=sliding_window", "--set", "sliding_window.model=" + in("truth.csv"),
              "--out", out},
             3, "truth.csv");
+    refused({"--parameter", "gradient.quantile=0.1", "--set", "detection.method=sliding_window", "--set",
+             "sliding_window.descriptor=dct", "--out", out},
+            2, "was trained for the descriptor chnftrs, but sliding_window.descriptor asks for dct");
+    refused({"--parameter", "sliding_window.descriptor=chnftrs,nothing", "--set", "detection.method=sliding_window",
+             "--out", out},
+            2, "nothing");
     const auto late = cli({"sweep", "--sequence", in("clip"), "--ground-truth", in("late.csv"), "--gsd", "0.2",
                            "--parameter", "gradient.quantile=0.1", "--out", out, "--quiet"});
     EXPECT_EQ(late.exit_code, 3);

@@ -1,5 +1,7 @@
 #include "main_window/sweep_panel.h"
 
+#include <sys/resource.h>
+
 #include <QAbstractButton>
 #include <QApplication>
 #include <QClipboard>
@@ -9,6 +11,7 @@
 #include <QTest>
 #include <QTimer>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 
 #include "main_window/main_window.h"
@@ -257,6 +260,53 @@ class SweepPanelTest : public QObject {
         second.resume(second.table()->id);
         QVERIFY(waitFor([&] { return progressed.size() > 3; }));
         QCOMPARE(failed.size(), 1);
+    }
+
+    void aFullDiskKeepsWhatIsDone() {
+        const auto window = windowWithRun(30);
+        QVERIFY(window);
+        SweepPanel& panel = window->docks().sweeps();
+        SweepSession& sweeps = panel.sweeps();
+        QSignalSpy failed(&sweeps, &SweepSession::failed);
+        signal(SIGXFSZ, SIG_IGN);
+        rlimit before{};
+        getrlimit(RLIMIT_FSIZE, &before);
+        rlimit small = before;
+        small.rlim_cur = 300'000;  // no file grows beyond that
+        setrlimit(RLIMIT_FSIZE, &small);
+        sweeps.start(request({"gradient.quantile=0.02:0.002:0.98"}));
+        const bool ended = waitFor([&] { return !sweeps.running(); });
+        setrlimit(RLIMIT_FSIZE, &before);
+        QVERIFY(ended);
+        QCOMPARE(failed.size(), 1);
+        const QString text = failed.first().first().toString();
+        QVERIFY2(text.contains(QStringLiteral("storing point")), qPrintable(text));
+        const std::size_t kept = pointsOf(panel);
+        QVERIFY(kept > 0 && kept < 481);
+        QSignalSpy finished(&sweeps, &SweepSession::finished);
+        sweeps.resume(sweeps.table()->id);
+        QVERIFY(waitFor([&] { return !sweeps.running(); }));
+        QVERIFY(finished.size() == 1 && finished.first().first().toBool());
+        QCOMPARE(pointsOf(panel), std::size_t(481));
+    }
+
+    void aModelOfAnotherDescriptorAndATruthOfOtherFramesAreNamed() {
+        const auto window = windowWithRun(24);
+        QVERIFY(window);
+        SweepSession& sweeps = window->docks().sweeps().sweeps();
+        QSignalSpy failed(&sweeps, &SweepSession::failed);
+        sweeps.start(request({"sliding_window.descriptor=chnftrs,dct"}));
+        QVERIFY(waitFor([&] { return !sweeps.running(); }));
+        QVERIFY(failed.isEmpty());  // the run's detector needs no model
+        sweeps.start(request({"detection.method=sliding_window", "sliding_window.descriptor=dct"}));
+        QVERIFY(waitFor([&] { return !failed.isEmpty(); }));
+        const QString text = failed.first().first().toString();
+        QVERIFY2(text.contains(QStringLiteral("chnftrs")) && text.contains(QStringLiteral("dct")), qPrintable(text));
+        failed.clear();
+        std::ofstream(truth_) << "frame,id,x,y,length,width,heading,class,ignore\n900,1,20,20,22,11,0,car,0\n";
+        sweeps.start(request({"gradient.quantile=0.1,0.2"}));
+        QVERIFY(waitFor([&] { return !failed.isEmpty(); }));
+        QVERIFY(failed.first().first().toString().contains(QStringLiteral("only in frames 900 to 900")));
     }
 
     void saysWhatIsMissing() {
