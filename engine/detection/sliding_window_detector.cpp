@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "core/error.h"
 #include "detection/component_boxes.h"
 #include "detection/model_location.h"
 #include "detection/motion_cluster_detector.h"

@@ -369,6 +369,14 @@ class TuningTest : public QObject {
         QVERIFY(dialog.message().contains(QStringLiteral("last third")));
         QCOMPARE(dialog.chart().data().series.size(), std::size_t{2});
         QVERIFY(std::filesystem::exists(file.toStdString()));
+        // A model of another descriptor is not overwritten by mistake.
+        dialog.setKinds(DescriptorKind::hog, ClassifierKind::random_naive_bayes);
+        QSignalSpy asked(&dialog.training(), &LabelTraining::replacementNeeded);
+        dialog.start();
+        QVERIFY(asked.wait(kPatience_ms));
+        QVERIFY2(dialog.message().contains(QStringLiteral("a model of dct")) &&
+                     dialog.message().contains(QStringLiteral("by one of hog")),
+                 qPrintable(dialog.message()));
         dialog.start();
         dialog.training().cancel();
         QSignalSpy stopped(&dialog.training(), &LabelTraining::stopped);

@@ -92,6 +92,11 @@ TrainingDialog::TrainingDialog(const std::filesystem::path& project, QWidget* pa
         message_->setText(text);
         enable();
     });
+    connect(&training_, &LabelTraining::replacementNeeded, this, [this](const QString& text) {
+        replaced_ = file_->text().toStdString();
+        message_->setText(text);
+        enable();
+    });
     connect(&training_, &LabelTraining::stopped, this, [this] {
         message_->setText(tr("Cancelled; no model was written."));
         enable();
@@ -188,6 +193,7 @@ void TrainingDialog::start() {
     wish.options.classifier = static_cast<ClassifierKind>(classifier_->currentData().toInt());
     wish.every = every_->value();
     wish.file = file_->text().toStdString();
+    wish.replace = wish.file == replaced_;
     report_.reset();
     progress_->setValue(0);
     training_.start(wish);

@@ -80,6 +80,29 @@ QString countsOf(const SampleSet& samples) {
     return QObject::tr("%1 vehicles, %2 others").arg(countOf(samples, true)).arg(countOf(samples, false));
 }
 
+/// Which model of another kind the wish would overwrite, for people; empty when none.
+QString whatIsReplaced(const TrainingWish& wish) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(wish.file, ignored)) return {};
+    try {
+        const VehicleModel old = loadModel(wish.file);
+        const DescriptorKind descriptor = old.descriptor->kind();
+        const ClassifierKind classifier = old.classifier->kind();
+        if (descriptor == wish.options.descriptor && classifier == wish.options.classifier) return {};
+        return QObject::tr(
+                   "%1 is a model of %2 + %3 and would be replaced by one of %4 + %5. Name another file, or press "
+                   "Train again to replace it.")
+            .arg(QString::fromStdString(wish.file.string()), QString::fromUtf8(nameOf(descriptor)),
+                 QString::fromUtf8(nameOf(classifier)), QString::fromUtf8(nameOf(wish.options.descriptor)),
+                 QString::fromUtf8(nameOf(wish.options.classifier)));
+    } catch (const Error&) {
+        return QObject::tr(
+                   "%1 is no model of Eyrie and would be replaced by one. Name another file, or press Train "
+                   "again to replace it.")
+            .arg(QString::fromStdString(wish.file.string()));
+    }
+}
+
 /// Divides sequences, or the only one, into what is trained on and what is tested on.
 QString holdOut(std::vector<LabelledSequence> all, std::vector<LabelledImage>& train,
                 std::vector<LabelledImage>& test) {
@@ -135,6 +158,8 @@ void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) 
         queuedCall(this, [this, phase, share] { emit progress(phase, share); });
     };
     try {
+        const QString replaced = wish.replace ? QString() : whatIsReplaced(wish);
+        if (!replaced.isEmpty()) return end([this, replaced] { emit replacementNeeded(replaced); });
         auto sequences = readProjects(wish, say, stop);
         if (stop.stop_requested()) return end([this] { emit stopped(); });
         if (sequences.empty())

@@ -18,6 +18,7 @@ struct TrainingWish {
     TrainingOptions options;
     int every = 10;              ///< use every n-th labelled frame
     std::filesystem::path file;  ///< the model to be written
+    bool replace = false;        ///< even where it is now a model of another descriptor or classifier
 };
 
 /// How a training ended.
@@ -47,6 +48,8 @@ class LabelTraining : public QObject {
     void progress(const QString& phase, double share);
     void finished(const std::shared_ptr<const TrainingReport>& report);
     void failed(const QString& message);
+    /// The file is a model of another kind; begun only when start() is called again with `replace`.
+    void replacementNeeded(const QString& message);
     void stopped();
 
  private:
