@@ -18,16 +18,19 @@ std::vector<LabelledImage> labelledImagesOf(const TrainingBoxes& boxes, const st
                                             int step, const std::function<cv::Mat(FrameIndex)>& gray,
                                             const std::stop_token& stop, const std::function<void(double)>& progress) {
     std::vector<LabelledImage> images;
-    int position = 0;
+    double position = 0;
+    FrameIndex next = 0;
     for (const auto& [frame, labelled] : boxes) {
         if (stop.stop_requested()) break;
-        if (position++ % step != 0 || frame < 0 || frame >= frame_count) continue;
+        ++position;
+        if (frame < next || frame >= frame_count) continue;
+        next = frame + step;
         LabelledImage image;
         image.gray = gray(frame);
         image.source = image.group = name;
         for (const TrainingBox& one : labelled) (one.clear ? image.vehicles : image.unclear).push_back(one.box);
         images.push_back(std::move(image));
-        if (progress) progress(static_cast<double>(position) / static_cast<double>(boxes.size()));
+        if (progress) progress(position / static_cast<double>(boxes.size()));
     }
     return images;
 }

@@ -21,8 +21,8 @@ using TrainingBoxes = std::map<FrameIndex, std::vector<TrainingBox>>;
 /// What training makes of a record: clear are vehicles that are not to be ignored. Hidden ones are told by `hidden`.
 TrainingBox trainingBoxOf(const BoxRecord& record, bool hidden = false);
 
-/// Frames of one video, as labelled images of one group. Of those that are labelled every `step`-th is taken, as nobody
-/// says of the others that there is nothing; those outside 0 … frame_count − 1 are left out. `gray` reads a frame;
+/// Frames of one video, as labelled images of one group: labelled ones that lie at least `step` apart, as nobody says
+/// of the others that there is nothing; those outside 0 … frame_count − 1 are left out. `gray` reads a frame;
 /// `progress`, if given, is told the share done. Ends early when stopped.
 std::vector<LabelledImage> labelledImagesOf(const TrainingBoxes& boxes, const std::string& name, int frame_count,
                                             int step, const std::function<cv::Mat(FrameIndex)>& gray,

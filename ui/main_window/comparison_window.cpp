@@ -36,6 +36,8 @@ QTableWidget* table(const QStringList& columns) {
     made->setShowGrid(false);
     made->setWordWrap(false);
     made->horizontalHeader()->setStretchLastSection(true);
+    made->horizontalHeader()->setHighlightSections(false);
+    made->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     return made;
 }
 
@@ -177,6 +179,7 @@ void ComparisonWindow::usePair() {
         return;
     }
     playback_.setTimes(session_.timesUs());
+    playback_.setLooping(pair_->computes());  // as playOn() does within the frames that are computed
     {
         const QSignalBlocker quiet(slider_);
         slider_->setRange(pair_->computes() ? pair_->range.first : 0,
@@ -244,6 +247,8 @@ void ComparisonWindow::showComparison() {
     differences_->setSortingEnabled(false);
     differences_->setRowCount(0);
     parameters_->setRowCount(0);
+    tabs_->setTabText(0, tr("Differences"));
+    tabs_->setTabText(1, tr("Parameters"));
     if (!problem_.isEmpty()) {
         header_->setSummary(problem_);
         return;

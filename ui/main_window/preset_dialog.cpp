@@ -29,6 +29,8 @@ QTableWidget* table(const QStringList& columns) {
     made->setAlternatingRowColors(true);
     made->setShowGrid(false);
     made->horizontalHeader()->setStretchLastSection(true);
+    made->horizontalHeader()->setHighlightSections(false);
+    made->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     return made;
 }
 

@@ -208,7 +208,8 @@ void SweepPanel::fillMeasures() {
 void SweepPanel::fillOverlaps() {
     const SweepPlan& plan = sweeps_.table()->plan;
     overlap_->clear();
-    if (plan.overlaps.size() > 1) overlap_->addItem(tr("mean over T_ov"));
+    if (plan.overlaps.size() > 1) overlap_->addItem(tr("mean"));
+    overlap_->setToolTip(tr("The overlap T_ov of the measure that is judged, or the mean over all"));
     for (const double overlap : plan.overlaps)
         overlap_->addItem(tr("T_ov %1").arg(QString::fromStdString(shortestText(overlap))), overlap);
 }

@@ -126,8 +126,10 @@ QWidget* TrainingDialog::buildSettings() {
     every_ = new QSpinBox;
     every_->setRange(1, 1000);
     every_->setValue(TrainingWish().every);
+    every_->setSpecialValueText(tr("all labelled frames"));
+    every_->setToolTip(tr("Labelled frames that lie at least this far apart; neighbours look alike"));
     every_->setPrefix(tr("every "));
-    every_->setSuffix(tr(". labelled frame"));
+    every_->setSuffix(tr(" frames"));
     file_ = new QLineEdit;
     auto* browse = new QPushButton(tr("…"));
     browse->setMaximumWidth(36);

@@ -125,7 +125,7 @@ void Tuning::showPreview() {
 void Tuning::markStale(bool stale) {
     const QString mark = tr(" (stored)");
     const QWidget* form = &parts_.docks.parameterForm();
-    for (QDockWidget* dock : parts_.docks.docks()) {
+    for (QDockWidget* dock : parts_.window.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
         if (dock->widget() == form || dock->objectName() == QLatin1String("runs")) continue;
         QString title = dock->windowTitle();
         if (title.endsWith(mark)) title.chop(mark.size());

@@ -16,7 +16,7 @@ namespace eyrie::ui {
 struct TrainingWish {
     std::vector<std::filesystem::path> projects;  ///< whose labels are used
     TrainingOptions options;
-    int every = 10;              ///< use every n-th labelled frame
+    int every = 10;              ///< frames from one that is used to the next
     std::filesystem::path file;  ///< the model to be written
     bool replace = false;        ///< even where it is now a model of another descriptor or classifier
 };
