@@ -100,6 +100,7 @@ void importLabels(const Arguments& arguments) {
     std::printf("%d objects with %d keyframes for %d boxes, and %d ignore regions, added to %s\n", done.objects,
                 done.keyframes, done.boxes, done.regions, arguments.project.c_str());
     printNotes(done.notes);
+    if (done.doubles > 0) std::printf("  note        --add-doubles adds them all the same\n");
 }
 
 }  // namespace

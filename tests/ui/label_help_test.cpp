@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "panels/chip_grid.h"
+#include "panels/message_bar.h"
 #include "ui/labelling.h"
 
 namespace eyrie::ui {
@@ -22,7 +23,13 @@ class LabelHelpTest : public QObject, test::Labelling {
         go(*window, 15);
         key(*window, Qt::Key_T);
         go(*window, 8);
-        key(*window, Qt::Key_Y);  // split
+        key(*window, Qt::Key_Y);  // split: shown first
+        QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
+        QVERIFY(window->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("frames 0 to 7")));
+        key(*window, Qt::Key_Escape);
+        QCOMPARE(labels.selected(), std::optional<ObjectId>(id));
+        key(*window, Qt::Key_Y);
+        key(*window, Qt::Key_Y);
         QCOMPARE(labels.annotations().objects.size(), std::size_t(2));
         QCOMPARE(object(*window, id).last_frame, 7);
         const ObjectId later = labels.selected().value_or(0);
@@ -30,6 +37,7 @@ class LabelHelpTest : public QObject, test::Labelling {
         QCOMPARE(object(*window, later).last_frame, 15);
         labels.setSelection({id, later}, id);
         key(*window, Qt::Key_J);  // and join again
+        key(*window, Qt::Key_J);
         QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
         QCOMPARE(object(*window, id).last_frame, 15);
         go(*window, 5);

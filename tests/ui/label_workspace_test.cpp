@@ -191,6 +191,26 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QCOMPARE(labels.selected(), std::optional<ObjectId>(id));
     }
 
+    void flagsGoOverARangeAndClassesOfOnesOwnAreTyped() {
+        const auto window = labellingWindow(20);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        const ObjectId id = draw(*window, {40, 60}, {58, 60});
+        go(*window, 19);
+        key(*window, Qt::Key_T);
+        const ObjectId other = draw(*window, {140, 60}, {158, 60});
+        go(*window, 8);
+        labels.setSelection({id, other}, id);
+        key(*window, Qt::Key_O);  // from frame 8 on
+        window->session().settings().range = {3, 9};
+        key(*window, Qt::Key_O, Qt::ShiftModifier);
+        QCOMPARE(boxAt(object(*window, id), 5, labels.camera()).occlusion, Occlusion::partly);
+        QCOMPARE(boxAt(object(*window, id), 2, labels.camera()).occlusion, Occlusion::none);
+        emit window->labelling().inspector().classChosen(QStringLiteral("tram"));
+        QCOMPARE(object(*window, id).object_class, std::string("tram"));
+        QCOMPARE(object(*window, other).object_class, std::string("tram"));
+    }
+
     void ignoreRegionsAreDrawnAndDeleted() {
         const auto window = labellingWindow(6);
         QVERIFY(window);
@@ -204,6 +224,16 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QCOMPARE(labels.annotations().regions.begin()->second.last_frame, 5);
         QCOMPARE(window->labelling().tool().scene().regions.size(), std::size_t(1));
         QTest::mouseMove(&window->canvas(), at(*window, 100, 40));
+        const auto region = [&]() -> const IgnoreRegion& { return labels.annotations().regions.begin()->second; };
+        const RegionAnchor anchor = region().anchor;
+        key(*window, Qt::Key_Z, Qt::AltModifier);
+        QVERIFY(region().anchor != anchor);
+        go(*window, 2);
+        key(*window, Qt::Key_BracketLeft, Qt::ControlModifier);
+        QCOMPARE(region().first_frame, 2);
+        go(*window, 4);
+        key(*window, Qt::Key_BracketRight, Qt::ControlModifier);
+        QCOMPARE(region().last_frame, 4);
         key(*window, Qt::Key_Z, Qt::ShiftModifier);
         QVERIFY(labels.annotations().regions.empty());
         key(*window, Qt::Key_Z, Qt::ControlModifier);

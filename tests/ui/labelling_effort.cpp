@@ -233,6 +233,7 @@ class Robot : public test::Labelling {
         choose(first);
         labels().toggle(second);
         ++work.clicks;
+        press(Qt::Key_J);  // shows what it will do
         press(Qt::Key_J);
     }
 

@@ -47,6 +47,7 @@ LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&aroun
     wireGoActions();
     wireProposals();
     wireIdentity();
+    wireRanges();
     wireFiles();
     wireChips();
     wireStacks();
@@ -255,6 +256,7 @@ void LabelWorkspace::enableActions() {
                             actions_->occluded,
                             actions_->outside,
                             actions_->ignore,
+                            actions_->spread_flags,
                             actions_->turn_left,
                             actions_->turn_right,
                             actions_->checked,

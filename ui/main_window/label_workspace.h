@@ -9,6 +9,7 @@
 #include "session/label_proposals.h"
 #include "session/label_session.h"
 
+class QAction;
 class QDockWidget;
 class QMainWindow;
 class QMenu;
@@ -79,6 +80,11 @@ class LabelWorkspace : public QObject {
     void turnBy(double radians);
     void wireProposals();
     void wireIdentity();
+    void wireRanges();
+    /// Shows what an identity verb would do; the same key once more does it.
+    void offer(QAction* action, const std::function<std::optional<LabelEditor::Plan>()>& make);
+    /// The range of frames set above the canvas; the whole video where none is.
+    FrameRange markedRange() const;
     void wireFiles();
     void wireChips();
     void wireStacks();
@@ -102,6 +108,14 @@ class LabelWorkspace : public QObject {
     LabelSurroundings around_;
     bool active_ = false;
     bool refresh_due_ = false;
+    /// What was shown and waits for its key.
+    struct Planned {
+        const QAction* action = nullptr;
+        FrameIndex frame = 0;
+        std::set<ObjectId> selection;
+        std::optional<LabelEditor::Plan> plan;
+    };
+    Planned planned_;
     QByteArray other_layout_;
     QByteArray own_layout_;
     QList<bool> other_overlays_;

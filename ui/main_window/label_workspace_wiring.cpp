@@ -1,10 +1,8 @@
 // The part of LabelWorkspace that says what its commands do.
 #include <QDockWidget>
 #include <QMainWindow>
-#include <QMenu>
 #include <numbers>
 
-#include "annotation/join_suggestions.h"
 #include "annotation/object_pieces.h"
 #include "main_window/label_actions.h"
 #include "main_window/label_files.h"
@@ -74,11 +72,6 @@ void LabelWorkspace::wireTool() {
         else
             actions_->region->setChecked(false);
         around_.canvas.setFocus();
-    });
-    connect(actions_->delete_region, &QAction::triggered, this, [this] {
-        const auto place = tool_->cursorInImage();
-        if (!place || editor_->deleteRegionsAt({place->x(), place->y()}) == 0)
-            tell(tr("Point at an ignore region to delete it."));
     });
     connect(actions_->loupe, &QAction::toggled, tool_, &LabelTool::setLoupeShown);
 }
@@ -167,6 +160,8 @@ void LabelWorkspace::wireGoActions() {
 void LabelWorkspace::escape() {
     if (tracking_->working()) {
         tracking_->stop();
+    } else if (std::exchange(planned_, {}).plan) {
+        around_.messages.dismiss(MessageKind::info);
     } else if (!around_.canvas.hasFocus()) {
         around_.canvas.setFocus();
     } else if (!tool_->cancel()) {
@@ -204,10 +199,8 @@ void LabelWorkspace::wireProposals() {
         if (!objects.empty()) tell(tr("Took over %1 tracks.").arg(objects.size()));
     });
     connect(actions_->accept_range, &QAction::triggered, this, [this] {
-        const FrameRange& range = around_.session.settings().range;
-        const auto objects =
-            proposals_->acceptRange(range.first, range.last < 0 ? around_.session.lastFrame()
-                                                                : std::min(range.last, around_.session.lastFrame()));
+        const FrameRange range = markedRange();
+        const auto objects = proposals_->acceptRange(range.first, range.last);
         tell(objects.empty() ? tr("No proposal is left there.") : tr("Took over %1 tracks.").arg(objects.size()));
     });
     connect(actions_->offer_again, &QAction::triggered, proposals_, &LabelProposals::offerAgain);
@@ -243,73 +236,6 @@ void LabelWorkspace::acceptSelected() {
         selectProposal(next);
     else
         labels_->select(objects.front());
-}
-
-// ---- identity -------------------------------------------------------------------------------------------------------
-
-std::optional<ObjectId> LabelWorkspace::otherSelected() const {
-    if (labels_->selection().size() != 2 || !labels_->selected()) return std::nullopt;
-    for (const ObjectId id : labels_->selection())
-        if (id != *labels_->selected()) return id;
-    return std::nullopt;
-}
-
-void LabelWorkspace::identityWithOther(bool fuse) {
-    if (!labels_->selected() || !labels_->mayEdit()) return;
-    const auto run = [this, fuse](ObjectId other) {
-        if (fuse)
-            editor_->fuse(other);
-        else
-            editor_->join(other, GapFilling::interpolate);
-    };
-    if (const auto other = otherSelected()) {
-        run(*other);
-        return;
-    }
-    // Candidates, the nearest first; pointing at one shows it.
-    QMenu menu;
-    if (fuse) {
-        for (const FuseSuggestion& offer :
-             suggestFusions(labels_->annotations(), *labels_->selected(), labels_->camera(), 0.05))
-            menu.addAction(tr("%1, overlap %2 in %3 frames")
-                               .arg(QString::fromStdString(nameOf(*labels_->object(offer.object))))
-                               .arg(offer.mean_overlap, 0, 'f', 2)
-                               .arg(offer.shared_frames))
-                ->setData(offer.object);
-    } else {
-        for (const JoinSuggestion& offer :
-             suggestJoins(labels_->annotations(), *labels_->selected(), labels_->camera()))
-            menu.addAction(joinText(*labels_, offer.object, offer.later, offer.gap, offer.distance_px))
-                ->setData(offer.object);
-    }
-    if (menu.isEmpty()) {
-        tell(fuse ? tr("No other object overlaps this one. Select both (Ctrl and click) to fuse them anyway.")
-                  : tr("No other object begins or ends near this one. Select both (Ctrl and click) to join them "
-                       "anyway."));
-        return;
-    }
-    const auto main = labels_->selected();
-    connect(&menu, &QMenu::hovered, this, [this, main](QAction* action) {
-        labels_->setSelection({*main, action->data().toInt()}, main);
-    });
-    const QAction* chosen = menu.exec(around_.canvas.mapToGlobal(around_.canvas.rect().center()));
-    labels_->select(main);
-    if (chosen != nullptr) run(chosen->data().toInt());
-}
-
-void LabelWorkspace::wireIdentity() {
-    connect(actions_->join, &QAction::triggered, this, [this] { identityWithOther(false); });
-    connect(actions_->fuse, &QAction::triggered, this, [this] { identityWithOther(true); });
-    connect(actions_->split, &QAction::triggered, editor_, &LabelEditor::splitHere);
-    connect(actions_->swap, &QAction::triggered, this, [this] {
-        if (const auto other = otherSelected())
-            editor_->swapFrom(*other);
-        else
-            tell(tr("Select the two objects to swap from this frame on (Ctrl and click)."));
-    });
-    connect(actions_->renumber, &QAction::triggered, editor_, &LabelEditor::renumberHere);
-    connect(actions_->delete_before, &QAction::triggered, editor_, &LabelEditor::deleteBefore);
-    connect(actions_->delete_after, &QAction::triggered, editor_, &LabelEditor::deleteAfter);
 }
 
 // ---- files ----------------------------------------------------------------------------------------------------------

@@ -6,7 +6,6 @@
 #include <exception>
 #include <utility>
 
-#include "annotation/ignore_regions.h"
 #include "annotation/object_pieces.h"
 #include "annotation/proposals.h"
 #include "session/label_classes.h"
@@ -242,17 +241,6 @@ void LabelEditor::toggleIgnore() {
     toggleFlag(tr("Ignore: %1"), [](Keyframe& keyframe) { keyframe.ignore = !keyframe.ignore; });
 }
 
-void LabelEditor::setFlags(FrameIndex first, FrameIndex last, const FlagChange& flags) {
-    std::vector<LabelledObject> changed;
-    const bool fine = guarded([&] {
-        for (const ObjectId id : labels_.selection())
-            if (const LabelledObject* known = labels_.object(id))
-                changed.push_back(withFlags(*known, first, last, flags, labels_.camera()));
-    });
-    if (fine && !changed.empty())
-        labels_.apply(editOf(tr("Set flags over a range").toStdString(), labels_.annotations(), changed));
-}
-
 void LabelEditor::setClass(const std::string& name) {
     labels_.setDrawnClass(name);
     std::vector<LabelledObject> changed;
@@ -292,30 +280,6 @@ void LabelEditor::mark(ReviewState state) {
                          : state == ReviewState::questionable ? tr("Mark as questionable")
                                                               : tr("Mark as not checked");
     labels_.apply(reviewEdit(verb.toStdString(), labels_.annotations(), marks));
-}
-
-void LabelEditor::addRegion(const std::vector<cv::Point2d>& polygon, FrameIndex frame) {
-    if (!labels_.mayEdit()) return;
-    IgnoreRegion region;
-    region.id = labels_.store()->newRegionId();
-    region.polygon = polygon;
-    region.reference_frame = frame;
-    region.first_frame = 0;
-    region.last_frame = session_.lastFrame();
-    const CameraMotion& camera = labels_.camera();
-    const bool known = camera.connects(frame, frame + 1) || camera.connects(frame - 1, frame);
-    region.anchor = known ? RegionAnchor::ground : RegionAnchor::image;
-    guarded(
-        [&] { labels_.apply(regionEdit(tr("Draw an ignore region").toStdString(), labels_.annotations(), {region})); });
-}
-
-int LabelEditor::deleteRegionsAt(cv::Point2d point) {
-    std::vector<int> hit;
-    for (const RegionInFrame& region : regionsAt(labels_.annotations(), frame(), labels_.camera()))
-        if (contains(region.polygon, point)) hit.push_back(region.id);
-    if (!hit.empty())
-        labels_.apply(regionEdit(tr("Delete an ignore region").toStdString(), labels_.annotations(), {}, hit));
-    return static_cast<int>(hit.size());
 }
 
 // ---- going places ---------------------------------------------------------------------------------------------------
