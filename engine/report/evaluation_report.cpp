@@ -21,6 +21,7 @@ constexpr const char* kMissed = "#dea014";
 constexpr const char* kFalse = "#d64236";
 constexpr const char* kRecall = "#2d78c8";
 constexpr const char* kBar = "#4a6fa5";
+constexpr std::size_t kFewParameters = 12;  ///< leave room for the measures on their page
 constexpr int kChipHeight = 72;
 constexpr double kChipShape = 1.6;
 constexpr double kAround = 2.6;  ///< a chip is as many boxes wide
@@ -152,8 +153,11 @@ std::set<std::string> tellDifferentParameters(Page& page, const RunEvaluation& e
     return different;
 }
 
-void tellMeasures(Page& page, const RunEvaluation& e) {
-    page.heading("Measures");
+void tellMeasures(Page& page, const RunEvaluation& e, bool on_a_new_page) {
+    if (on_a_new_page)
+        page.chapter("Measures");
+    else
+        page.heading("Measures");
     std::vector<std::string> headings{""};
     std::vector<std::vector<NamedMeasure>> columns;
     for (const Measures& measures : e.table) {
@@ -391,7 +395,7 @@ EvaluationReportFile makeEvaluationReport(const RunEvaluation& evaluation, Frame
     Page page;
     tellWhat(page, evaluation, options);
     const std::set<std::string> different = tellDifferentParameters(page, evaluation);
-    tellMeasures(page, evaluation);
+    tellMeasures(page, evaluation, different.size() > kFewParameters);
     addFigures(page, evaluation, report);
     tellCauses(page, evaluation, report);
     addChips(page, evaluation, pixels, options, report, progress, stop);
