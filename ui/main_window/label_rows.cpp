@@ -174,6 +174,9 @@ ObjectDetails objectDetails(const LabelSession& labels, const LabelEditor& edito
                           .arg(box->centre.y, 0, 'f', 1)
                           .arg(lengthText(box->length, scale), lengthText(box->width, scale))
                           .arg(degrees, 0, 'f', 1);
+        // Lines break between the parts only.
+        details.box.replace(QLatin1Char(' '), QChar(QChar::Nbsp));
+        details.box.replace(QStringLiteral("\u00a0·\u00a0"), QStringLiteral("\u00a0· "));
     }
     details.object_class = classText(object.object_class);
     details.lives_here = shown.exists();

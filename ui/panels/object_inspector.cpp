@@ -70,6 +70,8 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     joins_heading_->setWordWrap(true);
     joins_ = new QListWidget;
     joins_->setAlternatingRowColors(true);
+    joins_->setWordWrap(true);
+    joins_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     layout->addWidget(title_);
     layout->addWidget(life_);
     layout->addWidget(box_);

@@ -90,8 +90,12 @@ void paintTexts(QPainter& painter, const LabelScene& scene, const ViewTransform&
     std::vector<Labelled> labelled;
     std::vector<QRectF> objects;
     for (const LabelMark& mark : scene.marks) {
-        const QRectF object = uprightInView(mark.box, transform);
+        QRectF object = uprightInView(mark.box, transform);
         if (!object.intersects(view)) continue;
+        // Handles stand around the one that has them.
+        constexpr double kHandles = 14;
+        if (scene.editable && scene.selected == mark.id && mark.kind != LabelKind::proposal)
+            object.adjust(-kHandles, -kHandles, kHandles, kHandles);
         objects.push_back(object);
         if (!mark.text.isEmpty()) labelled.push_back({&mark, object});
     }

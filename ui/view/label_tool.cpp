@@ -335,10 +335,18 @@ void LabelTool::paintLoupes(QPainter& painter, const CanvasPlace& place) const {
         loupe.box = draft_;
         loupe.colour = drawing_ ? scene_.drawn_colour : selected ? selected->colour : Qt::white;
     } else if (nudged_.isActive() && selected != nullptr) {
-        const cv::Point2d& centre = selected->box.centre;
-        loupe.image_point = {centre.x, centre.y};
+        // All of the box, beside it; where the canvas shows it larger only the stack is worth a loupe.
+        const OrientedBox& box = selected->box;
+        constexpr double kShare = 0.8;
+        loupe.magnification = std::min(loupe.magnification, kShare * kLoupeSide / std::hypot(box.length, box.width));
+        if (loupe.magnification < place.transform.scale() && stackHere() == nullptr) return;
+        loupe.image_point = {box.centre.x, box.centre.y};
         loupe.view_point = place.transform.viewFromImage(loupe.image_point);
-        loupe.box = selected->box;
+        for (const cv::Point2d& corner : box.corners()) {
+            const QPointF at = place.transform.viewFromImage({corner.x, corner.y});
+            loupe.view_point = {std::max(loupe.view_point.x(), at.x()), std::min(loupe.view_point.y(), at.y())};
+        }
+        loupe.box = box;
         loupe.colour = selected->colour;
     } else {
         return;

@@ -11,7 +11,7 @@
 namespace eyrie::ui {
 
 namespace {
-constexpr double kSide = 168;     ///< logical px
+constexpr double kSide = kLoupeSide;
 constexpr double kBetween = 6;    ///< two loupes
 constexpr double kDistance = 28;  ///< from the cursor
 constexpr double kDegrees = 180 / std::numbers::pi;
@@ -24,6 +24,7 @@ QPointF cornerOf(const Loupe& loupe, double width) {
     if (corner.x() + width > loupe.view.right()) corner.setX(loupe.view_point.x() - kDistance - width);
     if (corner.y() < loupe.view.top()) corner.setY(loupe.view_point.y() + kDistance);
     corner.setX(std::max(loupe.view.left(), corner.x()));
+    corner.setY(std::max(loupe.view.top(), std::min(corner.y(), loupe.view.bottom() - kSide)));
     return corner;
 }
 

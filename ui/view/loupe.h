@@ -32,6 +32,8 @@ struct Loupe {
     double rotation = 0;  ///< of the picture, radians clockwise
 };
 
+inline constexpr double kLoupeSide = 168;  ///< logical px
+
 /// The picture around an image point, magnified: raw pixels as squares, and a box over them. With a stack a second
 /// loupe beside it shows the same place there.
 void paintLoupe(QPainter& painter, const QImage& image, const Loupe& loupe, const LoupeStack* stack = nullptr);
