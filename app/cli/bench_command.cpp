@@ -17,6 +17,7 @@
 #include "cli/input.h"
 #include "cli/method_times.h"
 #include "cli/preset_arguments.h"
+#include "cli/preview_times.h"
 #include "cli/sweep_times.h"
 #include "core/error.h"
 #include "store/project_file.h"
@@ -175,6 +176,15 @@ void printSweep(const SweepTimes& times) {
     std::printf("%-52s%10.2f ms\n", "one frame again after a changed quantile", times.preview_ms);
 }
 
+void printPreview(const PreviewTimes& times) {
+    std::printf("\nlive preview on %dx%d frames, ms %32s%10s%12s\n", times.size.width, times.size.height,
+                "first picture: median", "longest", "with tracks");
+    for (const PreviewTimes::Moved& moved : times.moved)
+        std::printf("  %-50s%10.1f%12.1f%12.1f\n", moved.parameter.c_str(), moved.median_ms, moved.longest_ms,
+                    moved.final_ms);
+    std::printf("  %-50s%10.1f\n", "the first of all", times.first_ms);
+}
+
 void printTable(const VideoInfo& video, const std::vector<Column>& columns, const std::vector<Sample>& baseline) {
     std::printf("%s, %dx%d; median (10th percentile) ms per frame, one frame after the other\n\n%-28s",
                 video.path.string().c_str(), video.size.width, video.size.height, "stage");
@@ -208,7 +218,7 @@ void printTable(const VideoInfo& video, const std::vector<Column>& columns, cons
 }
 
 void printJson(const std::vector<Column>& columns, const std::vector<Sample>& baseline, const Sample& read,
-               const std::vector<MethodTimes>& methods, const SweepTimes& sweep) {
+               const std::vector<MethodTimes>& methods, const SweepTimes& sweep, const PreviewTimes& preview) {
     nlohmann::ordered_json json;
     json["read_ms"] = read.median();
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -230,6 +240,13 @@ void printJson(const std::vector<Column>& columns, const std::vector<Sample>& ba
         {"frames", sweep.frames},          {"run_s", sweep.run_s},           {"quantiles_s", sweep.sweep_s},
         {"quantiles", sweep.sweep_points}, {"speed_up", sweep.speedUp()},    {"clustering_s", sweep.clustering_s},
         {"removal_s", sweep.removal_s},    {"tracking_s", sweep.tracking_s}, {"preview_ms", sweep.preview_ms}};
+    json["preview"] = {{"width", preview.size.width}, {"height", preview.size.height}, {"first_ms", preview.first_ms}};
+    for (const PreviewTimes::Moved& moved : preview.moved) {
+        json["preview"]["moved"].push_back({{"parameter", moved.parameter},
+                                            {"median_ms", moved.median_ms},
+                                            {"longest_ms", moved.longest_ms},
+                                            {"with_tracks_ms", moved.final_ms}});
+    }
     std::puts(json.dump(2).c_str());
 }
 
@@ -255,12 +272,15 @@ void bench(const Arguments& arguments) {
     }
     const std::vector<MethodTimes> methods = measureMethods(frames, options, scale, kWarmUpFrames);
     const SweepTimes sweep = measureSweep(frames, options, scale);
+    const ScratchProject scratch;
+    const PreviewTimes preview = measurePreview(frames, options, scale, scratch.path());
     if (arguments.json) {
-        printJson(columns, baseline, read, methods, sweep);
+        printJson(columns, baseline, read, methods, sweep, preview);
     } else {
         printTable(source->info(), columns, baseline);
         printMethods(methods);
         printSweep(sweep);
+        printPreview(preview);
     }
 }
 

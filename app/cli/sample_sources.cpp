@@ -11,6 +11,7 @@
 #include "core/box_record.h"
 #include "core/error.h"
 #include "io/box_csv.h"
+#include "learning/labelled_frames.h"
 #include "scene/scene_preset.h"
 #include "scene/scene_renderer.h"
 
@@ -121,23 +122,15 @@ std::vector<LabelledImage> readLabelledFrames(const std::string& input, const st
     const BoxesByFrame boxes = readBoxCsv(ground_truth);
     const auto source = openInput(input, 0, stop);
     const std::string name = std::filesystem::path(input).filename().string();
-    std::vector<LabelledImage> images;
-    StepProgress progress("frames read", source->info().frame_count, show_progress);
-    for (FrameIndex frame = 0; frame < source->info().frame_count && !stop.stop_requested(); frame += step) {
-        const auto labelled = boxes.find(frame);
-        if (labelled == boxes.end()) continue;  // nobody says that there is nothing
-        LabelledImage image;
-        image.gray = source->read(frame, false).gray;
-        image.source = name;
-        image.group = name;
-        for (const BoxRecord& record : labelled->second) {
-            const bool vehicle = isVehicleClass(record.object_class) && !record.ignore && record.box.area() > 0;
-            (vehicle ? image.vehicles : image.unclear).push_back(record.box);
-        }
-        images.push_back(std::move(image));
-        progress.show(frame + 1);
-    }
-    return images;
+    TrainingBoxes training;
+    for (const auto& [frame, records] : boxes)
+        for (const BoxRecord& record : records) training[frame].push_back(trainingBoxOf(record));
+    constexpr int kParts = 1000;
+    StepProgress progress("‰ of the frames read", kParts, show_progress);
+    return labelledImagesOf(
+        training, name, source->info().frame_count, step,
+        [&](FrameIndex frame) { return source->read(frame, false).gray; }, stop,
+        [&](double share) { progress.show(static_cast<int>(kParts * share)); });
 }
 
 }  // namespace eyrie::cli

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/preset_file.h"
+#include "sweep/sweep_lock.h"
 #include "sweep/sweep_report.h"
 
 namespace eyrie::cli {
@@ -53,10 +54,10 @@ std::vector<int> chosenPositions(const SweepPlan& plan, const std::string& shard
     return shardOf(order, number, count);
 }
 
-/// Parameters that all points share. Of a stored run they are its own, unless a preset is named.
-ChainOptions baseOptions(const Arguments& arguments, const std::optional<StoredRun>& run) {
-    if (!run || arguments.preset_given) return arguments.preset.options();
-    ChainOptions options = run->options;
+/// Parameters that all points share. Of stored runs they are those of the first, unless a preset is named.
+ChainOptions baseOptions(const Arguments& arguments, const std::vector<StoredRun>& runs) {
+    if (runs.empty() || arguments.preset_given) return arguments.preset.options();
+    ChainOptions options = runs.front().options;
     PresetArguments settings = arguments.preset;
     settings.preset = "default";
     settings.applySettings(options);
@@ -89,6 +90,7 @@ bool runMissing(const Arguments& arguments, const SweepPlan& plan, const std::ve
     const std::set<int> done = SweepStore(project).pointsDone(sweep);
     std::erase_if(positions, [&](int position) { return done.count(position) > 0; });
     if (positions.empty()) return true;
+    const auto lock = lockSweep(project, sweep);
     ConsoleProgress console("points");
     SweepRunOptions options;
     options.on_point = [&](const SweepPoint& point) { storePoint(project, sweep, point); };
@@ -125,12 +127,13 @@ int sweep(const Arguments& arguments) {
                     "--out: name the file that the points are written to, e.g. --out sweep.eyrie");
     measureText(arguments.criterion);
     refuseTooMany(arguments.axes, arguments.yes);
-    std::optional<StoredRun> run;
+    std::vector<StoredRun> runs;
     if (!arguments.sources.project.empty()) {
         ProjectFile project = ProjectFile::open(arguments.sources.project, ProjectFile::Mode::read_only);
-        run = readStoredRun(project, arguments.sources.run);
+        for (const int run : arguments.sources.runs) runs.push_back(readStoredRun(project, run));
+        if (runs.empty()) runs.push_back(readStoredRun(project));
     }
-    const ChainOptions base = baseOptions(arguments, run);
+    const ChainOptions base = baseOptions(arguments, runs);
     SweepPlan plan;
     plan.engine_version = engineVersion();
     for (const std::string& axis : arguments.axes) plan.axes.push_back(parseAxis(axis, base));
@@ -141,8 +144,8 @@ int sweep(const Arguments& arguments) {
     chosenPositions(plan, arguments.shard);  // shows a wrong shard before anything is opened
 
     const InterruptGuard interrupt;
-    OpenedSources opened = run ? openStoredRun(arguments.sources, std::move(*run), base)
-                               : openSequences(arguments.sources, base, interrupt.token());
+    OpenedSources opened = runs.empty() ? openSequences(arguments.sources, base, interrupt.token())
+                                        : openStoredRuns(arguments.sources, std::move(runs), base);
     plan.clips = opened.clips;
     check(plan);
     ProjectFile project = ProjectFile::openOrCreate(arguments.out.empty() ? arguments.sources.project : arguments.out);
@@ -177,7 +180,11 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
                         "project's labels)");
     command->add_option("--project", sources.project, "Sweep over a stored run, whose motion vectors are used again")
         ->excludes(sequence);
-    command->add_option("--run", sources.run, "Number of the run (default: the last)")->needs("--project");
+    command
+        ->add_option("--run", sources.runs,
+                     "Numbers of the runs, e.g. 2 or 2,5 (default: the last); parameters are those of the first")
+        ->delimiter(',')
+        ->needs("--project");
     command
         ->add_option("--parameter", arguments->axes,
                      "What to change: NAME=FIRST:STEP:LAST or NAME=VALUE,VALUE,…; once or twice")

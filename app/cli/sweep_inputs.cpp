@@ -98,20 +98,28 @@ OpenedSources openSequences(const SweepSources& sources, const ChainOptions& opt
     return opened;
 }
 
-OpenedSources openStoredRun(const SweepSources& sources, StoredRun run, const ChainOptions& options) {
-    if (sources.ground_truths.size() > 1)
-        throw Error(ErrorKind::parameter, "--ground-truth: one run has one ground truth");
+OpenedSources openStoredRuns(const SweepSources& sources, std::vector<StoredRun> runs, const ChainOptions& options) {
+    if (!sources.ground_truths.empty() && sources.ground_truths.size() != runs.size()) {
+        throw Error(ErrorKind::parameter,
+                    "--ground-truth: give none, for the labels of the project, or one for each "
+                    "of the " +
+                        std::to_string(runs.size()) + " runs");
+    }
     OpenedSources opened;
-    SweepClip clip = run.clip;
-    const BoxesByFrame truth = sources.ground_truths.empty()
-                                   ? labelsOfProject(sources, run, clip)
-                                   : readTruth(sources, sources.ground_truths.front(), clip, opened.remarks);
-    SweepInput input = openClip(clip, opener(clip.sequence, clip.scale.frame_rate_hz), run.range, truth);
-    input.cache->useStoredMotion(run.options, std::move(run.motion));
-    if (signatureUpTo(run.options, SweepStage::motion) != signatureUpTo(options, SweepStage::motion))
-        opened.remarks.push_back("the run has other motion vectors than the parameters given, so these are made anew");
-    opened.inputs.push_back(std::move(input));
-    opened.clips.push_back(std::move(clip));
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        StoredRun& run = runs[i];
+        SweepClip clip = run.clip;
+        const BoxesByFrame truth = sources.ground_truths.empty()
+                                       ? labelsOfProject(sources, run, clip)
+                                       : readTruth(sources, sources.ground_truths[i], clip, opened.remarks);
+        SweepInput input = openClip(clip, opener(clip.sequence, clip.scale.frame_rate_hz), run.range, truth);
+        input.cache->useStoredMotion(run.options, std::move(run.motion));
+        if (signatureUpTo(run.options, SweepStage::motion) != signatureUpTo(options, SweepStage::motion))
+            opened.remarks.push_back("run " + std::to_string(clip.run) +
+                                     " has other motion vectors than the parameters given, so these are made anew");
+        opened.inputs.push_back(std::move(input));
+        opened.clips.push_back(std::move(clip));
+    }
     return opened;
 }
 

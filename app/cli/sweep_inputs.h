@@ -12,14 +12,14 @@ namespace eyrie::cli {
 /// Where sequences and ground truth of a sweep come from, as named on the command line.
 struct SweepSources {
     std::vector<std::string> sequences;
-    std::vector<std::string> ground_truths;  ///< one for each sequence; of a project, at most one
+    std::vector<std::string> ground_truths;  ///< one for each sequence; of a project, one for each run or none
     std::vector<double> gsds;                ///< one for all, or one for each sequence
     std::optional<double> frame_rate_hz;
     std::string frames;
     bool upright = false;
     double mot_origin = 1;
-    std::string project;  ///< in place of sequences
-    std::optional<int> run;
+    std::string project;    ///< in place of sequences
+    std::vector<int> runs;  ///< of the project; none: its last
 };
 
 /// Sequences as planned and opened.
@@ -32,8 +32,8 @@ struct OpenedSources {
 /// Opens video files, folders and scenes; `options` are used where the scale must be estimated. Throws Error.
 OpenedSources openSequences(const SweepSources& sources, const ChainOptions& options, std::stop_token stop);
 
-/// Opens a stored run, whose motion vectors are used unless `options` make others. Ground truth is a file, or the
-/// labels of the project. Throws Error.
-OpenedSources openStoredRun(const SweepSources& sources, StoredRun run, const ChainOptions& options);
+/// Opens stored runs, whose motion vectors are used unless `options` make others. Ground truth is a file for each, or
+/// the labels of the project. Throws Error.
+OpenedSources openStoredRuns(const SweepSources& sources, std::vector<StoredRun> runs, const ChainOptions& options);
 
 }  // namespace eyrie::cli

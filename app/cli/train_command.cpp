@@ -13,14 +13,11 @@
 #include "cli/sample_sources.h"
 #include "core/error.h"
 #include "learning/background_mining.h"
+#include "learning/labelled_frames.h"
 #include "learning/trainer.h"
 
 namespace eyrie::cli {
 namespace {
-
-/// What an image without vehicles is searched for: nothing is known of its scale but that windows fit.
-const OrientedBox kTypicalVehicle{{0, 0}, 21.5, 10, 0};
-constexpr int kOthersPerVehicleInImages = 4;
 
 struct Arguments {
     std::string descriptor = "chnftrs";
@@ -127,12 +124,8 @@ int run(const Arguments& arguments) {
     const InterruptGuard interrupt;
     SampleSet samples = readSampleFolders(arguments.samples);
     const std::vector<LabelledImage> images = labelledImages(arguments, options, interrupt.token());
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        const int others = kOthersPerVehicleInImages * std::max<int>(1, static_cast<int>(images[i].vehicles.size()));
-        SampleSet cut =
-            samplesFromImage(images[i], others, kTypicalVehicle, static_cast<std::uint64_t>(options.seed) + i);
-        std::move(cut.begin(), cut.end(), std::back_inserter(samples));
-    }
+    SampleSet cut = samplesFromImages(images, static_cast<std::uint64_t>(options.seed));
+    std::move(cut.begin(), cut.end(), std::back_inserter(samples));
     if (interrupt.token().stop_requested()) return exit_stopped;
     TrainingRecord record;
     record.data = describeSources(samples) + arguments.note;
@@ -152,7 +145,7 @@ int run(const Arguments& arguments) {
     std::uint64_t round = 0;
     if (!images.empty()) {
         more = [&](const VehicleModel& model, int wanted) {
-            return mineBackground(model, images, kTypicalVehicle, wanted,
+            return mineBackground(model, images, typicalVehicle(), wanted,
                                   static_cast<std::uint64_t>(options.seed) + 1000 * ++round, watch);
         };
     }

@@ -170,6 +170,12 @@ FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
     return result;
 }
 
+cv::Mat Preview::looksOf(Known& known, const ChainOptions& options) {
+    if (options.tracking.appearance == AppearanceUse::none) return {};
+    if (known.frame.gray.empty()) known.frame = source_.pixels(known.stored.motion.frame);
+    return known.frame.gray;
+}
+
 std::optional<PreviewedFrame> Preview::byReplay(FrameIndex frame, const ChainOptions& options,
                                                 const std::stop_token& stop) {
     const std::string wanted = textOf(options, PreviewStart::registration, PreviewStart::finishing);
@@ -227,9 +233,12 @@ std::optional<PreviewedFrame> Preview::now(FrameIndex frame, const ChainOptions&
     if (stop.stop_requested()) return std::nullopt;
     Tracker tracker(options.tracking, source_.scale);
     for (FrameIndex before = std::max(source_.first_frame, frame - range); before < frame; ++before) {
-        if (const Known* past = known(before)) tracker.next(past->stored.motion, past->stored.detections);
+        Known* past = known(before);
+        if (past == nullptr) continue;
+        tracker.next(past->stored.motion, past->stored.detections, nullptr, looksOf(*past, options));
     }
-    previewed.result.tracks = tracker.next(previewed.result.motion, previewed.result.detections);
+    previewed.result.tracks =
+        tracker.next(previewed.result.motion, previewed.result.detections, nullptr, looksOf(*known(frame), options));
     previewed.tracks_final = previewed.start >= PreviewStart::tracking;
     if (const Known* present = known(frame)) adoptIds(previewed.result.tracks, present->stored.tracks);
     return previewed;
@@ -248,9 +257,10 @@ std::optional<PreviewedFrame> Preview::withTracks(FrameIndex frame, const ChainO
         Known* past = known(before);
         if (past == nullptr) continue;
         const FrameResult result = secondHalf(*past, options);
-        tracker.next(result.motion, result.detections);
+        tracker.next(result.motion, result.detections, nullptr, looksOf(*past, options));
     }
-    previewed->result.tracks = tracker.next(previewed->result.motion, previewed->result.detections);
+    previewed->result.tracks =
+        tracker.next(previewed->result.motion, previewed->result.detections, nullptr, looksOf(*known(frame), options));
     previewed->tracks_final = true;
     if (const Known* present = known(frame)) adoptIds(previewed->result.tracks, present->stored.tracks);
     return previewed;

@@ -12,8 +12,9 @@ constexpr int kLongestReach = 200;    ///< beyond that nobody wants to wait
 constexpr int kWholeFrames = 2;       ///< done as a whole before the wanted one, which may repeat their answer
 constexpr int kStackGenerations = 2;  ///< a stack is full after one capacity, and rests on detections made with others
 
-/// How many frames before play a part in what is found in one.
-int reachOf(const ChainOptions& options) {
+}  // namespace
+
+int framesBefore(const ChainOptions& options) {
     int reach = 0;
     const DifferenceOptions& difference = options.difference;
     switch (difference.method) {
@@ -34,8 +35,6 @@ int reachOf(const ChainOptions& options) {
     return std::min(reach, kLongestReach);
 }
 
-}  // namespace
-
 ChainOptions storedOptions(const std::vector<std::pair<std::string, std::string>>& parameters,
                            std::vector<std::string>* unknown) {
     ChainOptions options;
@@ -50,7 +49,7 @@ ChainOptions storedOptions(const std::vector<std::pair<std::string, std::string>
 }
 
 Replay::Replay(ReplaySource source)
-    : source_(std::move(source)), reach_(reachOf(source_.options)), half_(source_.options, source_.scale) {
+    : source_(std::move(source)), reach_(framesBefore(source_.options)), half_(source_.options, source_.scale) {
     restart(source_.first_frame);
 }
 

@@ -26,6 +26,9 @@ struct ReplaySource {
 ChainOptions storedOptions(const std::vector<std::pair<std::string, std::string>>& parameters,
                            std::vector<std::string>* unknown = nullptr);
 
+/// How many frames before play a part in what is found in one frame from given motion vectors.
+int framesBefore(const ChainOptions& options);
+
 /// One frame as the second half of the chain sees it.
 struct ReplayedFrame {
     Frame frame;

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "core/error.h"
 #include "detection/component_boxes.h"
 #include "detection/model_location.h"
 #include "detection/motion_cluster_detector.h"
@@ -160,8 +161,15 @@ std::vector<Detection> SlidingWindowDetector::detectionsOf(const MotionRoi& roi,
 
 std::unique_ptr<Detector> makeSlidingWindowDetector(const SlidingWindowOptions& options, const SceneScale& scale,
                                                     double cluster_margin_px) {
-    return std::make_unique<SlidingWindowDetector>(loadModel(modelLocation(options.model)), options, scale,
-                                                   cluster_margin_px);
+    const std::filesystem::path file = modelLocation(options.model);
+    VehicleModel model = loadModel(file);
+    if (!options.descriptor.empty() && descriptorFromName(options.descriptor) != model.descriptor->kind()) {
+        throw Error(ErrorKind::parameter,
+                    file.string() + ": this model was trained for the descriptor " + nameOf(model.descriptor->kind()) +
+                        ", but sliding_window.descriptor asks for " + options.descriptor +
+                        "; name a model of that descriptor in sliding_window.model, or leave the parameter empty");
+    }
+    return std::make_unique<SlidingWindowDetector>(std::move(model), options, scale, cluster_margin_px);
 }
 
 }  // namespace eyrie

@@ -25,6 +25,11 @@ void SlidingWindowOptions::describe(ParameterVisitor& visitor) {
     visitor.words(
         "sliding_window.model", model,
         {"", "Path of the model file that decides; empty: the model that comes with Eyrie.", "Teutsch §5.4.3"});
+    visitor.words("sliding_window.descriptor", descriptor,
+                  {"",
+                   "Descriptor that the model must have been trained for, so that no other is used by mistake; empty: "
+                   "any.",
+                   ""});
     visitor.choice(
         "sliding_window.rescaling", rescaling, {"joint_11", "length_11", "length_3"},
         {"", "Scales that are searched: 11 of width and length together, 11 of the length, or 3 of the length.",

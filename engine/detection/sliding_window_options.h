@@ -16,7 +16,8 @@ enum class WindowRescaling {
 
 /// Parameters of the local sliding window (Teutsch §5.4.3; optima of §7.3.3).
 struct SlidingWindowOptions {
-    std::string model;  ///< path of a model file; empty: the one that is shipped
+    std::string model;       ///< path of a model file; empty: the one that is shipped
+    std::string descriptor;  ///< that the model must have been trained for; empty: any
     WindowRescaling rescaling = WindowRescaling::length_3;
     double car_length_m = 4.6;  ///< of a vehicle that fills the window as a median training sample does, at scale 1
     double car_width_m = 2.0;

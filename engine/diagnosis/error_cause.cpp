@@ -159,7 +159,9 @@ std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const MistakeEv
         if (overlap(alarm.box.scaled(kBesideIgnored, kBesideIgnored),
                     ignored.box.scaled(kBesideIgnored, kBesideIgnored)) > 0)
             return CauseHere{MistakeCause::ignored_object,
-                             ignored.object_class.empty() ? std::string() : "beside a " + ignored.object_class};
+                             ignored.object_class.empty()
+                                 ? std::string()
+                                 : "beside an object that does not count (" + ignored.object_class + ")"};
     }
     return std::nullopt;
 }

@@ -49,23 +49,28 @@ std::string frames(const Mistake& mistake) {
 class Page {
  public:
     void heading(const std::string& text) { html_ += "<h2>" + escaped(text) + "</h2>\n"; }
+    /// A heading that begins a page where the document is printed.
+    void chapter(const std::string& text) { html_ += "<h2 class=\"chapter\">" + escaped(text) + "</h2>\n"; }
     void paragraph(const std::string& safe) { html_ += "<p>" + safe + "</p>\n"; }
     void figure(const std::string& name, const std::string& words) {
         html_ += "<p><img src=\"" + name + "\"><br><i>" + escaped(words) + "</i></p>\n";
     }
-    void beginTable(const std::vector<std::string>& headings) {
+    /// `numbers_from`: columns from there on are aligned right.
+    void beginTable(const std::vector<std::string>& headings, std::size_t numbers_from = 1000) {
         html_ += "<table cellspacing=\"0\" cellpadding=\"3\">\n";
         if (headings.empty()) return;
-        html_ += "<tr>";
-        for (const std::string& one : headings) html_ += "<th align=\"left\">" + escaped(one) + "</th>";
-        html_ += "</tr>\n";
+        html_ += "<thead><tr>";
+        for (std::size_t i = 0; i < headings.size(); ++i)
+            html_ +=
+                (i >= numbers_from ? "<th align=\"right\">" : "<th align=\"left\">") + escaped(headings[i]) + "</th>";
+        html_ += "</tr></thead>\n";
     }
     /// `safe` fields; `numbers_from`: fields from there on are aligned right.
-    void row(const std::vector<std::string>& safe, std::size_t numbers_from = 1000, bool strong = false) {
+    void row(const std::vector<std::string>& safe, std::size_t numbers_from = 1000) {
         html_ += "<tr>";
         for (std::size_t i = 0; i < safe.size(); ++i) {
             html_ += i >= numbers_from ? "<td align=\"right\">" : "<td>";
-            html_ += strong ? "<b>" + safe[i] + "</b></td>" : safe[i] + "</td>";
+            html_ += safe[i] + "</td>";
         }
         html_ += "</tr>\n";
     }
@@ -156,7 +161,7 @@ void tellMeasures(Page& page, const RunEvaluation& e) {
         columns.push_back(listMeasures(measures));
     }
     if (columns.empty()) return;
-    page.beginTable(headings);
+    page.beginTable(headings, 1);
     for (std::size_t i = 0; i < columns.front().size(); ++i) {
         std::vector<std::string> row{escaped(columns.front()[i].label)};
         for (const auto& column : columns)
@@ -167,7 +172,7 @@ void tellMeasures(Page& page, const RunEvaluation& e) {
 }
 
 void addFigures(Page& page, const RunEvaluation& e, EvaluationReportFile& report) {
-    page.heading("Over time");
+    page.chapter("Over time");
     CurveChart counts{"frame", "objects", {}, {}, 0, true};
     counts.series = {{"found", kFound, {}}, {"missed", kMissed, {}}, {"false", kFalse, {}}};
     for (const FrameCounts& frame : e.frames) {
@@ -216,7 +221,7 @@ void addFigures(Page& page, const RunEvaluation& e, EvaluationReportFile& report
 }
 
 void tellCauses(Page& page, const RunEvaluation& e, EvaluationReportFile& report) {
-    page.heading("Errors by kind and probable cause");
+    page.chapter("Errors by kind and probable cause");
     std::map<std::pair<int, int>, std::pair<int, int>> cells;  // kind, cause → entries, boxes
     std::map<int, int> by_cause;
     for (const DiagnosedMistake& one : e.mistakes) {
@@ -307,7 +312,7 @@ void addChips(Page& page, const RunEvaluation& e, FrameSource* pixels, const Rep
         }
         if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(by_frame.size()));
     }
-    page.heading("The gravest errors");
+    page.chapter("The gravest errors");
     if (!trouble.empty()) page.paragraph("Pictures are missing: " + escaped(trouble));
     page.beginTable({"", "Kind", "Frames", "Count", "Object", "Track", "Probable cause", "Detail"});
     for (const std::size_t i : chosen) {
@@ -323,7 +328,7 @@ void addChips(Page& page, const RunEvaluation& e, FrameSource* pixels, const Rep
 
 void listAll(Page& page, const RunEvaluation& e, std::size_t most) {
     if (e.mistakes.empty()) return;
-    page.heading("All errors");
+    page.chapter("All errors");
     page.beginTable({"Kind", "Frames", "Count", "Object", "Track", "Probable cause", "Detail"});
     for (std::size_t i = 0; i < e.mistakes.size() && i < most; ++i) {
         const DiagnosedMistake& one = e.mistakes[i];
@@ -338,10 +343,20 @@ void listAll(Page& page, const RunEvaluation& e, std::size_t most) {
 }
 
 void listParameters(Page& page, const RunEvaluation& e, const std::set<std::string>& different) {
-    page.heading("All parameters");
-    page.beginTable({"Parameter", "Value"});
-    for (const auto& [name, value] : e.parameters)
-        page.row({escaped(name), escaped(value)}, 1000, different.contains(name));
+    page.chapter("All parameters");
+    page.beginTable({"Parameter", "Value", "Parameter", "Value"});
+    const std::size_t half = (e.parameters.size() + 1) / 2;
+    for (std::size_t i = 0; i < half; ++i) {
+        std::vector<std::string> row;
+        for (const std::size_t at : {i, i + half}) {
+            if (at >= e.parameters.size()) continue;
+            const auto& [name, value] = e.parameters[at];
+            const bool strong = different.contains(name);
+            for (const std::string& text : {name, value})
+                row.push_back(strong ? "<b>" + escaped(text) + "</b>" : escaped(text));
+        }
+        page.row(row);
+    }
     page.endTable();
 }
 
@@ -387,7 +402,8 @@ EvaluationReportFile makeEvaluationReport(const RunEvaluation& evaluation, Frame
         "</title>\n<style>body{font-family:sans-serif;font-size:14px;max-width:900px;margin:24px auto;padding:0 12px;"
         "color:#222;background:#fff}h1{font-size:22px}h2{font-size:17px;margin-top:28px}"
         "table{border-collapse:collapse;margin:6px 0}th{border-bottom:2px solid #888;font-size:13px}"
-        "td{border-bottom:1px solid #ddd;font-size:13px;vertical-align:middle}img{max-width:100%}</style></head>\n"
+        "td{border-bottom:1px solid #ddd;font-size:13px;vertical-align:middle}img{max-width:100%}"
+        "@media print{h2.chapter{break-before:page}thead{display:table-header-group}}</style></head>\n"
         "<body><h1>" +
         escaped(title) + "</h1>\n" + page.take() + "</body></html>\n";
     return report;

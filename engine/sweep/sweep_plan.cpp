@@ -21,7 +21,8 @@ std::int64_t productOf(const std::vector<SweepAxis>& axes) {
 
 /// Whether a value of the axis may need a model file.
 bool choosesModels(const SweepAxis& axis) {
-    return axis.name == "detection.method" || axis.name == "sliding_window.model";
+    return axis.name == "detection.method" || axis.name == "sliding_window.model" ||
+           axis.name == "sliding_window.descriptor";
 }
 
 /// Shows early which models cannot be used.

@@ -188,6 +188,12 @@ TEST_F(Sweep, RefusesBadInputBeforeItBegins) {
     refused({"--parameter", "detection.method=sliding_window", "--set", "sliding_window.model=" + in("truth.csv"),
              "--out", out},
             3, "truth.csv");
+    refused({"--parameter", "gradient.quantile=0.1", "--set", "detection.method=sliding_window", "--set",
+             "sliding_window.descriptor=dct", "--out", out},
+            2, "was trained for the descriptor chnftrs, but sliding_window.descriptor asks for dct");
+    refused({"--parameter", "sliding_window.descriptor=chnftrs,nothing", "--set", "detection.method=sliding_window",
+             "--out", out},
+            2, "nothing");
     const auto late = cli({"sweep", "--sequence", in("clip"), "--ground-truth", in("late.csv"), "--gsd", "0.2",
                            "--parameter", "gradient.quantile=0.1", "--out", out, "--quiet"});
     EXPECT_EQ(late.exit_code, 3);
@@ -228,6 +234,42 @@ TEST_F(Sweep, KeepsWhatIsDoneWhenKilledAndDoesOnlyTheRest) {
     const auto rest = sweep({"--parameter", "gradient.quantile=0.02:0.008:0.9", "--out", at("k.eyrie"), "--resume"});
     EXPECT_EQ(rest.exit_code, 0) << rest.errors;
     EXPECT_EQ(pointsDone(), 111);
+}
+
+TEST_F(Sweep, OnlyOneProgramWorksOnASweep) {
+    const std::vector<std::string> axis{"--parameter", "gradient.quantile=0.02:0.008:0.9", "--out", at("l.eyrie"),
+                                        "--resume"};
+    std::vector<std::string> arguments = command(axis);
+    arguments.insert(arguments.begin(), std::string(EYRIE_BIN_DIR) + "/eyrie-cli");
+    test::Process working(arguments);
+    const auto locked = [&] { return std::filesystem::exists(at("l.eyrie.sweep-1")); };
+    while (!locked()) usleep(10000);
+    const auto second = sweep(axis);
+    EXPECT_EQ(second.exit_code, 5);
+    EXPECT_THAT(second.errors, HasSubstr("is being worked on by process " + std::to_string(working.pid())));
+    kill(working.pid(), SIGKILL);  // which releases the lock, though its file stays
+    working.wait();
+    const auto third = sweep(axis);
+    EXPECT_EQ(third.exit_code, 0) << third.errors;
+    EXPECT_FALSE(locked());
+}
+
+TEST_F(Sweep, SeveralRunsOfAProjectAreSweptTogether) {
+    for (const char* overlap : {"0.2", "0.4"})
+        ASSERT_EQ(cli({"run", in("clip"), "--project", at("p.eyrie"), "--gsd", "0.2", "--quiet", "--set",
+                       std::string("tracking.min_overlap=") + overlap})
+                      .exit_code,
+                  0);
+    const auto result =
+        cli({"sweep", "--project", at("p.eyrie"), "--run", "2,1", "--ground-truth", in("truth.csv"), "--ground-truth",
+             in("truth.csv"), "--parameter", "detection.method=gradient,clusters", "--quiet", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    ProjectFile project = ProjectFile::open(at("p.eyrie"));
+    EXPECT_EQ(SweepStore(project).sweeps().at(0).points_done, 2);
+    const auto one = cli({"sweep", "--project", at("p.eyrie"), "--run", "2,1", "--ground-truth", in("truth.csv"),
+                          "--parameter", "detection.method=gradient", "--quiet"});
+    EXPECT_EQ(one.exit_code, 2);
+    EXPECT_THAT(one.errors, HasSubstr("one for each of the 2 runs"));
 }
 
 TEST_F(Sweep, AFullDiskLeavesWhatIsDone) {

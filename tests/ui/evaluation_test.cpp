@@ -11,6 +11,8 @@
 #include "main_window/evaluation_panel.h"
 #include "main_window/label_workspace.h"
 #include "main_window/main_window.h"
+#include "main_window/tuning.h"
+#include "main_window/why_panel.h"
 #include "main_window/window_actions.h"
 #include "models/table_roles.h"
 #include "panels/errors_panel.h"
@@ -222,6 +224,37 @@ class EvaluationTest : public QObject {
         for (QDockWidget* dock : window->evaluation().docks()) dock->hide();
         QVERIFY(window->overlays().isVisible(OverlayKind::tracks));
         QVERIFY(window->overlays().isVisible(OverlayKind::verdicts));
+    }
+
+    void anErrorIsAskedWhy() {
+        const auto window = evaluatingWindow();
+        QVERIFY(window);
+        ErrorsPanel& errors = window->evaluation().errors();
+        Why& why = window->tuning().why();
+        const auto& mistakes = window->evaluation().evaluation().evaluation()->mistakes;
+        const auto askAt = [&](MistakeKind kind, bool by_key) {
+            for (std::size_t i = 0; i < mistakes.size(); ++i) {
+                if (mistakes[i].mistake.kind != kind) continue;
+                const MistakePlace place = mistakes[i].mistake.places[mistakes[i].place];
+                window->session().goToFrame(0);
+                if (by_key) {
+                    emit errors.errorActivated(static_cast<int>(i) + 1);
+                    window->session().goToFrame(0);
+                    QTest::keyClick(window.get(), Qt::Key_W, Qt::ShiftModifier);
+                } else {
+                    emit errors.whyAsked(static_cast<int>(i) + 1);
+                }
+                return waitFor([&] { return why.view() && why.view()->frame == place.frame; }) &&
+                       why.area()->centre == place.box.centre &&
+                       waitFor([&] { return window->session().viewFrame().index == place.frame; });
+            }
+            return false;
+        };
+        QVERIFY(askAt(MistakeKind::miss, false));
+        QVERIFY(!why.view()->told.found);
+        QVERIFY(askAt(MistakeKind::false_alarm, true));
+        QVERIFY(why.view()->told.found);
+        QVERIFY(window->tuning().whyPanel().isVisible());
     }
 
     void aWrongTruthIsCorrectedAndScoredAgain() {

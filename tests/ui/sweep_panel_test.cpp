@@ -1,5 +1,7 @@
 #include "main_window/sweep_panel.h"
 
+#include <sys/resource.h>
+
 #include <QAbstractButton>
 #include <QApplication>
 #include <QClipboard>
@@ -9,6 +11,7 @@
 #include <QTest>
 #include <QTimer>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 
 #include "main_window/main_window.h"
@@ -198,6 +201,115 @@ class SweepPanelTest : public QObject {
         QVERIFY(waitFor([&] { return !finished.isEmpty(); }));
         QVERIFY(finished.first().first().toBool());
         QCOMPARE(pointsOf(panel), std::size_t(481));
+    }
+
+    void severalRunsAreSweptOverTogether() {
+        const auto window = windowWithRun(24);
+        QVERIFY(window);
+        QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
+        window->session().settings().options.tracking.min_overlap = 0.4;
+        window->session().startRun();
+        QVERIFY(finished.wait(kPatience_ms));
+        QVERIFY(runIsRead(*window));
+        QCOMPARE(window->session().currentRun(), 2);
+        SweepPanel& panel = window->docks().sweeps();
+        QAction* other = nullptr;
+        for (QAction* action : panel.form().findChildren<QAction*>())
+            if (action->text().startsWith(QStringLiteral("Run 1"))) other = action;
+        QVERIFY(other != nullptr && other->isEnabled());
+        other->trigger();
+        QVERIFY(other->isChecked());
+        panel.form().setAxis(0, QStringLiteral("gradient.quantile"), QStringLiteral("0.1,0.2"));
+        QCOMPARE(panel.form().request().other_runs, std::vector<int>{1});
+        SweepRequest both = request({"gradient.quantile=0.1,0.2"});
+        both.other_runs = {1};
+        QSignalSpy failed(&panel.sweeps(), &SweepSession::failed);
+        panel.sweeps().start(both);
+        QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
+        QVERIFY2(failed.isEmpty(), qPrintable(failed.isEmpty() ? QString() : failed.first().first().toString()));
+        const SweepTable& table = *panel.sweeps().table();
+        QCOMPARE(table.plan.clips.size(), std::size_t(2));
+        QCOMPARE(table.plan.clips[0].run, 2);
+        QCOMPARE(table.plan.clips[1].run, 1);
+        QCOMPARE(table.points.size(), std::size_t(2));
+        panel.sweeps().resume(table.id);  // nothing is left to do
+        QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
+        QVERIFY(failed.isEmpty());
+    }
+
+    void oneOfTwoWindowsWorksOnASweep() {
+        const auto window = windowWithRun(40);
+        QVERIFY(window);
+        SweepSession& first = window->docks().sweeps().sweeps();
+        first.start(request({"gradient.quantile=0.02:0.002:0.98"}));
+        QVERIFY(waitFor([&] { return pointsOf(window->docks().sweeps()) > 2; }));
+        MainWindow other;
+        other.session().open(window->session().project());
+        QVERIFY(runIsRead(other));
+        SweepSession& second = other.docks().sweeps().sweeps();
+        QVERIFY(waitFor([&] { return second.table() != nullptr; }));
+        QSignalSpy failed(&second, &SweepSession::failed);
+        second.resume(second.table()->id);
+        QVERIFY(waitFor([&] { return !failed.isEmpty(); }));
+        QVERIFY2(failed.first().first().toString().contains(QStringLiteral("is being worked on by process")),
+                 qPrintable(failed.first().first().toString()));
+        QVERIFY(first.running());
+        first.cancel();
+        QVERIFY(waitFor([&] { return !first.running(); }));
+        QSignalSpy progressed(&second, &SweepSession::progressed);
+        second.resume(second.table()->id);
+        QVERIFY(waitFor([&] { return progressed.size() > 3; }));
+        QCOMPARE(failed.size(), 1);
+    }
+
+    void aFullDiskKeepsWhatIsDone() {
+        const auto window = windowWithRun(30);
+        QVERIFY(window);
+        SweepPanel& panel = window->docks().sweeps();
+        SweepSession& sweeps = panel.sweeps();
+        QSignalSpy failed(&sweeps, &SweepSession::failed);
+        signal(SIGXFSZ, SIG_IGN);
+        rlimit before{};
+        getrlimit(RLIMIT_FSIZE, &before);
+        rlimit small = before;
+        sweeps.start(request({"gradient.quantile=0.02:0.002:0.98"}));
+        QVERIFY(waitFor([&] { return pointsOf(panel) > 2; }));
+        std::error_code none;  // no file grows much beyond that of the journal
+        const auto journal = std::filesystem::file_size(window->session().project().string() + "-wal", none);
+        small.rlim_cur = (none ? 0 : journal) + 60'000;
+        setrlimit(RLIMIT_FSIZE, &small);
+        const bool ended = waitFor([&] { return !sweeps.running(); });
+        setrlimit(RLIMIT_FSIZE, &before);
+        QVERIFY(ended);
+        QCOMPARE(failed.size(), 1);
+        const QString text = failed.first().first().toString();
+        QVERIFY2(text.contains(QStringLiteral("storing point")), qPrintable(text));
+        const std::size_t kept = pointsOf(panel);
+        QVERIFY(kept > 0 && kept < 481);
+        QSignalSpy finished(&sweeps, &SweepSession::finished);
+        sweeps.resume(sweeps.table()->id);
+        QVERIFY(waitFor([&] { return !sweeps.running(); }));
+        QVERIFY(finished.size() == 1 && finished.first().first().toBool());
+        QCOMPARE(pointsOf(panel), std::size_t(481));
+    }
+
+    void aModelOfAnotherDescriptorAndATruthOfOtherFramesAreNamed() {
+        const auto window = windowWithRun(24);
+        QVERIFY(window);
+        SweepSession& sweeps = window->docks().sweeps().sweeps();
+        QSignalSpy failed(&sweeps, &SweepSession::failed);
+        sweeps.start(request({"sliding_window.descriptor=chnftrs,dct"}));
+        QVERIFY(waitFor([&] { return !sweeps.running(); }));
+        QVERIFY(failed.isEmpty());  // the run's detector needs no model
+        sweeps.start(request({"detection.method=sliding_window", "sliding_window.descriptor=dct"}));
+        QVERIFY(waitFor([&] { return !failed.isEmpty(); }));
+        const QString text = failed.first().first().toString();
+        QVERIFY2(text.contains(QStringLiteral("chnftrs")) && text.contains(QStringLiteral("dct")), qPrintable(text));
+        failed.clear();
+        std::ofstream(truth_) << "frame,id,x,y,length,width,heading,class,ignore\n900,1,20,20,22,11,0,car,0\n";
+        sweeps.start(request({"gradient.quantile=0.1,0.2"}));
+        QVERIFY(waitFor([&] { return !failed.isEmpty(); }));
+        QVERIFY(failed.first().first().toString().contains(QStringLiteral("only in frames 900 to 900")));
     }
 
     void saysWhatIsMissing() {

@@ -5,7 +5,9 @@
 #include <QSlider>
 #include <QTableWidget>
 #include <QTest>
+#include <fstream>
 
+#include "main_window/comparison_header.h"
 #include "main_window/comparison_window.h"
 #include "main_window/main_window.h"
 #include "main_window/preset_dialog.h"
@@ -210,42 +212,103 @@ class TuningTest : public QObject {
         comparison.views().setBorder(0.25);
         QVERIFY(!b.mask().contains(QPoint(2, 10)));
         QVERIFY(a.mask().contains(QPoint(2, 10)));
+        comparison.playback().setSpeed(Playback::kFastest, 0);
+        comparison.playback().setLooping(true);
         comparison.playback().play(0);
-        QVERIFY(waitFor([&] { return comparison.frame() > 20; }));
+        QVERIFY(waitFor([&] { return comparison.shownPerSecond() > 0; }));
+        qInfo("A and B: %.0f frames a second shown when %.0f are due", comparison.shownPerSecond(),
+              25 * Playback::kFastest);
         comparison.playback().pause();
+    }
+
+    void aSideMayBeAPresetOrTheForm() {
+        QVERIFY(showRun());
+        ComparisonWindow& comparison = tuning().compareRuns();
+        ComparisonHeader& header = comparison.header();
+        QVERIFY(header.choose(ComparisonHeader::runSide(1), ComparisonHeader::presetSide(QStringLiteral("thesis"))));
+        header.setRange(30, 50);
+        QVERIFY(waitFor([&] { return comparison.parameters().rowCount() > 10; }));
+        QVERIFY(header.summary().contains(QStringLiteral("only in A")));
+        comparison.goToFrame(45);
+        VideoView& a = comparison.views().first();
+        VideoView& b = comparison.views().second();
+        QVERIFY(waitFor([&] { return a.frame().index == 45 && b.frame().index == 45; }));
+        QVERIFY(a.frame().result && b.frame().result);
+        QVERIFY(!b.frame().result->motion.motion_vectors.empty());
+        comparison.goToFrame(59);  // not computed
+        QCOMPARE(comparison.frame(), 50);
+        comparison.goToFrame(0);
+        QCOMPARE(comparison.frame(), 30);
+        // The same parameters find the same, finished as in a run.
+        QVERIFY(header.choose(ComparisonHeader::formSide(), ComparisonHeader::runSide(1)));
+        header.setRange(0, 59);
+        QVERIFY(waitFor([&] { return header.summary().startsWith(QStringLiteral("0 only in A, 0 only in B")); }));
+        QCOMPARE(comparison.differences().rowCount(), 0);
+        QCOMPARE(comparison.parameters().rowCount(), 0);
+        // A slider of the form is followed.
+        slide("clustering.min_members", 150);
+        QVERIFY(waitFor([&] { return comparison.parameters().rowCount() == 1; }));
+        QVERIFY(comparison.differences().rowCount() > 0);
+        for (int row = 0; row < comparison.differences().rowCount(); ++row)
+            QCOMPARE(comparison.differences().item(row, 2)->text(), QStringLiteral("only in B"));
+        // Only computed frames are played, again and again.
+        header.setRange(10, 14);
+        QSignalSpy shown(&comparison, &ComparisonWindow::framesShown);
+        comparison.playback().play(10);
+        QVERIFY(waitFor([&] { return shown.count() > 12; }));
+        comparison.playback().pause();
+        for (const auto& frame : shown) QVERIFY(frame.front().toInt() >= 10 && frame.front().toInt() <= 14);
+        // A preset that needs a file that is not there.
+        session().settings().options.detection.sliding_window.model = "no such model";
+        comparison.parametersEdited();
+        QVERIFY(waitFor([&] { return header.summary().contains(QStringLiteral("no such model")); }));
     }
 
     void presetsArePartOfTheProject() {
         QVERIFY(showRun());
-        PresetStore store;
-        store.useProject(session().project());
+        PresetLibrary library;
+        library.useProject(session().project());
         ChainOptions night;
         night.motion.min_speed_m_s = 2.5;
-        store.save("night", night);
-        PresetDialog dialog(store, ChainOptions(), window_.get());
+        library.save("night", night, this, {});
+        QVERIFY(library.find("night") == nullptr);  // written and read behind the window
+        QVERIFY(library.find("thesis") != nullptr);
+        QVERIFY(waitFor([&] { return library.find("night") != nullptr; }));
+        PresetDialog dialog(library, ChainOptions(), window_.get());
         dialog.select(QStringLiteral("night"));
         QCOMPARE(dialog.selected(), QStringLiteral("night"));
         QCOMPARE(dialog.differences().rowCount(), 1);
         QCOMPARE(dialog.differences().item(0, 0)->text(), QStringLiteral("motion.min_speed"));
         QCOMPARE(dialog.differences().item(0, 1)->text(), QStringLiteral("2.5"));
         dialog.renameSelected(QStringLiteral("default"));
-        QVERIFY(dialog.message().contains(QStringLiteral("built in")));
+        QVERIFY(waitFor([&] { return dialog.message().contains(QStringLiteral("built in")); }));
         dialog.renameSelected(QStringLiteral("dusk"));
-        QCOMPARE(dialog.selected(), QStringLiteral("dusk"));
+        QVERIFY(waitFor([&] { return dialog.selected() == QStringLiteral("dusk"); }));
         const QString file = QString::fromStdString((*home_ / "evening.json").string());
         dialog.exportSelected(file);
+        QVERIFY(waitFor([&] { return dialog.message().contains(QStringLiteral("Wrote")); }));
         dialog.removeSelected();
-        QCOMPARE(dialog.selected(), QStringLiteral("default"));
-        QCOMPARE(store.names().size(), builtInPresets().size());
+        QVERIFY(waitFor([&] { return dialog.selected() == QStringLiteral("default"); }));
+        QCOMPARE(library.presets().size(), builtInPresets().size());
         dialog.importFile(file);
-        QCOMPARE(dialog.selected(), QStringLiteral("evening"));
-        QCOMPARE(store.load("evening").motion.min_speed_m_s, 2.5);
+        QVERIFY(waitFor([&] { return dialog.selected() == QStringLiteral("evening"); }));
+        QCOMPARE(library.find("evening")->options->motion.min_speed_m_s, 2.5);
         dialog.importFile(QStringLiteral("/nowhere/x.json"));
-        QVERIFY(dialog.message().contains(QStringLiteral("/nowhere/x.json")));
-        QSignalSpy used(&dialog, &PresetDialog::useRequested);
+        QVERIFY(waitFor([&] { return dialog.message().contains(QStringLiteral("/nowhere/x.json")); }));
         dialog.select(QStringLiteral("default"));
         dialog.removeSelected();
-        QVERIFY(dialog.message().contains(QStringLiteral("built in")));
+        QVERIFY(waitFor([&] { return dialog.message().contains(QStringLiteral("built in")); }));
+    }
+
+    void aPresetThatCannotBeReadSaysSoWhenItIsChosen() {
+        std::filesystem::create_directories(*home_ / "presets");
+        std::ofstream(*home_ / "presets" / "broken.json") << "{";
+        PresetLibrary library(*home_ / "presets");
+        QVERIFY(waitFor([&] { return library.find("broken") != nullptr; }));
+        QVERIFY(!library.find("broken")->options);
+        PresetDialog dialog(library, ChainOptions(), nullptr);
+        dialog.select(QStringLiteral("broken"));
+        QVERIFY2(dialog.message().contains(QStringLiteral("broken.json")), qPrintable(dialog.message()));
     }
 
     void trainingSaysWhatIsMissing() {
@@ -306,6 +369,14 @@ class TuningTest : public QObject {
         QVERIFY(dialog.message().contains(QStringLiteral("last third")));
         QCOMPARE(dialog.chart().data().series.size(), std::size_t{2});
         QVERIFY(std::filesystem::exists(file.toStdString()));
+        // A model of another descriptor is not overwritten by mistake.
+        dialog.setKinds(DescriptorKind::hog, ClassifierKind::random_naive_bayes);
+        QSignalSpy asked(&dialog.training(), &LabelTraining::replacementNeeded);
+        dialog.start();
+        QVERIFY(asked.wait(kPatience_ms));
+        QVERIFY2(dialog.message().contains(QStringLiteral("a model of dct")) &&
+                     dialog.message().contains(QStringLiteral("by one of hog")),
+                 qPrintable(dialog.message()));
         dialog.start();
         dialog.training().cancel();
         QSignalSpy stopped(&dialog.training(), &LabelTraining::stopped);

@@ -1,7 +1,6 @@
 #include "main_window/comparison_window.h"
 
 #include <QCheckBox>
-#include <QComboBox>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
@@ -14,6 +13,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "main_window/comparison_header.h"
 #include "view/wipe_split.h"
 
 namespace eyrie::ui {
@@ -23,6 +23,7 @@ namespace {
 constexpr int kMostRows = 2000;
 constexpr double kCloseUp = 4;  ///< screen px per image px at most, when a difference is gone to
 constexpr int kRateWindow_ms = 1000;
+constexpr int kSettle_ms = 250;  ///< after the last change of a parameter
 
 QTableWidget* table(const QStringList& columns) {
     auto* made = new QTableWidget(0, static_cast<int>(columns.size()));
@@ -35,6 +36,8 @@ QTableWidget* table(const QStringList& columns) {
     made->setShowGrid(false);
     made->setWordWrap(false);
     made->horizontalHeader()->setStretchLastSection(true);
+    made->horizontalHeader()->setHighlightSections(false);
+    made->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     return made;
 }
 
@@ -56,9 +59,10 @@ QString idText(const std::optional<int>& id) {
 
 }  // namespace
 
-ComparisonWindow::ComparisonWindow(ProjectSession& session, OverlaySettings& overlays, QWidget* parent)
+ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& presets, OverlaySettings& overlays,
+                                   QWidget* parent)
     : QWidget(parent, Qt::Window), session_(session) {
-    setWindowTitle(tr("Compare runs – Eyrie"));
+    setWindowTitle(tr("A and B – Eyrie"));
     setObjectName(QStringLiteral("comparison"));
     resize(1500, 820);
     views_ = new WipeSplit(overlays);
@@ -72,64 +76,48 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, OverlaySettings& ove
     splitter->addWidget(buildLists());
     splitter->setStretchFactor(0, 1);
     splitter->setSizes({1080, 420});
+    header_ = new ComparisonHeader(session_, presets);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(6, 6, 6, 6);
-    layout->addWidget(buildHeader());
+    layout->addWidget(header_);
     layout->addWidget(splitter, 1);
 
-    connect(&loader_, &ComparisonLoader::loaded, this, &ComparisonWindow::showPair);
-    connect(&loader_, &ComparisonLoader::compared, this, [this](const std::shared_ptr<const RunComparison>& found) {
-        comparison_ = found;
-        showComparison();
-    });
-    connect(&loader_, &ComparisonLoader::failed, this, [this](const QString& message) {
-        problem_ = message;
-        showComparison();
-    });
-    connect(&playback_, &Playback::frameDue, this, &ComparisonWindow::goToFrame);
+    wireLoader();
+    connect(header_, &ComparisonHeader::pairChosen, this, &ComparisonWindow::usePair);
+    connect(&header_->wipe(), &QToolButton::toggled, views_, &WipeSplit::setWipe);
+    connect(&playback_, &Playback::frameDue, this, &ComparisonWindow::playOn);
     connect(&playback_, &Playback::playingChanged, this, [this](bool playing) {
         play_->setIcon(QIcon::fromTheme(playing ? QStringLiteral("media-playback-pause")
                                                 : QStringLiteral("media-playback-start")));
         shown_ = 0;
         since_.restart();
     });
-    connect(&session_, &ProjectSession::runsChanged, this, &ComparisonWindow::fillRuns);
     connect(&session_, &ProjectSession::videoChanged, this, &ComparisonWindow::close);
+    edited_.setSingleShot(true);
+    edited_.setInterval(kSettle_ms);
+    connect(&edited_, &QTimer::timeout, this, &ComparisonWindow::parametersEdited);
     frame_ = session_.currentFrame();
-    fillRuns();
+    usePair();
 }
 
-QWidget* ComparisonWindow::buildHeader() {
-    auto* header = new QWidget;
-    first_ = new QComboBox;
-    second_ = new QComboBox;
-    first_->setAccessibleName(tr("Run A"));
-    second_->setAccessibleName(tr("Run B"));
-    auto* swap = new QToolButton;
-    swap->setText(tr("⇄"));
-    swap->setToolTip(tr("Change A and B round"));
-    wipe_ = new QToolButton;
-    wipe_->setText(tr("Wipe"));
-    wipe_->setCheckable(true);
-    wipe_->setToolTip(tr("B over A with a border that can be dragged, instead of side by side (X)"));
-    summary_ = new QLabel;
-    summary_->setForegroundRole(QPalette::PlaceholderText);
-    auto* layout = new QHBoxLayout(header);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(new QLabel(tr("A")));
-    layout->addWidget(first_, 1);
-    layout->addWidget(swap);
-    layout->addWidget(new QLabel(tr("B")));
-    layout->addWidget(second_, 1);
-    layout->addWidget(wipe_);
-    layout->addSpacing(12);
-    layout->addWidget(summary_, 2);
-    connect(first_, &QComboBox::activated, this, &ComparisonWindow::usePair);
-    connect(second_, &QComboBox::activated, this, &ComparisonWindow::usePair);
-    connect(swap, &QToolButton::clicked, this,
-            [this] { choose(second_->currentData().toInt(), first_->currentData().toInt()); });
-    connect(wipe_, &QToolButton::toggled, views_, &WipeSplit::setWipe);
-    return header;
+void ComparisonWindow::wireLoader() {
+    connect(&loader_, &ComparisonLoader::loaded, this, &ComparisonWindow::showPair);
+    connect(&loader_, &ComparisonLoader::compared, this, [this](const std::shared_ptr<const SideComparison>& found) {
+        comparison_ = found;
+        header_->showProgress(0, 0);
+        showComparison();
+        if (pair_ && pair_->computes()) loader_.request(frame_);  // tracks were finished
+    });
+    connect(&loader_, &ComparisonLoader::computed, this, [this](int done, int total) {
+        header_->showProgress(done, total);
+        const bool lacks = !views_->first().frame().result || !views_->second().frame().result;
+        if (lacks && !playback_.playing()) loader_.request(frame_);
+    });
+    connect(&loader_, &ComparisonLoader::failed, this, [this](const QString& message) {
+        problem_ = message;
+        header_->showProgress(0, 0);
+        showComparison();
+    });
 }
 
 QWidget* ComparisonWindow::buildTransport() {
@@ -177,61 +165,58 @@ QWidget* ComparisonWindow::buildLists() {
     return tabs_;
 }
 
-QString ComparisonWindow::runName(int run_id) const {
-    for (const RunRecord& run : session_.runs()) {
-        if (run.id != run_id) continue;
-        const QString name = QString::fromStdString(run.name);
-        return name.isEmpty() ? tr("Run %1 · %2").arg(run.id).arg(QString::fromStdString(run.preset))
-                              : tr("Run %1 · %2").arg(run.id).arg(name);
-    }
-    return {};
-}
-
-void ComparisonWindow::fillRuns() {
-    if (!session_.media()) return;
-    const int old_first = first_->currentData().toInt();
-    const int old_second = second_->currentData().toInt();
-    first_->clear();
-    second_->clear();
-    for (const RunRecord& run : session_.runs()) {
-        if (run.sequence.path != session_.media()->identity || run.frames_done == 0) continue;
-        first_->addItem(runName(run.id), run.id);
-        second_->addItem(runName(run.id), run.id);
-    }
-    if (first_->findData(old_first) >= 0 && second_->findData(old_second) >= 0) {
-        first_->setCurrentIndex(first_->findData(old_first));
-        second_->setCurrentIndex(second_->findData(old_second));
-        return;
-    }
-    if (first_->count() == 0) return;
-    const int newest = first_->itemData(first_->count() - 1).toInt();
-    const int current = session_.currentRun().value_or(newest);
-    const int other = current != newest ? newest : first_->itemData(std::max(0, first_->count() - 2)).toInt();
-    choose(current, other);
-}
-
 void ComparisonWindow::choose(int first, int second) {
-    first_->setCurrentIndex(first_->findData(first));
-    second_->setCurrentIndex(second_->findData(second));
-    usePair();
+    header_->choose(ComparisonHeader::runSide(first), ComparisonHeader::runSide(second));
 }
 
 void ComparisonWindow::usePair() {
-    if (!session_.media() || first_->currentIndex() < 0 || second_->currentIndex() < 0) return;
+    edited_.stop();
     comparison_.reset();
     problem_.clear();
+    pair_ = header_->pair();
+    if (!pair_) {
+        showComparison();
+        return;
+    }
     playback_.setTimes(session_.timesUs());
-    const QSignalBlocker quiet(slider_);
-    slider_->setRange(0, session_.lastFrame());
-    views_->setNames(tr("A · %1").arg(first_->currentText()), tr("B · %1").arg(second_->currentText()));
-    loader_.usePair(
-        {*session_.media(), session_.project(), first_->currentData().toInt(), second_->currentData().toInt()});
-    loader_.request(frame_);
+    playback_.setLooping(pair_->computes());  // as playOn() does within the frames that are computed
+    {
+        const QSignalBlocker quiet(slider_);
+        slider_->setRange(pair_->computes() ? pair_->range.first : 0,
+                          pair_->computes() ? pair_->range.last : session_.lastFrame());
+    }
+    views_->setNames(tr("A · %1").arg(header_->firstName()), tr("B · %1").arg(header_->secondName()));
+    loader_.usePair(*pair_);
+    header_->showProgress(0, pair_->computes() ? 1 : 0);
+    goToFrame(frame_);
     showComparison();
 }
 
+void ComparisonWindow::parametersEdited() {
+    if (!pair_ || !header_->comparesForm()) return;
+    const auto now = header_->pair();
+    const auto changed = [](const ComparisonSide& a, const ComparisonSide& b) {
+        return a.options && b.options && !differencesBetween(*a.options, *b.options).empty();
+    };
+    if (now && (changed(now->first, pair_->first) || changed(now->second, pair_->second))) usePair();
+}
+
+bool ComparisonWindow::event(QEvent* event) {
+    if (event->type() == QEvent::WindowActivate) parametersEdited();
+    return QWidget::event(event);
+}
+
+void ComparisonWindow::playOn(FrameIndex frame) {
+    const bool at_end = frame > slider_->maximum() || frame < slider_->minimum();
+    if (at_end && playback_.playing()) {  // only computed frames are played, again and again
+        frame = playback_.speed() > 0 ? slider_->minimum() : slider_->maximum();
+        playback_.jumped(frame);
+    }
+    goToFrame(frame);
+}
+
 void ComparisonWindow::goToFrame(FrameIndex frame) {
-    frame_ = std::clamp(frame, 0, session_.lastFrame());
+    frame_ = std::clamp(frame, slider_->minimum(), slider_->maximum());
     loader_.request(frame_);
 }
 
@@ -262,13 +247,16 @@ void ComparisonWindow::showComparison() {
     differences_->setSortingEnabled(false);
     differences_->setRowCount(0);
     parameters_->setRowCount(0);
+    tabs_->setTabText(0, tr("Differences"));
+    tabs_->setTabText(1, tr("Parameters"));
     if (!problem_.isEmpty()) {
-        summary_->setText(problem_);
+        header_->setSummary(problem_);
         return;
     }
     if (!comparison_) {
-        summary_->setText(first_->count() < 2 ? tr("There is only one run of this video. Make another one to compare.")
-                                              : tr("Comparing …"));
+        header_->setSummary(!pair_              ? tr("There is no run of this video yet. Make one to compare with.")
+                            : pair_->computes() ? tr("Computing …")
+                                                : tr("Comparing …"));
         return;
     }
     const auto& found = detections_->isChecked() ? comparison_->detections : comparison_->tracks;
@@ -305,11 +293,12 @@ void ComparisonWindow::showComparison() {
     const auto count = [&](DifferenceKind kind) {
         return std::count_if(found.begin(), found.end(), [&](const ResultDifference& d) { return d.kind == kind; });
     };
-    summary_->setText(tr("%1 only in A, %2 only in B, %3 with another box, %4 changes of id")
-                          .arg(count(DifferenceKind::only_first))
-                          .arg(count(DifferenceKind::only_second))
-                          .arg(count(DifferenceKind::box))
-                          .arg(count(DifferenceKind::identity)));
+    header_->setSummary(tr("%1 only in A, %2 only in B, %3 other boxes, %4 changes of id%5")
+                            .arg(count(DifferenceKind::only_first))
+                            .arg(count(DifferenceKind::only_second))
+                            .arg(count(DifferenceKind::box))
+                            .arg(count(DifferenceKind::identity))
+                            .arg(comparison_->exact ? QString() : tr("; tracks begin shortly before these frames")));
 }
 
 void ComparisonWindow::goToDifference(int row) {
@@ -337,7 +326,7 @@ void ComparisonWindow::keyPressEvent(QKeyEvent* event) {
             goToFrame(frame_ + (event->key() == Qt::Key_Left ? -1 : 1));
             return;
         case Qt::Key_X:
-            wipe_->toggle();
+            header_->wipe().toggle();
             return;
         case Qt::Key_F:
             views_->first().fit();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QElapsedTimer>
+#include <QTimer>
 #include <QWidget>
 
 #include "session/comparison_loader.h"
@@ -8,7 +9,6 @@
 #include "session/project_session.h"
 
 class QCheckBox;
-class QComboBox;
 class QLabel;
 class QSlider;
 class QTableWidget;
@@ -17,20 +17,27 @@ class QToolButton;
 
 namespace eyrie::ui {
 
+class ComparisonHeader;
 class OverlaySettings;
+class PresetLibrary;
 class WipeSplit;
 
-/// A and B: two runs over the same frames, side by side or with a wipe, playing in step with one zoom; where they
-/// differ and in which parameters.
+/// A and B: two runs or sets of parameters over the same frames, side by side or with a wipe, playing in step with one
+/// zoom; where they differ and in which parameters.
 class ComparisonWindow : public QWidget {
     Q_OBJECT
 
  public:
-    /// Both must outlive the window.
-    ComparisonWindow(ProjectSession& session, OverlaySettings& overlays, QWidget* parent);
+    /// All must outlive the window.
+    ComparisonWindow(ProjectSession& session, PresetLibrary& presets, OverlaySettings& overlays, QWidget* parent);
 
-    /// Chooses the runs; by default the newest two over the video shown, the current one as A.
+    /// Chooses two runs; by default the newest two over the video shown, the current one as A.
     void choose(int first, int second);
+    ComparisonHeader& header() { return *header_; }
+    /// The parameters of the form may have changed: where they are compared they are computed anew.
+    void parametersEdited();
+    /// The same once no other change follows for a moment.
+    void parametersEditedSoon() { edited_.start(); }
     void goToFrame(FrameIndex frame);
     FrameIndex frame() const { return frame_; }
     WipeSplit& views() { return *views_; }
@@ -44,18 +51,18 @@ class ComparisonWindow : public QWidget {
     void framesShown(FrameIndex frame);
 
  protected:
+    bool event(QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
 
  private:
-    QWidget* buildHeader();
     QWidget* buildTransport();
     QWidget* buildLists();
-    void fillRuns();
+    void wireLoader();
+    void playOn(FrameIndex frame);
     void usePair();
     void showPair(const ViewFrame& first, const ViewFrame& second);
     void showComparison();
     void goToDifference(int row);
-    QString runName(int run_id) const;
 
     ProjectSession& session_;
     ComparisonLoader loader_;
@@ -64,16 +71,15 @@ class ComparisonWindow : public QWidget {
     int shown_ = 0;  ///< frames since `since_`
     double shown_per_second_ = 0;
     QElapsedTimer since_;
-    std::shared_ptr<const RunComparison> comparison_;
+    std::shared_ptr<const SideComparison> comparison_;
+    std::optional<ComparisonPair> pair_;
+    QTimer edited_;                                           ///< computes anew once the hand rests
     std::optional<std::pair<FrameIndex, OrientedBox>> mark_;  ///< the difference that was gone to
     QString problem_;
-    QComboBox* first_;
-    QComboBox* second_;
-    QToolButton* wipe_;
+    ComparisonHeader* header_;
     QToolButton* play_;
     QSlider* slider_;
     QLabel* place_;
-    QLabel* summary_;
     QCheckBox* detections_;
     QTabWidget* tabs_;
     QTableWidget* differences_;

@@ -131,6 +131,11 @@ void EvaluationDocks::showErrorsAlone() {
 
 void EvaluationDocks::wireList() {
     connect(errors_, &ErrorsPanel::errorActivated, this, &EvaluationDocks::goTo);
+    connect(errors_, &ErrorsPanel::whyAsked, this, [this](int id) {
+        goTo(id);
+        askWhy();
+    });
+    connect(actions_.why_error, &QAction::triggered, this, &EvaluationDocks::askWhy);
     connect(errors_, &ErrorsPanel::truthIsWrong, this, [this](int id) {
         goTo(id);
         correctTruth();
@@ -179,7 +184,7 @@ void EvaluationDocks::showErrors() {
     model_->setErrors(std::move(rows));
     errors_->selectId(evaluation_->selected() ? static_cast<int>(*evaluation_->selected()) + 1 : 0);
     wantChips();
-    for (QAction* action : {actions_.next_error, actions_.previous_error, actions_.wrong_truth})
+    for (QAction* action : {actions_.next_error, actions_.previous_error, actions_.why_error, actions_.wrong_truth})
         action->setEnabled(evaluation && !evaluation->mistakes.empty());
     actions_.report->setEnabled(evaluation != nullptr);
 }
@@ -228,6 +233,16 @@ void EvaluationDocks::goTo(int id) {
             .arg(evaluation->mistakes.size())
             .arg(row.kind, row.cause, row.explanation,
                  row.detail.isEmpty() ? QString() : QStringLiteral("<br>") + row.detail.toHtmlEscaped()));
+}
+
+void EvaluationDocks::askWhy() {
+    if (labelling_ != nullptr && labelling_->active()) actions_.review_workspace->trigger();
+    if (evaluation_->selectedMistake() == nullptr) step(1);
+    const DiagnosedMistake* one = evaluation_->selectedMistake();
+    if (one == nullptr) return;
+    const MistakePlace place = placeOf(*one);
+    session_.goToFrame(place.frame);
+    emit whyRequested(place.box);
 }
 
 // ---- the canvas -----------------------------------------------------------------------------------------------------

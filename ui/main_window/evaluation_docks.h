@@ -39,12 +39,15 @@ class EvaluationDocks : public QObject {
     void step(int direction);
     /// Draws the verdicts of the frame that the canvas shows. To be called after the canvas got another frame.
     void showMarks();
+    /// Goes to the place of the selected error and asks there; answers come from who listens to whyRequested().
+    void askWhy();
     /// Opens the object of the selected error in the label workspace.
     void correctTruth();
     /// Writes the report; PDF where the name ends so, else HTML.
     void writeReport(const QString& path);
 
  signals:
+    void whyRequested(const OrientedBox& box);
     void notice(const QString& message);
     void problem(const QString& message);
 

@@ -54,9 +54,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     resize(kFirstSize);
     inspection_ = new Inspection(session_, this);
     docks_ = new ReviewDocks(session_, *inspection_, *this);
-    tuning_ = new Tuning({session_, *canvas_, *docks_, *actions_, overlays_, *this});
-    buildEvaluation();
     parameters_ = new ParameterBinding(session_, docks_->parameterForm(), this);
+    tuning_ = new Tuning({session_, *canvas_, *docks_, *actions_, parameters_->presets(), overlays_, *this});
+    buildEvaluation();
     timeline_binding_ = new TimelineBinding(session_, *timeline_, docks_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
     buildMenus();

@@ -122,6 +122,7 @@ void MainWindow::buildLabelling() {
 void MainWindow::buildEvaluation() {
     evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, *this);
     connect(evaluation_, &EvaluationDocks::notice, this, &MainWindow::showNotice);
+    connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
     // A preview takes the verdicts away, which are those of the stored run; they come back with it.
     connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
         if (!tuning_->preview().active()) evaluation_->showMarks();

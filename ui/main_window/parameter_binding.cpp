@@ -27,8 +27,13 @@ ParameterBinding::ParameterBinding(ProjectSession& session, ParameterForm& form,
         dialog.exec();
         show();
     });
-    connect(&session_, &ProjectSession::projectChanged, this, [this] {
-        presets_.useProject(session_.project());
+    connect(&session_, &ProjectSession::projectChanged, this, [this] { presets_.useProject(session_.project()); });
+    connect(&presets_, &PresetLibrary::changed, this, [this] {
+        const PresetLibrary::Preset* awaited = presets_.find(defaults_awaited_);
+        if (awaited != nullptr && awaited->options) {
+            defaults_ = *awaited->options;
+            defaults_awaited_.clear();
+        }
         show();
     });
     show();
@@ -41,17 +46,19 @@ void ParameterBinding::usePreset(const QString& name) {
 void ParameterBinding::show() {
     form_.setParameters(listParameters(describeOf(session_.settings().options)), listParameters(describeOf(defaults_)));
     QStringList names;
-    for (const std::string& name : presets_.names()) names << QString::fromStdString(name);
+    for (const auto& preset : presets_.presets()) names << QString::fromStdString(preset.name);
     form_.setPresets(names, QString::fromStdString(session_.settings().preset));
 }
 
 void ParameterBinding::choosePreset(const QString& name) {
-    try {
-        defaults_ = presets_.load(name.toStdString());
+    const PresetLibrary::Preset* preset = presets_.find(name.toStdString());
+    if (preset != nullptr && preset->options) {
+        defaults_ = *preset->options;
+        defaults_awaited_.clear();
         session_.settings().options = defaults_;
-        session_.settings().preset = name.toStdString();
-    } catch (const Error& error) {
-        emit problem(QString::fromUtf8(error.what()));
+        session_.settings().preset = preset->name;
+    } else {
+        emit problem(preset != nullptr ? preset->problem : tr("There is no preset “%1”.").arg(name));
     }
     show();
 }
@@ -61,15 +68,18 @@ void ParameterBinding::savePreset() {
     const QString name = QInputDialog::getText(&form_, tr("Save preset"), tr("Name of the preset:"), QLineEdit::Normal,
                                                tr("my preset"), &accepted);
     if (!accepted) return;
-    try {
-        presets_.save(name.toStdString(), session_.settings().options);
-        session_.settings().preset = name.toStdString();
-        defaults_ = session_.settings().options;
-        emit notice(tr("Saved the preset “%1”.").arg(name));
-    } catch (const Error& error) {
-        emit problem(QString::fromUtf8(error.what()));
-    }
-    show();
+    const ChainOptions options = session_.settings().options;
+    presets_.save(name.toStdString(), options, this, [this, options](const QString& saved, const QString& what_failed) {
+        if (!what_failed.isEmpty()) {
+            emit problem(what_failed);
+            return;
+        }
+        session_.settings().preset = saved.toStdString();
+        defaults_ = options;
+        defaults_awaited_.clear();
+        emit notice(tr("Saved the preset “%1”.").arg(saved));
+        show();
+    });
 }
 
 void ParameterBinding::setValue(const std::string& name, const std::string& value) {
@@ -94,23 +104,22 @@ void ParameterBinding::saveAsPreset(const ChainOptions& options) {
 
 void ParameterBinding::adoptRunParameters() {
     if (!session_.runData()) return;
-    try {
-        // Parameters that this version does not know any more would make the run's values unusable as a whole; they are
-        // named, the others taken.
-        std::vector<std::string> names;
-        session_.settings().options = storedOptions(session_.runData()->parameters, &names);
-        QStringList unknown;
-        for (const std::string& name : names) unknown << QString::fromStdString(name);
-        const std::string preset = session_.runData()->record.preset;
-        session_.settings().preset = preset;
-        defaults_ = presets_.load(preset);
-        if (!unknown.isEmpty())
-            emit problem(
-                tr("These parameters of the run are not known to this version and were left at their defaults: %1")
-                    .arg(unknown.join(QStringLiteral(", "))));
-    } catch (const Error&) {
-        defaults_ = builtInPreset("default");  // its preset is gone: show what differs from the defaults
-    }
+    // Parameters that this version does not know any more would make the run's values unusable as a whole; they are
+    // named, the others taken.
+    std::vector<std::string> names;
+    session_.settings().options = storedOptions(session_.runData()->parameters, &names);
+    const std::string preset = session_.runData()->record.preset;
+    session_.settings().preset = preset;
+    const PresetLibrary::Preset* known = presets_.find(preset);
+    const bool usable = known != nullptr && known->options;
+    defaults_ =
+        usable ? *known->options : builtInPreset("default");  // where it is gone: what differs from the defaults
+    defaults_awaited_ = usable ? std::string() : preset;
+    QStringList unknown;
+    for (const std::string& name : names) unknown << QString::fromStdString(name);
+    if (!unknown.isEmpty())
+        emit problem(tr("These parameters of the run are not known to this version and were left at their defaults: %1")
+                         .arg(unknown.join(QStringLiteral(", "))));
     show();
 }
 

@@ -2,7 +2,7 @@
 
 #include <QObject>
 
-#include "session/preset_store.h"
+#include "session/preset_library.h"
 #include "session/project_session.h"
 
 namespace eyrie::ui {
@@ -23,6 +23,7 @@ class ParameterBinding : public QObject {
     void setValue(const std::string& name, const std::string& value);
     /// Sets several parameters of the next run, those of a point of a sweep.
     void setValues(const std::vector<std::pair<std::string, std::string>>& values);
+    PresetLibrary& presets() { return presets_; }
     /// Asks for a name and keeps these parameters as a preset.
     void saveAsPreset(const ChainOptions& options);
 
@@ -38,8 +39,9 @@ class ParameterBinding : public QObject {
 
     ProjectSession& session_;
     ParameterForm& form_;
-    PresetStore presets_;
-    ChainOptions defaults_;  ///< the values of the preset chosen last
+    PresetLibrary presets_;
+    ChainOptions defaults_;         ///< the values of the preset chosen last
+    std::string defaults_awaited_;  ///< a preset that was not read yet when it was wanted
 };
 
 }  // namespace eyrie::ui

@@ -13,7 +13,6 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
-#include "core/error.h"
 #include "session/live_preview.h"
 
 namespace eyrie::ui {
@@ -30,6 +29,8 @@ QTableWidget* table(const QStringList& columns) {
     made->setAlternatingRowColors(true);
     made->setShowGrid(false);
     made->horizontalHeader()->setStretchLastSection(true);
+    made->horizontalHeader()->setHighlightSections(false);
+    made->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     return made;
 }
 
@@ -39,7 +40,7 @@ QString text(const std::string& words) {
 
 }  // namespace
 
-PresetDialog::PresetDialog(PresetStore& presets, ChainOptions present, QWidget* parent)
+PresetDialog::PresetDialog(PresetLibrary& presets, ChainOptions present, QWidget* parent)
     : QDialog(parent), presets_(presets), present_(std::move(present)) {
     setWindowTitle(tr("Presets"));
     resize(900, 520);
@@ -67,6 +68,7 @@ PresetDialog::PresetDialog(PresetStore& presets, ChainOptions present, QWidget* 
     layout->addWidget(buildButtons());
     connect(list_, &QTableWidget::currentCellChanged, this, &PresetDialog::compare);
     connect(other_, &QComboBox::currentIndexChanged, this, &PresetDialog::compare);
+    connect(&presets_, &PresetLibrary::changed, this, &PresetDialog::refresh);
     refresh();
     select(QStringLiteral("default"));
 }
@@ -115,7 +117,7 @@ void PresetDialog::refresh() {
     const QString other_before = other_->currentText();
     const QSignalBlocker quiet(list_);
     const QSignalBlocker quiet_other(other_);
-    const auto entries = presets_.entries();
+    const auto& entries = presets_.presets();
     list_->setRowCount(static_cast<int>(entries.size()));
     other_->clear();
     for (int row = 0; row < list_->rowCount(); ++row) {
@@ -159,62 +161,59 @@ void PresetDialog::compare() {
     for (QPushButton* button : {use_, export_}) button->setEnabled(item != nullptr);
     differences_->setRowCount(0);
     if (item == nullptr) return;
-    attempt([&] {
-        const bool with_form = other_->currentIndex() == other_->count() - 1;
-        const ChainOptions other = with_form ? present_ : presets_.load(other_->currentText().toStdString());
-        const auto differences = differencesBetween(presets_.load(selected().toStdString()), other);
-        differences_->setRowCount(static_cast<int>(differences.size()));
-        for (int row = 0; row < differences_->rowCount(); ++row) {
-            const ParameterDifference& d = differences[static_cast<std::size_t>(row)];
-            differences_->setItem(row, 0, new QTableWidgetItem(text(d.name)));
-            differences_->setItem(row, 1, new QTableWidgetItem(text(d.first)));
-            differences_->setItem(row, 2, new QTableWidgetItem(text(d.second)));
-        }
-        differences_->resizeColumnsToContents();
-        message_->setText(differences.empty()
-                              ? tr("“%1” is the same as %2.").arg(selected(), other_->currentText())
-                              : tr("“%1” differs from %2 in %n parameters.", nullptr, differences_->rowCount())
-                                    .arg(selected(), other_->currentText()));
-    });
+    const bool with_form = other_->currentIndex() == other_->count() - 1;
+    const ChainOptions* other = with_form ? &present_ : optionsOf(other_->currentText());
+    const ChainOptions* chosen = optionsOf(selected());
+    if (other == nullptr || chosen == nullptr) return;
+    const auto differences = differencesBetween(*chosen, *other);
+    differences_->setRowCount(static_cast<int>(differences.size()));
+    for (int row = 0; row < differences_->rowCount(); ++row) {
+        const ParameterDifference& d = differences[static_cast<std::size_t>(row)];
+        differences_->setItem(row, 0, new QTableWidgetItem(text(d.name)));
+        differences_->setItem(row, 1, new QTableWidgetItem(text(d.first)));
+        differences_->setItem(row, 2, new QTableWidgetItem(text(d.second)));
+    }
+    differences_->resizeColumnsToContents();
+    message_->setText(differences.empty()
+                          ? tr("“%1” is the same as %2.").arg(selected(), other_->currentText())
+                          : tr("“%1” differs from %2 in %n parameters.", nullptr, differences_->rowCount())
+                                .arg(selected(), other_->currentText()));
 }
 
-void PresetDialog::attempt(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const Error& error) {
-        message_->setText(QString::fromUtf8(error.what()));
+const ChainOptions* PresetDialog::optionsOf(const QString& name) {
+    const PresetLibrary::Preset* preset = presets_.find(name.toStdString());
+    if (preset == nullptr || !preset->options) {
+        message_->setText(preset != nullptr ? preset->problem : tr("There is no preset “%1”.").arg(name));
+        return nullptr;
     }
+    return preset->options.get();
+}
+
+PresetLibrary::Answer PresetDialog::then(const QString& said) {
+    return [this, said](const QString& name, const QString& problem) {
+        if (problem.isEmpty()) {
+            const QString shown = name.isEmpty() ? QStringLiteral("default") : name;
+            if (shown != selected()) select(shown);
+        }
+        const QString text = problem.isEmpty() ? said : problem;
+        if (!text.isEmpty()) message_->setText(text);
+    };
 }
 
 void PresetDialog::renameSelected(const QString& name) {
-    attempt([&] {
-        presets_.rename(selected().toStdString(), name.toStdString());
-        refresh();
-        select(name);
-    });
+    presets_.rename(selected().toStdString(), name.toStdString(), this, then({}));
 }
 
 void PresetDialog::removeSelected() {
-    attempt([&] {
-        presets_.remove(selected().toStdString());
-        refresh();
-        select(QStringLiteral("default"));
-    });
+    presets_.remove(selected().toStdString(), this, then({}));
 }
 
 void PresetDialog::importFile(const QString& file) {
-    attempt([&] {
-        const QString name = text(presets_.importFile(file.toStdString()));
-        refresh();
-        select(name);
-    });
+    presets_.importFile(file.toStdString(), this, then({}));
 }
 
 void PresetDialog::exportSelected(const QString& file) {
-    attempt([&] {
-        presets_.exportFile(selected().toStdString(), file.toStdString());
-        message_->setText(tr("Wrote %1.").arg(file));
-    });
+    presets_.exportFile(selected().toStdString(), file.toStdString(), this, then(tr("Wrote %1.").arg(file)));
 }
 
 }  // namespace eyrie::ui

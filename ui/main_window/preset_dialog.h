@@ -2,7 +2,7 @@
 
 #include <QDialog>
 
-#include "session/preset_store.h"
+#include "session/preset_library.h"
 
 class QComboBox;
 class QLabel;
@@ -17,13 +17,13 @@ class PresetDialog : public QDialog {
 
  public:
     /// `present`: the parameters of the form, which presets can be compared with, too. `presets` must outlive it.
-    PresetDialog(PresetStore& presets, ChainOptions present, QWidget* parent);
+    PresetDialog(PresetLibrary& presets, ChainOptions present, QWidget* parent);
 
     void select(const QString& name);
     QString selected() const;
     QTableWidget& list() { return *list_; }
     QTableWidget& differences() { return *differences_; }
-    /// Without asking anybody.
+    /// Without asking anybody. Done in the background; message() tells when.
     void renameSelected(const QString& name);
     void removeSelected();
     void importFile(const QString& file);
@@ -37,9 +37,11 @@ class PresetDialog : public QDialog {
     QWidget* buildButtons();
     void refresh();
     void compare();
-    void attempt(const std::function<void()>& work);
+    /// What an answer of the library is followed by.
+    PresetLibrary::Answer then(const QString& said);
+    const ChainOptions* optionsOf(const QString& name);
 
-    PresetStore& presets_;
+    PresetLibrary& presets_;
     ChainOptions present_;
     QTableWidget* list_;
     QComboBox* other_;

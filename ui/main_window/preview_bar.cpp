@@ -43,7 +43,7 @@ PreviewBar::PreviewBar(LivePreview& preview, QWidget* parent) : QFrame(parent), 
 }
 
 QString PreviewBar::text() const {
-    return text_->text();
+    return whole_text_;
 }
 
 void PreviewBar::refresh() {
@@ -75,9 +75,20 @@ void PreviewBar::refresh() {
     } else {
         text += tr(" · computing …");
     }
-    text_->setText(text);
+    whole_text_ = text;
+    showText();
     listed.prepend(text);
     text_->setToolTip(listed.join(QLatin1Char('\n')));
+}
+
+void PreviewBar::showText() {
+    text_->setText(text_->fontMetrics().elidedText(whole_text_, Qt::ElideRight, text_->width()));
+}
+
+void PreviewBar::resizeEvent(QResizeEvent* event) {
+    QFrame::resizeEvent(event);
+    layout()->activate();  // the label has its new width
+    showText();
 }
 
 }  // namespace eyrie::ui

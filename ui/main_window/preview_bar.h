@@ -24,10 +24,15 @@ class PreviewBar : public QFrame {
     void runRequested();
     void discardRequested();
 
+ protected:
+    void resizeEvent(QResizeEvent* event) override;
+
  private:
+    void showText();
     void refresh();
 
     LivePreview& preview_;
+    QString whole_text_;
     QLabel* text_;
     QSpinBox* range_;
     QPushButton* run_;

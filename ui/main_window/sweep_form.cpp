@@ -8,9 +8,12 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QLocale>
+#include <QMenu>
 #include <QPushButton>
+#include <QToolButton>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "io/number_text.h"
 #include "panels/theme_colours.h"
@@ -47,11 +50,21 @@ SweepForm::SweepForm(QWidget* parent) : QWidget(parent) {
     grid->setVerticalSpacing(4);
     axes_.push_back(addAxis(*grid, 0, tr("Change")));
     axes_.push_back(addAxis(*grid, 2, tr("and")));
-    grid->addWidget(new QLabel(tr("Against"), this), 4, 0);
+    over_ = new QToolButton(this);
+    over_->setPopupMode(QToolButton::InstantPopup);
+    over_->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    over_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    over_->setMenu(new QMenu(over_));
+    over_->setToolTip(
+        tr("Runs whose motion vectors are swept over together, with the parameters of the run that is shown. The "
+           "figures of a point are those over all of them"));
+    grid->addWidget(new QLabel(tr("Over"), this), 4, 0);
+    grid->addWidget(over_, 4, 1, 1, 2);
+    grid->addWidget(new QLabel(tr("Against"), this), 5, 0);
     truth_ = new QComboBox(this);
     truth_->addItems({tr("labels of the project"), tr("a file …")});
     truth_->setToolTip(tr("The true boxes that every point is measured against"));
-    grid->addWidget(truth_, 4, 1);
+    grid->addWidget(truth_, 5, 1);
     overlaps_ = new QLineEdit(QStringLiteral("0.1, 0.2, 0.3"), this);
     overlaps_->setToolTip(tr("Overlaps T_ov from which on a box counts as found"));
     auto* overlap_label = new QLabel(tr("T_ov"), this);
@@ -59,12 +72,12 @@ SweepForm::SweepForm(QWidget* parent) : QWidget(parent) {
     overlap_line->setSpacing(6);
     overlap_line->addWidget(overlap_label);
     overlap_line->addWidget(overlaps_);
-    grid->addLayout(overlap_line, 4, 2);
+    grid->addLayout(overlap_line, 5, 2);
     count_ = new QLabel(this);
     start_ = new QPushButton(tr("Start"), this);
     start_->setObjectName(QStringLiteral("sweep_start"));
-    grid->addWidget(count_, 5, 0, 1, 2);
-    grid->addWidget(start_, 5, 2);
+    grid->addWidget(count_, 6, 0, 1, 2);
+    grid->addWidget(start_, 6, 2);
     grid->setColumnStretch(1, 3);
     grid->setColumnStretch(2, 2);
     connect(truth_, &QComboBox::activated, this, &SweepForm::chooseTruth);
@@ -119,6 +132,34 @@ void SweepForm::setParameters(const std::vector<Parameter>& parameters) {
 void SweepForm::setRun(const QString& run) {
     run_ = run;
     refresh();
+}
+
+void SweepForm::setRuns(const std::vector<std::pair<int, QString>>& runs, std::optional<int> shown) {
+    std::set<int> chosen;
+    for (const auto& [run, action] : runs_)
+        if (action->isChecked() && action->isEnabled()) chosen.insert(run);
+    runs_.clear();
+    over_->menu()->clear();
+    for (const auto& [run, name] : runs) {
+        QAction* action = over_->menu()->addAction(name, this, &SweepForm::showRuns);
+        action->setCheckable(true);
+        action->setChecked(run == shown || chosen.contains(run));
+        action->setEnabled(run != shown);  // it is always swept over
+        runs_[run] = action;
+    }
+    showRuns();
+}
+
+void SweepForm::showRuns() {
+    QStringList others;
+    for (const auto& [run, action] : runs_)
+        if (action->isChecked() && action->isEnabled()) others << QString::number(run);
+    over_->setEnabled(!run_.isEmpty() && runs_.size() > 1);
+    over_->setText(run_.isEmpty()     ? tr("no run yet")
+                   : others.isEmpty() ? tr("%1 alone").arg(run_)
+                                      : tr("%1 and %2").arg(run_, others.join(QStringLiteral(", "))));
+    if (run_.isEmpty()) return;
+    start_->setText(others.isEmpty() ? tr("Sweep over %1").arg(run_) : tr("Sweep over %1 runs").arg(others.size() + 1));
 }
 
 void SweepForm::setRunning(bool running) {
@@ -177,7 +218,8 @@ void SweepForm::refresh() {
     } else {
         count_->setText(complete ? tr("%1 points").arg(QLocale().toString(points, 'f', 0)) : QString());
     }
-    start_->setText(run_.isEmpty() ? tr("Start") : tr("Sweep over %1").arg(run_));
+    start_->setText(tr("Start"));
+    showRuns();
     start_->setEnabled(complete && !running_ && !run_.isEmpty());
     start_->setToolTip(run_.isEmpty() ? tr("Run the video first, or choose a run")
                                       : tr("Motion vectors are taken from the run; everything behind the changed "
@@ -206,6 +248,8 @@ SweepRequest SweepForm::request() const {
         if (!name.isEmpty())
             request.axes.push_back((name + QLatin1Char('=') + axis.values->text().trimmed()).toStdString());
     }
+    for (const auto& [run, action] : runs_)
+        if (action->isChecked() && action->isEnabled()) request.other_runs.push_back(run);
     request.truth_file = truth_file_.toStdString();
     request.overlaps.clear();
     for (const QString& part : overlaps_->text().split(QLatin1Char(','), Qt::SkipEmptyParts))

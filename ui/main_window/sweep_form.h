@@ -1,6 +1,8 @@
 #pragma once
 
 #include <QWidget>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "core/parameter.h"
@@ -11,6 +13,8 @@ class QGridLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
+class QToolButton;
+class QAction;
 
 namespace eyrie::ui {
 
@@ -25,6 +29,8 @@ class SweepForm : public QWidget {
     void setParameters(const std::vector<Parameter>& parameters);
     /// `run`: "run 3", for the text of the button; empty: there is none to start from.
     void setRun(const QString& run);
+    /// All runs that can be swept over beside that one, by number.
+    void setRuns(const std::vector<std::pair<int, QString>>& runs, std::optional<int> shown);
     void setRunning(bool running);
     /// The unit of a parameter, empty for none.
     QString unitOf(const std::string& name) const;
@@ -46,11 +52,14 @@ class SweepForm : public QWidget {
     const Parameter* parameterOf(const Axis& axis) const;
     void refresh();
     void suggestValues(const Axis& axis);
+    void showRuns();
     void chooseTruth(int index);
     void start();
 
     std::vector<Parameter> parameters_;
     std::vector<Axis> axes_;
+    QToolButton* over_;
+    std::map<int, QAction*> runs_;  ///< those that may be swept over, too
     QComboBox* truth_;
     QLineEdit* overlaps_;
     QLabel* count_;

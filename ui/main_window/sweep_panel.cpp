@@ -1,6 +1,7 @@
 #include "main_window/sweep_panel.h"
 
 #include <QComboBox>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLocale>
 #include <QMessageBox>
@@ -207,7 +208,8 @@ void SweepPanel::fillMeasures() {
 void SweepPanel::fillOverlaps() {
     const SweepPlan& plan = sweeps_.table()->plan;
     overlap_->clear();
-    if (plan.overlaps.size() > 1) overlap_->addItem(tr("mean over T_ov"));
+    if (plan.overlaps.size() > 1) overlap_->addItem(tr("mean"));
+    overlap_->setToolTip(tr("The overlap T_ov of the measure that is judged, or the mean over all"));
     for (const double overlap : plan.overlaps)
         overlap_->addItem(tr("T_ov %1").arg(QString::fromStdString(shortestText(overlap))), overlap);
 }
@@ -239,6 +241,14 @@ void SweepPanel::showRun() {
     if (known) options = storedOptions(session_.runData()->parameters);
     form_->setParameters(listParameters(describeOf(options)));
     form_->setRun(known ? tr("run %1").arg(*session_.currentRun()) : QString());
+    std::vector<std::pair<int, QString>> runs;
+    for (const RunRecord& run : session_.runs()) {
+        if (run.frames_done == 0) continue;
+        const QString name = QString::fromStdString(run.name.empty() ? run.preset : run.name);
+        const QString video = QFileInfo(QString::fromStdString(run.sequence.path)).fileName();
+        runs.emplace_back(run.id, tr("Run %1 · %2 · %3").arg(run.id).arg(name, video));
+    }
+    form_->setRuns(runs, session_.currentRun());
 }
 
 void SweepPanel::showList() {

@@ -92,6 +92,11 @@ TrainingDialog::TrainingDialog(const std::filesystem::path& project, QWidget* pa
         message_->setText(text);
         enable();
     });
+    connect(&training_, &LabelTraining::replacementNeeded, this, [this](const QString& text) {
+        replaced_ = file_->text().toStdString();
+        message_->setText(text);
+        enable();
+    });
     connect(&training_, &LabelTraining::stopped, this, [this] {
         message_->setText(tr("Cancelled; no model was written."));
         enable();
@@ -121,8 +126,10 @@ QWidget* TrainingDialog::buildSettings() {
     every_ = new QSpinBox;
     every_->setRange(1, 1000);
     every_->setValue(TrainingWish().every);
+    every_->setSpecialValueText(tr("all labelled frames"));
+    every_->setToolTip(tr("Labelled frames that lie at least this far apart; neighbours look alike"));
     every_->setPrefix(tr("every "));
-    every_->setSuffix(tr(". labelled frame"));
+    every_->setSuffix(tr(" frames"));
     file_ = new QLineEdit;
     auto* browse = new QPushButton(tr("…"));
     browse->setMaximumWidth(36);
@@ -188,6 +195,7 @@ void TrainingDialog::start() {
     wish.options.classifier = static_cast<ClassifierKind>(classifier_->currentData().toInt());
     wish.every = every_->value();
     wish.file = file_->text().toStdString();
+    wish.replace = wish.file == replaced_;
     report_.reset();
     progress_->setValue(0);
     training_.start(wish);

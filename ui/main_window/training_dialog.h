@@ -48,6 +48,7 @@ class TrainingDialog : public QDialog {
     TrainingOptions options_;
     LabelTraining training_;
     std::shared_ptr<const TrainingReport> report_;
+    std::filesystem::path replaced_;  ///< that this file is replaced is meant
     QListWidget* projects_;
     QComboBox* descriptor_;
     QComboBox* classifier_;

@@ -70,7 +70,7 @@ void Tuning::buildPreview() {
     // Queued: the settings of the next run take the value over first.
     ParameterForm& form = parts_.docks.parameterForm();
     connect(&form, &ParameterForm::valueChanged, this, &Tuning::parameterMoved, Qt::QueuedConnection);
-    connect(&form, &ParameterForm::presetChosen, preview_, &LivePreview::parametersEdited, Qt::QueuedConnection);
+    connect(&form, &ParameterForm::presetChosen, this, &Tuning::parametersEdited, Qt::QueuedConnection);
     connect(parts_.actions.live_preview, &QAction::toggled, preview_, &LivePreview::setEnabled);
     connect(preview_bar_, &PreviewBar::runRequested, this, &Tuning::runRequested);
     connect(preview_bar_, &PreviewBar::discardRequested, this, [this] {
@@ -90,7 +90,12 @@ void Tuning::parameterMoved(const QString& name, const QString& value) {
         emit storedParametersRequested();
         emit parameterRequested(name, value);
     }
+    parametersEdited();
+}
+
+void Tuning::parametersEdited() {
     preview_->parametersEdited();
+    if (comparison_) comparison_->parametersEditedSoon();
 }
 
 void Tuning::showPreview() {
@@ -120,7 +125,7 @@ void Tuning::showPreview() {
 void Tuning::markStale(bool stale) {
     const QString mark = tr(" (stored)");
     const QWidget* form = &parts_.docks.parameterForm();
-    for (QDockWidget* dock : parts_.docks.docks()) {
+    for (QDockWidget* dock : parts_.window.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
         if (dock->widget() == form || dock->objectName() == QLatin1String("runs")) continue;
         QString title = dock->windowTitle();
         if (title.endsWith(mark)) title.chop(mark.size());
@@ -136,19 +141,26 @@ void Tuning::askWhy(QPointF place, double margin) {
     why_->ask(place, margin);
 }
 
+void Tuning::askWhyAbout(const OrientedBox& box) {
+    why_dock_->show();
+    why_dock_->raise();
+    why_->want(true);
+    why_->askAbout(box);
+}
+
 void Tuning::train() {
     auto* dialog = new TrainingDialog(parts_.session.project(), &parts_.window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &TrainingDialog::useRequested, this, [this](const QString& file) {
         emit parameterRequested(QStringLiteral("sliding_window.model"), file);
-        preview_->parametersEdited();
+        parametersEdited();
     });
     dialog->open();
 }
 
 ComparisonWindow& Tuning::compareRuns() {
     if (!comparison_) {
-        comparison_ = new ComparisonWindow(parts_.session, parts_.overlays, &parts_.window);
+        comparison_ = new ComparisonWindow(parts_.session, parts_.presets, parts_.overlays, &parts_.window);
         comparison_->setAttribute(Qt::WA_DeleteOnClose);
     }
     parts_.session.playback().pause();

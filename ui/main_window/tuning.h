@@ -15,6 +15,7 @@ namespace eyrie::ui {
 
 class ComparisonWindow;
 class OverlaySettings;
+class PresetLibrary;
 class PreviewBar;
 class ReviewDocks;
 class VideoView;
@@ -27,6 +28,7 @@ struct TuningParts {
     VideoView& canvas;
     ReviewDocks& docks;
     WindowActions& actions;
+    PresetLibrary& presets;
     OverlaySettings& overlays;
     QMainWindow& window;
 };
@@ -44,6 +46,8 @@ class Tuning : public QObject {
     PreviewBar& previewBar() { return *preview_bar_; }
     /// Asks about a place, image coordinates, and shows the answer.
     void askWhy(QPointF place, double margin = 0);
+    /// Asks about a box of the frame that is shown or on its way, such as that of an error.
+    void askWhyAbout(const OrientedBox& box);
     /// A and B of the project's runs.
     ComparisonWindow& compareRuns();
     /// Opens the form of parameters at one of them.
@@ -59,6 +63,7 @@ class Tuning : public QObject {
  private:
     void buildWhy();
     void buildPreview();
+    void parametersEdited();
     void parameterMoved(const QString& name, const QString& value);
     void showPreview();
     void train();

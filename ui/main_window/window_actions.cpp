@@ -52,6 +52,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     next_error = add(tr("&Next error"), {"go-next", {QKeySequence(Qt::Key_N), QKeySequence(Qt::Key_F8)}});
     previous_error =
         add(tr("&Previous error"), {"go-previous", {QKeySequence(tr("Shift+N")), QKeySequence(tr("Shift+F8"))}});
+    why_error = add(tr("Wh&y this error?"), {"help-contextual",
+                                             {QKeySequence(tr("Shift+W"))},
+                                             QT_TR_NOOP("What decided at the place of the error that is looked at")});
     wrong_truth =
         add(tr("The &truth is wrong here…"),
             {"document-edit",
@@ -72,9 +75,10 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                               {QKeySequence(Qt::Key_P)},
                               QT_TR_NOOP("Show the present frame with each parameter that is moved in the form")},
                              true);
-    compare = add(
-        tr("&Compare two runs…"),
-        {nullptr, {QKeySequence(tr("Ctrl+B"))}, QT_TR_NOOP("A and B on the same frames, side by side or with a wipe")});
+    compare = add(tr("&Compare A and B…"),
+                  {nullptr,
+                   {QKeySequence(tr("Ctrl+B"))},
+                   QT_TR_NOOP("Two runs or sets of parameters on the same frames, side by side or with a wipe")});
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
     review_workspace = addToggle(tr("&Review"), {nullptr, {QKeySequence(tr("Ctrl+1"))}}, true);

@@ -32,7 +32,7 @@ class WindowActions : public QObject {
     QAction *play, *step_back, *step_on, *jump_back, *jump_on, *first, *last, *go_to_frame, *shuttle_back,
         *shuttle_stop, *shuttle_on, *slower, *faster, *loop;
     QAction *fit, *one_to_one, *zoom_in, *zoom_out, *full_screen, *deselect;
-    QAction *next_error, *previous_error, *wrong_truth, *report;
+    QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
     QAction *why, *live_preview, *compare, *train;
     QAction *review_workspace, *label_workspace;
     std::array<QAction*, kOverlayKindCount> overlay;

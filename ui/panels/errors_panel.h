@@ -37,6 +37,7 @@ class ErrorsPanel : public TablePanel {
 
  signals:
     void errorActivated(int id);
+    void whyAsked(int id);
     void truthIsWrong(int id);
     void chipsWanted();
 

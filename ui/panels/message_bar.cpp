@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QScopedValueRollback>
 #include <QStyle>
+#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -16,6 +17,7 @@ namespace {
 
 // More at once would push the canvas away; the oldest makes room.
 constexpr int kMostMessages = 4;
+constexpr int kInfoStays_ms = 15000;
 
 QColor hueOf(MessageKind kind) {
     switch (kind) {
@@ -114,6 +116,8 @@ void MessageBar::showMessage(MessageKind kind, const QString& text, const QStrin
     auto* strip = new MessageStrip(kind, text, this);
     if (!action_text.isEmpty() && action) strip->setAction(action_text, std::move(action));
     connect(strip, &MessageStrip::dismissed, this, [this, strip] { remove(strip); });
+    if (kind == MessageKind::info && action_text.isEmpty())
+        QTimer::singleShot(kInfoStays_ms, strip, [strip] { emit strip->dismissed(); });
     strips_.prepend(strip);
     layout_->insertWidget(0, strip);
     strip->show();

@@ -40,7 +40,7 @@ class MessageStrip : public QFrame {
 };
 
 /// Says what went wrong, where, and what to do, above the canvas and without blocking anything. Messages stay until
-/// they are dismissed; the newest is on top; the same one twice is counted, not repeated.
+/// they are dismissed, mere notices for a while; the newest is on top; the same one twice is counted, not repeated.
 class MessageBar : public QWidget {
     Q_OBJECT
  public:

@@ -146,6 +146,7 @@ void SweepChart::fillCurves() {
         auto* mark = new QCPCurve(plot_->xAxis, plot_->yAxis);
         mark->setObjectName(QStringLiteral("best"));
         mark->setName(tr("best"));
+        if (&best != &data_.best.front()) mark->removeFromLegend();  // one entry tells of all
         mark->setLineStyle(QCPCurve::lsNone);
         mark->addData(0, best.x(), best.y());
         mark->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(Qt::black, 2), Qt::NoBrush, 12));

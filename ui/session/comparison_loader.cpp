@@ -5,6 +5,8 @@
 
 #include "chain/replay.h"
 #include "io/frame_cache.h"
+#include "session/computed_frames.h"
+#include "session/computed_sides.h"
 #include "session/queued_call.h"
 #include "session/stored_frames.h"
 #include "view/image_convert.h"
@@ -17,18 +19,18 @@ constexpr std::size_t kPictureBudget = std::size_t{256} << 20U;
 constexpr int kTrailLength = 40;  ///< frames
 constexpr int kReadAhead = 8;     ///< frames
 
-RunComparison compare(const RunPair& pair, const std::stop_token& stop) {
-    ProjectFile project = ProjectFile::open(pair.project, ProjectFile::Mode::read_only);
-    const RunStore store(project);
-    RunComparison comparison;
-    comparison.parameters =
-        differencesBetween(storedOptions(store.parameters(pair.first)), storedOptions(store.parameters(pair.second)));
-    if (stop.stop_requested()) return comparison;
-    comparison.tracks = differencesOf(store.trackBoxes(pair.first), store.trackBoxes(pair.second));
-    if (stop.stop_requested()) return comparison;
-    comparison.detections = differencesOf(store.detectionBoxes(pair.first), store.detectionBoxes(pair.second));
-    return comparison;
-}
+/// Where the frames of one side come from.
+struct SideFrames {
+    std::unique_ptr<StoredFrames> stored;
+    std::shared_ptr<const ComputedFrames> computed;
+
+    bool open() const { return stored || computed; }
+    void addTo(ViewFrame& frame) const {
+        if (stored) stored->addTo(frame);
+        if (computed) computed->addTo(frame);
+    }
+    bool prepare(FrameIndex frame) const { return !stored || stored->prepare(frame); }
+};
 
 }  // namespace
 
@@ -37,13 +39,21 @@ class ComparisonLoader::Worker {
  public:
     explicit Worker(ComparisonLoader& owner) : owner_(owner) {}
 
-    void open(const RunPair& pair, const std::stop_token& stop) {
+    void open(const ComparisonPair& pair, const ComputedPair& computed, const std::stop_token& stop) {
         pictures_.reset();
-        first_.reset();
-        second_.reset();
+        first_ = {};
+        second_ = {};
         try {
-            first_ = std::make_unique<StoredFrames>(pair.project, pair.first, kTrailLength);
-            second_ = std::make_unique<StoredFrames>(pair.project, pair.second, kTrailLength);
+            const auto side = [&](const ComparisonSide& wanted, const std::shared_ptr<ComputedFrames>& frames) {
+                SideFrames made;
+                if (wanted.options)
+                    made.computed = frames;
+                else
+                    made.stored = std::make_unique<StoredFrames>(pair.project, wanted.run_id, kTrailLength);
+                return made;
+            };
+            first_ = side(pair.first, computed.first);
+            second_ = side(pair.second, computed.second);
             auto source = pair.media.open({}, stop);
             if (stop.stop_requested()) return;
             FrameCacheOptions options;
@@ -55,23 +65,23 @@ class ComparisonLoader::Worker {
     }
 
     void load(FrameIndex frame, const std::stop_token& stop) {
-        if (!first_ || !second_ || stop.stop_requested()) return;
+        if (!first_.open() || !second_.open() || stop.stop_requested()) return;
         ViewFrame one;
         one.index = frame;
         try {
             const bool has_picture = pictures_ && frame < pictures_->info().frame_count;
             if (has_picture) pictures_->tryGet(frame);  // decoded on its own thread while results are read here
             ViewFrame other = one;
-            first_->addTo(one);
-            second_->addTo(other);
+            first_.addTo(one);
+            second_.addTo(other);
             if (has_picture) {
                 const auto picture = pictures_->get(frame);
                 one.image = imageForDisplay(picture->colour.empty() ? picture->gray : picture->colour);
                 one.time_us = other.time_us = pictures_->timeOf(frame);
                 other.image = one.image;
             }
-            queuedCall(&owner_, [owner = &owner_, one = std::move(one), other = std::move(other)] {
-                emit owner->loaded(one, other);
+            queuedCall(&owner_, [owner = &owner_, one = std::move(one), other = std::move(other), stop] {
+                if (!stop.stop_requested()) emit owner->loaded(one, other);
             });
             readAhead(frame + 1, kReadAhead);
         } catch (const std::exception& error) {
@@ -84,8 +94,8 @@ class ComparisonLoader::Worker {
         if (left == 0) return;
         owner_.thread_.postIdle([this, frame, left](const std::stop_token&) {
             try {
-                if (!first_ || !second_) return;
-                if (!first_->prepare(frame) || !second_->prepare(frame)) return;
+                if (!first_.open() || !second_.open()) return;
+                if (!first_.prepare(frame) || !second_.prepare(frame)) return;
             } catch (const std::exception&) {
                 return;  // told when the frame is asked for
             }
@@ -101,30 +111,45 @@ class ComparisonLoader::Worker {
 
     ComparisonLoader& owner_;
     std::unique_ptr<FrameCache> pictures_;
-    std::unique_ptr<StoredFrames> first_;
-    std::unique_ptr<StoredFrames> second_;
+    SideFrames first_;
+    SideFrames second_;
 };
 
 ComparisonLoader::ComparisonLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
 
 ComparisonLoader::~ComparisonLoader() {
+    cancel();
+}
+
+void ComparisonLoader::cancel() {
     pair_.request_stop();
 }
 
-void ComparisonLoader::usePair(const RunPair& pair) {
-    pair_.request_stop();
+void ComparisonLoader::usePair(const ComparisonPair& pair) {
+    cancel();
     pair_ = std::stop_source();
     const std::stop_token stop = pair_.get_token();
-    thread_.post([worker = worker_.get(), pair, stop](const std::stop_token&) { worker->open(pair, stop); });
-    comparing_.postNewest([this, pair, stop](const std::stop_token&) {
+    ComputedPair computed;
+    if (pair.first.options) computed.first = std::make_shared<ComputedFrames>(kTrailLength);
+    if (pair.second.options) computed.second = std::make_shared<ComputedFrames>(kTrailLength);
+    thread_.post(
+        [worker = worker_.get(), pair, computed, stop](const std::stop_token&) { worker->open(pair, computed, stop); });
+    comparing_.postNewest([this, pair, computed, stop](const std::stop_token&) {
         try {
-            auto comparison = std::make_shared<const RunComparison>(compare(pair, stop));
+            const auto tell = [this, stop](int done, int total) {
+                queuedCall(this, [this, stop, done, total] {
+                    if (!stop.stop_requested()) emit this->computed(done, total);
+                });
+            };
+            auto comparison = std::make_shared<const SideComparison>(compareSides(pair, computed, stop, tell));
             if (stop.stop_requested()) return;
             queuedCall(this, [this, comparison = std::move(comparison), stop] {
                 if (!stop.stop_requested()) emit compared(comparison);
             });
         } catch (const std::exception& error) {
-            queuedCall(this, [this, message = QString::fromUtf8(error.what())] { emit failed(message); });
+            queuedCall(this, [this, stop, message = QString::fromUtf8(error.what())] {
+                if (!stop.stop_requested()) emit failed(message);
+            });
         }
     });
 }

@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "chain/chain_run.h"
 #include "evaluation/result_difference.h"
 #include "session/live_preview.h"
 #include "session/media.h"
@@ -14,23 +15,33 @@
 
 namespace eyrie::ui {
 
-/// Two runs of a project over one video.
-struct RunPair {
-    Media media;
-    std::filesystem::path project;
-    int first = 0;
-    int second = 0;
+/// What is compared: a run as it was stored, or what other parameters find on its motion vectors.
+struct ComparisonSide {
+    int run_id = 0;
+    std::shared_ptr<const ChainOptions> options;  ///< null: as it was stored
 };
 
-/// What two runs differ in.
-struct RunComparison {
+/// Two sides over one video.
+struct ComparisonPair {
+    Media media;
+    std::filesystem::path project;
+    ComparisonSide first;
+    ComparisonSide second;
+    FrameRange range;  ///< compared where a side is computed; stored runs are compared as a whole
+
+    bool computes() const { return first.options || second.options; }
+};
+
+/// What two sides differ in.
+struct SideComparison {
     std::vector<ResultDifference> tracks;
     std::vector<ResultDifference> detections;
     std::vector<ParameterDifference> parameters;
+    bool exact = true;  ///< computed sides are what whole runs with their parameters would be
 };
 
-/// Reads the frames of two runs together, and compares them, on its own thread. Of several frames asked for the newest
-/// wins. Signals arrive on the thread of this object.
+/// Reads or computes the frames of two sides together, and compares them, on its own threads. Of several frames asked
+/// for the newest wins. Signals arrive on the thread of this object.
 class ComparisonLoader : public QObject {
     Q_OBJECT
 
@@ -38,15 +49,18 @@ class ComparisonLoader : public QObject {
     explicit ComparisonLoader(QObject* parent = nullptr);
     ~ComparisonLoader() override;
 
-    /// Opens video and project; answers with compared() or failed().
-    void usePair(const RunPair& pair);
-    /// Answers with loaded(), unless a newer request comes first.
+    /// Opens video and project; answers with compared() or failed(). Computed sides grow meanwhile, told by computed().
+    void usePair(const ComparisonPair& pair);
+    /// Answers with loaded(), unless a newer request comes first. A side that has no such frame yet has no result.
     void request(FrameIndex frame);
+    void cancel();
 
  signals:
-    void compared(const std::shared_ptr<const RunComparison>& comparison);
+    void compared(const std::shared_ptr<const SideComparison>& comparison);
     /// Both show the same picture.
     void loaded(const ViewFrame& first, const ViewFrame& second);
+    /// More frames of computed sides are there.
+    void computed(int frames_done, int frames_total);
     void failed(const QString& message);
 
  private:

@@ -10,6 +10,7 @@
 #include "detection/model_location.h"
 #include "exchange/project_labels.h"
 #include "learning/background_mining.h"
+#include "learning/labelled_frames.h"
 #include "session/media.h"
 #include "session/queued_call.h"
 #include "store/annotation_store.h"
@@ -18,9 +19,6 @@ namespace eyrie::ui {
 
 namespace {
 
-/// What a frame without vehicles is searched for.
-const OrientedBox kTypicalVehicle{{0, 0}, 21.5, 10, 0};
-constexpr int kOthersPerVehicle = 4;
 constexpr double kHeldOut = 0.25;        ///< share of the vehicles that whole held-out sequences have at least
 constexpr double kHeldOutEnd = 1 / 3.0;  ///< of a single sequence
 constexpr auto kProgressInterval = std::chrono::milliseconds(80);
@@ -40,23 +38,15 @@ LabelledSequence readSequence(const SequenceRecord& record, const LabelBoxes& bo
     const Media media = mediaOfIdentity(record.path);
     sequence.name = media.name;
     const auto source = media.open({}, stop);
-    int position = 0;
-    for (const auto& [frame, labels] : boxes) {
-        if (stop.stop_requested()) break;
-        if (position++ % every != 0 || frame < 0 || frame >= source->info().frame_count) continue;
-        LabelledImage image;
-        image.gray = source->read(frame, false).gray;
-        image.source = image.group = sequence.name;
-        for (const LabelBox& label : labels) {
-            const bool vehicle = isVehicleClass(label.object_class) && !label.ignore &&
-                                 label.occlusion == Occlusion::none && label.box.area() > 0;
-            (vehicle ? image.vehicles : image.unclear).push_back(label.box);
-        }
-        sequence.vehicles += static_cast<int>(image.vehicles.size());
-        sequence.images.push_back(std::move(image));
-        say(QObject::tr("Reading %1").arg(QString::fromStdString(sequence.name)),
-            static_cast<double>(position) / static_cast<double>(boxes.size()));
-    }
+    TrainingBoxes training;
+    for (const auto& [frame, labels] : boxes)
+        for (const LabelBox& label : labels)
+            training[frame].push_back(trainingBoxOf(label, label.occlusion != Occlusion::none));
+    sequence.images = labelledImagesOf(
+        training, sequence.name, source->info().frame_count, every,
+        [&](FrameIndex frame) { return source->read(frame, false).gray; }, stop,
+        [&](double share) { say(QObject::tr("Reading %1").arg(QString::fromStdString(sequence.name)), share); });
+    for (const LabelledImage& image : sequence.images) sequence.vehicles += static_cast<int>(image.vehicles.size());
     return sequence;
 }
 
@@ -77,16 +67,6 @@ std::vector<LabelledSequence> readProjects(const TrainingWish& wish, const Say& 
     return all;
 }
 
-SampleSet samplesOf(const std::vector<LabelledImage>& images, std::uint64_t seed) {
-    SampleSet samples;
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        const int others = kOthersPerVehicle * std::max<int>(1, static_cast<int>(images[i].vehicles.size()));
-        SampleSet cut = samplesFromImage(images[i], others, kTypicalVehicle, seed + i);
-        std::move(cut.begin(), cut.end(), std::back_inserter(samples));
-    }
-    return samples;
-}
-
 RocCurve rocOf(const VehicleModel& model, const SampleSet& samples) {
     std::vector<cv::Mat> windows;
     for (const Sample& sample : samples) windows.push_back(sample.window);
@@ -98,6 +78,29 @@ RocCurve rocOf(const VehicleModel& model, const SampleSet& samples) {
 
 QString countsOf(const SampleSet& samples) {
     return QObject::tr("%1 vehicles, %2 others").arg(countOf(samples, true)).arg(countOf(samples, false));
+}
+
+/// Which model of another kind the wish would overwrite, for people; empty when none.
+QString whatIsReplaced(const TrainingWish& wish) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(wish.file, ignored)) return {};
+    try {
+        const VehicleModel old = loadModel(wish.file);
+        const DescriptorKind descriptor = old.descriptor->kind();
+        const ClassifierKind classifier = old.classifier->kind();
+        if (descriptor == wish.options.descriptor && classifier == wish.options.classifier) return {};
+        return QObject::tr(
+                   "%1 is a model of %2 + %3 and would be replaced by one of %4 + %5. Name another file, or press "
+                   "Train again to replace it.")
+            .arg(QString::fromStdString(wish.file.string()), QString::fromUtf8(nameOf(descriptor)),
+                 QString::fromUtf8(nameOf(classifier)), QString::fromUtf8(nameOf(wish.options.descriptor)),
+                 QString::fromUtf8(nameOf(wish.options.classifier)));
+    } catch (const Error&) {
+        return QObject::tr(
+                   "%1 is no model of Eyrie and would be replaced by one. Name another file, or press Train "
+                   "again to replace it.")
+            .arg(QString::fromStdString(wish.file.string()));
+    }
 }
 
 /// Divides sequences, or the only one, into what is trained on and what is tested on.
@@ -155,6 +158,8 @@ void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) 
         queuedCall(this, [this, phase, share] { emit progress(phase, share); });
     };
     try {
+        const QString replaced = wish.replace ? QString() : whatIsReplaced(wish);
+        if (!replaced.isEmpty()) return end([this, replaced] { emit replacementNeeded(replaced); });
         auto sequences = readProjects(wish, say, stop);
         if (stop.stop_requested()) return end([this] { emit stopped(); });
         if (sequences.empty())
@@ -165,8 +170,8 @@ void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) 
         auto report = std::make_shared<TrainingReport>();
         report->held_out = holdOut(std::move(sequences), train, test);
         const auto seed = static_cast<std::uint64_t>(wish.options.seed);
-        const SampleSet samples = samplesOf(train, seed);
-        const SampleSet held_out = samplesOf(test, seed + 100'000);
+        const SampleSet samples = samplesFromImages(train, seed);
+        const SampleSet held_out = samplesFromImages(test, seed + 100'000);
         report->samples = countsOf(samples);
         report->held_out += QStringLiteral(" – ") + countsOf(held_out);
         TrainingRecord record;
@@ -176,7 +181,7 @@ void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) 
         watch.progress = [&](const TrainingProgress& step) { say(QString::fromStdString(step.phase), step.share); };
         std::uint64_t round = 0;
         const auto more = [&](const VehicleModel& model, int wanted) {
-            return mineBackground(model, train, kTypicalVehicle, wanted, seed + 1000 * ++round, watch);
+            return mineBackground(model, train, typicalVehicle(), wanted, seed + 1000 * ++round, watch);
         };
         const auto model = trainModel(samples, wish.options, record, watch, more);
         if (!model || stop.stop_requested()) return end([this] { emit stopped(); });

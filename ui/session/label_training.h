@@ -16,8 +16,9 @@ namespace eyrie::ui {
 struct TrainingWish {
     std::vector<std::filesystem::path> projects;  ///< whose labels are used
     TrainingOptions options;
-    int every = 10;              ///< use every n-th labelled frame
+    int every = 10;              ///< frames from one that is used to the next
     std::filesystem::path file;  ///< the model to be written
+    bool replace = false;        ///< even where it is now a model of another descriptor or classifier
 };
 
 /// How a training ended.
@@ -47,6 +48,8 @@ class LabelTraining : public QObject {
     void progress(const QString& phase, double share);
     void finished(const std::shared_ptr<const TrainingReport>& report);
     void failed(const QString& message);
+    /// The file is a model of another kind; begun only when start() is called again with `replace`.
+    void replacementNeeded(const QString& message);
     void stopped();
 
  private:

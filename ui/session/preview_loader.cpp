@@ -38,7 +38,8 @@ class PreviewLoader::Worker {
             auto first = preview_->now(frame, options, range, run_stop);
             if (!first) return;
             const bool final = first->tracks_final || range == 0;
-            publish(frame, std::move(*first), final ? 0 : range, wished);
+            const double waited_ms = std::chrono::duration<double, std::milli>(Clock::now() - wished).count();
+            publish(frame, std::move(*first), final ? 0 : range, waited_ms);
             if (final || wish_stop.stop_requested()) return;
             Clock::time_point told = Clock::now();
             auto whole = preview_->withTracks(frame, options, range, wish_stop, [&](int left) {
@@ -46,7 +47,7 @@ class PreviewLoader::Worker {
                 told = Clock::now();
                 queuedCall(&owner_, [owner = &owner_, frame, left] { emit owner->tracksProgress(frame, left); });
             });
-            if (whole && !wish_stop.stop_requested()) publish(frame, std::move(*whole), 0, wished);
+            if (whole && !wish_stop.stop_requested()) publish(frame, std::move(*whole), 0, waited_ms);
         } catch (const std::exception& error) {
             if (run_stop.stop_requested()) return;
             preview_.reset();  // opened anew with the next wish
@@ -58,12 +59,12 @@ class PreviewLoader::Worker {
     }
 
  private:
-    void publish(FrameIndex frame, PreviewedFrame previewed, int left, Clock::time_point wished) {
+    void publish(FrameIndex frame, PreviewedFrame previewed, int left, double waited_ms) {
         auto view = std::make_shared<PreviewView>();
         view->frame = frame;
         view->previewed = std::move(previewed);
         view->frames_left = left;
-        view->milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - wished).count();
+        view->milliseconds = waited_ms;
         queuedCall(&owner_, [owner = &owner_, view = std::shared_ptr<const PreviewView>(std::move(view))] {
             emit owner->previewed(view);
         });

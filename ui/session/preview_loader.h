@@ -17,7 +17,7 @@ struct PreviewView {
     FrameIndex frame = 0;
     PreviewedFrame previewed;
     int frames_left = 0;      ///< to be done before the tracks are final; 0: they are, or will not be
-    double milliseconds = 0;  ///< from the wish to this answer
+    double milliseconds = 0;  ///< from the wish to the first answer
 };
 
 /// Computes previews on its own thread. Every wish that begins to be worked on is answered at once, so that dragging a

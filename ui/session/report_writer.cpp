@@ -4,10 +4,12 @@
 #include <QDateTime>
 #include <QFile>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QImage>
 #include <QPageSize>
 #include <QPainter>
 #include <QPdfWriter>
+#include <QScreen>
 #include <QSvgRenderer>
 #include <QTextDocument>
 #include <QThread>
@@ -21,11 +23,13 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr int kDotsPerInch = 144;  ///< of the page; pictures are drawn twice as fine
+constexpr int kDotsPerInch = 144;  ///< of the page; pictures are drawn finer
 constexpr double kMargin_mm = 15;
 constexpr double kFigureScale = 3;
-constexpr double kChipWidth = 84;     ///< of the page's px at 96 per inch
-constexpr double kFigureWidth = 620;  ///< likewise
+constexpr double kFigureWidth_mm = 160;  ///< of the 180 between the margins
+constexpr double kChipWidth_mm = 21;
+constexpr double kFooter_mm = 8;
+constexpr double kPerInch_mm = 25.4;
 
 QImage pictureOf(const std::string& svg) {
     QSvgRenderer renderer(QByteArray::fromStdString(svg));
@@ -36,10 +40,46 @@ QImage pictureOf(const std::string& svg) {
     return image;
 }
 
-/// Pictures get the width they have on the page, whatever their pixels.
-void setWidth(QString& html, const QString& name, double width) {
-    html.replace(QStringLiteral("<img src=\"%1\">").arg(name),
-                 QStringLiteral("<img src=\"%1\" width=\"%2\">").arg(name).arg(qRound(width)));
+/// Pictures get this width on the page, and the height that belongs to it. Documents take attributes for px of the
+/// screen and enlarge them as the page is finer.
+void setWidth(QString& html, const QString& name, double width_mm, QSize size) {
+    const QScreen* screen = QGuiApplication::primaryScreen();
+    const double screen_dpi = screen != nullptr ? qRound(screen->logicalDotsPerInchY()) : 96;
+    const double width = width_mm / kPerInch_mm * screen_dpi;
+    const double height = size.width() > 0 ? width * size.height() / size.width() : width;
+    html.replace(
+        QStringLiteral("<img src=\"%1\">").arg(name),
+        QStringLiteral("<img src=\"%1\" width=\"%2\" height=\"%3\">").arg(name).arg(qRound(width)).arg(qRound(height)));
+}
+
+/// All pages, each with its number below.
+void print(QTextDocument& document, QPdfWriter& writer, const QString& title) {
+    const double footer = kFooter_mm / kPerInch_mm * kDotsPerInch;
+    const QSizeF page(writer.width(), writer.height() - footer);
+    document.setDocumentMargin(0);
+    document.setPageSize(page);
+    QFont small = document.defaultFont();
+    small.setPointSizeF(7);
+    QPainter painter(&writer);
+    const int pages = document.pageCount();
+    for (int i = 0; i < pages; ++i) {
+        if (i > 0) writer.newPage();
+        const QRectF part(0, i * page.height(), page.width(), page.height());
+        painter.save();
+        painter.translate(0, -part.top());
+        painter.setClipRect(part);
+        QAbstractTextDocumentLayout::PaintContext context;
+        context.clip = part;
+        context.palette.setColor(QPalette::Text, Qt::black);
+        document.documentLayout()->draw(&painter, context);
+        painter.restore();
+        painter.setFont(small);
+        painter.setPen(QColor(90, 90, 90));
+        const QRectF line(0, page.height(), page.width(), footer);
+        painter.drawText(line, Qt::AlignLeft | Qt::AlignBottom, title);
+        painter.drawText(line, Qt::AlignRight | Qt::AlignBottom,
+                         QCoreApplication::translate("report", "page %1 of %2").arg(i + 1).arg(pages));
+    }
 }
 
 [[noreturn]] void refuse(const QString& path, const QString& reason) {
@@ -64,29 +104,31 @@ void writePdf(const std::filesystem::path& path, const EvaluationReportFile& rep
         writer.setCreator(QStringLiteral("Eyrie"));
         QTextDocument document;
         QString html = QString::fromStdString(report.html);
-        const double scale = kDotsPerInch / 96.0;
         for (const auto& [key, svg] : report.figures) {
             const QString source = QString::fromStdString(key);
-            document.addResource(QTextDocument::ImageResource, QUrl(source), pictureOf(svg));
-            setWidth(html, source, kFigureWidth * scale);
+            const QImage picture = pictureOf(svg);
+            document.addResource(QTextDocument::ImageResource, QUrl(source), picture);
+            setWidth(html, source, kFigureWidth_mm, picture.size());
         }
         for (const auto& [key, png] : report.chips) {
             const QString source = QString::fromStdString(key);
-            document.addResource(QTextDocument::ImageResource, QUrl(source),
-                                 QImage::fromData(QByteArray::fromStdString(png)));
-            setWidth(html, source, kChipWidth * scale);
+            const QImage picture = QImage::fromData(QByteArray::fromStdString(png));
+            document.addResource(QTextDocument::ImageResource, QUrl(source), picture);
+            setWidth(html, source, kChipWidth_mm, picture.size());
         }
         QFont font(QStringLiteral("DejaVu Sans"));
         font.setPointSizeF(8.5);
         document.setDefaultFont(font);
         document.documentLayout()->setPaintDevice(&writer);
         document.setDefaultStyleSheet(QStringLiteral(
-            "h1{font-size:16pt} h2{font-size:12pt;margin-top:14pt} td{font-size:8pt;padding:2px} th{font-size:8pt}"));
+            "h1{font-size:16pt} h2{font-size:12pt;margin-top:14px;margin-bottom:4px} "
+            "h2.chapter{page-break-before:always;margin-top:0} table{border-collapse:collapse} "
+            "td{font-size:8pt;padding:2px 8px 2px 0;vertical-align:middle;border-bottom:1px solid #dddddd} "
+            "th{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #666666}"));
         html.remove(html.indexOf(QStringLiteral("<style>")),
                     html.indexOf(QStringLiteral("</style>")) + 8 - html.indexOf(QStringLiteral("<style>")));
         document.setHtml(html);
-        document.setPageSize(QSizeF(writer.width(), writer.height()));
-        document.print(&writer);
+        print(document, writer, document.metaInformation(QTextDocument::DocumentTitle));
     }
     file.flush();
     const bool complete = file.error() == QFileDevice::NoError && file.size() > 0;

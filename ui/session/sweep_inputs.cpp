@@ -22,39 +22,49 @@ BoxesByFrame labelsOfProject(ProjectFile& project, const StoredRun& run) {
     BoxesByFrame truth =
         groundTruthBoxes(readAnnotations(project, sequence.id), cameraMotionOf(store, sequence.id), options);
     if (std::all_of(truth.begin(), truth.end(), [](const auto& entry) { return entry.second.empty(); })) {
-        throw Error(ErrorKind::input,
-                    "This project has no labels in the frames of the run. Label or import some (F4, Import), or choose "
-                    "a file of true boxes.");
+        throw Error(ErrorKind::input, "This project has no labels in the frames of run " +
+                                          std::to_string(run.clip.run) +
+                                          ". Label (Ctrl+2) or import some, or choose a file of true boxes.");
     }
     return truth;
 }
 
 }  // namespace
 
-OpenedRun openRunForSweep(const std::filesystem::path& project_path, int run_id,
-                          const std::filesystem::path& truth_file, bool upright, const std::stop_token& stop) {
-    OpenedRun opened;
+OpenedRuns openRunsForSweep(const std::filesystem::path& project_path, const std::vector<RunToSweep>& runs,
+                            const std::stop_token& stop) {
+    OpenedRuns opened;
     ProjectFile project = ProjectFile::open(project_path, ProjectFile::Mode::read_only);
-    StoredRun run = readStoredRun(project, run_id);
-    opened.clip = run.clip;
-    opened.clip.ground_truth = truth_file.string();
-    opened.clip.upright = upright;
-    BoxesByFrame truth;
-    if (truth_file.empty()) {
-        truth = labelsOfProject(project, run);
-    } else {
-        ImportOptions options;
-        options.image_size = run.clip.size;
-        truth = plainBoxes(readLabels(truth_file, "auto", options).boxes);
+    for (const RunToSweep& wanted : runs) {
+        StoredRun run = readStoredRun(project, wanted.run_id);
+        SweepClip clip = run.clip;
+        clip.ground_truth = wanted.truth_file.string();
+        clip.upright = wanted.upright;
+        BoxesByFrame truth;
+        if (wanted.truth_file.empty()) {
+            truth = labelsOfProject(project, run);
+        } else {
+            if (!opened.clips.empty() && opened.clips.front().sequence != clip.sequence &&
+                opened.clips.front().ground_truth == clip.ground_truth) {
+                throw Error(ErrorKind::parameter, clip.ground_truth +
+                                                      ": one file of true boxes belongs to one video, "
+                                                      "but the runs chosen are of several. Use the "
+                                                      "labels of the project, or choose fewer runs.");
+            }
+            ImportOptions options;
+            options.image_size = clip.size;
+            truth = plainBoxes(readLabels(wanted.truth_file, "auto", options).boxes);
+        }
+        const Media media = mediaOfIdentity(clip.sequence, clip.scale.frame_rate_hz);
+        StageCacheOptions cache;
+        cache.all_cores = false;  // the sweep's own threads give way to the window, helpers of OpenCV would not
+        SweepInput input = openClip(
+            clip, [media, stop] { return media.open({}, stop); }, run.range, truth, cache);
+        input.cache->useStoredMotion(run.options, std::move(run.motion));
+        if (opened.clips.empty()) opened.options = run.options;
+        opened.clips.push_back(std::move(clip));
+        opened.inputs.push_back(std::move(input));
     }
-    const Media media = mediaOfIdentity(opened.clip.sequence, opened.clip.scale.frame_rate_hz);
-    StageCacheOptions cache;
-    cache.all_cores = false;  // the sweep's own threads give way to the window, helpers of OpenCV would not
-    SweepInput input = openClip(
-        opened.clip, [media, stop] { return media.open({}, stop); }, run.range, truth, cache);
-    opened.options = run.options;
-    input.cache->useStoredMotion(run.options, std::move(run.motion));
-    opened.inputs.push_back(std::move(input));
     return opened;
 }
 

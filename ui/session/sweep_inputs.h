@@ -2,19 +2,27 @@
 
 #include <filesystem>
 #include <stop_token>
+#include <vector>
 
 #include "sweep/clip_opening.h"
 
 namespace eyrie::ui {
 
-/// A stored run opened for a sweep, with its motion vectors. `clip.ground_truth` names a file of labels in any known
-/// format; empty: the labels of the project. Throws Error.
-struct OpenedRun {
-    SweepClip clip;
-    ChainOptions options;  ///< of the run
-    std::vector<SweepInput> inputs;
+/// A stored run that is to be swept. `truth_file`: labels in any known format; empty: those of the project.
+struct RunToSweep {
+    int run_id = 0;
+    std::filesystem::path truth_file;
+    bool upright = false;
 };
-OpenedRun openRunForSweep(const std::filesystem::path& project, int run_id, const std::filesystem::path& truth_file,
-                          bool upright, const std::stop_token& stop);
+
+/// Stored runs opened for a sweep, with their motion vectors.
+struct OpenedRuns {
+    std::vector<SweepClip> clips;
+    std::vector<SweepInput> inputs;
+    ChainOptions options;  ///< of the first
+};
+/// Throws Error, also where one file of true boxes is to serve runs of several videos.
+OpenedRuns openRunsForSweep(const std::filesystem::path& project, const std::vector<RunToSweep>& runs,
+                            const std::stop_token& stop);
 
 }  // namespace eyrie::ui

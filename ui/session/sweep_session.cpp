@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "session/queued_call.h"
 #include "session/sweep_inputs.h"
+#include "sweep/sweep_lock.h"
 
 namespace eyrie::ui {
 
@@ -140,6 +141,31 @@ void SweepSession::begin(Job job) {
     worker_.post([this, job = std::move(job), stop = stop_.get_token()](const std::stop_token&) { work(job, stop); });
 }
 
+/// Opens what a stored sweep was begun over, and its plan.
+OpenedRuns SweepSession::openResumed(const Job& job, SweepPlan& plan, const std::stop_token& stop) {
+    {
+        ProjectFile file = ProjectFile::open(job.project, ProjectFile::Mode::read_only);
+        plan = readSweep(file, *job.resumed).plan;
+    }
+    std::vector<RunToSweep> runs;
+    for (const SweepClip& clip : plan.clips) {
+        if (clip.run == 0) {
+            throw Error(ErrorKind::parameter,
+                        "This sweep was begun by eyrie-cli over files; go on with it there "
+                        "(eyrie-cli sweep … --resume).");
+        }
+        runs.push_back({clip.run, clip.ground_truth, clip.upright});
+    }
+    OpenedRuns opened = openRunsForSweep(job.project, runs, stop);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        if (opened.clips[i].digest == plan.clips[i].digest) continue;
+        throw Error(ErrorKind::parameter, "The video or the true boxes of run " + std::to_string(runs[i].run_id) +
+                                              " have changed since this sweep was begun, so its points would not "
+                                              "belong together. Start a new sweep.");
+    }
+    return opened;
+}
+
 void SweepSession::work(const Job& job, const std::stop_token& stop) {
     QString problem;
     bool whole = false;
@@ -147,34 +173,25 @@ void SweepSession::work(const Job& job, const std::stop_token& stop) {
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     try {
         SweepPlan plan;
-        OpenedRun opened;
+        OpenedRuns opened;
         if (job.resumed) {
-            ProjectFile file = ProjectFile::open(job.project, ProjectFile::Mode::read_only);
-            plan = readSweep(file, *job.resumed).plan;
-            if (plan.clips.size() != 1 || plan.clips.front().run == 0) {
-                throw Error(ErrorKind::parameter,
-                            "This sweep was begun by eyrie-cli over files; go on with it there "
-                            "(eyrie-cli sweep … --resume).");
-            }
-            const SweepClip& clip = plan.clips.front();
-            opened = openRunForSweep(job.project, clip.run, clip.ground_truth, clip.upright, stop);
-            if (opened.clip.digest != clip.digest) {
-                throw Error(ErrorKind::parameter,
-                            "The video or its true boxes have changed since this sweep was begun, "
-                            "so its points would not belong together. Start a new sweep.");
-            }
+            opened = openResumed(job, plan, stop);
         } else {
-            opened = openRunForSweep(job.project, job.run_id, job.request.truth_file, job.request.upright, stop);
+            std::vector<RunToSweep> runs{{job.run_id, job.request.truth_file, job.request.upright}};
+            for (const int run : job.request.other_runs)
+                if (run != job.run_id) runs.push_back({run, job.request.truth_file, job.request.upright});
+            opened = openRunsForSweep(job.project, runs, stop);
             plan.engine_version = engineVersion();
             for (const std::string& axis : job.request.axes) plan.axes.push_back(parseAxis(axis, opened.options));
             plan.base = parameterValues(opened.options);
-            plan.clips = {opened.clip};
+            plan.clips = opened.clips;
             plan.overlaps = job.request.overlaps;
             plan.vehicles_only = job.request.vehicles_only;
             check(plan);
         }
         ProjectFile file = ProjectFile::open(job.project);
         const int id = beginSweep(file, plan, "", true);
+        const auto held = lockSweep(file, id);
         auto growing = std::make_shared<SweepTable>(readSweep(file, id));
         std::vector<int> positions = workOrder(plan);
         std::erase_if(positions, [&](int position) { return growing->points.contains(position); });

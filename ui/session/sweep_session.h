@@ -15,10 +15,13 @@
 
 namespace eyrie::ui {
 
-/// What a sweep over the run shown is to try.
+struct OpenedRuns;
+
+/// What a sweep over the run shown, and perhaps others, is to try.
 struct SweepRequest {
     std::vector<std::string> axes;     ///< "gradient.quantile=0.05:0.01:0.5", one or two
-    std::filesystem::path truth_file;  ///< empty: the labels of the project
+    std::vector<int> other_runs;       ///< swept over, too, with the parameters of the run shown
+    std::filesystem::path truth_file;  ///< empty: the labels of the project; for runs of one video only
     std::vector<double> overlaps{0.1, 0.2, 0.3};
     bool vehicles_only = false;
     bool upright = false;
@@ -67,6 +70,7 @@ class SweepSession : public QObject {
  private:
     struct Job;
     void begin(Job job);
+    static OpenedRuns openResumed(const Job& job, SweepPlan& plan, const std::stop_token& stop);
     void work(const Job& job, const std::stop_token& stop);
     void projectChanged();
     void refreshList();

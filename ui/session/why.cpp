@@ -64,6 +64,7 @@ void Why::ask(QPointF image_point, double margin) {
 void Why::askAbout(const OrientedBox& box) {
     track_.reset();
     area_ = box;
+    view_.reset();
     request();
 }
 
@@ -101,7 +102,9 @@ void Why::request() {
     // A run at work needs the processor for itself; playing, no answer would come in time.
     const bool can = wanted_ && area_ && frame.result && !session_.following() && !session_.playback().playing();
     waiting_ = can;
-    if (can)
+    if (can && frame.index != session_.currentFrame())
+        loader_.cancel();  // asked when the frame has come
+    else if (can)
         loader_.ask(frame.index, *area_);
     else
         loader_.cancel();

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace eyrie {
+
+/// A lock on a file of its own beside what it guards. The system releases it when the process ends, however it ends.
+/// The file says who holds it and vanishes when the lock is released in order.
+class FileLock {
+ public:
+    enum class Outcome { taken, held, impossible };
+    struct Attempt;
+
+    /// Never waits. Held once by one process, too.
+    static Attempt tryTake(const std::filesystem::path& file);
+    ~FileLock();
+    FileLock(const FileLock&) = delete;
+    FileLock& operator=(const FileLock&) = delete;
+
+ private:
+    FileLock(std::filesystem::path path, int descriptor);
+    std::filesystem::path path_;
+    int descriptor_;
+};
+
+/// What came of trying.
+struct FileLock::Attempt {
+    Outcome outcome = Outcome::impossible;
+    std::unique_ptr<FileLock> lock;  ///< if taken
+    /// If held: who holds it ("process 4711 on oak (since 2026-11-21T08:00:00Z)"); if impossible: what went wrong,
+    /// naming the file.
+    std::string words;
+};
+
+/// "clip.eyrie" → "/videos/clip.eyrie.labelling", the same for every way to name the file.
+std::filesystem::path lockFileBeside(const std::filesystem::path& guarded, const std::string& ending);
+
+}  // namespace eyrie
