@@ -24,6 +24,7 @@ struct Arguments {
     std::string out;
     double tolerance_px = 0.5;
     bool show = false;
+    bool add_doubles = false;
 };
 
 /// What the project says against the labels, if anything: another size, a shift in time.
@@ -93,11 +94,13 @@ void importLabels(const Arguments& arguments) {
     AnnotationStore store(project, sequence.id);
     if (store.readOnly()) throw Error(ErrorKind::output, store.readOnlyReason());
     const CameraMotion camera = cameraMotionOf(RunStore(project), sequence.id);
-    const LabelImport done = planImport(labels, sequence, camera, store, arguments.tolerance_px);
-    store.apply(done.edit);
+    const LabelImport done = planImport(labels, sequence, camera, store, arguments.tolerance_px,
+                                        arguments.add_doubles ? Doubles::add : Doubles::skip);
+    if (!done.edit.empty()) store.apply(done.edit);
     std::printf("%d objects with %d keyframes for %d boxes, and %d ignore regions, added to %s\n", done.objects,
                 done.keyframes, done.boxes, done.regions, arguments.project.c_str());
     printNotes(done.notes);
+    if (done.doubles > 0) std::printf("  note        --add-doubles adds them all the same\n");
 }
 
 }  // namespace
@@ -121,6 +124,10 @@ void addImportCommand(CLI::App& app, int& exit_code) {
                      "How far interpolated boxes may be from the file's, px; 0 makes every box a keyframe")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1000.0));
+    command
+        ->add_flag("--add-doubles", arguments->add_doubles,
+                   "Take objects that the project has already with the same boxes all the same")
+        ->needs(project);
     command->add_option("--out", arguments->out, "Write our ground truth CSV instead")->excludes(project);
     command->add_flag("--show", arguments->show, "Only show what is in the file");
     command->callback([arguments, &exit_code] {

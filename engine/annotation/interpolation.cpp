@@ -26,6 +26,23 @@ std::optional<OrientedBox> mapped(const OrientedBox& box, const Homography& targ
     return result;
 }
 
+/// Boxes along the image's axes are those of somebody (or some file) who does not turn boxes: drawn with any other
+/// heading they would not be to the last digit.
+bool isUpright(const Keyframe& keyframe) {
+    if (!keyframe.heading_set) return false;
+    const double quarters = keyframe.box.heading / (kPi / 2);
+    return std::abs(quarters - std::round(quarters)) < 1e-9;
+}
+
+/// Whether boxes between a keyframe and the next (after the last one: the one before) stay upright in the image,
+/// however the camera turns. One alone may just lie so.
+bool staysUpright(const std::vector<Keyframe>& keyframes, std::size_t here) {
+    if (keyframes.size() < 2) return false;
+    const Keyframe& a = keyframes[here];
+    const Keyframe& b = keyframes[here + 1 < keyframes.size() ? here + 1 : here - 1];
+    return isUpright(a) && isUpright(b) && std::abs(turnBetween(a.box.heading, b.box.heading)) < 1e-9;
+}
+
 /// Keyframes as knots in the image of a reference frame, over the ground or as they are.
 class KnotMaker {
  public:
@@ -40,7 +57,8 @@ class KnotMaker {
                     box->length,
                     box->width,
                     box->heading,
-                    keyframe.heading_set};
+                    keyframe.heading_set,
+                    isUpright(keyframe)};
     }
 
     bool onGround() const { return camera_ != nullptr; }
@@ -56,8 +74,9 @@ struct LocalPath {
     std::size_t here = 0;
 };
 
-std::optional<LocalPath> pathAround(const Keyframes& keyframes, std::size_t here, std::size_t reach,
+std::optional<LocalPath> pathAround(const LabelledObject& object, std::size_t here, std::size_t reach,
                                     const KnotMaker& maker, PathShape shape) {
+    const Keyframes& keyframes = object.keyframes;
     std::array<Knot, 2> before;
     std::size_t earlier = 0;
     while (earlier < reach && here > earlier) {
@@ -76,6 +95,7 @@ std::optional<LocalPath> pathAround(const Keyframes& keyframes, std::size_t here
         const auto knot = maker.make(keyframes[i]);
         if (!knot) break;
         local.path.add(*knot);
+        if (i + 1 == keyframes.size()) local.path.setStandsAfter(maker.onGround() && standsAtItsEnd(object));
     }
     return local;
 }
@@ -108,22 +128,24 @@ PathBox boxOnPath(const LocalPath& local, double time) {
 }
 
 /// Builds the path and evaluates it; over the ground with a camera, in the image without.
-std::optional<PathBox> evaluate(const Keyframes& keyframes, std::size_t here, FrameIndex frame,
+std::optional<PathBox> evaluate(const LabelledObject& object, std::size_t here, FrameIndex frame,
                                 const CameraMotion* camera, PathShape shape) {
+    const Keyframes& keyframes = object.keyframes;
     const FrameIndex reference = keyframes[here].frame;
     const KnotMaker maker(reference, camera);
-    auto local = pathAround(keyframes, here, 1, maker, shape);
+    auto local = pathAround(object, here, 1, maker, shape);
     if (!local) return std::nullopt;
     if (here + 1 < keyframes.size() && !hasNext(*local) && frame > reference) return std::nullopt;
     // Where it stands, headings come from the movement before and after, so look one keyframe further.
     const bool stands = !hasNext(*local) || !local->path.moving(local->here);
-    if (stands && keyframes.size() > 1) local = pathAround(keyframes, here, 2, maker, shape);
+    if (stands && keyframes.size() > 1) local = pathAround(object, here, 2, maker, shape);
     PathBox result = boxOnPath(*local, static_cast<double>(frame - reference));
     if (camera != nullptr && frame != reference) {
         const auto carried = carriedBox(result.box, reference, frame, *camera);
         if (!carried) return std::nullopt;
         result.box = *carried;
     }
+    if (staysUpright(keyframes, here)) result.box.heading = keyframes[here].box.heading;
     result.box.heading = wrapPi(result.box.heading);
     return result;
 }
@@ -135,6 +157,12 @@ std::size_t indexBefore(const Keyframes& keyframes, FrameIndex frame) {
 }
 
 }  // namespace
+
+bool standsAtItsEnd(const LabelledObject& object) {
+    // A few frames tell nothing: the end was put a little later.
+    constexpr FrameIndex kLeastStand = 10;
+    return !object.keyframes.back().outside && object.last_frame - object.keyframes.back().frame >= kLeastStand;
+}
 
 const char* nameOf(BoxSource source) {
     switch (source) {
@@ -164,11 +192,11 @@ LabelledBox boxAt(const LabelledObject& object, FrameIndex frame, const CameraMo
     const bool exact = before.frame == frame;
     const FrameIndex until = exact || passed == keyframes.size() ? frame : keyframes[passed].frame;
     std::optional<PathBox> box;
-    if (camera.connects(before.frame, until)) box = evaluate(keyframes, here, frame, &camera, shape);
+    if (camera.connects(before.frame, until)) box = evaluate(object, here, frame, &camera, shape);
     result.source = exact ? BoxSource::keyframe : box ? BoxSource::ground : BoxSource::image;
     // A keyframe whose neighbours are not connected with it follows the path it has in the image.
     if (!box || (exact && !box->heading_from_path && !before.heading_set && keyframes.size() > 1)) {
-        const auto in_image = evaluate(keyframes, here, frame, nullptr, shape);
+        const auto in_image = evaluate(object, here, frame, nullptr, shape);
         const bool next_connected = passed < keyframes.size() && camera.connects(before.frame, keyframes[passed].frame);
         const bool last_connected = here > 0 && camera.connects(before.frame, keyframes[here - 1].frame);
         if (!box || (!next_connected && !last_connected)) box = in_image;

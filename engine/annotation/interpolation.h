@@ -43,7 +43,8 @@ enum class PathShape {
 /// keyframes are taken through the camera's motion. Sizes grow and shrink with the map's local scale. Where the
 /// keyframes stand at least half a box length apart the heading is the direction of the path, unless a keyframe sets
 /// it: then the turn against the path is interpolated by the shorter arc; elsewhere headings are, by the shorter arc.
-/// After the last keyframe the box stands still on the ground until `last_frame`; before the first there is none.
+/// After the last keyframe the box stands still on the ground until `last_frame` (what does so for ten frames or more
+/// brakes until there); before the first there is none.
 /// Flags come from the keyframe before. Takes O(log n) for n frames and keyframes.
 LabelledBox boxAt(const LabelledObject& object, FrameIndex frame, const CameraMotion& camera,
                   PathShape shape = PathShape::smooth);
@@ -57,6 +58,8 @@ struct LabelledBoxOf {
 /// All objects that exist in a frame (those outside the image included), ascending ids.
 std::vector<LabelledBoxOf> boxesAt(const AnnotationSet& set, FrameIndex frame, const CameraMotion& camera);
 
+/// Whether an object stands still after its last keyframe for so long that it must have braked before.
+bool standsAtItsEnd(const LabelledObject& object);
 /// First frame of an object (that of its first keyframe).
 FrameIndex firstFrameOf(const LabelledObject& object);
 /// The last keyframe at or before a frame; nothing before the first.
@@ -76,6 +79,10 @@ LabelledObject withBox(LabelledObject object, FrameIndex frame, const OrientedBo
 /// The object with the length and width that `box` has in a frame, in all its keyframes; sizes follow the local scale
 /// of the camera's motion where the frames are connected. Centres, headings and flags stay.
 LabelledObject withSize(LabelledObject object, FrameIndex frame, const OrientedBox& box, const CameraMotion& camera);
+/// What a keyframe corrects, carried over to all other keyframes: the box it shows is compared with the one that the
+/// others would show there, and place (in the vehicle's own axes), size and heading of theirs change in the same way.
+/// As it is where the frame has no keyframe or no other is left.
+LabelledObject withCorrectionSpread(LabelledObject object, FrameIndex frame, const CameraMotion& camera);
 /// The object without its keyframe of that frame. Its last keyframe is never removed (the object is to be deleted
 /// then); `last_frame` stays.
 LabelledObject withoutKeyframe(LabelledObject object, FrameIndex frame);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "annotation/interpolation.h"
+#include "core/angle.h"
 
 namespace eyrie {
 namespace {
@@ -43,6 +44,38 @@ LabelledObject withSize(LabelledObject object, FrameIndex frame, const OrientedB
         const OrientedBox there = carriedBox(box, frame, keyframe.frame, camera).value_or(box);
         keyframe.box.length = there.length;
         keyframe.box.width = there.width;
+    }
+    return object;
+}
+
+LabelledObject withCorrectionSpread(LabelledObject object, FrameIndex frame, const CameraMotion& camera) {
+    if (keyframeAt(object, frame) == nullptr || object.keyframes.size() < 2) return object;
+    const FrameIndex first = firstFrameOf(object);
+    LabelledObject others = withoutKeyframe(object, frame);
+    others.last_frame = std::max(others.last_frame, frame);
+    LabelledBox before = boxAt(others, frame, camera);
+    if (frame == first) {
+        // Nothing is known before the first keyframe, so the next one is taken back over the ground.
+        const OrientedBox& next = others.keyframes.front().box;
+        before.box = boxAt(object, frame, camera).box;
+        if (const auto carried = carriedBox(next, others.keyframes.front().frame, frame, camera)) {
+            before.box.length = carried->length;
+            before.box.width = carried->width;
+        }
+    }
+    const OrientedBox after = boxAt(object, frame, camera).box;
+    if (before.box.length <= 0 || before.box.width <= 0) return object;
+    const cv::Point2d moved = before.box.toBox(after.centre);
+    const double turned = turnBetween(before.box.heading, after.heading);
+    for (Keyframe& keyframe : object.keyframes) {
+        if (keyframe.frame == frame || keyframe.outside) continue;
+        OrientedBox shown = keyframe.box;
+        shown.heading = boxAt(others, keyframe.frame, camera).box.heading;
+        const double scale = keyframe.box.length / before.box.length;
+        keyframe.box.centre = shown.toImage(moved * scale);
+        keyframe.box.length *= after.length / before.box.length;
+        keyframe.box.width *= after.width / before.box.width;
+        if (keyframe.heading_set) keyframe.box.heading = wrapPi(keyframe.box.heading + turned);
     }
     return object;
 }

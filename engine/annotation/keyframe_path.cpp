@@ -23,6 +23,8 @@ cv::Point2d limited(cv::Point2d v, double longest) {
 
 // A tangent up to three times the slope keeps a cubic piece from running back (Fritsch and Carlson 1980).
 constexpr double kLongestTangent = 3;
+// A piece shorter than this share of the one beside it tells it little: a pixel of its ends is a lot of its speed.
+constexpr double kLeastShare = 1.0 / 3;
 // Between the heading and the direction of the path, radians.
 constexpr double kLargestSlip = 0.6;
 // Curves that are driven: headings against the chord, and their difference, radians.
@@ -40,11 +42,55 @@ bool KeyframePath::moving(std::size_t piece) const {
     return lengthOf(knots_[piece + 1].point - knots_[piece].point) >= std::max(1.0, length / 2);
 }
 
+bool KeyframePath::headed(std::size_t piece) const {
+    const Knot& a = knots_[piece];
+    const Knot& b = knots_[piece + 1];
+    return a.heading_set && b.heading_set && !(a.upright && b.upright) && moving(piece);
+}
+
+std::optional<KeyframePath::Turns> KeyframePath::turnsOf(std::size_t piece) const {
+    if (shape_ == PathShape::straight || !along_headings_) return std::nullopt;
+    if (!headed(piece)) return std::nullopt;
+    const double along = angleOf(knots_[piece + 1].point - knots_[piece].point);
+    const Turns turns{turnBetween(along, knots_[piece].heading), turnBetween(along, knots_[piece + 1].heading)};
+    if (std::abs(turns.leave) > kSharpestHalfTurn || std::abs(turns.arrive) > kSharpestHalfTurn) return std::nullopt;
+    return turns;
+}
+
+double KeyframePath::speedOn(std::size_t piece) const {
+    const double speed = lengthOf(slope(piece));
+    const auto turns = turnsOf(piece);
+    const double half = turns ? std::abs(turns->arrive - turns->leave) / 2 : 0;
+    // An arc is longer than its chord.
+    return half > 1e-3 ? speed * half / std::sin(half) : speed;
+}
+
+double KeyframePath::trust(std::size_t piece, std::size_t knot) const {
+    const std::size_t beside = knot == piece ? piece - 1 : piece + 1;
+    const double own = knots_[piece + 1].time - knots_[piece].time;
+    const double other = knots_[beside + 1].time - knots_[beside].time;
+    return std::min(1.0, other / (kLeastShare * own));
+}
+
+double KeyframePath::speedIn(std::size_t piece, std::size_t knot) const {
+    const double own = speedOn(piece);
+    if (knot > 0 && knot + 1 < count_) {
+        const double before = knots_[knot].time - knots_[knot - 1].time;
+        const double after = knots_[knot + 1].time - knots_[knot].time;
+        const double a = speedOn(knot - 1);
+        const double b = speedOn(knot);
+        const double both = std::min((a * after + b * before) / (before + after), kLongestTangent * std::min(a, b));
+        return own + (both - own) * trust(piece, knot);
+    }
+    if (stands_after_ && knot + 1 == count_) return 0;
+    if (count_ == 2 && !stands_after_) return own;
+    return std::clamp(2 * own - speedIn(piece, knot == 0 ? 1 : knot - 1), 0.0, kLongestTangent * own);
+}
+
 cv::Point2d KeyframePath::velocityAt(std::size_t piece, std::size_t knot) const {
-    const cv::Point2d free = tangent(knot);
-    const double speed = lengthOf(free);
-    const bool headed = knots_[piece].heading_set && knots_[piece + 1].heading_set && moving(piece);
-    if (!along_headings_ || !headed || speed < 1e-9) return free;
+    const cv::Point2d free = tangentIn(piece, knot);
+    const double speed = speedIn(piece, knot);
+    if (!along_headings_ || !headed(piece) || lengthOf(free) < 1e-9) return free;
     const double heading = knots_[knot].heading;
     const double turn = std::abs(turnBetween(angleOf(free), heading));
     // What skids or is pushed does not drive where it heads.
@@ -53,20 +99,24 @@ cv::Point2d KeyframePath::velocityAt(std::size_t piece, std::size_t knot) const 
 }
 
 cv::Point2d KeyframePath::tangent(std::size_t knot) const {
-    if (count_ == 2) return slope(0);
-    if (knot > 0 && knot + 1 < count_) {
-        const double before = knots_[knot].time - knots_[knot - 1].time;
-        const double after = knots_[knot + 1].time - knots_[knot].time;
-        const cv::Point2d a = slope(knot - 1);
-        const cv::Point2d b = slope(knot);
-        // The parabola through three knots.
-        return limited((a * after + b * before) * (1 / (before + after)),
-                       kLongestTangent * std::min(lengthOf(a), lengthOf(b)));
-    }
-    // At the ends the parabola that meets the tangent of the neighbouring knot.
-    const cv::Point2d own = knot == 0 ? slope(0) : slope(knot - 1);
-    const cv::Point2d neighbour = tangent(knot == 0 ? 1 : knot - 1);
-    const cv::Point2d end = own * 2 - neighbour;
+    if (knot == 0) return tangentIn(0, 0);
+    if (knot + 1 == count_) return tangentIn(knot - 1, knot);
+    const double before = knots_[knot].time - knots_[knot - 1].time;
+    const double after = knots_[knot + 1].time - knots_[knot].time;
+    const cv::Point2d a = slope(knot - 1);
+    const cv::Point2d b = slope(knot);
+    // The parabola through three knots.
+    return limited((a * after + b * before) * (1 / (before + after)),
+                   kLongestTangent * std::min(lengthOf(a), lengthOf(b)));
+}
+
+cv::Point2d KeyframePath::tangentIn(std::size_t piece, std::size_t knot) const {
+    const cv::Point2d own = slope(piece);
+    if (knot > 0 && knot + 1 < count_) return own + (tangent(knot) - own) * trust(piece, knot);
+    if (stands_after_ && knot + 1 == count_) return {0, 0};
+    if (count_ == 2 && !stands_after_) return own;
+    // At the ends the parabola that meets the tangent at the other end of the piece.
+    const cv::Point2d end = own * 2 - tangentIn(piece, knot == 0 ? 1 : knot - 1);
     if (end.dot(own) <= 0) return {0, 0};
     return limited(end, kLongestTangent * lengthOf(own));
 }
@@ -74,17 +124,13 @@ cv::Point2d KeyframePath::tangent(std::size_t knot) const {
 /// Where on its way a vehicle is that drives a curve: a cubic through place and heading at both ends, passed at a speed
 /// that changes smoothly from end to end. How it turns and how it brakes are then told apart.
 std::optional<KeyframePath::Drive> KeyframePath::driven(std::size_t piece, double share) const {
-    if (shape_ == PathShape::straight || !along_headings_) return std::nullopt;
-    if (!knots_[piece].heading_set || !knots_[piece + 1].heading_set || !moving(piece)) return std::nullopt;
+    const auto turns = turnsOf(piece);
+    if (!turns || std::abs(turns->arrive - turns->leave) < kLeastTurn) return std::nullopt;
     const cv::Point2d chord = knots_[piece + 1].point - knots_[piece].point;
     const double length = lengthOf(chord);
     const double along = angleOf(chord);
-    const double leave = turnBetween(along, knots_[piece].heading);
-    const double arrive = turnBetween(along, knots_[piece + 1].heading);
+    const auto [leave, arrive] = *turns;
     const double turn = arrive - leave;
-    if (std::abs(leave) > kSharpestHalfTurn || std::abs(arrive) > kSharpestHalfTurn || std::abs(turn) < kLeastTurn) {
-        return std::nullopt;
-    }
     // The cubic that is nearest to an arc of this turn.
     const double pull = length / std::pow(std::cos(turn / 4), 2);
     const cv::Point2d first = cv::Point2d(std::cos(along + leave), std::sin(along + leave)) * pull;
@@ -102,8 +148,8 @@ std::optional<KeyframePath::Drive> KeyframePath::driven(std::size_t piece, doubl
     }
     const double whole = way[kSteps];
     const double duration = knots_[piece + 1].time - knots_[piece].time;
-    const double start = std::min(lengthOf(tangent(piece)) * duration, kLongestTangent * whole);
-    const double end = std::min(lengthOf(tangent(piece + 1)) * duration, kLongestTangent * whole);
+    const double start = std::min(speedIn(piece, piece) * duration, kLongestTangent * whole);
+    const double end = std::min(speedIn(piece, piece + 1) * duration, kLongestTangent * whole);
     const double t = share;
     const double gone = whole * t * t * (3 - 2 * t) + start * t * (t - 1) * (t - 1) + end * t * t * (t - 1);
     const auto next = std::upper_bound(way.begin() + 1, way.end() - 1, gone);

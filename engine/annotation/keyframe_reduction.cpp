@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "annotation/keyframe_thinning.h"
+
 namespace eyrie {
 namespace {
 
@@ -56,21 +58,12 @@ class Reducer {
     }
 
     const LabelledObject& object() const { return object_; }
+    /// Nothing had to be given up.
+    bool allWithin() const { return given_up_.empty(); }
     std::size_t keyframeCount() const { return object_.keyframes.size(); }
 
  private:
-    /// 1 at the tolerance.
-    double excessOf(std::size_t i) const {
-        const LabelledBox found = boxAt(object_, boxes_[i].frame, camera_, options_.shape);
-        if (!found.exists()) return std::numeric_limits<double>::max();
-        double excess = 0;
-        if (options_.tolerance_px > 0) excess = cornerDistance(found.box, boxes_[i].box) / options_.tolerance_px;
-        if (options_.min_overlap > 0) {
-            const double missing = 1 - overlap(found.box, boxes_[i].box);
-            excess = std::max(excess, missing / std::max(1e-9, 1 - options_.min_overlap));
-        }
-        return excess;
-    }
+    double excessOf(std::size_t i) const { return deviationOf(object_, boxes_[i], camera_, options_); }
 
     void measure(std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) excess_[i] = excessOf(i);
@@ -210,6 +203,9 @@ LabelledObject startOf(const std::vector<FrameBox>& boxes, bool set_headings) {
     return object;
 }
 
+// Long searches are not worth it for what has many keyframes anyway.
+constexpr std::size_t kMostToThin = 20;
+
 std::vector<Keyframe> reduced(const std::vector<FrameBox>& boxes, const CameraMotion& camera,
                               const ReductionOptions& options, bool set_headings) {
     Reducer reducer(startOf(boxes, set_headings), boxes, camera, options, set_headings);
@@ -224,7 +220,9 @@ std::vector<Keyframe> reduced(const std::vector<FrameBox>& boxes, const CameraMo
         reducer.removeNeedless();
         if (reducer.keyframeCount() >= before) break;
     }
-    return reducer.object().keyframes;
+    if (!options.thorough || !reducer.allWithin() || reducer.keyframeCount() > kMostToThin)
+        return reducer.object().keyframes;
+    return thinned(reducer.object(), boxes, camera, options).keyframes;
 }
 
 }  // namespace
@@ -232,6 +230,7 @@ std::vector<Keyframe> reduced(const std::vector<FrameBox>& boxes, const CameraMo
 std::vector<Keyframe> reduceToKeyframes(const std::vector<FrameBox>& boxes, const CameraMotion& camera,
                                         const ReductionOptions& options) {
     if (boxes.empty()) return {};
+    if (options.headings_set) return reduced(boxes, camera, options, true);
     auto free = reduced(boxes, camera, options, false);
     if (free.size() <= 2) return free;
     // Headings help through turns; noisy ones do not.

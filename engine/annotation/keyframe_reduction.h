@@ -19,6 +19,8 @@ struct ReductionOptions {
     double tolerance_px = 1.5;  ///< largest distance between corresponding corners, px; 0: do not look at corners
     double min_overlap = 0;     ///< smallest overlap with the dense box, 0 … 1; 0: do not look at it
     PathShape shape = PathShape::smooth;
+    bool headings_set = false;  ///< every keyframe tells its heading, none is left to the path
+    bool thorough = false;      ///< looks for better places as long as that saves keyframes; takes some 50 ms a track
 };
 
 /// Few keyframes whose interpolation stays within the tolerance of every dense box. Frames must ascend; where one or

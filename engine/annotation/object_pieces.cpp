@@ -67,7 +67,8 @@ LabelledObject pieceOf(const LabelledObject& object, FrameIndex first, FrameInde
     if (first > firstFrameOf(object)) {
         boxes = shownBoxes(object, first, count > kReach ? piece.keyframes[kReach].frame : last, camera);
     }
-    if (moves_on) {
+    // What no longer stands so long at its end would not brake as it did.
+    if (moves_on || last < object.last_frame) {
         const FrameIndex from = count > kReach ? piece.keyframes[count - 1 - kReach].frame : first;
         const auto tail =
             shownBoxes(object, boxes.empty() ? from : std::max(from, boxes.back().frame + 1), last, camera);

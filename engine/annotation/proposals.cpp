@@ -42,7 +42,15 @@ Proposal propose(const DenseTrack& track, const AnnotationSet& labelled, const C
     proposal.track = track.id;
     proposal.object.object_class = options.object_class;
     proposal.object.origin = ObjectOrigin::proposal_accepted;
-    proposal.object.keyframes = reduceToKeyframes(track.boxes, camera, options.reduction);
+    ReductionOptions reduction = options.reduction;
+    std::vector<double> lengths;
+    for (const FrameBox& box : track.boxes) lengths.push_back(box.box.length);
+    std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
+    const double usual = lengths[lengths.size() / 2];
+    if (reduction.tolerance_px > 0)
+        reduction.tolerance_px = std::max(reduction.tolerance_px, options.tolerance_of_length * usual);
+    reduction.thorough = true;  // every keyframe less is one less to check
+    proposal.object.keyframes = reduceToKeyframes(track.boxes, camera, reduction);
     proposal.object.last_frame = track.boxes.back().frame;
     proposal.max_corner_px = reductionError(proposal.object, track.boxes, camera).corner_px;
     proposal.same_as = labelledAlready(track, labelled, camera, options.min_overlap_with_object);

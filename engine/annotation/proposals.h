@@ -24,7 +24,8 @@ struct DenseTrack {
 
 struct ProposalOptions {
     ReductionOptions reduction;
-    int min_frames = 5;  ///< shorter tracks are not offered
+    double tolerance_of_length = 0.12;  ///< of the track's median length, where that is more than the reduction's own
+    int min_frames = 5;                 ///< shorter tracks are not offered
     std::string object_class = "car";
     double min_overlap_with_object = 0.5;  ///< from here on a track counts as labelled already
 };

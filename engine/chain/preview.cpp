@@ -97,8 +97,7 @@ Preview::Known* Preview::known(FrameIndex frame) {
     return &made;
 }
 
-bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int range, int wanted_frames,
-                            const std::stop_token& stop) {
+bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int range, const std::stop_token& stop) {
     const std::string wanted = textOf(options, PreviewStart::registration, PreviewStart::motion);
     if (wanted == textOf(source_.options, PreviewStart::registration, PreviewStart::motion)) {
         if (!motions_.empty()) frames_.clear();
@@ -107,17 +106,19 @@ bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int r
         return true;
     }
     const FrameIndex first = std::max(source_.first_frame, frame - range);
-    const FrameIndex first_wanted = std::max(source_.first_frame, frame - wanted_frames);
-    if (motions_for_ == wanted && motions_.count(frame) > 0 && motions_.count(first_wanted) > 0) return true;
+    if (motions_for_ == wanted && motions_.count(frame) > 0 && motions_.count(first) > 0) return true;
     const std::string registration = textOf(options, PreviewStart::registration, PreviewStart::registration);
-    if (!window_ || window_for_ != registration) {
+    if (windows_for_ != registration || !window_) {
         window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
-        window_for_ = registration;
+        track_window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
+        windows_for_ = registration;
     }
+    MotionWindow& window = range == 0 ? *window_ : *track_window_;
     const FrameIndex begin = std::max(0, first - MotionWindow::reachFor(options.motion));
-    if (!window_->cover(begin, frame, source_.pixels, stop)) return false;
+    if (!window.cover(begin, frame, source_.pixels, stop)) return false;
     motions_.clear();
-    for (FrameMotion& motion : window_->motions(options.motion, frame - first_wanted + 1)) {
+    for (auto& [index, kept] : frames_) kept.clusters_for.clear();  // corners are numbered anew in another window
+    for (FrameMotion& motion : window.motions(options.motion, frame - first + 1)) {
         const FrameIndex index = motion.frame;
         motions_[index] = std::move(motion);
     }
@@ -219,7 +220,7 @@ void Preview::adoptIds(std::vector<TrackState>& tracks, const std::vector<TrackS
 std::optional<PreviewedFrame> Preview::now(FrameIndex frame, const ChainOptions& options, int range,
                                            const std::stop_token& stop) {
     if (known(frame) == nullptr) throw Error(ErrorKind::project, "the run has not done frame " + std::to_string(frame));
-    if (!prepareMotion(frame, options, range, 0, stop) || stop.stop_requested()) return std::nullopt;
+    if (!prepareMotion(frame, options, 0, stop) || stop.stop_requested()) return std::nullopt;
     PreviewedFrame previewed;
     if (reachesBack(options)) {
         auto replayed = byReplay(frame, options, stop);
@@ -249,7 +250,7 @@ std::optional<PreviewedFrame> Preview::withTracks(FrameIndex frame, const ChainO
                                                   const std::function<void(int)>& progress) {
     auto previewed = now(frame, options, range, stop);
     if (!previewed || previewed->tracks_final || reachesBack(options)) return previewed;
-    if (!prepareMotion(frame, options, range, range, stop)) return std::nullopt;
+    if (!prepareMotion(frame, options, range, stop)) return std::nullopt;
     Tracker tracker(options.tracking, source_.scale);
     for (FrameIndex before = std::max(source_.first_frame, frame - range); before < frame; ++before) {
         if (stop.stop_requested()) return std::nullopt;
@@ -259,6 +260,8 @@ std::optional<PreviewedFrame> Preview::withTracks(FrameIndex frame, const ChainO
         const FrameResult result = secondHalf(*past, options);
         tracker.next(result.motion, result.detections, nullptr, looksOf(*past, options));
     }
+    // By the longer window, which is nearer to a run.
+    if (previewed->approximate) previewed->result = secondHalf(*known(frame), options);
     previewed->result.tracks =
         tracker.next(previewed->result.motion, previewed->result.detections, nullptr, looksOf(*known(frame), options));
     previewed->tracks_final = true;

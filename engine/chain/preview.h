@@ -57,9 +57,8 @@ class Preview {
         std::vector<OrientedBox> rois;
     };
     Known* known(FrameIndex frame);
-    /// Motion of the frame and `wanted_frames` before it; registers `range` frames before, which serve later wishes.
-    bool prepareMotion(FrameIndex frame, const ChainOptions& options, int range, int wanted_frames,
-                       const std::stop_token& stop);
+    /// Motion of the frame and the `range` frames before it, by other parameters than the run's.
+    bool prepareMotion(FrameIndex frame, const ChainOptions& options, int range, const std::stop_token& stop);
     const FrameMotion& motionOf(const Known& known) const;
     FrameResult secondHalf(Known& known, const ChainOptions& options);
     /// Pixels of a frame where tracks are known by their looks; else nothing.
@@ -69,8 +68,9 @@ class Preview {
 
     ReplaySource source_;
     std::map<FrameIndex, Known> frames_;
-    std::unique_ptr<MotionWindow> window_;
-    std::string window_for_;
+    std::unique_ptr<MotionWindow> window_;        ///< as short as can be, so that the first answer comes soon
+    std::unique_ptr<MotionWindow> track_window_;  ///< over the range of tracks
+    std::string windows_for_;
     std::map<FrameIndex, FrameMotion> motions_;  ///< with other parameters of motion; empty: the run's
     std::string motions_for_;
     std::unique_ptr<Detector> detector_;

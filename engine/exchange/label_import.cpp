@@ -79,6 +79,22 @@ int cutAtEnd(LabelFile& labels, int frame_count) {
     return left_out;
 }
 
+/// Takes out what the project has already; answers how many objects and regions.
+int leaveDoublesOut(ImportedLabels& imported, const LabelFile& labels, const CameraMotion& camera,
+                    const AnnotationStore& store, double tolerance_px) {
+    // What was imported before is known by its keyframes only, which are as exact as the tolerance.
+    constexpr double kSame_px = 1;
+    const double within = kSame_px + tolerance_px;
+    int left_out = 0;
+    const int step = imported.annotations.objects.empty() ? 0 : imported.id_step;
+    for (const auto& [id, present] : alreadyLabelled(labels, store.annotations(), camera, within))
+        left_out += static_cast<int>(imported.annotations.objects.erase(id + step));
+    left_out += static_cast<int>(std::erase_if(imported.annotations.regions, [&](const auto& entry) {
+        return hasRegion(store.annotations(), entry.second, kSame_px);
+    }));
+    return left_out;
+}
+
 AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
     AnnotationEdit edit;
     const auto& objects = imported.annotations.objects;
@@ -115,7 +131,7 @@ AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
 }  // namespace
 
 LabelImport planImport(const LabelFile& file, const SequenceRecord& sequence, const CameraMotion& camera,
-                       AnnotationStore& store, double tolerance_px) {
+                       AnnotationStore& store, double tolerance_px, Doubles doubles) {
     LabelFile labels = file;
     LabelImport result;
     const int behind = cutAtEnd(labels, sequence.frame_count);
@@ -130,6 +146,11 @@ LabelImport planImport(const LabelFile& file, const SequenceRecord& sequence, co
     if (imported.left_out > 0) {
         result.notes.push_back(std::to_string(imported.left_out) +
                                " boxes have no id and belong to no object; they were left out");
+    }
+    if (doubles == Doubles::skip) result.doubles = leaveDoublesOut(imported, labels, camera, store, tolerance_px);
+    if (result.doubles > 0) {
+        result.notes.push_back(std::to_string(result.doubles) +
+                               " objects or regions are labelled already with the same boxes, and were left out");
     }
     if (tolerance_px > 0) {
         const int step = labels.boxes.empty() || imported.annotations.objects.empty() ? 0 : imported.id_step;
@@ -148,10 +169,11 @@ LabelImport planImport(const LabelFile& file, const SequenceRecord& sequence, co
             result.notes.push_back("the video was never registered, so keyframes were chosen for motion in the image");
         }
     }
+    result.objects = static_cast<int>(imported.annotations.objects.size());
+    result.regions = static_cast<int>(imported.annotations.regions.size());
+    if (result.objects == 0 && result.regions == 0) return result;  // classes alone are no import
     result.edit = editFor(imported, store);
     for (const auto& change : result.edit.objects) result.keyframes += static_cast<int>(change.after->keyframes.size());
-    result.objects = static_cast<int>(result.edit.objects.size());
-    result.regions = static_cast<int>(result.edit.regions.size());
     return result;
 }
 

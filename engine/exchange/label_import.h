@@ -5,6 +5,7 @@
 
 #include "annotation/camera_motion.h"
 #include "core/annotation_edit.h"
+#include "exchange/label_doubles.h"
 #include "formats/label_file.h"
 #include "store/annotation_store.h"
 
@@ -17,14 +18,16 @@ struct LabelImport {
     int boxes = 0;      ///< of the file
     int keyframes = 0;  ///< made of them
     int regions = 0;
+    int doubles = 0;  ///< objects and regions that the project has already and that were left out
     std::vector<std::string> notes;
 };
 
 /// Labels of a file as an edit of the video's labels. Few keyframes are chosen whose interpolation over the ground
 /// stays within `tolerance_px` of every box; 0 makes every box a keyframe. Nothing that is there is touched. Ids of the
 /// file are kept in a project that never had an object; otherwise `store` hands out new ones. Boxes behind the video's
-/// last frame are left out, and boxes that belong to no object; notes say how many.
+/// last frame are left out, and boxes that belong to no object; notes say how many. So are, unless `doubles` says
+/// otherwise, objects and regions that the project has already, within a pixel: a file imported twice adds nothing.
 LabelImport planImport(const LabelFile& labels, const SequenceRecord& sequence, const CameraMotion& camera,
-                       AnnotationStore& store, double tolerance_px);
+                       AnnotationStore& store, double tolerance_px, Doubles doubles = Doubles::skip);
 
 }  // namespace eyrie

@@ -78,7 +78,8 @@ LabelBox boxOf(const TextLine& line, int& passed_over) {
 }
 
 void readMetadata(const std::string& text, LabelFile& labels) {
-    const std::size_t rate = text.find("fps:");
+    std::size_t rate = text.find("fps:");
+    if (rate == std::string::npos) rate = text.find("Fps:");  // older DIVE
     if (rate == std::string::npos) return;
     const std::size_t end = text.find_first_of(",\r", rate);
     const auto value =
@@ -124,7 +125,10 @@ void writeViame(const LabelFile& labels, const std::filesystem::path& path, cons
         "# 1: Detection or Track-id,2: Video or Image Identifier,3: Unique Frame Identifier,4-7: Img-bbox(TL_x,TL_y,"
         "BR_x,BR_y),8: Detection or Length Confidence,9: Target Length (0 or -1 if invalid),10-11+: Repeated Species,"
         "Confidence Pairs or Attributes\n";
-    if (labels.frame_rate_hz) text += "# metadata,fps: " + shortestText(*labels.frame_rate_hz) + '\n';
+    // DIVE wrote it small and looked for it capital for a while; it takes what it knows.
+    if (labels.frame_rate_hz)
+        for (const char* key : {"fps", "Fps"})
+            text += std::string("# metadata,") + key + ": " + shortestText(*labels.frame_rate_hz) + '\n';
     for (const auto& [id, track] : boxesById(labels.boxes)) {
         for (const LabelBox* record : track) {
             const OrientedBox& box = record->box;

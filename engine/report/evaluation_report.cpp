@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "chain/chain_options.h"
-#include "io/atomic_file.h"
 #include "io/number_text.h"
 #include "report/svg_chart.h"
 
@@ -21,6 +19,8 @@ constexpr const char* kMissed = "#dea014";
 constexpr const char* kFalse = "#d64236";
 constexpr const char* kRecall = "#2d78c8";
 constexpr const char* kBar = "#4a6fa5";
+constexpr std::size_t kFewParameters = 12;  ///< leave room for the measures on their page
+constexpr std::size_t kChipsOnPage = 16;
 constexpr int kChipHeight = 72;
 constexpr double kChipShape = 1.6;
 constexpr double kAround = 2.6;  ///< a chip is as many boxes wide
@@ -56,8 +56,9 @@ class Page {
         html_ += "<p><img src=\"" + name + "\"><br><i>" + escaped(words) + "</i></p>\n";
     }
     /// `numbers_from`: columns from there on are aligned right.
-    void beginTable(const std::vector<std::string>& headings, std::size_t numbers_from = 1000) {
-        html_ += "<table cellspacing=\"0\" cellpadding=\"3\">\n";
+    void beginTable(const std::vector<std::string>& headings, std::size_t numbers_from = 1000,
+                    const std::string& kind = "plain") {
+        html_ += "<table class=\"" + kind + "\" cellspacing=\"0\" cellpadding=\"3\">\n";
         if (headings.empty()) return;
         html_ += "<thead><tr>";
         for (std::size_t i = 0; i < headings.size(); ++i)
@@ -152,8 +153,11 @@ std::set<std::string> tellDifferentParameters(Page& page, const RunEvaluation& e
     return different;
 }
 
-void tellMeasures(Page& page, const RunEvaluation& e) {
-    page.heading("Measures");
+void tellMeasures(Page& page, const RunEvaluation& e, bool on_a_new_page) {
+    if (on_a_new_page)
+        page.chapter("Measures");
+    else
+        page.heading("Measures");
     std::vector<std::string> headings{""};
     std::vector<std::vector<NamedMeasure>> columns;
     for (const Measures& measures : e.table) {
@@ -314,8 +318,16 @@ void addChips(Page& page, const RunEvaluation& e, FrameSource* pixels, const Rep
     }
     page.chapter("The gravest errors");
     if (!trouble.empty()) page.paragraph("Pictures are missing: " + escaped(trouble));
-    page.beginTable({"", "Kind", "Frames", "Count", "Object", "Track", "Probable cause", "Detail"});
-    for (const std::size_t i : chosen) {
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        // A table for each printed page: rows with pictures must not be broken.
+        if (k > 0 && k % kChipsOnPage == 0) {
+            page.endTable();
+            page.chapter("The gravest errors, continued");
+        }
+        if (k % kChipsOnPage == 0)
+            page.beginTable({"", "Kind", "Frames", "Count", "Object", "Track", "Probable cause", "Detail"}, 1000,
+                            "chips");
+        const std::size_t i = chosen[k];
         const DiagnosedMistake& one = e.mistakes[i];
         const std::string name = "chip-" + std::to_string(i + 1);
         const bool is_switch = one.mistake.kind == MistakeKind::id_switch;
@@ -360,25 +372,6 @@ void listParameters(Page& page, const RunEvaluation& e, const std::set<std::stri
     page.endTable();
 }
 
-std::string base64(const std::string& bytes) {
-    static constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
-
-void replaceSource(std::string& html, const std::string& name, const std::string& source) {
-    const std::string wanted = "src=\"" + name + "\"";
-    for (std::size_t at = html.find(wanted); at != std::string::npos; at = html.find(wanted, at + source.size()))
-        html.replace(at, wanted.size(), "src=\"" + source + "\"");
-}
-
 }  // namespace
 
 EvaluationReportFile makeEvaluationReport(const RunEvaluation& evaluation, FrameSource* pixels,
@@ -391,7 +384,7 @@ EvaluationReportFile makeEvaluationReport(const RunEvaluation& evaluation, Frame
     Page page;
     tellWhat(page, evaluation, options);
     const std::set<std::string> different = tellDifferentParameters(page, evaluation);
-    tellMeasures(page, evaluation);
+    tellMeasures(page, evaluation, different.size() > kFewParameters);
     addFigures(page, evaluation, report);
     tellCauses(page, evaluation, report);
     addChips(page, evaluation, pixels, options, report, progress, stop);
@@ -407,18 +400,6 @@ EvaluationReportFile makeEvaluationReport(const RunEvaluation& evaluation, Frame
         "<body><h1>" +
         escaped(title) + "</h1>\n" + page.take() + "</body></html>\n";
     return report;
-}
-
-std::string selfContained(const EvaluationReportFile& report) {
-    std::string html = report.html;
-    for (const auto& [name, svg] : report.figures)
-        replaceSource(html, name, "data:image/svg+xml;base64," + base64(svg));
-    for (const auto& [name, png] : report.chips) replaceSource(html, name, "data:image/png;base64," + base64(png));
-    return html;
-}
-
-void writeHtmlReport(const std::filesystem::path& path, const EvaluationReportFile& report) {
-    writeFileAtomically(path, selfContained(report));
 }
 
 }  // namespace eyrie

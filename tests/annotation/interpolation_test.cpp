@@ -73,6 +73,74 @@ TEST(Interpolation, ACarThatStopsNeverRunsOnOrBack) {
     }
 }
 
+TEST(Interpolation, WhatStandsAfterItsLastKeyframeBrakesUntilThere) {
+    const auto braking = [](double t) {
+        const double s = std::min(t, 60.0);
+        return OrientedBox{{10 + 3 * s - 0.025 * s * s, 60}, 20, 9, 0};
+    };
+    std::vector<Keyframe> keyframes;
+    for (const int frame : {0, 60}) keyframes.push_back(keyframe(frame, seen(braking(frame), test::flyingView(frame))));
+    const auto car = object(1, keyframes, 100);
+    for (int frame = 0; frame <= 100; ++frame) {
+        EXPECT_LT(test::cornerDistance(boxAt(car, frame, flying).box, seen(braking(frame), test::flyingView(frame))),
+                  1e-6)
+            << frame;
+    }
+    // An end that was put a few frames later says nothing of the kind.
+    const auto driving = object(1, keyframes, 65);
+    const OrientedBox middle{(braking(0).centre + braking(60).centre) / 2, 20, 9, 0};
+    EXPECT_LT(test::cornerDistance(boxAt(driving, 30, flying).box, seen(middle, test::flyingView(30))), 1e-6);
+}
+
+TEST(Interpolation, ACarThatTurnsACornerAtOneSpeedNeedsFourKeyframes) {
+    // 60 px straight on, a quarter of a circle with radius 25 px, 60 px straight on; 1.5 px a frame.
+    const double arc = 25 * kPi / 2;
+    const auto turning = [&](double t) {
+        const double way = 1.5 * t;
+        const double angle = std::clamp((way - 60) / 25, 0.0, kPi / 2);
+        cv::Point2d at(std::min(way, 60.0) + 25 * std::sin(angle), 25 - 25 * std::cos(angle));
+        at.y += std::max(0.0, way - 60 - arc);
+        return OrientedBox{at, 20, 9, angle};
+    };
+    std::vector<Keyframe> keyframes;
+    for (const int frame : {0, 40, 66, 106}) {
+        keyframes.push_back(keyframe(frame, seen(turning(frame), test::flyingView(frame)), true));
+    }
+    const auto car = object(1, keyframes, 106);
+    for (int frame = 0; frame <= 106; ++frame) {
+        const OrientedBox box = boxAt(car, frame, flying).box;
+        const OrientedBox truth = seen(turning(frame), test::flyingView(frame));
+        EXPECT_LT(test::cornerDistance(box, truth), 0.8) << frame;
+        EXPECT_GT(overlap(box, truth), 0.9) << frame;
+    }
+}
+
+TEST(Interpolation, APixelBetweenNearKeyframesDoesNotBendTheLongWayAfterThem) {
+    // 2 px a frame; the second keyframe, four frames after the first, was set 1.5 px too far.
+    const auto car = object(
+        1, {keyframe(0, {{0, 30}, 20, 9, 0}), keyframe(4, {{9.5, 30}, 20, 9, 0}), keyframe(84, {{168, 30}, 20, 9, 0})},
+        84);
+    const auto camera = CameraMotion::standing(0, 84);
+    for (int frame = 0; frame <= 84; ++frame) EXPECT_NEAR(boxAt(car, frame, camera).box.centre.x, 2 * frame, 2.1);
+}
+
+TEST(Interpolation, UprightBoxesStayUprightAndDoNotSteer) {
+    const auto at = [](double t) { return OrientedBox{{50 + 2 * t, 100 + 1.2 * t}, 24, 14, 0}; };
+    std::vector<Keyframe> keyframes;
+    for (const int frame : {0, 50, 100}) {
+        OrientedBox box = at(frame);
+        box.centre = seen(box, test::flyingView(frame)).centre;
+        keyframes.push_back(keyframe(frame, box, true));
+    }
+    const auto car = object(1, keyframes, 100);
+    for (int frame = 0; frame <= 100; frame += 5) {
+        const OrientedBox box = boxAt(car, frame, flying).box;
+        const cv::Point2d truth = seen(at(frame), test::flyingView(frame)).centre;
+        EXPECT_LT(cv::norm(box.centre - truth), 1e-6) << frame;
+        EXPECT_NEAR(box.heading, 0, 1e-9) << frame;
+    }
+}
+
 TEST(Interpolation, WithoutHomographiesItRunsInTheImageAndSaysSo) {
     const auto car = object(1, {keyframe(0, {{0, 0}, 20, 9, 0}), keyframe(10, {{100, 50}, 30, 12, 0})}, 15);
     const CameraMotion nothing;
@@ -235,6 +303,32 @@ TEST(Keyframes, TakeTheSizeOfOneOnTheGround) {
     EXPECT_EQ(after.heading, before.heading);
     car = withSize(std::move(car), 80, after, {});
     EXPECT_EQ(car.keyframes[0].box.length, after.length) << "nothing is known of the camera";
+}
+
+TEST(Keyframes, TakeOverWhatOneOfThemCorrects) {
+    // A track that is 2 px behind its vehicle and a quarter too long, all the way; the vehicle turns.
+    const CameraMotion camera(test::stepsOf(test::flyingView, 100));
+    const auto truth = [](double t) {
+        const double angle = 0.01 * t;
+        return OrientedBox{{200 * std::sin(angle), 200 - 200 * std::cos(angle)}, 20, 9, angle};
+    };
+    std::vector<Keyframe> keyframes;
+    for (const int frame : {0, 30, 60, 90}) {
+        OrientedBox box = truth(frame);
+        box.centre = box.toImage({-2, 0});
+        box.length *= 1.25;
+        keyframes.push_back(keyframe(frame, seen(box, test::flyingView(frame)), true));
+    }
+    auto car = object(1, keyframes, 90);
+    car = withBox(std::move(car), 45, seen(truth(45), test::flyingView(45)), true);
+    const auto corrected = withCorrectionSpread(car, 45, camera);
+    ASSERT_EQ(corrected.keyframes.size(), 5U);
+    for (const Keyframe& entry : corrected.keyframes) {
+        EXPECT_LT(test::cornerDistance(entry.box, seen(truth(entry.frame), test::flyingView(entry.frame))), 1.0)
+            << entry.frame;
+    }
+    EXPECT_EQ(withCorrectionSpread(car, 46, camera).keyframes[0].box.length, car.keyframes[0].box.length)
+        << "there is no keyframe that corrects";
 }
 
 TEST(Interpolation, AllObjectsOfAFrame) {

@@ -98,9 +98,14 @@ TEST(Preview, isWhatARunWithTheseParametersFinds) {
         const auto expected = run.runWith(options);
         const auto now = preview.now(30, options, 30, {});
         ASSERT_TRUE(now);
-        expectSame(now->result, expected[30]);
+        // The first answer on other motion vectors comes from a short window; the second reaches back to frame 0.
+        if (!now->approximate) expectSame(now->result, expected[30]);
         const auto whole = preview.withTracks(30, options, 30, {}, {});
         ASSERT_TRUE(whole);
+        expectSame(whole->result, expected[30]);
+        const auto again = preview.now(30, options, 30, {});
+        ASSERT_TRUE(again);
+        expectSame(again->result, expected[30]);
         EXPECT_TRUE(whole->tracks_final);
         // The range reaches back to the first frame, so the tracks are those of a run, too; but only what lies behind
         // the motion vectors is done anew from the first frame on.

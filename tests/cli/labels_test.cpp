@@ -131,8 +131,14 @@ TEST_F(LabelCommands, LabelsComeOutAsTheyWentIn) {
     EXPECT_EQ(measured.exit_code, 0) << measured.errors;
     EXPECT_THAT(measured.output, HasSubstr("FN                            0"));
     EXPECT_THAT(measured.output, HasSubstr("ignored results              10"));
-    // again: what is there stays, ids are new
-    ASSERT_EQ(cli({"import", at("back.csv"), "--project", path, "--tolerance", "0"}).exit_code, 0);
+    // again: it is there already
+    const auto twice = cli({"import", at("back.csv"), "--project", path});
+    EXPECT_EQ(twice.exit_code, 0) << twice.errors;
+    EXPECT_THAT(twice.output,
+                AllOf(HasSubstr("2 objects or regions are labelled already"), HasSubstr("--add-doubles")));
+    EXPECT_EQ(labelsOf(path).objects.size(), 2u);
+    // all the same: what is there stays, ids are new
+    ASSERT_EQ(cli({"import", at("back.csv"), "--project", path, "--tolerance", "0", "--add-doubles"}).exit_code, 0);
     const AnnotationSet labels = labelsOf(path);
     EXPECT_EQ(labels.objects.size(), 4u);
     EXPECT_TRUE(labels.objects.contains(7));

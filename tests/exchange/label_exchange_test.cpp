@@ -66,6 +66,42 @@ TEST_F(LabelExchange, APlanChangesNothingUntilItIsApplied) {
     }
 }
 
+TEST_F(LabelExchange, AFileImportedTwiceAddsNothingUnlessAsked) {
+    AnnotationStore store(project_, sequence_.id);
+    LabelFile labels = car(20);
+    LabelBox region;
+    region.ignore = true;
+    region.box = {{80, 60}, 30, 20, 0};
+    for (int frame = 0; frame < 20; ++frame) {
+        region.frame = frame;
+        labels.boxes[frame].push_back(region);
+    }
+    for (const double tolerance : {1.5, 0.0}) {
+        const LabelImport first = planImport(labels, sequence_, {}, store, tolerance);
+        EXPECT_EQ(first.doubles, tolerance > 0 ? 0 : 2) << "the second time around all is there";
+        if (!first.edit.empty()) store.apply(first.edit);
+    }
+    ASSERT_EQ(store.annotations().objects.size(), 1u);
+    ASSERT_EQ(store.annotations().regions.size(), 1u);
+    const LabelImport again = planImport(labels, sequence_, {}, store, 1.5);
+    EXPECT_TRUE(again.edit.empty());
+    EXPECT_THAT(again.notes, Contains(HasSubstr("labelled already")));
+
+    // A second car in the file is new, also where it is near.
+    for (auto& [frame, records] : labels.boxes) {
+        LabelBox beside = records[0];
+        beside.id = 5;
+        beside.box.centre.y += 4;
+        records.push_back(beside);
+    }
+    const LabelImport one_more = planImport(labels, sequence_, {}, store, 1.5);
+    EXPECT_EQ(one_more.objects, 1);
+    EXPECT_EQ(one_more.doubles, 2);
+    const LabelImport all = planImport(labels, sequence_, {}, store, 1.5, Doubles::add);
+    EXPECT_EQ(all.objects, 2);
+    EXPECT_EQ(all.doubles, 0);
+}
+
 TEST_F(LabelExchange, RegionsLeaveAsBoxesThatCoverThem) {
     AnnotationSet annotations;
     IgnoreRegion square;

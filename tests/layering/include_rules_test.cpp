@@ -41,7 +41,7 @@ const fs::path source_dir = EYRIE_SOURCE_DIR;
 /// Which engine rooms each engine room may include besides itself (the plan of the house).
 const std::map<std::string, std::set<std::string>> allowed = {
     {"core", {}},
-    {"annotation", {"core"}},
+    {"annotation", {"core", "stacking"}},
     {"io", {"core"}},
     {"formats", {"core", "io"}},
     {"imaging", {"core"}},

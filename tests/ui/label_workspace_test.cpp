@@ -1,90 +1,21 @@
-#include "main_window/label_workspace.h"
-
 #include <QDockWidget>
-#include <QSignalSpy>
-#include <QTest>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
-#include "main_window/label_actions.h"
-#include "main_window/label_files.h"
-#include "main_window/main_window.h"
-#include "main_window/window_actions.h"
-#include "panels/chip_grid.h"
-#include "panels/message_bar.h"
 #include "panels/object_inspector.h"
 #include "panels/objects_panel.h"
-#include "ui/ui_support.h"
+#include "ui/labelling.h"
 #include "view/label_timeline.h"
-#include "view/label_tool.h"
-#include "view/video_view.h"
 
 namespace eyrie::ui {
 
-using test::kPatience_ms;
-
 /// The label workspace driven as an annotator does: by mouse and keys.
-class LabelWorkspaceTest : public QObject {
+class LabelWorkspaceTest : public QObject, test::Labelling {
     Q_OBJECT
 
-    std::unique_ptr<test::OwnHome> home_;
-
-    static bool waitFor(const std::function<bool()>& condition) { return QTest::qWaitFor(condition, kPatience_ms); }
-
-    /// A window that labels a folder of images; without a run unless one is asked for.
-    std::unique_ptr<MainWindow> labellingWindow(int frames, bool with_run = false) {
-        const auto folder = *home_ / "images";
-        if (!std::filesystem::exists(folder)) test::writeScene(folder, frames);
-        auto window = std::make_unique<MainWindow>();
-        window->show();
-        if (with_run) {
-            QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
-            StartOptions options;
-            options.input = folder;
-            options.gsd_m_per_px = 0.25;
-            window->start(options);
-            if (!finished.wait(kPatience_ms)) return nullptr;
-        } else {
-            QSignalSpy ready(&window->session(), &ProjectSession::ready);
-            window->session().settings().gsd_m_per_px = 0.25;
-            window->session().open(folder);
-            if (!ready.wait(kPatience_ms)) return nullptr;
-            window->session().settings().gsd_m_per_px = 0.25;
-        }
-        window->actions().label_workspace->trigger();
-        if (!waitFor([&] { return window->labelling().labels().isOpen(); })) return nullptr;
-        go(*window, 0);
-        return window;
-    }
-    static void go(MainWindow& window, FrameIndex frame) {
-        window.session().goToFrame(frame);
-        waitFor([&] { return window.canvas().frame().index == frame && !window.canvas().frame().image.isNull(); });
-    }
-    static void key(MainWindow& window, Qt::Key key, Qt::KeyboardModifiers keys = {}) {
-        window.canvas().setFocus();
-        QTest::keyClick(&window.canvas(), key, keys);
-    }
-    static QPoint at(MainWindow& window, double x, double y) {
-        return window.canvas().transform().viewFromImage({x, y}).toPoint();
-    }
-    static void click(MainWindow& window, double x, double y, Qt::KeyboardModifiers keys = {}) {
-        QTest::mouseClick(&window.canvas(), Qt::LeftButton, keys, at(window, x, y));
-    }
-    /// Draws an object by two clicks and answers its id.
-    static ObjectId draw(MainWindow& window, QPointF rear, QPointF front) {
-        key(window, Qt::Key_B);
-        click(window, rear.x(), rear.y());
-        click(window, front.x(), front.y());
-        return window.labelling().labels().selected().value_or(0);
-    }
-    static const LabelledObject& object(MainWindow& window, ObjectId id) {
-        return window.labelling().labels().annotations().objects.at(id);
-    }
-
  private slots:
-    void init() { home_ = std::make_unique<test::OwnHome>(); }
-    void cleanup() { home_.reset(); }
+    void init() { begin(); }
+    void cleanup() { end(); }
 
     void switchingChangesDocksAndKeysAndNothingElse() {
         const auto window = labellingWindow(5);
@@ -182,6 +113,25 @@ class LabelWorkspaceTest : public QObject {
         QCOMPARE(object(*window, id).last_frame, 10);
     }
 
+    void aBoxIsDrawnAnewForTheSelectedObject() {
+        const auto window = labellingWindow(12);
+        QVERIFY(window);
+        const ObjectId id = draw(*window, {40, 60}, {58, 60});
+        go(*window, 8);
+        key(*window, Qt::Key_B, Qt::ControlModifier);
+        click(*window, 60, 80);
+        click(*window, 60, 104, Qt::ShiftModifier);
+        click(*window, 66, 92);
+        QCOMPARE(window->labelling().labels().annotations().objects.size(), std::size_t(1));
+        QCOMPARE(object(*window, id).last_frame, 8);
+        const Keyframe& drawn = object(*window, id).keyframes.back();
+        QVERIFY(drawn.heading_set);
+        QVERIFY(std::abs(drawn.box.heading - std::numbers::pi / 2) < 0.05);
+        QVERIFY(std::abs(drawn.box.length - 24) < 1 && std::abs(drawn.box.width - 12) < 1);
+        draw(*window, {140, 60}, {158, 60});  // and the next one is a new one again
+        QCOMPARE(window->labelling().labels().annotations().objects.size(), std::size_t(2));
+    }
+
     void theSizeOfOneBoxGoesToAllKeyframes() {
         const auto window = labellingWindow(12);
         QVERIFY(window);
@@ -241,169 +191,24 @@ class LabelWorkspaceTest : public QObject {
         QCOMPARE(labels.selected(), std::optional<ObjectId>(id));
     }
 
-    void undoSurvivesARestart() {
-        ObjectId id = 0;
-        {
-            const auto window = labellingWindow(6);
-            QVERIFY(window);
-            id = draw(*window, {40, 60}, {58, 60});
-            key(*window, Qt::Key_Right);
-            key(*window, Qt::Key_3);
-            window->close();
-        }
-        const auto window = labellingWindow(6);
-        QVERIFY(window);
-        LabelSession& labels = window->labelling().labels();
-        QCOMPARE(object(*window, id).object_class, std::string("bus"));
-        const double x = object(*window, id).keyframes[0].box.centre.x;
-        QVERIFY(labels.undoName().contains(QStringLiteral("bus")));
-        key(*window, Qt::Key_Z, Qt::ControlModifier);
-        QCOMPARE(object(*window, id).object_class, std::string("car"));
-        key(*window, Qt::Key_Z, Qt::ControlModifier);
-        QVERIFY(std::abs(object(*window, id).keyframes[0].box.centre.x - x + 1) < 1e-9);
-        key(*window, Qt::Key_Y, Qt::ControlModifier);
-        QVERIFY(std::abs(object(*window, id).keyframes[0].box.centre.x - x) < 1e-9);
-    }
-
-    void aSecondWindowReadsOnlyAndSaysWhy() {
-        auto first = labellingWindow(6);
-        QVERIFY(first);
-        const ObjectId id = draw(*first, {40, 60}, {58, 60});
-        const auto second = labellingWindow(6);
-        QVERIFY(second);
-        QVERIFY(second->labelling().labels().readOnly());
-        QVERIFY(!second->messages().texts().isEmpty());
-        QVERIFY(second->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("read-only")));
-        second->labelling().labels().select(id);
-        const double x = object(*second, id).keyframes[0].box.centre.x;
-        key(*second, Qt::Key_Right);
-        key(*second, Qt::Key_B);
-        QVERIFY(!second->labelling().tool().drawing());
-        QVERIFY(std::abs(object(*second, id).keyframes[0].box.centre.x - x) < 1e-9);
-        first->labelling().editor().nudge(1, 0);
-        first.reset();
-        second->labelling().actions().try_to_write->trigger();
-        QVERIFY(second->labelling().labels().canEdit());
-        QVERIFY(std::abs(object(*second, id).keyframes[0].box.centre.x - x - 1) < 1e-9);
-    }
-
-    void identityIsPutRightByKeys() {
+    void flagsGoOverARangeAndClassesOfOnesOwnAreTyped() {
         const auto window = labellingWindow(20);
         QVERIFY(window);
         LabelSession& labels = window->labelling().labels();
         const ObjectId id = draw(*window, {40, 60}, {58, 60});
-        go(*window, 15);
+        go(*window, 19);
         key(*window, Qt::Key_T);
+        const ObjectId other = draw(*window, {140, 60}, {158, 60});
         go(*window, 8);
-        key(*window, Qt::Key_Y);  // split
-        QCOMPARE(labels.annotations().objects.size(), std::size_t(2));
-        QCOMPARE(object(*window, id).last_frame, 7);
-        const ObjectId later = labels.selected().value_or(0);
-        QVERIFY(later != id && later != 0);
-        QCOMPARE(object(*window, later).last_frame, 15);
-        labels.setSelection({id, later}, id);
-        key(*window, Qt::Key_J);  // and join again
-        QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
-        QCOMPARE(object(*window, id).last_frame, 15);
-        go(*window, 5);
-        key(*window, Qt::Key_Backspace, Qt::ControlModifier);
-        QCOMPARE(object(*window, id).keyframes.front().frame, 5);
-        go(*window, 10);
-        key(*window, Qt::Key_Delete, Qt::ControlModifier);
-        QCOMPARE(object(*window, id).last_frame, 10);
-    }
-
-    void tracksOfTheRunAreTakenOverByOneKey() {
-        const auto window = labellingWindow(60, true);
-        QVERIFY(window);
-        LabelSession& labels = window->labelling().labels();
-        LabelProposals& proposals = window->labelling().proposals();
-        key(*window, Qt::Key_P);
-        QVERIFY(waitFor([&] { return proposals.shown() && !proposals.working(); }));
-        if (proposals.pending().empty()) QSKIP("the chain found no track in the toy scene");
-        const std::size_t offered = proposals.pending().size();
-        key(*window, Qt::Key_G);
-        QVERIFY(proposals.selected());
-        key(*window, Qt::Key_Return);
-        QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
-        const ObjectId id = labels.annotations().objects.begin()->first;
-        QCOMPARE(object(*window, id).origin, ObjectOrigin::proposal_accepted);
-        QCOMPARE(proposals.pending().size(), offered - 1);
-        key(*window, Qt::Key_Z, Qt::ControlModifier);
-        QCOMPARE(proposals.pending().size(), offered);
-        key(*window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
-        window->labelling().editor().goTo(id);
-        key(*window, Qt::Key_Right);
-        QCOMPARE(object(*window, id).origin, ObjectOrigin::proposal_corrected);
-        if (offered > 1) {
-            key(*window, Qt::Key_G);
-            key(*window, Qt::Key_Backspace);
-            QCOMPARE(proposals.pending().size(), offered - 2);
-            QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
-        }
-    }
-
-    void aBoxIsTrackedThroughTheVideo() {
-        const auto window = labellingWindow(40);
-        QVERIFY(window);
-        const ObjectId id = draw(*window, {20, 55.5}, {42, 55.5});
-        key(*window, Qt::Key_F, Qt::ShiftModifier);
-        QVERIFY(waitFor([&] { return object(*window, id).last_frame > 5; }));
-        const OrientedBox end =
-            boxAt(object(*window, id), object(*window, id).last_frame, window->labelling().labels().camera()).box;
-        const double truth = 31 + 3.0 * object(*window, id).last_frame;
-        QVERIFY2(std::abs(end.centre.x - truth) < 4, qPrintable(QString::number(end.centre.x - truth)));
-        key(*window, Qt::Key_Z, Qt::ControlModifier);
-        QCOMPARE(object(*window, id).last_frame, 0);
-    }
-
-    void importShowsWhatItFoundAndExportWhatWasLost() {
-        const auto window = labellingWindow(10);
-        QVERIFY(window);
-        LabelSession& labels = window->labelling().labels();
-        const auto file = *home_ / "truth.txt";
-        {
-            std::ofstream out(file);
-            for (int frame = 1; frame <= 6; ++frame)
-                out << frame << ",4," << 20 + 3 * frame << ",30,20,10,1,1,1\n" << frame << ",9,100,80,20,10,1,1,1\n";
-        }
-        LabelImportDialog import(labels);
-        QSignalSpy read(&import, &LabelImportDialog::fileRead);
-        import.setFile(file);
-        QVERIFY(read.wait(kPatience_ms));
-        QVERIFY2(import.readyToImport(), qPrintable(import.report()));
-        QVERIFY2(import.report().contains(QStringLiteral("12 boxes in 6 frames")), qPrintable(import.report()));
-        QVERIFY(labels.annotations().objects.empty());
-        QSignalSpy accepted(&import, &QDialog::accepted);
-        import.accept();
-        QVERIFY(accepted.wait(kPatience_ms));
-        QCOMPARE(labels.annotations().objects.size(), std::size_t(2));
-        QVERIFY(import.summary().contains(QStringLiteral("2 objects")));
-
-        LabelExportDialog exported(labels);
-        QSignalSpy finished(&exported, &LabelExportDialog::finishedExport);
-        exported.setFormat(QStringLiteral("mot"));
-        exported.setTarget(*home_ / "out.txt");
-        exported.startExport();
-        QVERIFY(finished.wait(kPatience_ms));
-        QVERIFY2(finished.front().front().toBool(), qPrintable(exported.report()));
-        QVERIFY(exported.report().contains(QStringLiteral("12 boxes")));
-
-        key(*window, Qt::Key_Z, Qt::ControlModifier);
-        QVERIFY(labels.annotations().objects.empty());
-    }
-
-    void aBrokenFileIsRefusedAndNothingChanges() {
-        const auto window = labellingWindow(5);
-        QVERIFY(window);
-        const auto file = *home_ / "broken.txt";
-        std::ofstream(file) << "1,2,not a number\n";
-        LabelImportDialog import(window->labelling().labels());
-        QSignalSpy read(&import, &LabelImportDialog::fileRead);
-        import.setFile(file);
-        QVERIFY(read.wait(kPatience_ms));
-        QVERIFY(!import.readyToImport());
-        QVERIFY(import.report().contains(QStringLiteral("broken.txt")));
+        labels.setSelection({id, other}, id);
+        key(*window, Qt::Key_O);  // from frame 8 on
+        window->session().settings().range = {3, 9};
+        key(*window, Qt::Key_O, Qt::ShiftModifier);
+        QCOMPARE(boxAt(object(*window, id), 5, labels.camera()).occlusion, Occlusion::partly);
+        QCOMPARE(boxAt(object(*window, id), 2, labels.camera()).occlusion, Occlusion::none);
+        emit window->labelling().inspector().classChosen(QStringLiteral("tram"));
+        QCOMPARE(object(*window, id).object_class, std::string("tram"));
+        QCOMPARE(object(*window, other).object_class, std::string("tram"));
     }
 
     void ignoreRegionsAreDrawnAndDeleted() {
@@ -419,24 +224,20 @@ class LabelWorkspaceTest : public QObject {
         QCOMPARE(labels.annotations().regions.begin()->second.last_frame, 5);
         QCOMPARE(window->labelling().tool().scene().regions.size(), std::size_t(1));
         QTest::mouseMove(&window->canvas(), at(*window, 100, 40));
+        const auto region = [&]() -> const IgnoreRegion& { return labels.annotations().regions.begin()->second; };
+        const RegionAnchor anchor = region().anchor;
+        key(*window, Qt::Key_Z, Qt::AltModifier);
+        QVERIFY(region().anchor != anchor);
+        go(*window, 2);
+        key(*window, Qt::Key_BracketLeft, Qt::ControlModifier);
+        QCOMPARE(region().first_frame, 2);
+        go(*window, 4);
+        key(*window, Qt::Key_BracketRight, Qt::ControlModifier);
+        QCOMPARE(region().last_frame, 4);
         key(*window, Qt::Key_Z, Qt::ShiftModifier);
         QVERIFY(labels.annotations().regions.empty());
         key(*window, Qt::Key_Z, Qt::ControlModifier);
         QCOMPARE(labels.annotations().regions.size(), std::size_t(1));
-    }
-
-    void theObjectIsShownOverTime() {
-        const auto window = labellingWindow(30);
-        QVERIFY(window);
-        draw(*window, {20, 55.5}, {42, 55.5});
-        go(*window, 20);
-        key(*window, Qt::Key_T);
-        window->findChild<QDockWidget*>(QStringLiteral("object_chips"))->raise();
-        ChipGrid& chips = window->labelling().chips();
-        QVERIFY(waitFor([&] { return chips.cards().size() == 21; }));
-        QCOMPARE(chips.cards().front().id, 0);
-        key(*window, Qt::Key_Escape);
-        QVERIFY(waitFor([&] { return chips.cards().empty(); }));
     }
 
     void listAndTimelineFollowEveryEdit() {

@@ -252,7 +252,7 @@ class MainWindowTest : public QObject {
         QVERIFY(window);
         window->session().goToFrame(25);
         QVERIFY(showsFrame(*window, 25));
-        const MotionStatisticsPanel& statistics = window->docks().statistics();
+        MotionStatisticsPanel& statistics = window->docks().statistics();
         QVERIFY(statistics.lives().data().series.empty());
         window->findChild<QDockWidget*>(QStringLiteral("statistics"))->raise();
         QVERIFY(waitFor([&] { return !statistics.lives().data().series.empty(); }));
@@ -260,6 +260,16 @@ class MainWindowTest : public QObject {
         double shown = 0;
         for (const double count : statistics.speeds().data().series.front().counts) shown += count;
         QCOMPARE(shown, static_cast<double>(window->canvas().frame().result->motion.motion_vectors.size()));
+        double living = 0;  // all vectors of the frame live, though not all belong to a track
+        for (const double count : statistics.lives().data().series.front().counts) living += count;
+        QCOMPARE(living, shown);
+        QVERIFY(statistics.speedTitle().contains(QStringLiteral("of frame 25")));
+        statistics.showWholeRun(true);
+        QVERIFY(statistics.speedTitle().contains(QStringLiteral("of all frames")));
+        QVERIFY(statistics.lifeTitle().contains(QStringLiteral("of the run")));
+        double all = 0;
+        for (const double count : statistics.speeds().data().series.front().counts) all += count;
+        QVERIFY(all > shown);
     }
 
     void errorsStandInABarAndBlockNothing() {

@@ -242,7 +242,8 @@ void EvaluationDocks::askWhy() {
     if (one == nullptr) return;
     const MistakePlace place = placeOf(*one);
     session_.goToFrame(place.frame);
-    emit whyRequested(place.box);
+    const ErrorRow row = rowOf(*one, 0);
+    emit whyRequested(place.box, tr("Error: %1, %2. %3").arg(row.kind, row.cause, row.explanation));
 }
 
 // ---- the canvas -----------------------------------------------------------------------------------------------------

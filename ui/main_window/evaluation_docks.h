@@ -47,7 +47,7 @@ class EvaluationDocks : public QObject {
     void writeReport(const QString& path);
 
  signals:
-    void whyRequested(const OrientedBox& box);
+    void whyRequested(const OrientedBox& box, const QString& about);
     void notice(const QString& message);
     void problem(const QString& message);
 

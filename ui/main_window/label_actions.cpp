@@ -25,10 +25,17 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     draw = addToggle(tr("&Draw: click rear, then front (Shift: then width)"), {QKeySequence(Qt::Key_B)}, false);
     draw->setIcon(QIcon::fromTheme(QStringLiteral("draw-rectangle")));
     draw->setIconText(tr("Draw"));
+    redraw = add(tr("Draw the box of the selected object anew in this frame"), {QKeySequence(tr("Ctrl+B"))});
     region = addToggle(tr("Draw an ignore region: corners, double click ends"), {QKeySequence(Qt::Key_Z)}, false);
     delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Shift+Z"))});
+    region_begins = add(tr("The ignore region under the cursor begins here"), {QKeySequence(tr("Ctrl+["))});
+    region_ends = add(tr("The ignore region under the cursor ends here"), {QKeySequence(tr("Ctrl+]"))});
+    region_anchor =
+        add(tr("Fix the ignore region under the cursor to the ground or to the image"), {QKeySequence(tr("Alt+Z"))});
     keyframe = add(tr("Set a keyframe here"), {QKeySequence(Qt::Key_K)});
     spread_size = add(tr("Give this size to all keyframes of the object"), {QKeySequence(tr("Shift+K"))});
+    spread_correction =
+        add(tr("Correct all keyframes of the object as this one was corrected"), {QKeySequence(tr("Ctrl+K"))});
     copy_on = add(tr("Copy the box to the next frame and go there"), {QKeySequence(Qt::Key_C)});
     copy_back = add(tr("Copy the box to the frame before and go there"), {QKeySequence(tr("Shift+C"))});
     delete_keyframe = add(tr("Delete this keyframe"), {QKeySequence(Qt::Key_Delete)});
@@ -37,6 +44,8 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     occluded = add(tr("Occluded: no, partly, fully"), {QKeySequence(Qt::Key_O)});
     outside = add(tr("Outside the image from here"), {QKeySequence(Qt::Key_L)});
     ignore = add(tr("Ignore from here"), {QKeySequence(Qt::Key_I)});
+    spread_flags = add(tr("Give these flags to the selected objects over the range of frames above"),
+                       {QKeySequence(tr("Shift+O"))});
     turn_left = add(tr("Turn by 1° against the clock"), {QKeySequence(Qt::Key_BracketLeft)});
     turn_right = add(tr("Turn by 1° with the clock"), {QKeySequence(Qt::Key_BracketRight)});
     const Qt::Key arrows[] = {Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down};
@@ -47,6 +56,7 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
         nudge[i] = add(tr("Move the box %1 by %2").arg(names[i % 4], amounts[i / 4]),
                        {QKeySequence(QKeyCombination(steps[i / 4], arrows[i % 4]))}, true);
     loupe = addToggle(tr("Loupe beside the cursor"), {QKeySequence(Qt::Key_M)}, true);
+    stack_loupe = addToggle(tr("The object's image stack beside the loupe"), {QKeySequence(tr("Shift+M"))}, true);
 
     section(tr("Class"));
     for (std::size_t i = 0; i < object_class.size(); ++i)

@@ -17,36 +17,11 @@
 #include <exception>
 
 #include "exchange/label_import.h"
-#include "exchange/project_labels.h"
+#include "main_window/label_files_text.h"
 #include "session/label_classes.h"
 #include "session/queued_call.h"
 
 namespace eyrie::ui {
-
-namespace {
-
-const LabelFormatInfo* formatNamed(const QString& name) {
-    for (const LabelFormatInfo& format : labelFormats())
-        if (QString::fromStdString(format.name) == name) return &format;
-    return nullptr;
-}
-
-QPlainTextEdit* reportField() {
-    auto* text = new QPlainTextEdit;
-    text->setReadOnly(true);
-    text->setMinimumSize(460, 150);
-    return text;
-}
-
-QString lines(const std::vector<std::string>& notes) {
-    QString text;
-    for (const std::string& note : notes) text += QStringLiteral("• %1\n").arg(QString::fromStdString(note));
-    return text;
-}
-
-}  // namespace
-
-// ---- import ---------------------------------------------------------------------------------------------------------
 
 LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
     : QDialog(parent),
@@ -57,6 +32,7 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
       scale_(new QDoubleSpinBox),
       tolerance_(new QDoubleSpinBox),
       classes_(new QTableWidget(0, 3)),
+      add_doubles_(new QCheckBox(tr("Add objects that are labelled here already"))),
       text_(reportField()) {
     setWindowTitle(tr("Import labels"));
     format_->addItem(tr("Find out"), QStringLiteral("auto"));
@@ -93,6 +69,8 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
     layout->addWidget(new QLabel(tr("Found in the file:")));
     layout->addWidget(text_, 1);
     layout->addWidget(classes_);
+    add_doubles_->hide();
+    layout->addWidget(add_doubles_);
     layout->addWidget(buttons_);
     const auto show_columns = [this, form] {
         const bool wanted = format_->currentData().toString() == QLatin1String("columns");
@@ -145,12 +123,15 @@ void LabelImportDialog::read() {
     setBusy(true);
     text_->setPlainText(tr("Reading …"));
     thread_.postNewest([this, ticket = ++ticket_, path = path_,
-                        format = format_->currentData().toString().toStdString(),
-                        options = options()](const std::stop_token&) {
+                        format = format_->currentData().toString().toStdString(), options = options(),
+                        present = labels_.annotations(), camera = labels_.sharedCamera(),
+                        within = 1 + tolerance_->value()](const std::stop_token&) {
         try {
-            const LabelReport report = reportOn(readLabels(path, format, options));
-            queuedCall(this, [this, ticket, report] {
-                if (ticket == ticket_) showReport(report);
+            const LabelFile labels = readLabels(path, format, options);
+            const LabelReport report = reportOn(labels);
+            const auto doubles = static_cast<int>(alreadyLabelled(labels, present, *camera, within).size());
+            queuedCall(this, [this, ticket, report, doubles] {
+                if (ticket == ticket_) showReport(report, doubles);
             });
         } catch (const std::exception& error) {
             queuedCall(this, [this, ticket, text = QString::fromUtf8(error.what())] {
@@ -162,8 +143,9 @@ void LabelImportDialog::read() {
     });
 }
 
-void LabelImportDialog::showReport(const LabelReport& report) {
+void LabelImportDialog::showReport(const LabelReport& report, int doubles) {
     report_ = report;
+    add_doubles_->setVisible(doubles > 0);
     const LabelFormatInfo* format = formatNamed(QString::fromStdString(report.format));
     QString text = tr("%1\n").arg(format != nullptr ? QString::fromStdString(format->title)
                                                     : QString::fromStdString(report.format));
@@ -190,6 +172,10 @@ void LabelImportDialog::showReport(const LabelReport& report) {
     if (report.last_frame >= labels_.sequence().frame_count)
         text += tr("This video ends with frame %1; later boxes are left out. Is the shift right?\n")
                     .arg(labels_.sequence().frame_count - 1);
+    if (doubles > 0)
+        text += tr("%1 of its objects are labelled here already with the same boxes; they are left out unless you "
+                   "choose to add them\n")
+                    .arg(doubles);
     text_->setPlainText(text + lines(report.notes));
 
     classes_->setRowCount(0);
@@ -228,6 +214,10 @@ void LabelImportDialog::setShift(int frames) {
     shift_->setValue(frames);
 }
 
+void LabelImportDialog::setAddDoubles(bool add) {
+    add_doubles_->setChecked(add);
+}
+
 void LabelImportDialog::accept() {
     if (!report_ || labels_.store() == nullptr) return;
     ImportOptions with_classes = options();
@@ -241,12 +231,12 @@ void LabelImportDialog::accept() {
     text_->setPlainText(tr("Choosing keyframes …"));
     // Nobody else changes labels while this dialog is up, so the store may hand out ids on the other thread.
     thread_.post([this, path = path_, format = report_->format, with_classes, store = labels_.store(),
-                  sequence = labels_.sequence(), camera = labels_.sharedCamera(),
-                  tolerance = tolerance_->value()](const std::stop_token&) {
+                  sequence = labels_.sequence(), camera = labels_.sharedCamera(), tolerance = tolerance_->value(),
+                  doubles = add_doubles_->isChecked() ? Doubles::add : Doubles::skip](const std::stop_token&) {
         LabelImport planned;
         QString failure;
         try {
-            planned = planImport(readLabels(path, format, with_classes), sequence, *camera, *store, tolerance);
+            planned = planImport(readLabels(path, format, with_classes), sequence, *camera, *store, tolerance, doubles);
         } catch (const std::exception& error) {
             failure = QString::fromUtf8(error.what());
         }
@@ -258,6 +248,7 @@ void LabelImportDialog::accept() {
             }
             if (planned.edit.empty() || !labels_.apply(planned.edit)) {
                 text_->setPlainText(tr("Nothing was imported.\n") + lines(planned.notes));
+                setBusy(false);
                 return;
             }
             summary_ = tr("Imported %1 objects with %2 keyframes for %3 boxes. Ctrl+Z takes it back.")
@@ -266,124 +257,6 @@ void LabelImportDialog::accept() {
                            .arg(planned.boxes);
             for (const std::string& note : planned.notes) summary_ += QLatin1Char('\n') + QString::fromStdString(note);
             QDialog::accept();
-        });
-    });
-}
-
-// ---- export ---------------------------------------------------------------------------------------------------------
-
-LabelExportDialog::LabelExportDialog(LabelSession& labels, QWidget* parent)
-    : QDialog(parent),
-      labels_(labels),
-      format_(new QComboBox),
-      carries_(new QLabel),
-      target_(new QLineEdit),
-      columns_(new QLineEdit(QStringLiteral("frame,id,cname,x1,y1,x2,y2"))),
-      clip_(new QCheckBox(tr("Cut boxes off at the image's border"))),
-      text_(reportField()) {
-    setWindowTitle(tr("Export labels"));
-    for (const LabelFormatInfo& format : labelFormats())
-        if (format.writes) format_->addItem(QString::fromStdString(format.title), QString::fromStdString(format.name));
-    carries_->setWordWrap(true);
-    auto* choose = new QPushButton(tr("Choose…"));
-    auto* place = new QHBoxLayout;
-    place->addWidget(target_, 1);
-    place->addWidget(choose);
-    auto* form = new QFormLayout;
-    form->addRow(tr("Format"), format_);
-    form->addRow(tr("Carries"), carries_);
-    form->addRow(tr("Columns"), columns_);
-    form->addRow(tr("To"), place);
-    form->addRow(clip_);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
-    export_ = buttons->addButton(tr("Export"), QDialogButtonBox::ActionRole);
-    export_->setDefault(true);
-    auto* layout = new QVBoxLayout(this);
-    layout->addLayout(form);
-    layout->addWidget(text_, 1);
-    layout->addWidget(buttons);
-    connect(format_, &QComboBox::currentIndexChanged, this, [this, form] {
-        form->setRowVisible(columns_, format_->currentData().toString() == QLatin1String("columns"));
-        showFormat();
-    });
-    connect(choose, &QPushButton::clicked, this, &LabelExportDialog::browse);
-    connect(export_, &QPushButton::clicked, this, &LabelExportDialog::startExport);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    form->setRowVisible(columns_, format_->currentData().toString() == QLatin1String("columns"));
-    showFormat();
-}
-
-LabelExportDialog::~LabelExportDialog() = default;
-
-void LabelExportDialog::showFormat() {
-    const LabelFormatInfo* format = formatNamed(format_->currentData().toString());
-    if (format == nullptr) return;
-    QStringList with;
-    QStringList without;
-    const Carries& carries = format->carries;
-    (carries.rotation ? with : without) << tr("rotation");
-    (carries.id ? with : without) << tr("ids");
-    (carries.object_class ? with : without) << tr("classes");
-    (carries.occlusion ? with : without) << tr("occlusion");
-    (carries.ignore ? with : without) << tr("ignored boxes");
-    QString text = with.join(QStringLiteral(", "));
-    if (!without.isEmpty()) text += tr("; not: %1").arg(without.join(QStringLiteral(", ")));
-    carries_->setText(text);
-}
-
-void LabelExportDialog::browse() {
-    const LabelFormatInfo* format = formatNamed(format_->currentData().toString());
-    if (format == nullptr) return;
-    QString suggestion = QStringLiteral("labels");
-    if (!format->folder && !format->extensions.empty())
-        suggestion += QLatin1Char('.') + QString::fromStdString(format->extensions.front()).remove(QLatin1Char('.'));
-    const QString path = QFileDialog::getSaveFileName(this, tr("Export labels"), suggestion, tr("All files (*)"));
-    if (!path.isEmpty()) target_->setText(path);
-}
-
-void LabelExportDialog::setFormat(const QString& name) {
-    format_->setCurrentIndex(std::max(0, format_->findData(name)));
-}
-
-void LabelExportDialog::setTarget(const std::filesystem::path& path) {
-    target_->setText(QString::fromStdString(path.string()));
-}
-
-QString LabelExportDialog::report() const {
-    return text_->toPlainText();
-}
-
-void LabelExportDialog::startExport() {
-    if (target_->text().trimmed().isEmpty()) browse();
-    if (target_->text().trimmed().isEmpty()) return;
-    ExportOptions options;
-    options.columns = columns_->text().toStdString();
-    if (clip_->isChecked()) options.clip = true;
-    options.sequence = std::filesystem::path(labels_.sequence().path).stem().string();
-    if (options.sequence.empty()) options.sequence = "sequence";
-    export_->setEnabled(false);
-    text_->setPlainText(tr("Writing …"));
-    thread_.post([this, set = labels_.annotations(), sequence = labels_.sequence(), camera = labels_.sharedCamera(),
-                  path = std::filesystem::path(target_->text().trimmed().toStdString()),
-                  format = format_->currentData().toString().toStdString(), options](const std::stop_token&) {
-        QString text;
-        bool fine = false;
-        try {
-            const ExportReport report = writeLabels(labelsOf(set, sequence, *camera), path, format, options);
-            text = tr("Wrote %1 boxes.\n").arg(report.boxes);
-            for (const auto& file : report.files) text += QString::fromStdString(file.string()) + QLatin1Char('\n');
-            text += report.losses.empty() ? tr("Nothing was lost.\n") : tr("What the format could not carry:\n");
-            for (const ExportLoss& loss : report.losses)
-                text += QStringLiteral("• %1\n").arg(QString::fromStdString(loss.remark));
-            text += lines(report.notes);
-            fine = true;
-        } catch (const std::exception& error) {
-            text = QString::fromUtf8(error.what());
-        }
-        queuedCall(this, [this, text, fine] {
-            export_->setEnabled(true);
-            text_->setPlainText(text);
-            emit finishedExport(fine);
         });
     });
 }

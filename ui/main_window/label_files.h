@@ -39,6 +39,8 @@ class LabelImportDialog : public QDialog {
     bool readyToImport() const { return report_.has_value(); }
     void mapClass(const QString& from, const QString& to);
     void setShift(int frames);
+    /// Objects that are labelled already are taken all the same.
+    void setAddDoubles(bool add);
     /// What came of it, once it was accepted.
     const QString& summary() const { return summary_; }
     void accept() override;
@@ -48,7 +50,7 @@ class LabelImportDialog : public QDialog {
 
  private:
     void read();
-    void showReport(const LabelReport& report);
+    void showReport(const LabelReport& report, int doubles);
     ImportOptions options() const;
     void setBusy(bool busy);
 
@@ -63,6 +65,7 @@ class LabelImportDialog : public QDialog {
     QDoubleSpinBox* scale_;
     QDoubleSpinBox* tolerance_;
     QTableWidget* classes_;
+    QCheckBox* add_doubles_;
     QPlainTextEdit* text_;
     QDialogButtonBox* buttons_;
     TaskThread thread_;  ///< last: stops before the rest goes

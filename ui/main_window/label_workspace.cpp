@@ -22,6 +22,7 @@
 #include "session/label_chips.h"
 #include "session/label_classes.h"
 #include "session/label_scene.h"
+#include "session/label_stacks.h"
 #include "session/label_tracking.h"
 #include "view/label_timeline.h"
 #include "view/label_tool.h"
@@ -46,8 +47,10 @@ LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&aroun
     wireGoActions();
     wireProposals();
     wireIdentity();
+    wireRanges();
     wireFiles();
     wireChips();
+    wireStacks();
     around_.rows.hide();
 }
 
@@ -56,6 +59,7 @@ void LabelWorkspace::buildDocks() {
     objects_ = new ObjectsPanel(model_);
     inspector_ = new ObjectInspector;
     chips_ = new LabelChips(around_.session, *labels_, this);
+    stacks_ = new LabelStacks(around_.session, *labels_, this);
     grid_ = new ChipGrid;
     const auto dock = [this](const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
         auto* made = new QDockWidget(title, &around_.window);
@@ -241,7 +245,9 @@ void LabelWorkspace::enableActions() {
     actions_->redo->setToolTip(labels_->canRedo() ? tr("Redo: %1 (Ctrl+Shift+Z)").arg(labels_->redoName())
                                                   : tr("Redo"));
     for (QAction* action : {actions_->keyframe,
+                            actions_->redraw,
                             actions_->spread_size,
+                            actions_->spread_correction,
                             actions_->copy_on,
                             actions_->copy_back,
                             actions_->delete_keyframe,
@@ -250,6 +256,7 @@ void LabelWorkspace::enableActions() {
                             actions_->occluded,
                             actions_->outside,
                             actions_->ignore,
+                            actions_->spread_flags,
                             actions_->turn_left,
                             actions_->turn_right,
                             actions_->checked,

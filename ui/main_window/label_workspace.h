@@ -9,6 +9,7 @@
 #include "session/label_proposals.h"
 #include "session/label_session.h"
 
+class QAction;
 class QDockWidget;
 class QMainWindow;
 class QMenu;
@@ -19,6 +20,7 @@ namespace eyrie::ui {
 class ChipGrid;
 class LabelActions;
 class LabelChips;
+class LabelStacks;
 class LabelTimeline;
 class LabelTool;
 class LabelTracking;
@@ -75,10 +77,18 @@ class LabelWorkspace : public QObject {
     void wireTool();
     void wireEditActions();
     void wireGoActions();
+    void turnBy(double radians);
     void wireProposals();
     void wireIdentity();
+    void wireRanges();
+    /// Shows what an identity verb would do; the same key once more does it.
+    void offer(QAction* action, const std::function<std::optional<LabelEditor::Plan>()>& make);
+    /// The range of frames set above the canvas; the whole video where none is.
+    FrameRange markedRange() const;
     void wireFiles();
     void wireChips();
+    void wireStacks();
+    void showStack();
     void showChips();
     void showOverlays(bool label);
     void labelsChanged();
@@ -98,6 +108,14 @@ class LabelWorkspace : public QObject {
     LabelSurroundings around_;
     bool active_ = false;
     bool refresh_due_ = false;
+    /// What was shown and waits for its key.
+    struct Planned {
+        const QAction* action = nullptr;
+        FrameIndex frame = 0;
+        std::set<ObjectId> selection;
+        std::optional<LabelEditor::Plan> plan;
+    };
+    Planned planned_;
     QByteArray other_layout_;
     QByteArray own_layout_;
     QList<bool> other_overlays_;
@@ -111,6 +129,7 @@ class LabelWorkspace : public QObject {
     ObjectsPanel* objects_;
     ObjectInspector* inspector_;
     LabelChips* chips_;
+    LabelStacks* stacks_;
     ChipGrid* grid_;
     QTimer chips_due_;
     bool chips_looked_at_ = false;

@@ -1,23 +1,18 @@
 // The part of LabelWorkspace that says what its commands do.
 #include <QDockWidget>
 #include <QMainWindow>
-#include <QMenu>
 #include <numbers>
 
-#include "annotation/join_suggestions.h"
 #include "annotation/object_pieces.h"
 #include "main_window/label_actions.h"
 #include "main_window/label_files.h"
 #include "main_window/label_rows.h"
 #include "main_window/label_workspace.h"
-#include "panels/chip_grid.h"
 #include "panels/message_bar.h"
 #include "panels/object_inspector.h"
 #include "panels/objects_panel.h"
-#include "session/label_chips.h"
 #include "session/label_classes.h"
 #include "session/label_tracking.h"
-#include "view/image_convert.h"
 #include "view/label_timeline.h"
 #include "view/label_tool.h"
 #include "view/video_view.h"
@@ -33,6 +28,13 @@ void LabelWorkspace::wireTool() {
     connect(tool_, &LabelTool::drawingChanged, actions_->draw, &QAction::setChecked);
     connect(tool_, &LabelTool::boxDrawn, this,
             [this](const OrientedBox& box, FrameIndex frame) { editor_->add(box, frame); });
+    connect(tool_, &LabelTool::boxRedrawn, this, [this](ObjectId id, FrameIndex frame, const OrientedBox& box) {
+        editor_->setBox(id, frame, box, true, tr("Draw box of %1 anew"));
+    });
+    connect(actions_->redraw, &QAction::triggered, this, [this] {
+        if (labels_->selected() && labels_->mayEdit()) tool_->startDrawing(labels_->selected());
+        around_.canvas.setFocus();
+    });
     connect(tool_, &LabelTool::boxChanged, this,
             [this](ObjectId id, FrameIndex frame, const OrientedBox& box, bool turned, bool resized) {
                 const QString what = turned    ? tr("Turn box of %1")
@@ -71,11 +73,6 @@ void LabelWorkspace::wireTool() {
             actions_->region->setChecked(false);
         around_.canvas.setFocus();
     });
-    connect(actions_->delete_region, &QAction::triggered, this, [this] {
-        const auto place = tool_->cursorInImage();
-        if (!place || editor_->deleteRegionsAt({place->x(), place->y()}) == 0)
-            tell(tr("Point at an ignore region to delete it."));
-    });
     connect(actions_->loupe, &QAction::toggled, tool_, &LabelTool::setLoupeShown);
 }
 
@@ -86,6 +83,7 @@ void LabelWorkspace::wireEditActions() {
     does(actions_->try_to_write, [this] { labels_->tryToWrite(); });
     does(actions_->keyframe, [this] { editor_->setKeyframe(); });
     does(actions_->spread_size, [this] { editor_->spreadSize(); });
+    does(actions_->spread_correction, [this] { editor_->spreadCorrection(); });
     does(actions_->copy_on, [this] { editor_->copyOn(1); });
     does(actions_->copy_back, [this] { editor_->copyOn(-1); });
     does(actions_->delete_keyframe, [this] { editor_->deleteKeyframe(); });
@@ -94,8 +92,8 @@ void LabelWorkspace::wireEditActions() {
     does(actions_->occluded, [this] { editor_->toggleOccluded(); });
     does(actions_->outside, [this] { editor_->toggleOutside(); });
     does(actions_->ignore, [this] { editor_->toggleIgnore(); });
-    does(actions_->turn_left, [this] { editor_->turn(-kDegree); });
-    does(actions_->turn_right, [this] { editor_->turn(kDegree); });
+    does(actions_->turn_left, [this] { turnBy(-kDegree); });
+    does(actions_->turn_right, [this] { turnBy(kDegree); });
     const double amounts[] = {1, 0.1, 5};
     const QPointF ways[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     for (std::size_t i = 0; i < actions_->nudge.size(); ++i)
@@ -104,6 +102,7 @@ void LabelWorkspace::wireEditActions() {
                 const ViewTransform& shown = around_.canvas.transform();
                 const QPointF moved = shown.imageVector(by) * shown.scale();  // as the picture lies on screen
                 editor_->nudge(moved.x(), moved.y());
+                tool_->showNudged();
             } else if (by.x() != 0) {  // without a box the arrows step, as in the other workspaces
                 around_.session.step((by.x() > 0 ? 1 : -1) * (std::abs(by.x()) > 1 ? 10 : 1));
             }
@@ -135,6 +134,11 @@ void LabelWorkspace::wireEditActions() {
     });
 }
 
+void LabelWorkspace::turnBy(double radians) {
+    editor_->turn(radians);
+    if (labels_->selected()) tool_->showNudged();
+}
+
 void LabelWorkspace::wireGoActions() {
     const auto does = [this](QAction* action, auto work) { connect(action, &QAction::triggered, this, work); };
     does(actions_->next_frame, [this] { around_.session.step(1); });
@@ -156,6 +160,8 @@ void LabelWorkspace::wireGoActions() {
 void LabelWorkspace::escape() {
     if (tracking_->working()) {
         tracking_->stop();
+    } else if (std::exchange(planned_, {}).plan) {
+        around_.messages.dismiss(MessageKind::info);
     } else if (!around_.canvas.hasFocus()) {
         around_.canvas.setFocus();
     } else if (!tool_->cancel()) {
@@ -193,10 +199,8 @@ void LabelWorkspace::wireProposals() {
         if (!objects.empty()) tell(tr("Took over %1 tracks.").arg(objects.size()));
     });
     connect(actions_->accept_range, &QAction::triggered, this, [this] {
-        const FrameRange& range = around_.session.settings().range;
-        const auto objects =
-            proposals_->acceptRange(range.first, range.last < 0 ? around_.session.lastFrame()
-                                                                : std::min(range.last, around_.session.lastFrame()));
+        const FrameRange range = markedRange();
+        const auto objects = proposals_->acceptRange(range.first, range.last);
         tell(objects.empty() ? tr("No proposal is left there.") : tr("Took over %1 tracks.").arg(objects.size()));
     });
     connect(actions_->offer_again, &QAction::triggered, proposals_, &LabelProposals::offerAgain);
@@ -234,73 +238,6 @@ void LabelWorkspace::acceptSelected() {
         labels_->select(objects.front());
 }
 
-// ---- identity -------------------------------------------------------------------------------------------------------
-
-std::optional<ObjectId> LabelWorkspace::otherSelected() const {
-    if (labels_->selection().size() != 2 || !labels_->selected()) return std::nullopt;
-    for (const ObjectId id : labels_->selection())
-        if (id != *labels_->selected()) return id;
-    return std::nullopt;
-}
-
-void LabelWorkspace::identityWithOther(bool fuse) {
-    if (!labels_->selected() || !labels_->mayEdit()) return;
-    const auto run = [this, fuse](ObjectId other) {
-        if (fuse)
-            editor_->fuse(other);
-        else
-            editor_->join(other, GapFilling::interpolate);
-    };
-    if (const auto other = otherSelected()) {
-        run(*other);
-        return;
-    }
-    // Candidates, the nearest first; pointing at one shows it.
-    QMenu menu;
-    if (fuse) {
-        for (const FuseSuggestion& offer :
-             suggestFusions(labels_->annotations(), *labels_->selected(), labels_->camera(), 0.05))
-            menu.addAction(tr("%1, overlap %2 in %3 frames")
-                               .arg(QString::fromStdString(nameOf(*labels_->object(offer.object))))
-                               .arg(offer.mean_overlap, 0, 'f', 2)
-                               .arg(offer.shared_frames))
-                ->setData(offer.object);
-    } else {
-        for (const JoinSuggestion& offer :
-             suggestJoins(labels_->annotations(), *labels_->selected(), labels_->camera()))
-            menu.addAction(joinText(*labels_, offer.object, offer.later, offer.gap, offer.distance_px))
-                ->setData(offer.object);
-    }
-    if (menu.isEmpty()) {
-        tell(fuse ? tr("No other object overlaps this one. Select both (Ctrl and click) to fuse them anyway.")
-                  : tr("No other object begins or ends near this one. Select both (Ctrl and click) to join them "
-                       "anyway."));
-        return;
-    }
-    const auto main = labels_->selected();
-    connect(&menu, &QMenu::hovered, this, [this, main](QAction* action) {
-        labels_->setSelection({*main, action->data().toInt()}, main);
-    });
-    const QAction* chosen = menu.exec(around_.canvas.mapToGlobal(around_.canvas.rect().center()));
-    labels_->select(main);
-    if (chosen != nullptr) run(chosen->data().toInt());
-}
-
-void LabelWorkspace::wireIdentity() {
-    connect(actions_->join, &QAction::triggered, this, [this] { identityWithOther(false); });
-    connect(actions_->fuse, &QAction::triggered, this, [this] { identityWithOther(true); });
-    connect(actions_->split, &QAction::triggered, editor_, &LabelEditor::splitHere);
-    connect(actions_->swap, &QAction::triggered, this, [this] {
-        if (const auto other = otherSelected())
-            editor_->swapFrom(*other);
-        else
-            tell(tr("Select the two objects to swap from this frame on (Ctrl and click)."));
-    });
-    connect(actions_->renumber, &QAction::triggered, editor_, &LabelEditor::renumberHere);
-    connect(actions_->delete_before, &QAction::triggered, editor_, &LabelEditor::deleteBefore);
-    connect(actions_->delete_after, &QAction::triggered, editor_, &LabelEditor::deleteAfter);
-}
-
 // ---- files ----------------------------------------------------------------------------------------------------------
 
 void LabelWorkspace::wireFiles() {
@@ -314,49 +251,6 @@ void LabelWorkspace::wireFiles() {
         LabelExportDialog dialog(*labels_, &around_.window);
         dialog.exec();
     });
-}
-
-// ---- chips ----------------------------------------------------------------------------------------------------------
-
-void LabelWorkspace::wireChips() {
-    chips_due_.setSingleShot(true);
-    chips_due_.setInterval(250);  // not while keys are held
-    connect(&chips_due_, &QTimer::timeout, this, &LabelWorkspace::showChips);
-    connect(docks_[2], &QDockWidget::visibilityChanged, this, [this](bool visible) {
-        chips_looked_at_ = visible;
-        if (visible) chips_due_.start();
-    });
-    connect(chips_, &LabelChips::ready, this, [this](ObjectId id, const std::vector<LabelChip>& chips) {
-        if (labels_->selected() != id) return;
-        std::vector<ChipCard> cards;
-        for (const LabelChip& cut : chips) {
-            Chip chip;
-            chip.title = cut.keyframe ? tr("%1 ◆").arg(cut.frame) : QString::number(cut.frame);
-            chip.values = cut.gray;
-            chip.image = wrapImage(cut.gray);
-            const QPointF middle((cut.gray.cols - 1) / 2.0, (cut.gray.rows - 1) / 2.0);
-            const QPointF half(cut.box.width / 2, cut.box.height / 2);
-            chip.boxes.push_back(QRectF(middle - half, middle + half));
-            ChipCard card;
-            card.id = cut.frame;
-            card.chips.push_back(std::move(chip));
-            cards.push_back(std::move(card));
-        }
-        grid_->setCards(std::move(cards));
-        grid_->setMarkedCard(around_.session.currentFrame());
-    });
-    connect(grid_, &ChipGrid::cardClicked, &around_.session, &ProjectSession::goToFrame);
-    connect(&around_.session, &ProjectSession::frameChanged, grid_, &ChipGrid::setMarkedCard);
-}
-
-void LabelWorkspace::showChips() {
-    if (!active_ || !chips_looked_at_) return;
-    if (labels_->selected()) {
-        chips_->request(*labels_->selected());
-    } else {
-        chips_->cancel();
-        grid_->setCards({});
-    }
 }
 
 }  // namespace eyrie::ui

@@ -1,11 +1,14 @@
 #include "main_window/motion_statistics_panel.h"
 
+#include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
 #include <QStackedLayout>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "models/display_text.h"
 #include "panels/empty_state.h"
@@ -36,17 +39,21 @@ QLabel* titleLabel(QWidget* parent) {
 }  // namespace
 
 HistogramData speedHistogram(const std::vector<MotionVector>& vectors, const SceneScale& scale, int most_bins) {
+    std::vector<double> speeds;
+    for (const MotionVector& vector : vectors)
+        speeds.push_back(std::hypot(static_cast<double>(vector.velocity.x), static_cast<double>(vector.velocity.y)));
+    return speedHistogramOf(std::move(speeds), scale, most_bins);
+}
+
+HistogramData speedHistogramOf(std::vector<double> speeds, const SceneScale& scale, int most_bins) {
     HistogramData data;
     data.value_label = QObject::tr("speed (%1)").arg(speedUnit(scale));
     data.count_label = QObject::tr("motion vectors");
-    std::vector<double> speeds;
-    for (const MotionVector& vector : vectors)
-        speeds.push_back(shownSpeed(
-            std::hypot(static_cast<double>(vector.velocity.x), static_cast<double>(vector.velocity.y)), scale));
+    for (double& speed : speeds) speed = shownSpeed(speed, scale);
     HistogramData::Series series{data.count_label, kVectorColour, {}};
     if (!speeds.empty()) {
         // A single wild vector must not press all others into one bin.
-        std::sort(speeds.begin(), speeds.end());
+        if (!std::is_sorted(speeds.begin(), speeds.end())) std::sort(speeds.begin(), speeds.end());
         const double usual = speeds[(speeds.size() - 1) * 98 / 100] * 1.2;
         data.bin_width = roundWidth(std::max(usual, 1e-3) / most_bins);
         const auto last = static_cast<std::size_t>(std::ceil(usual / data.bin_width));
@@ -65,6 +72,9 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
         tr("Here you see how fast the corners move that move by themselves, and how long they last. Run the video "
            "first, or choose a run."));
     auto* charts = new QWidget;
+    scope_ = new QComboBox(charts);
+    scope_->addItems({tr("Motion vectors of the frame shown"), tr("Motion vectors of the whole run")});
+    scope_->setAccessibleName(tr("Motion vectors that are counted"));
     speed_title_ = titleLabel(charts);
     speeds_ = new HistogramChart(charts);
     life_title_ = titleLabel(charts);
@@ -72,6 +82,11 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
     lives_ = new HistogramChart(charts);
     auto* rows = new QVBoxLayout(charts);
     rows->setContentsMargins(0, 0, 0, 0);
+    auto* first = new QHBoxLayout;
+    first->setContentsMargins(8, 6, 8, 0);
+    first->addWidget(scope_);
+    first->addStretch(1);
+    rows->addLayout(first);
     rows->addWidget(speed_title_);
     rows->addWidget(speeds_, 1);
     rows->addWidget(life_title_);
@@ -80,47 +95,43 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
     pages_->addWidget(empty_);
     pages_->addWidget(charts);
 
+    connect(scope_, &QComboBox::currentIndexChanged, this, &MotionStatisticsPanel::showFrame);
     connect(&session_, &ProjectSession::viewFrameChanged, this, &MotionStatisticsPanel::showFrame);
     connect(&session_, &ProjectSession::runDataChanged, this, &MotionStatisticsPanel::readLives);
     connect(&session_, &ProjectSession::currentRunChanged, this, [this] {
         read_of_.reset();
-        lives_->setData({});
-        life_title_->clear();
+        counted_.reset();
         showFrame();
     });
     connect(&reader_, &VectorLivesReader::readDone, this,
-            [this](int run_id, const std::shared_ptr<const VectorLives>& lives) {
-                if (session_.currentRun() == run_id) showLives(*lives);
+            [this](int run_id, const std::shared_ptr<const VectorLifeCounter>& lives) {
+                if (session_.currentRun() != run_id) return;
+                counted_ = lives;
+                showFrame();
             });
     connect(&reader_, &VectorLivesReader::failed, life_title_, &QLabel::setText);
+}
+
+QString MotionStatisticsPanel::speedTitle() const {
+    return speed_title_->text();
+}
+
+QString MotionStatisticsPanel::lifeTitle() const {
+    return life_title_->text();
+}
+
+void MotionStatisticsPanel::showWholeRun(bool whole) {
+    scope_->setCurrentIndex(whole ? 1 : 0);
+}
+
+bool MotionStatisticsPanel::wholeRun() const {
+    return scope_->currentIndex() == 1;
 }
 
 void MotionStatisticsPanel::setLookedAt(bool looked_at) {
     looked_at_ = looked_at;
     showFrame();
     readLives();
-}
-
-void MotionStatisticsPanel::showFrame() {
-    if (!looked_at_) return;
-    pages_->setCurrentIndex(session_.currentRun() ? 1 : 0);
-    const ViewFrame& frame = session_.viewFrame();
-    if (!frame.result) {
-        speed_title_->setText(tr("The run has not done this frame."));
-        speeds_->setData({});
-        return;
-    }
-    const auto& vectors = frame.result->motion.motion_vectors;
-    double sum = 0;
-    for (const MotionVector& vector : vectors)
-        sum += std::hypot(static_cast<double>(vector.velocity.x), static_cast<double>(vector.velocity.y));
-    const QString mean =
-        vectors.empty() ? QStringLiteral("–") : speedText(sum / static_cast<double>(vectors.size()), session_.scale());
-    speed_title_->setText(tr("<b>Speed</b> of the %1 motion vectors of frame %2, mean %3")
-                              .arg(QLocale().toString(static_cast<int>(vectors.size())))
-                              .arg(frame.index)
-                              .arg(mean));
-    speeds_->setData(speedHistogram(vectors, session_.scale()));
 }
 
 void MotionStatisticsPanel::readLives() {
@@ -131,9 +142,55 @@ void MotionStatisticsPanel::readLives() {
     reader_.read({session_.project(), read_of_->record.id});
 }
 
-void MotionStatisticsPanel::showLives(const VectorLives& lives) {
-    life_title_->setText(tr("<b>Life</b> of the %1 motion vectors of the run, mean %2 frames; those of tracks belong "
-                            "to one for %3 frames")
+void MotionStatisticsPanel::showFrame() {
+    if (!looked_at_) return;
+    pages_->setCurrentIndex(session_.currentRun() ? 1 : 0);
+    if (wholeRun() && counted_ && shown_run_ == counted_) return;  // another frame changes nothing
+    shown_run_ = wholeRun() ? counted_ : nullptr;
+    showSpeeds();
+    showLives();
+}
+
+void MotionStatisticsPanel::showSpeeds() {
+    const ViewFrame& frame = session_.viewFrame();
+    if (wholeRun() ? !counted_ : !frame.result) {
+        speed_title_->setText(wholeRun() ? tr("<b>Speed</b>: reading the motion vectors of the run …")
+                                         : tr("The run has not done this frame."));
+        speeds_->setData({});
+        return;
+    }
+    std::vector<double> speeds;
+    if (wholeRun()) {
+        speeds.assign(counted_->speeds().begin(), counted_->speeds().end());
+    } else {
+        for (const MotionVector& vector : frame.result->motion.motion_vectors)
+            speeds.push_back(
+                std::hypot(static_cast<double>(vector.velocity.x), static_cast<double>(vector.velocity.y)));
+    }
+    const auto count = static_cast<double>(speeds.size());
+    const QString mean = speeds.empty()
+                             ? QStringLiteral("–")
+                             : speedText(std::accumulate(speeds.begin(), speeds.end(), 0.0) / count, session_.scale());
+    const QString number = QLocale().toString(count, 'f', 0);
+    speed_title_->setText(
+        wholeRun()
+            ? tr("<b>Speed</b> of the %1 motion vectors of all frames, mean %2").arg(number, mean)
+            : tr("<b>Speed</b> of the %1 motion vectors of frame %2, mean %3").arg(number).arg(frame.index).arg(mean));
+    speeds_->setData(speedHistogramOf(std::move(speeds), session_.scale()));
+}
+
+void MotionStatisticsPanel::showLives() {
+    const auto& result = session_.viewFrame().result;
+    if (!counted_ || (!wholeRun() && !result)) {
+        lives_->setData({});
+        if (!read_of_) life_title_->clear();
+        return;
+    }
+    const VectorLives lives = wholeRun() ? counted_->lives() : counted_->livesOf(result->motion.motion_vectors);
+    life_title_->setText((wholeRun() ? tr("<b>Life</b> of the %1 motion vectors of the run, mean %2 frames; those of "
+                                          "tracks belong to one for %3 frames")
+                                     : tr("<b>Life</b> in the run of the %1 motion vectors of this frame, mean %2 "
+                                          "frames; those of tracks belong to one for %3 frames"))
                              .arg(QLocale().toString(lives.vectors))
                              .arg(numberText(lives.mean_life, 1))
                              .arg(numberText(lives.mean_association, 1)));

@@ -141,11 +141,11 @@ void Tuning::askWhy(QPointF place, double margin) {
     why_->ask(place, margin);
 }
 
-void Tuning::askWhyAbout(const OrientedBox& box) {
+void Tuning::askWhyAbout(const OrientedBox& box, const QString& about) {
     why_dock_->show();
     why_dock_->raise();
     why_->want(true);
-    why_->askAbout(box);
+    why_->askAbout(box, about);
 }
 
 void Tuning::train() {

@@ -47,7 +47,7 @@ class Tuning : public QObject {
     /// Asks about a place, image coordinates, and shows the answer.
     void askWhy(QPointF place, double margin = 0);
     /// Asks about a box of the frame that is shown or on its way, such as that of an error.
-    void askWhyAbout(const OrientedBox& box);
+    void askWhyAbout(const OrientedBox& box, const QString& about = {});
     /// A and B of the project's runs.
     ComparisonWindow& compareRuns();
     /// Opens the form of parameters at one of them.

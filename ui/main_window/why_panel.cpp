@@ -38,6 +38,8 @@ QString sentenceOf(const Explanation& told) {
 
 WhyPanel::WhyPanel(ProjectSession& session, Why& why, QWidget* parent) : QWidget(parent), session_(session), why_(why) {
     title_ = new QLabel(this);
+    title_->setWordWrap(true);
+    title_->setTextFormat(Qt::PlainText);
     title_->setContentsMargins(6, 4, 6, 0);
     title_->setForegroundRole(QPalette::PlaceholderText);
     empty_ = new EmptyState;
@@ -97,13 +99,15 @@ void WhyPanel::refresh() {
         return empty(why_.waiting() ? tr("The frames before this one are looked at …")
                                     : tr("The run has not done this frame."));
     const bool current = view->frame == session_.viewFrame().index && !why_.waiting();
-    title_->setText(tr("Frame %1, at %2, %3%4")
-                        .arg(view->frame)
-                        .arg(qRound(view->area.centre.x))
-                        .arg(qRound(view->area.centre.y))
-                        .arg(current          ? QString()
-                             : why_.waiting() ? tr(" · looking at the frame shown …")
-                                              : tr(" · not the frame shown")));
+    QString title = why_.about();
+    if (!title.isEmpty()) title += QLatin1Char('\n');
+    title_->setText(title + tr("Frame %1, at %2, %3%4")
+                                .arg(view->frame)
+                                .arg(qRound(view->area.centre.x))
+                                .arg(qRound(view->area.centre.y))
+                                .arg(current          ? QString()
+                                     : why_.waiting() ? tr(" · looking at the frame shown …")
+                                                      : tr(" · not the frame shown")));
     pages_->setCurrentWidget(steps_);
     if (shown_ == view) return;
     shown_ = view;

@@ -56,7 +56,9 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
         label->setTextInteractionFlags(Qt::TextSelectableByMouse);
     }
     class_ = new QComboBox;
-    class_->setToolTip(tr("Class (keys 1 to 8)"));
+    class_->setToolTip(tr("Class (keys 1 to 8); type a name and press Return for one of your own"));
+    class_->setEditable(true);
+    class_->setInsertPolicy(QComboBox::NoInsert);
     occluded_ = button(tr("Occluded"), tr("Not, partly or fully hidden from here (O)"), true);
     outside_ = button(tr("Outside"), tr("Outside the image from here until the next keyframe (L)"), true);
     ignore_ = button(tr("Ignore"), tr("Counts neither way from here until the next keyframe (I)"), true);
@@ -82,6 +84,10 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     pages_->addWidget(empty_);
     pages_->addWidget(page);
     connect(class_, &QComboBox::textActivated, this, &ObjectInspector::classChosen);
+    connect(class_->lineEdit(), &QLineEdit::returnPressed, this, [this] {
+        const QString name = class_->currentText().simplified().toLower();
+        if (!name.isEmpty() && class_->findText(name) < 0) emit classChosen(name);
+    });
     connect(occluded_, &QToolButton::clicked, this, &ObjectInspector::occlusionToggled);
     connect(outside_, &QToolButton::clicked, this, &ObjectInspector::outsideToggled);
     connect(ignore_, &QToolButton::clicked, this, &ObjectInspector::ignoreToggled);

@@ -6,7 +6,6 @@
 #include <exception>
 #include <utility>
 
-#include "annotation/ignore_regions.h"
 #include "annotation/object_pieces.h"
 #include "annotation/proposals.h"
 #include "session/label_classes.h"
@@ -142,6 +141,16 @@ void LabelEditor::spreadSize() {
     applyObject(named(tr("Size of %1 in all keyframes")), withSize(*object(), frame(), *box, labels_.camera()));
 }
 
+void LabelEditor::spreadCorrection() {
+    if (!ready()) return;
+    if (keyframeAt(*object(), frame()) == nullptr || object()->keyframes.size() < 2) {
+        emit labels_.notice(tr("Correct the box here first: what changes goes to the other keyframes."));
+        return;
+    }
+    applyObject(named(tr("Correction of %1 in all keyframes")),
+                withCorrectionSpread(*object(), frame(), labels_.camera()));
+}
+
 void LabelEditor::setKeyframe() {
     const auto box = shownBox();
     if (!box || keyframeAt(*object(), frame()) != nullptr) return;
@@ -195,7 +204,10 @@ void LabelEditor::endHere() {
     }
     changed.last_frame = end;
     changed.origin = originAfterChange(changed.origin);
-    applyObject(named(tr("End %1 here")), std::move(changed));
+    const bool now_stands = standsAtItsEnd(changed) && !standsAtItsEnd(*object()) && changed.keyframes.size() > 1;
+    const FrameIndex from = changed.keyframes.back().frame;
+    if (applyObject(named(tr("End %1 here")), std::move(changed)) && now_stands)
+        emit labels_.notice(tr("It stands from frame %1 on and brakes until there.").arg(from));
 }
 
 // ---- flags, class, review -------------------------------------------------------------------------------------------
@@ -227,17 +239,6 @@ void LabelEditor::toggleOutside() {
 
 void LabelEditor::toggleIgnore() {
     toggleFlag(tr("Ignore: %1"), [](Keyframe& keyframe) { keyframe.ignore = !keyframe.ignore; });
-}
-
-void LabelEditor::setFlags(FrameIndex first, FrameIndex last, const FlagChange& flags) {
-    std::vector<LabelledObject> changed;
-    const bool fine = guarded([&] {
-        for (const ObjectId id : labels_.selection())
-            if (const LabelledObject* known = labels_.object(id))
-                changed.push_back(withFlags(*known, first, last, flags, labels_.camera()));
-    });
-    if (fine && !changed.empty())
-        labels_.apply(editOf(tr("Set flags over a range").toStdString(), labels_.annotations(), changed));
 }
 
 void LabelEditor::setClass(const std::string& name) {
@@ -279,30 +280,6 @@ void LabelEditor::mark(ReviewState state) {
                          : state == ReviewState::questionable ? tr("Mark as questionable")
                                                               : tr("Mark as not checked");
     labels_.apply(reviewEdit(verb.toStdString(), labels_.annotations(), marks));
-}
-
-void LabelEditor::addRegion(const std::vector<cv::Point2d>& polygon, FrameIndex frame) {
-    if (!labels_.mayEdit()) return;
-    IgnoreRegion region;
-    region.id = labels_.store()->newRegionId();
-    region.polygon = polygon;
-    region.reference_frame = frame;
-    region.first_frame = 0;
-    region.last_frame = session_.lastFrame();
-    const CameraMotion& camera = labels_.camera();
-    const bool known = camera.connects(frame, frame + 1) || camera.connects(frame - 1, frame);
-    region.anchor = known ? RegionAnchor::ground : RegionAnchor::image;
-    guarded(
-        [&] { labels_.apply(regionEdit(tr("Draw an ignore region").toStdString(), labels_.annotations(), {region})); });
-}
-
-int LabelEditor::deleteRegionsAt(cv::Point2d point) {
-    std::vector<int> hit;
-    for (const RegionInFrame& region : regionsAt(labels_.annotations(), frame(), labels_.camera()))
-        if (contains(region.polygon, point)) hit.push_back(region.id);
-    if (!hit.empty())
-        labels_.apply(regionEdit(tr("Delete an ignore region").toStdString(), labels_.annotations(), {}, hit));
-    return static_cast<int>(hit.size());
 }
 
 // ---- going places ---------------------------------------------------------------------------------------------------

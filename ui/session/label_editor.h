@@ -38,6 +38,8 @@ class LabelEditor : public QObject {
     void turn(double radians);
     /// The size of the box as it is shown goes to all keyframes: vehicles keep theirs.
     void spreadSize();
+    /// What the keyframe shown corrects goes to all others: taken over tracks are wrong in the same way throughout.
+    void spreadCorrection();
     /// A keyframe of the box as it is shown.
     void setKeyframe();
     /// The box becomes a keyframe of the next (or former) frame, carried on the ground, and that frame is shown.
@@ -57,17 +59,34 @@ class LabelEditor : public QObject {
 
     /// An ignore region for the whole video, fixed to the ground where the camera's motion is known, else to the image.
     void addRegion(const std::vector<cv::Point2d>& polygon, FrameIndex frame);
+    /// Changes the regions that lie over a point of the frame shown; answers how many there were.
+    int changeRegionsAt(cv::Point2d point, const QString& name, const std::function<void(IgnoreRegion&)>& change);
+    /// Between the ground and the image; the polygon stays where it is in this frame.
+    int anchorRegionsAt(cv::Point2d point);
+    /// The flags of the selected object here, for all selected ones over a range of frames.
+    void spreadFlags(FrameIndex first, FrameIndex last);
     /// Deletes the regions that lie over a point of the frame shown; answers how many there were.
     int deleteRegionsAt(cv::Point2d point);
 
-    // Identity; what cannot be done is told.
-    IdentityChange joinWith(ObjectId other, GapFilling gap) const;
-    IdentityChange fuseWith(ObjectId other) const;
-    void join(ObjectId other, GapFilling gap);
-    void fuse(ObjectId other);
-    void splitHere();
-    void swapFrom(ObjectId other);
-    void renumberHere();
+    // Identity; what cannot be done is told. A plan changes nothing yet: it can be shown first.
+    struct Plan {
+        AnnotationEdit edit;
+        QString text;                    ///< what becomes of whom: "car 3: frames 0 to 7, car 9: frames 8 to 15"
+        std::optional<ObjectId> select;  ///< afterwards
+        std::uint64_t version = 0;       ///< of the labels it was made for
+    };
+    std::optional<Plan> planJoin(ObjectId other, GapFilling gap);
+    std::optional<Plan> planFuse(ObjectId other);
+    std::optional<Plan> planSplit();
+    std::optional<Plan> planSwap(ObjectId other);
+    std::optional<Plan> planRenumber();
+    /// Does nothing where the labels are not those any more that the plan was made for.
+    void carryOut(const std::optional<Plan>& plan);
+    void join(ObjectId other, GapFilling gap) { carryOut(planJoin(other, gap)); }
+    void fuse(ObjectId other) { carryOut(planFuse(other)); }
+    void splitHere() { carryOut(planSplit()); }
+    void swapFrom(ObjectId other) { carryOut(planSwap(other)); }
+    void renumberHere() { carryOut(planRenumber()); }
     void deleteBefore();
     void deleteAfter();
 
@@ -84,6 +103,7 @@ class LabelEditor : public QObject {
     bool ready() const;
     /// Tells Error(parameter) of the engine's verbs; answers whether there was none.
     bool guarded(const std::function<void()>& work);
+    std::optional<Plan> planOf(const QString& name, const std::function<IdentityChange()>& change);
     bool applyObject(const QString& name, LabelledObject object);
     void toggleFlag(const QString& name, const std::function<void(Keyframe&)>& change);
     QString named(const QString& verb) const;

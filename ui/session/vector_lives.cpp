@@ -1,6 +1,7 @@
 #include "session/vector_lives.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 
 #include "session/queued_call.h"
@@ -34,6 +35,7 @@ QString lifeBinText(int bin) {
 
 void VectorLifeCounter::add(const FrameResult& result) {
     for (const MotionVector& vector : result.motion.motion_vectors) {
+        speeds_.push_back(std::hypot(vector.velocity.x, vector.velocity.y));
         Life& life = lives_[vector.id];
         ++life.frames;
         life.associated += std::any_of(result.tracks.begin(), result.tracks.end(), [&](const TrackState& state) {
@@ -42,13 +44,33 @@ void VectorLifeCounter::add(const FrameResult& result) {
     }
 }
 
+void VectorLifeCounter::finish() {
+    std::sort(speeds_.begin(), speeds_.end());
+}
+
 VectorLives VectorLifeCounter::lives() const {
+    std::vector<Life> all;
+    all.reserve(lives_.size());
+    for (const auto& [id, life] : lives_) all.push_back(life);
+    return sumOf(all);
+}
+
+VectorLives VectorLifeCounter::livesOf(const std::vector<MotionVector>& vectors) const {
+    std::vector<Life> all;
+    for (const MotionVector& vector : vectors) {
+        const auto found = lives_.find(vector.id);
+        if (found != lives_.end()) all.push_back(found->second);
+    }
+    return sumOf(all);
+}
+
+VectorLives VectorLifeCounter::sumOf(const std::vector<Life>& all) {
     VectorLives lives;
-    lives.vectors = static_cast<int>(lives_.size());
+    lives.vectors = static_cast<int>(all.size());
     double frames = 0;
     double associated = 0;
     int ever_associated = 0;
-    for (const auto& [id, life] : lives_) {
+    for (const Life& life : all) {
         count(lives.life, life.frames);
         frames += life.frames;
         if (life.associated == 0) continue;
@@ -71,12 +93,13 @@ void VectorLivesReader::read(const RunReference& run) {
             const RunStore store(project);
             const auto record = store.run(run.run_id);
             if (!record) return;
-            VectorLifeCounter counter;
+            auto counter = std::make_shared<VectorLifeCounter>();
             for (FrameIndex frame = record->first_frame; frame < record->first_frame + record->frames_done; ++frame) {
                 if (stop.stop_requested() || end.stop_requested()) return;
-                if (const auto result = store.frameResult(run.run_id, frame)) counter.add(*result);
+                if (const auto result = store.frameResult(run.run_id, frame)) counter->add(*result);
             }
-            queuedCall(this, [this, id = run.run_id, lives = std::make_shared<const VectorLives>(counter.lives())] {
+            counter->finish();
+            queuedCall(this, [this, id = run.run_id, lives = std::shared_ptr<const VectorLifeCounter>(counter)] {
                 emit readDone(id, lives);
             });
         } catch (const std::exception& error) {

@@ -33,18 +33,26 @@ QString lifeBinText(int bin);
 class VectorLifeCounter {
  public:
     void add(const FrameResult& result);
+    /// To be called after the last frame.
+    void finish();
     VectorLives lives() const;
+    /// Of these motion vectors only: the whole lives of those of a frame.
+    VectorLives livesOf(const std::vector<MotionVector>& vectors) const;
+    /// Speed of every motion vector of every frame, px/frame; ascending once finished.
+    const std::vector<float>& speeds() const { return speeds_; }
 
  private:
     struct Life {
         int frames = 0;
         int associated = 0;
     };
+    static VectorLives sumOf(const std::vector<Life>& all);
     std::map<CornerId, Life> lives_;
+    std::vector<float> speeds_;
 };
 
-/// Reads the lives of a stored run on its own thread. The newest request wins. Signals arrive on the thread of this
-/// object.
+/// Reads lives and speeds of a stored run on its own thread. The newest request wins. Signals arrive on the thread of
+/// this object.
 class VectorLivesReader : public QObject {
     Q_OBJECT
 
@@ -55,7 +63,7 @@ class VectorLivesReader : public QObject {
     void read(const RunReference& run);
 
  signals:
-    void readDone(int run_id, const std::shared_ptr<const VectorLives>& lives);
+    void readDone(int run_id, const std::shared_ptr<const VectorLifeCounter>& lives);
     void failed(const QString& message);
 
  private:

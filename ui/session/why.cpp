@@ -54,6 +54,7 @@ void Why::want(bool wanted) {
 void Why::ask(QPointF image_point, double margin) {
     const auto& result = session_.viewFrame().result;
     const cv::Point2d point(image_point.x(), image_point.y());
+    about_.clear();
     track_.reset();
     area_.reset();
     if (result) area_ = boxAt(*result, point, margin, track_);
@@ -61,7 +62,8 @@ void Why::ask(QPointF image_point, double margin) {
     request();
 }
 
-void Why::askAbout(const OrientedBox& box) {
+void Why::askAbout(const OrientedBox& box, const QString& about) {
+    about_ = about;
     track_.reset();
     area_ = box;
     view_.reset();
@@ -70,6 +72,7 @@ void Why::askAbout(const OrientedBox& box) {
 
 void Why::clear() {
     loader_.cancel();
+    about_.clear();
     area_.reset();
     track_.reset();
     view_.reset();

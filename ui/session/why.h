@@ -24,8 +24,8 @@ class Why : public QObject {
     /// Asks about what lies under a point of the frame shown: a track, detection or cluster, else the place itself.
     /// `margin`: px of the image within which something is meant.
     void ask(QPointF image_point, double margin = 0);
-    /// Asks about a box, such as one of the ground truth.
-    void askAbout(const OrientedBox& box);
+    /// Asks about a box, such as one of the ground truth. `about`: what is known of it already, for people.
+    void askAbout(const OrientedBox& box, const QString& about = {});
     void clear();
 
     bool asked() const { return area_.has_value(); }
@@ -34,6 +34,7 @@ class Why : public QObject {
     const std::shared_ptr<const ExplanationView>& view() const { return view_; }
     bool waiting() const { return waiting_; }
     const QString& problem() const { return problem_; }
+    const QString& about() const { return about_; }
 
  signals:
     /// Another place, another frame, or another answer.
@@ -52,6 +53,7 @@ class Why : public QObject {
     std::optional<TrackId> track_;  ///< the area is its box
     std::shared_ptr<const ExplanationView> view_;
     QString problem_;
+    QString about_;
 };
 
 }  // namespace eyrie::ui

@@ -9,7 +9,6 @@
 
 #include "view/edged_painter.h"
 #include "view/label_layer.h"
-#include "view/loupe.h"
 
 namespace eyrie::ui {
 
@@ -21,10 +20,15 @@ constexpr double kDragThreshold = 4;  ///< logical px
 constexpr double kLoupeFactor = 2;    ///< of the canvas' own scale …
 constexpr double kLeastMagnification = 6;
 constexpr double kMostMagnification = 16;
+constexpr int kNudged_ms = 1500;
 constexpr double kShortest = 2;  ///< px: clicks nearer than this are one
 }  // namespace
 
-LabelTool::LabelTool(QObject* parent) : QObject(parent) {}
+LabelTool::LabelTool(QObject* parent) : QObject(parent) {
+    nudged_.setSingleShot(true);
+    nudged_.setInterval(kNudged_ms);
+    connect(&nudged_, &QTimer::timeout, this, &LabelTool::repaintNeeded);
+}
 
 void LabelTool::setScene(LabelScene scene) {
     const bool other_frame = scene.frame != scene_.frame;
@@ -66,8 +70,9 @@ void LabelTool::addRegionCorner(QPointF point) {
     emit repaintNeeded();
 }
 
-void LabelTool::startDrawing() {
+void LabelTool::startDrawing(std::optional<ObjectId> object) {
     cancel();
+    redrawn_ = object;
     drawing_ = true;
     emit drawingChanged(true);
     emit repaintNeeded();
@@ -77,6 +82,7 @@ bool LabelTool::cancel() {
     const bool something = drawing_ || handle_ || region_;
     const bool was_region = std::exchange(region_, std::nullopt).has_value();
     const bool was_drawing = std::exchange(drawing_, false);
+    redrawn_.reset();
     rear_.reset();
     front_.reset();
     handle_.reset();
@@ -94,8 +100,12 @@ double LabelTool::usualWidth(double length) const {
 
 void LabelTool::finishDrawing(const OrientedBox& box) {
     const FrameIndex frame = scene_.frame;
+    const std::optional<ObjectId> object = redrawn_;
     cancel();
-    emit boxDrawn(box, frame);
+    if (object)
+        emit boxRedrawn(*object, frame, box);
+    else
+        emit boxDrawn(box, frame);
 }
 
 void LabelTool::updateDraft(QPointF point) {
@@ -309,17 +319,51 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
         painter.drawPolygon(corners);
         painter.setBrush(Qt::NoBrush);
     }
-    const bool busy = drawing_ || (handle_ && dragging_);
-    if (busy && loupe_shown_ && cursor_view_ && place.transform.scale() < kMostMagnification) {
-        const double magnification =
-            std::clamp(place.transform.scale() * kLoupeFactor, kLeastMagnification, kMostMagnification);
-        paintLoupe(painter, place.image, place.transform.imageFromView(*cursor_view_), *cursor_view_, place.view,
-                   magnification, draft_,
-                   drawing_   ? scene_.drawn_colour
-                   : selected ? selected->colour
-                              : Qt::white,
-                   place.transform.rotation());
+    paintLoupes(painter, place);
+}
+
+void LabelTool::paintLoupes(QPainter& painter, const CanvasPlace& place) const {
+    if (!loupe_shown_ || place.transform.scale() >= kMostMagnification) return;
+    const LabelMark* selected = selectedMark();
+    Loupe loupe;
+    loupe.view = place.view;
+    loupe.magnification = std::clamp(place.transform.scale() * kLoupeFactor, kLeastMagnification, kMostMagnification);
+    loupe.rotation = place.transform.rotation();
+    if ((drawing_ || (handle_ && dragging_)) && cursor_view_) {
+        loupe.view_point = *cursor_view_;
+        loupe.image_point = place.transform.imageFromView(*cursor_view_);
+        loupe.box = draft_;
+        loupe.colour = drawing_ ? scene_.drawn_colour : selected ? selected->colour : Qt::white;
+    } else if (nudged_.isActive() && selected != nullptr) {
+        const cv::Point2d& centre = selected->box.centre;
+        loupe.image_point = {centre.x, centre.y};
+        loupe.view_point = place.transform.viewFromImage(loupe.image_point);
+        loupe.box = selected->box;
+        loupe.colour = selected->colour;
+    } else {
+        return;
     }
+    paintLoupe(painter, place.image, loupe, drawing_ && !redrawn_ ? nullptr : stackHere());
+}
+
+void LabelTool::setStack(std::optional<LoupeStack> stack) {
+    stack_ = std::move(stack);
+    emit repaintNeeded();
+}
+
+void LabelTool::setStackShown(bool shown) {
+    stack_shown_ = shown;
+    emit repaintNeeded();
+}
+
+const LoupeStack* LabelTool::stackHere() const {
+    const bool here = stack_shown_ && stack_ && scene_.selected == stack_->object && scene_.frame == stack_->frame;
+    return here ? &*stack_ : nullptr;
+}
+
+void LabelTool::showNudged() {
+    nudged_.start();
+    emit repaintNeeded();
 }
 
 }  // namespace eyrie::ui

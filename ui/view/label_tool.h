@@ -3,11 +3,13 @@
 #include <QCursor>
 #include <QObject>
 #include <QPointF>
+#include <QTimer>
 #include <optional>
 
 #include "view/box_handles.h"
 #include "view/canvas_tool.h"
 #include "view/label_mark.h"
+#include "view/loupe.h"
 
 namespace eyrie::ui {
 
@@ -24,10 +26,17 @@ class LabelTool : public QObject, public CanvasTool {
     void setTextShown(bool shown) { text_shown_ = shown; }
     void setLoupeShown(bool shown) { loupe_shown_ = shown; }
     bool loupeShown() const { return loupe_shown_; }
+    /// What the selected object looks like over many frames; shown while its frame and object are.
+    void setStack(std::optional<LoupeStack> stack);
+    void setStackShown(bool shown);
+    /// The stack that a loupe shows now, or would show.
+    const LoupeStack* stackHere() const;
+    /// A key moved or turned the box: for a moment the loupe stands beside it.
+    void showNudged();
 
     /// The next clicks draw an object: rear, front, and its width where no size is known or Shift is held. Dragging
-    /// draws an upright one.
-    void startDrawing();
+    /// draws an upright one. With an object its box is drawn anew.
+    void startDrawing(std::optional<ObjectId> object = std::nullopt);
     bool drawing() const { return drawing_; }
     /// The next clicks are the corners of an ignore region; a double click or the right button ends it.
     void startRegion();
@@ -54,6 +63,7 @@ class LabelTool : public QObject, public CanvasTool {
     void regionDrawingChanged(bool drawing);
     /// At least three corners, px of the frame.
     void regionDrawn(const std::vector<cv::Point2d>& polygon, eyrie::FrameIndex frame);
+    void boxRedrawn(eyrie::ObjectId object, eyrie::FrameIndex frame, const eyrie::OrientedBox& box);
     void boxDrawn(const eyrie::OrientedBox& box, eyrie::FrameIndex frame);
     /// `turned`: by its turning handle.
     void boxChanged(eyrie::ObjectId object, eyrie::FrameIndex frame, const eyrie::OrientedBox& box, bool turned,
@@ -64,6 +74,7 @@ class LabelTool : public QObject, public CanvasTool {
 
  private:
     const LabelMark* selectedMark() const;
+    void paintLoupes(QPainter& painter, const CanvasPlace& place) const;
     void finishDrawing(const OrientedBox& box);
     double usualWidth(double length) const;
     void updateDraft(QPointF image_point);
@@ -73,7 +84,11 @@ class LabelTool : public QObject, public CanvasTool {
     LabelScene scene_;
     bool text_shown_ = true;
     bool loupe_shown_ = true;
+    bool stack_shown_ = true;
+    std::optional<LoupeStack> stack_;
+    QTimer nudged_;  ///< runs while the loupe stands beside a box that keys move
     bool drawing_ = false;
+    std::optional<ObjectId> redrawn_;  ///< whose box is drawn; nothing: a new object's
     std::optional<QPointF> rear_;
     std::optional<QPointF> front_;
     std::optional<QPointF> pressed_view_;  ///< while the button is down

@@ -2,18 +2,38 @@
 
 #include <QColor>
 #include <QImage>
+#include <QString>
 #include <optional>
 
+#include "core/ids.h"
 #include "core/oriented_box.h"
 
 class QPainter;
 
 namespace eyrie::ui {
 
-/// The picture around an image point, magnified, beside the cursor: raw pixels as squares, and a box over them.
-/// `view_point`: the cursor; `view`: what the loupe must stay in; `magnification`: logical px per image px; turned
-/// clockwise by `rotation`, radians.
-void paintLoupe(QPainter& painter, const QImage& image, QPointF image_point, QPointF view_point, const QRectF& view,
-                double magnification, const std::optional<OrientedBox>& box, const QColor& colour, double rotation = 0);
+/// What an object looks like over many frames, as it lies in the frame shown.
+struct LoupeStack {
+    int object = 0;
+    FrameIndex frame = 0;
+    OrientedBox area;  ///< px of the frame; its heading points to the right in `image`
+    QImage image;
+    int layers = 0;
+};
+
+/// The part of the picture under a loupe and where the loupe stands.
+struct Loupe {
+    QPointF image_point;
+    QPointF view_point;        ///< what it stands beside
+    QRectF view;               ///< what it must stay in
+    double magnification = 8;  ///< logical px per image px
+    std::optional<OrientedBox> box;
+    QColor colour;
+    double rotation = 0;  ///< of the picture, radians clockwise
+};
+
+/// The picture around an image point, magnified: raw pixels as squares, and a box over them. With a stack a second
+/// loupe beside it shows the same place there.
+void paintLoupe(QPainter& painter, const QImage& image, const Loupe& loupe, const LoupeStack* stack = nullptr);
 
 }  // namespace eyrie::ui

@@ -1,0 +1,350 @@
+// Not a test: how much work labelling is, for reports. A robot with an annotator's eyes and hands labels a clip with
+// known truth through the window, by mouse and keys, until every box overlaps the truth by as much as asked for.
+//   ninja labelling_effort && bin/labelling_effort CLIP TRUTH.csv GSD RATE OVERLAP [upright]
+#include <QApplication>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <vector>
+
+#include "annotation/interpolation.h"
+#include "io/box_csv.h"
+#include "ui/labelling.h"
+
+namespace eyrie::ui {
+namespace {
+
+double enough = 0.7;  ///< overlap with the truth that a box must have
+
+/// A vehicle as it is: all its boxes, and those that count.
+struct Truth {
+    std::map<FrameIndex, OrientedBox> boxes;
+    std::map<FrameIndex, OrientedBox> counted;
+};
+
+std::map<int, Truth> readTruth(const std::filesystem::path& file) {
+    std::map<int, Truth> truth;
+    for (const auto& [frame, records] : readBoxCsv(file))
+        for (const BoxRecord& record : records) {
+            if (!record.id) continue;
+            truth[*record.id].boxes[frame] = record.box;
+            if (!record.ignore) truth[*record.id].counted[frame] = record.box;
+        }
+    std::erase_if(truth, [](const auto& entry) { return entry.second.counted.size() < 5; });
+    return truth;
+}
+
+struct Work {
+    int clicks = 0;
+    int keys = 0;
+};
+
+class Robot : public test::Labelling {
+ public:
+    Robot(std::filesystem::path clip, double gsd, double rate, bool upright)
+        : clip_(std::move(clip)), gsd_(gsd), rate_(rate), upright_(upright) {
+        begin();
+    }
+    ~Robot() { end(); }
+
+    bool open() {
+        window_ = std::make_unique<MainWindow>();
+        window_->resize(1600, 1000);
+        window_->show();
+        QSignalSpy finished(&window_->session(), &ProjectSession::runFinished);
+        StartOptions options;
+        options.input = clip_;
+        options.gsd_m_per_px = gsd_;
+        options.frame_rate_hz = rate_;
+        window_->start(options);
+        if (!finished.wait(10 * test::kPatience_ms)) return false;
+        window_->actions().label_workspace->trigger();
+        return waitFor([&] { return labels().isOpen() && !labels().camera().empty(); });
+    }
+
+    LabelSession& labels() { return window_->labelling().labels(); }
+    Work work;
+
+    void press(Qt::Key which, Qt::KeyboardModifiers with = {}) {
+        key(*window_, which, with);
+        ++work.keys;
+    }
+    void point(cv::Point2d at, Qt::KeyboardModifiers with = {}) {
+        click(*window_, at.x, at.y, with);
+        ++work.clicks;
+    }
+    void drag(cv::Point2d from, cv::Point2d to) {
+        VideoView& canvas = window_->canvas();
+        const QPoint a = Labelling::at(*window_, from.x, from.y);
+        const QPoint b = Labelling::at(*window_, to.x, to.y);
+        QTest::mousePress(&canvas, Qt::LeftButton, {}, a);
+        QTest::mouseMove(&canvas, (a + b) / 2);
+        QMouseEvent half(QEvent::MouseMove, (QPointF(a) + QPointF(b)) / 2, canvas.mapToGlobal((a + b) / 2),
+                         Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&canvas, &half);
+        QMouseEvent whole(QEvent::MouseMove, b, canvas.mapToGlobal(b), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&canvas, &whole);
+        QTest::mouseRelease(&canvas, Qt::LeftButton, {}, b);
+        ++work.clicks;
+    }
+    /// One click in the timeline.
+    void jump(FrameIndex frame) {
+        if (window_->session().viewFrame().index == frame) return;
+        go(*window_, frame);
+        ++work.clicks;
+    }
+    /// One click in the list of objects.
+    void choose(ObjectId id) {
+        if (labels().selected() == id) return;
+        labels().select(id);
+        ++work.clicks;
+    }
+
+    double likeness(const OrientedBox& ours, const OrientedBox& truth) const {
+        return overlap(upright_ ? ours.upright() : ours, truth);
+    }
+    double likeness(ObjectId id, FrameIndex frame, const OrientedBox& truth) {
+        const LabelledBox box = boxAt(labels().annotations().objects.at(id), frame, labels().camera());
+        return box.visible() ? likeness(box.box, truth) : 0;
+    }
+
+    /// Draws a box where the truth has it; the size of the class is not trusted.
+    void drawBox(const OrientedBox& truth) {
+        if (upright_) {
+            const OrientedBox box = truth.upright();
+            drag(box.toImage({-box.length / 2, -box.width / 2}), box.toImage({box.length / 2, box.width / 2}));
+            return;
+        }
+        point(truth.toImage({-truth.length / 2, 0}));
+        point(truth.toImage({truth.length / 2, 0}), Qt::ShiftModifier);
+        point(truth.toImage({0, truth.width / 2}));
+    }
+
+    /// Puts the selected object's box right in a frame: by moving it where that is enough, else by drawing it anew.
+    void correct(ObjectId id, FrameIndex frame, const OrientedBox& truth) {
+        jump(frame);
+        choose(id);
+        const auto expected = LabelEditor::expectedBox(labels().annotations().objects.at(id), frame, labels().camera());
+        const double scale = window_->canvas().transform().scale();
+        OrientedBox moved = expected.value_or(truth);
+        moved.centre = truth.centre;
+        if (upright_) moved.centre += moved.centre - moved.upright().centre;
+        if (expected && likeness(*expected, truth) > 0.85) {
+            press(Qt::Key_K);
+        } else if (expected && likeness(moved, truth) > 0.85 && cv::norm(expected->centre - truth.centre) * scale > 8) {
+            drag(expected->centre, truth.centre);
+        } else {
+            press(Qt::Key_B, Qt::ControlModifier);
+            drawBox(truth);
+        }
+        if (likeness(id, frame, truth) < enough) {
+            choose(id);
+            press(Qt::Key_B, Qt::ControlModifier);
+            drawBox(truth);
+        }
+    }
+
+    /// Corrects an object until every box is good enough; the worst first.
+    void finish(ObjectId id, const Truth& truth) {
+        for (int round = 0; round < 60; ++round) {
+            FrameIndex worst = -1;
+            double least = enough;
+            for (const auto& [frame, box] : truth.counted) {
+                const double like = likeness(id, frame, box);
+                if (like < least) {
+                    least = like;
+                    worst = frame;
+                }
+            }
+            if (worst < 0) return;
+            // What is missing is put in at its end, where the way is longest.
+            const LabelledObject& object = labels().annotations().objects.at(id);
+            if (worst > object.last_frame) worst = truth.counted.rbegin()->first;
+            if (worst < firstFrameOf(object)) worst = truth.counted.begin()->first;
+            correct(id, worst, truth.counted.at(worst));
+        }
+    }
+
+    /// What a track is wrong in throughout is put right once, in the middle of its life; then its keyframes one by one.
+    void correctProposal(ObjectId id, const Truth& truth) {
+        if (worst(id, truth) >= enough) return;
+        const auto present = [&]() -> const LabelledObject& { return labels().annotations().objects.at(id); };
+        auto middle = truth.counted.lower_bound((firstFrameOf(present()) + present().last_frame) / 2);
+        if (middle == truth.counted.end() || middle->first > present().last_frame) middle = truth.counted.begin();
+        if (likeness(id, middle->first, middle->second) > 0) {
+            correct(id, middle->first, middle->second);
+            press(Qt::Key_K, Qt::ControlModifier);
+        }
+        std::vector<FrameIndex> frames;
+        for (const Keyframe& keyframe : present().keyframes) frames.push_back(keyframe.frame);
+        for (const FrameIndex frame : frames) {
+            const auto box = truth.counted.find(frame);
+            if (box == truth.counted.end() || worst(id, truth) >= enough) continue;
+            if (likeness(id, frame, box->second) < 0.8) correct(id, frame, box->second);
+        }
+        finish(id, truth);
+    }
+
+    ObjectId drawFromNothing(const Truth& truth) {
+        const auto& [frame, box] = *truth.counted.begin();
+        jump(frame);
+        press(Qt::Key_B);
+        drawBox(box);
+        const ObjectId id = labels().selected().value_or(0);
+        if (id != 0 && truth.counted.size() > 1) {
+            const auto& [last, last_box] = *truth.counted.rbegin();
+            correct(id, last, last_box);
+        }
+        if (id != 0) finish(id, truth);
+        return id;
+    }
+
+    double worst(ObjectId id, const Truth& truth) {
+        double least = 1;
+        for (const auto& [frame, box] : truth.counted) least = std::min(least, likeness(id, frame, box));
+        return least;
+    }
+    std::size_t keyframes(ObjectId id) { return labels().annotations().objects.at(id).keyframes.size(); }
+
+    /// Which vehicle an object shows, and in how many frames.
+    std::pair<int, int> vehicleOf(ObjectId id, const std::map<int, Truth>& truth, bool& of_any) {
+        std::pair<int, int> best{0, 0};
+        of_any = false;
+        for (const auto& [vehicle, known] : truth) {
+            int frames = 0;
+            for (const auto& [frame, box] : known.boxes) frames += likeness(id, frame, box) > 0.3 ? 1 : 0;
+            of_any = of_any || frames > 0;
+            if (frames > best.second) best = {vehicle, frames};
+        }
+        return best;
+    }
+
+    void takeOver() {
+        press(Qt::Key_P);
+        waitFor([&] { return !window_->labelling().proposals().working(); });
+        press(Qt::Key_Return, Qt::ControlModifier);
+    }
+    void removeObject(ObjectId id) {
+        choose(id);
+        press(Qt::Key_Delete, Qt::ShiftModifier);
+    }
+    void joinObjects(ObjectId first, ObjectId second) {
+        choose(first);
+        labels().toggle(second);
+        ++work.clicks;
+        press(Qt::Key_J);  // shows what it will do
+        press(Qt::Key_J);
+    }
+
+ private:
+    std::filesystem::path clip_;
+    double gsd_;
+    double rate_;
+    bool upright_;
+    std::unique_ptr<MainWindow> window_;
+};
+
+void print(const char* what, std::size_t vehicles, const Work& work, double keyframes, double worst) {
+    const double n = static_cast<double>(std::max<std::size_t>(1, vehicles));
+    std::printf(
+        "%-16s %3zu vehicles: %4d clicks, %4d keys (%.1f and %.1f each), %.2f keyframes each, least overlap %.2f\n",
+        what, vehicles, work.clicks, work.keys, work.clicks / n, work.keys / n, keyframes / n, worst);
+}
+
+void fromNothing(Robot& robot, const std::map<int, Truth>& truth, std::size_t vehicles) {
+    // The longest lives: the most work.
+    std::vector<const Truth*> longest;
+    for (const auto& [id, known] : truth) longest.push_back(&known);
+    std::sort(longest.begin(), longest.end(),
+              [](const Truth* a, const Truth* b) { return a->counted.size() > b->counted.size(); });
+    longest.resize(std::min(vehicles, longest.size()));
+    robot.work = {};
+    double keyframes = 0;
+    double worst = 1;
+    for (const Truth* known : longest) {
+        const ObjectId id = robot.drawFromNothing(*known);
+        if (id == 0) continue;
+        keyframes += static_cast<double>(robot.keyframes(id));
+        worst = std::min(worst, robot.worst(id, *known));
+    }
+    print("from nothing", longest.size(), robot.work, keyframes, worst);
+}
+
+void fromProposals(Robot& robot, const std::map<int, Truth>& truth) {
+    robot.work = {};
+    robot.takeOver();
+    std::map<int, std::vector<std::pair<int, ObjectId>>> shown;  // by vehicle: frames, object
+    int removed = 0;
+    std::vector<ObjectId> all;
+    for (const auto& [id, object] : robot.labels().annotations().objects) all.push_back(id);
+    const std::size_t taken = all.size();
+    for (const ObjectId id : all) {
+        bool of_any = false;
+        const auto [vehicle, frames] = robot.vehicleOf(id, truth, of_any);
+        if (vehicle != 0) {
+            shown[vehicle].push_back({frames, id});
+        } else {
+            robot.removeObject(id);
+            ++removed;
+        }
+    }
+    double keyframes = 0;
+    double worst = 1;
+    int joined = 0;
+    int untouched = 0;
+    int drawn = 0;
+    for (const auto& [vehicle, known] : truth) {
+        const Work before = robot.work;
+        auto& objects = shown[vehicle];
+        std::sort(objects.rbegin(), objects.rend());
+        ObjectId id = objects.empty() ? 0 : objects.front().second;
+        for (std::size_t i = 1; i < objects.size(); ++i) {
+            const auto& present = robot.labels().annotations().objects;
+            const LabelledObject& a = present.at(id);
+            const LabelledObject& b = present.at(objects[i].second);
+            if (firstFrameOf(a) > b.last_frame || firstFrameOf(b) > a.last_frame) {
+                robot.joinObjects(id, objects[i].second);
+                ++joined;
+            } else {
+                robot.removeObject(objects[i].second);
+                ++removed;
+            }
+        }
+        if (id == 0) {
+            id = robot.drawFromNothing(known);
+            ++drawn;
+        } else {
+            robot.correctProposal(id, known);
+        }
+        untouched += robot.work.clicks == before.clicks && robot.work.keys == before.keys ? 1 : 0;
+        if (id == 0) continue;
+        keyframes += static_cast<double>(robot.keyframes(id));
+        worst = std::min(worst, robot.worst(id, known));
+    }
+    print("from proposals", truth.size(), robot.work, keyframes, worst);
+    std::printf(
+        "  %zu taken over by two keys, %d removed, %d joined, %d vehicles drawn from nothing, %d never touched\n",
+        taken, removed, joined, drawn, untouched);
+}
+
+}  // namespace
+}  // namespace eyrie::ui
+
+int main(int argc, char** argv) {
+    using namespace eyrie::ui;
+    if (argc < 6) return 2;
+    enough = std::stod(argv[5]);
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    QApplication application(argc, argv);
+    const auto truth = readTruth(argv[2]);
+    const bool upright = argc > 6 && std::string(argv[6]) == "upright";
+    for (int way = 0; way < 3; ++way) {
+        Robot robot(argv[1], std::stod(argv[3]), std::stod(argv[4]), upright);
+        if (!robot.open()) return 1;
+        if (way == 2)
+            fromProposals(robot, truth);
+        else
+            fromNothing(robot, truth, way == 0 ? 3 : truth.size());
+    }
+}
