@@ -20,6 +20,7 @@ constexpr const char* kFalse = "#d64236";
 constexpr const char* kRecall = "#2d78c8";
 constexpr const char* kBar = "#4a6fa5";
 constexpr std::size_t kFewParameters = 12;  ///< leave room for the measures on their page
+constexpr std::size_t kChipsOnPage = 16;
 constexpr int kChipHeight = 72;
 constexpr double kChipShape = 1.6;
 constexpr double kAround = 2.6;  ///< a chip is as many boxes wide
@@ -55,8 +56,9 @@ class Page {
         html_ += "<p><img src=\"" + name + "\"><br><i>" + escaped(words) + "</i></p>\n";
     }
     /// `numbers_from`: columns from there on are aligned right.
-    void beginTable(const std::vector<std::string>& headings, std::size_t numbers_from = 1000) {
-        html_ += "<table cellspacing=\"0\" cellpadding=\"3\">\n";
+    void beginTable(const std::vector<std::string>& headings, std::size_t numbers_from = 1000,
+                    const std::string& kind = "plain") {
+        html_ += "<table class=\"" + kind + "\" cellspacing=\"0\" cellpadding=\"3\">\n";
         if (headings.empty()) return;
         html_ += "<thead><tr>";
         for (std::size_t i = 0; i < headings.size(); ++i)
@@ -316,8 +318,16 @@ void addChips(Page& page, const RunEvaluation& e, FrameSource* pixels, const Rep
     }
     page.chapter("The gravest errors");
     if (!trouble.empty()) page.paragraph("Pictures are missing: " + escaped(trouble));
-    page.beginTable({"", "Kind", "Frames", "Count", "Object", "Track", "Probable cause", "Detail"});
-    for (const std::size_t i : chosen) {
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        // A table for each printed page: rows with pictures must not be broken.
+        if (k > 0 && k % kChipsOnPage == 0) {
+            page.endTable();
+            page.chapter("The gravest errors, continued");
+        }
+        if (k % kChipsOnPage == 0)
+            page.beginTable({"", "Kind", "Frames", "Count", "Object", "Track", "Probable cause", "Detail"}, 1000,
+                            "chips");
+        const std::size_t i = chosen[k];
         const DiagnosedMistake& one = e.mistakes[i];
         const std::string name = "chip-" + std::to_string(i + 1);
         const bool is_switch = one.mistake.kind == MistakeKind::id_switch;

@@ -295,7 +295,8 @@ std::vector<ChipCard> stackChips(const ReplayView& view, std::optional<cv::Size>
         made.colour = stackColour(stack.id);
         made.heading = tr("Stack %1").arg(stack.id);
         made.chips.push_back(greyChip(tr("Raw chip"), shown(stack.raw)));
-        made.chips.back().note = tr("%1 vectors").arg(stack.related.size());
+        made.chips.back().note =
+            stack.related.size() == 1 ? tr("1 vector") : tr("%1 vectors").arg(stack.related.size());
         const bool used = stack.height >= view.options.stacking.min_height;
         made.chips.push_back(greyChip(tr("Stacked image"), shown(stack.stacked)));
         made.chips.back().note = used ? tr("height %1").arg(stack.height)

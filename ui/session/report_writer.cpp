@@ -120,11 +120,12 @@ void writePdf(const std::filesystem::path& path, const EvaluationReportFile& rep
         font.setPointSizeF(8.5);
         document.setDefaultFont(font);
         document.documentLayout()->setPaintDevice(&writer);
-        document.setDefaultStyleSheet(QStringLiteral(
-            "h1{font-size:16pt} h2{font-size:12pt;margin-top:14px;margin-bottom:4px} "
-            "h2.chapter{page-break-before:always;margin-top:0} table{border-collapse:collapse} "
-            "td{font-size:8pt;padding:2px 8px 2px 0;vertical-align:middle;border-bottom:1px solid #dddddd} "
-            "th{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #666666}"));
+        document.setDefaultStyleSheet(
+            QStringLiteral("h1{font-size:16pt} h2{font-size:12pt;margin-top:14px;margin-bottom:4px} "
+                           "h2.chapter{page-break-before:always;margin-top:0} table{border-collapse:collapse} "
+                           "td{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #dddddd} "
+                           "table.chips td{vertical-align:middle} "
+                           "th{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #666666}"));
         html.remove(html.indexOf(QStringLiteral("<style>")),
                     html.indexOf(QStringLiteral("</style>")) + 8 - html.indexOf(QStringLiteral("<style>")));
         document.setHtml(html);
