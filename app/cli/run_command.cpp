@@ -59,6 +59,17 @@ class ConsoleObserver : public ChainObserver {
     std::unique_ptr<VideoWriter> writer_;
 };
 
+SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const Arguments& arguments,
+                   const std::stop_token& stop) {
+    ConsoleProgress console("looks");
+    return chooseScale(source, range, options, arguments.gsd_m_per_px.value_or(0), stop,
+                       [&](const RunProgress& progress) {
+                           if (!arguments.quiet)
+                               console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
+                                            progress.seconds_left);
+                       });
+}
+
 std::filesystem::path projectPath(const Arguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
     const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
@@ -80,8 +91,7 @@ int run(const Arguments& arguments) {
     if (!arguments.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
         std::fputs("GSD unknown: looking at the traffic for the scale\n", stderr);
     }
-    const SceneScale scale =
-        chooseScale(*source, range, options, arguments.gsd_m_per_px.value_or(0), interrupt.token());
+    const SceneScale scale = scaleOf(*source, range, options, arguments, interrupt.token());
     RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
     planned.name = arguments.name;
     RunSummary summary;

@@ -17,6 +17,7 @@ struct RunProgress {
     int frames_total = 0;
     double frames_per_second = 0;  ///< over the last seconds
     double seconds_left = 0;
+    bool estimating_scale = false;  ///< before the run proper: the frames are those of chooseScale's look
 };
 
 /// Receives the results of a run, frame after frame, on the run's own thread. Must not throw anything but Error; an

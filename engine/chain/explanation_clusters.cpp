@@ -106,7 +106,7 @@ Gap weakestLink(const FrameMotion& motion, const std::vector<int>& members, cons
 void tellNoCluster(Story& story, const std::set<int>& here, const Linkage& linkage) {
     const FrameMotion& motion = story.evidence.result.motion;
     const MotionClustering clustering(story.options.clustering, story.scale);
-    const std::vector<int> numbers = singleLinkage(motion.motion_vectors, linkage);
+    const std::vector<int> numbers = clustering.linked(motion);
     std::size_t largest = 0;
     std::set<int> group;
     for (const int index : here) {
@@ -208,7 +208,12 @@ bool tellClusters(Story& story, std::vector<int>& clusters) {
                        story.lengthText(cluster.box.length) + " × " + story.lengthText(cluster.box.width),
                    "clustering.min_members");
         const Gap link = weakestLink(result.motion, cluster.members, linkage);
-        if (link.distance >= 0)
+        if (link.distance > 1)
+            story.note(
+                "clustering",
+                "front and rear of a plain roof: no standing corner in a gap of " + gapText(link, linkage, story),
+                "clustering.roof_length");
+        else if (link.distance >= 0)
             story.note(
                 "clustering", "held together at its weakest link by " + gapText(link, linkage, story),
                 link.aside / linkage.across > link.ahead / linkage.along ? "clustering.across" : "clustering.along");

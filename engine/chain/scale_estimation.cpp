@@ -1,6 +1,7 @@
 #include "chain/scale_estimation.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -44,7 +45,7 @@ struct Outcome {
 };
 
 Outcome outcomeUnder(const std::vector<Frame>& frames, const ChainOptions& options, const SceneScale& scale,
-                     const std::stop_token& stop) {
+                     const std::stop_token& stop, const std::function<void()>& tell) {
     struct Sizes {
         std::vector<double> lengths, widths;
     };
@@ -52,6 +53,7 @@ Outcome outcomeUnder(const std::vector<Frame>& frames, const ChainOptions& optio
     std::map<TrackId, Sizes> sizes;
     for (std::size_t i = 0; i < frames.size() && !stop.stop_requested(); ++i) {
         const FrameResult result = chain.next(frames[i]);
+        tell();
         if (i < kSettledFrames) continue;
         for (const auto& track : result.tracks) {
             if (track.status != TrackStatus::confirmed) continue;
@@ -74,7 +76,7 @@ Outcome outcomeUnder(const std::vector<Frame>& frames, const ChainOptions& optio
 
 std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
                                            const ChainOptions& options, double frame_rate_hz,
-                                           const std::stop_token& stop) {
+                                           const std::stop_token& stop, const ScaleProgress& told) {
     std::vector<Frame> frames;
     for (FrameIndex i = first; i <= last && i < first + kPilotFrames && !stop.stop_requested(); ++i) {
         try {
@@ -85,10 +87,22 @@ std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first
     }
     SceneScale scale;
     scale.frame_rate_hz = frame_rate_hz;
+    RunProgress progress;
+    progress.estimating_scale = true;
+    progress.frames_total = kAssumptions * static_cast<int>(frames.size());
+    const auto begin = std::chrono::steady_clock::now();
+    const auto tell = [&] {
+        if (!told) return;
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+        ++progress.frames_done;
+        progress.frames_per_second = progress.frames_done / std::max(passed.count(), 1e-6);
+        progress.seconds_left = (progress.frames_total - progress.frames_done) / progress.frames_per_second;
+        told(progress);
+    };
     std::vector<Outcome> outcomes;
     for (int i = 0; i < kAssumptions; ++i) {
         scale.gsd_m_per_px = assumption(i);
-        outcomes.push_back(outcomeUnder(frames, options, scale, stop));
+        outcomes.push_back(outcomeUnder(frames, options, scale, stop, tell));
         if (stop.stop_requested()) return std::nullopt;
     }
     double best = 0;
@@ -107,13 +121,13 @@ std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first
 }
 
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
-                       const std::stop_token& stop) {
+                       const std::stop_token& stop, const ScaleProgress& told) {
     SceneScale scale = sceneScale(source.info(), gsd_m_per_px);
     if (scale.gsd_known) return scale;
     const FrameIndex end = source.info().frame_count - 1;
     const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
     if (range.first < 0 || range.first > last) return scale;
-    const auto estimate = estimateScale(source, range.first, last, options, scale.frame_rate_hz, stop);
+    const auto estimate = estimateScale(source, range.first, last, options, scale.frame_rate_hz, stop, told);
     if (estimate) scale.gsd_m_per_px = estimate->gsd_m_per_px;
     return scale;
 }

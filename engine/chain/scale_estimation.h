@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <stop_token>
 
@@ -14,17 +15,21 @@ struct ScaleEstimate {
     int vehicles = 0;         ///< tracks it rests on
 };
 
+/// Receives the progress of the look, on the thread that looks.
+using ScaleProgress = std::function<void(const RunProgress&)>;
+
 /// Guesses the ground sampling distance of a video whose GSD nobody knows: the chain runs over a few dozen frames under
 /// finer to coarser assumptions, and the one under which most vehicles come out as large as cars is taken. Right to
 /// about a third where cars drive; nothing when too few vehicles move or `stop` is requested. Takes some seconds.
 /// Throws Error(input) when frames cannot be read.
+/// `told`, if any, learns after every frame how far the look is.
 std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
                                            const ChainOptions& options, double frame_rate_hz,
-                                           const std::stop_token& stop);
+                                           const std::stop_token& stop, const ScaleProgress& told = {});
 
 /// The scale of a run: the given GSD, or for `gsd_m_per_px` ≤ 0 an estimate, or 0.25 m/px where that fails. An estimate
 /// gives the chain's lengths a footing; `gsd_known` stays false, so that nobody is shown metres that were guessed.
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
-                       const std::stop_token& stop);
+                       const std::stop_token& stop, const ScaleProgress& told = {});
 
 }  // namespace eyrie

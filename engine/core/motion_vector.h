@@ -24,7 +24,7 @@ struct FrameMotion {
     cv::Size image_size;
     Registration registration;
     std::vector<MotionVector> motion_vectors;     ///< sorted by ascending id
-    std::vector<cv::Point2f> stationary_corners;  ///< px; corners that belong to the background
+    std::vector<cv::Point2f> stationary_corners;  ///< px; background corners old enough to be judged
     int corner_count = 0;                         ///< all corners tracked into this frame
     double background_speed_sigma = 0;            ///< robust deviation of the background's residual speed, px/frame
 };

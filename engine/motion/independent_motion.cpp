@@ -219,7 +219,8 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
         }
         if (parallax) found = nullptr;
         if (found == nullptr) {
-            if (corner.on_background) motion.stationary_corners.push_back(corner.current);
+            // Young corners have not been seen to stand yet.
+            if (corner.on_background && measured[i].baseline > 0) motion.stationary_corners.push_back(corner.current);
         } else {
             const cv::Point2d velocity =
                 presentVelocity(i, corner.current, found->velocity, motion.background_speed_sigma);

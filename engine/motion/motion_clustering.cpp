@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/roof_bridge.h"
+
 namespace eyrie {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr double kTighter = 0.75;       ///< by this factor each time
 constexpr double kHeldByPieces = 0.75;  ///< share of a cluster's vectors that its pieces must hold
 constexpr double kSplitMargin = 2;      ///< px: corners lie up to a pixel beside the edges they belong to
 constexpr double kCarArea = 4.5 * 1.8;  ///< m², what a car covers seen from above
+constexpr double kRoofHalfWidth = 0.6;  ///< m, of the strip that must be free of standing corners
 
 MotionCluster summarise(const FrameMotion& motion, std::vector<int> members, double margin) {
     MotionCluster cluster;
@@ -89,8 +92,16 @@ std::vector<std::vector<int>> MotionClustering::split(const FrameMotion& motion,
     return result;
 }
 
+std::vector<int> MotionClustering::linked(const FrameMotion& motion) const {
+    const Linkage linkage = linkageFor(motion.background_speed_sigma);
+    std::vector<int> numbers = singleLinkage(motion.motion_vectors, linkage);
+    const double roof = scale_.px(options_.roof_length_m);
+    if (roof <= linkage.along) return numbers;
+    return joinAcrossRoofs(motion, linkage, {roof, std::max(scale_.px(kRoofHalfWidth), 1.0)}, std::move(numbers));
+}
+
 std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion) const {
-    const std::vector<int> numbers = singleLinkage(motion.motion_vectors, linkageFor(motion.background_speed_sigma));
+    const std::vector<int> numbers = linked(motion);
     const int count = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + 1;
     std::vector<std::vector<int>> members(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -14,6 +14,7 @@ namespace eyrie {
 struct MotionClusteringOptions {
     double along_m = 3.5;                   ///< linkage distance along the motion
     double across_m = 1.0;                  ///< linkage distance across the motion
+    double roof_length_m = 6.0;             ///< … across a plain roof without corners; 0: off
     double min_distance_px = 4;             ///< lowest linkage distance: corners are at least 2 px apart at any scale
     double velocity_share = 0.12;           ///< velocities may differ by this share of the speed …
     double velocity_floor_px = 0.03;        ///< … or by this, px/frame …
@@ -41,6 +42,9 @@ class MotionClustering {
     /// Clusters in the order of their first member; members ascend.
     std::vector<MotionCluster> cluster(const FrameMotion& motion) const;
 
+    /// For every motion vector the number of its group, before groups are checked or split; numbered from 0 in the
+    /// order of their first vector.
+    std::vector<int> linked(const FrameMotion& motion) const;
     /// The linkage used for a frame with this background noise (px/frame).
     Linkage linkageFor(double background_speed_sigma) const;
     /// Smallest cluster accepted in a frame.

@@ -16,6 +16,9 @@ struct Linkage {
     bool joins(const MotionVector& a, const MotionVector& b) const;
 };
 
+/// Positions of the vectors; what is not finite, in place or velocity, lies nowhere.
+std::vector<cv::Point2f> positionsOf(const std::vector<MotionVector>& vectors);
+
 /// Single-linkage clustering (Teutsch §4.2): the connected parts of the graph whose edges are the joined pairs. Returns
 /// for every vector the number of its cluster; clusters are numbered from 0 in the order of their first vector.
 /// Vectors with a position that is not finite stand alone. A spatial grid and union-find keep it near linear.

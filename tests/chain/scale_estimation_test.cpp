@@ -31,6 +31,23 @@ TEST(ScaleEstimation, withoutTrafficItFallsBackAndDoesNotFail) {
     EXPECT_DOUBLE_EQ(chooseScale(source, {}, ChainOptions{}, 0, {}).gsd_m_per_px, SceneScale{}.gsd_m_per_px);
 }
 
+TEST(ScaleEstimation, tellsHowFarItIs) {
+    test::MovingScene scene;
+    scene.frames = 6;
+    test::MemorySource source(scene);
+    std::vector<RunProgress> told;
+    chooseScale(source, {}, ChainOptions{}, 0, {}, [&](const RunProgress& progress) { told.push_back(progress); });
+    ASSERT_FALSE(told.empty());
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        EXPECT_TRUE(told[i].estimating_scale);
+        EXPECT_EQ(told[i].frames_done, static_cast<int>(i) + 1);
+        EXPECT_EQ(told[i].frames_total, static_cast<int>(told.size()));
+    }
+    told.clear();
+    chooseScale(source, {}, ChainOptions{}, 0.3, {}, [&](const RunProgress& progress) { told.push_back(progress); });
+    EXPECT_TRUE(told.empty()) << "nothing to look for";
+}
+
 TEST(ScaleEstimation, stopsWhenAsked) {
     std::stop_source stop;
     stop.request_stop();

@@ -7,77 +7,17 @@
 #include <set>
 
 #include "core/error.h"
-#include "registration/textured_ground.h"
+#include "registration/flight.h"
 
 namespace eyrie {
 namespace {
 
-const cv::Size kSize(320, 240);
-
-SceneScale scaleOf(double gsd) {
-    SceneScale scale;
-    scale.gsd_m_per_px = gsd;
-    return scale;
-}
-
-/// A camera over textured ground, with what it did.
-class Flight {
- public:
-    explicit Flight(cv::Size size = kSize, double noise = 2) : size_(size), noise_(noise) {}
-
-    /// Moves the camera; the picture moves by `next_from_present`.
-    void move(const cv::Matx33d& next_from_present) { picture_from_ground_ = next_from_present * picture_from_ground_; }
-    cv::Matx33d pictureFromGround() const { return picture_from_ground_; }
-    cv::Mat picture() { return ground_.picture(size_, picture_from_ground_.inv(), noise_, ++exposures_); }
-
- private:
-    cv::Size size_;
-    double noise_;
-    test::TexturedGround ground_{41, 1.5};
-    cv::Matx33d picture_from_ground_ = cv::Matx33d::eye();
-    unsigned exposures_ = 0;
-};
-
-/// Hands pictures to a registrar and remembers the truth of the last one.
-class Watch {
- public:
-    explicit Watch(const RegistrationOptions& options = {}, double gsd = 0.3) : registrar(options, scaleOf(gsd)) {}
-
-    RegisteredFrame see(Flight& flight) {
-        truth = flight.pictureFromGround() * before_.inv();
-        before_ = flight.pictureFromGround();
-        return seePicture(flight.picture());
-    }
-    RegisteredFrame seePicture(const cv::Mat& gray) { return registrar.next(test::frameOf(frame_++, gray)); }
-    double error(const RegisteredFrame& result, cv::Size size = kSize) const {
-        return test::gridError(result.registration.current_from_previous.matrix, truth, size);
-    }
-
-    Registrar registrar;
-    cv::Matx33d truth = cv::Matx33d::eye();
-
- private:
-    cv::Matx33d before_ = cv::Matx33d::eye();
-    int frame_ = 0;
-};
-
-cv::Matx33d drift() {
-    return test::cameraMotion(kSize, 1.7, -0.9, 0.15, 1.001);
-}
-
-void expectWellFormed(const RegisteredFrame& result, cv::Size size) {
-    for (std::size_t i = 0; i < result.corners.size(); ++i) {
-        const Corner& corner = result.corners[i];
-        if (i > 0) {
-            EXPECT_LT(result.corners[i - 1].id, corner.id);
-        }
-        EXPECT_TRUE(corner.current.x >= 0 && corner.current.y >= 0 && corner.current.x < float(size.width) &&
-                    corner.current.y < float(size.height));
-        if (corner.age == 0) {
-            EXPECT_EQ(corner.previous, corner.current);
-        }
-    }
-}
+using test::drift;
+using test::expectWellFormed;
+using test::Flight;
+using test::kSize;
+using test::scaleOf;
+using test::Watch;
 
 }  // namespace
 
@@ -253,161 +193,6 @@ TEST(Registrar, survivesShakeAndTurns) {
             EXPECT_LT(watch.error(result, size), 0.05);
         }
     }
-}
-
-TEST(Registrar, survivesDroppedFramesAndJumps) {
-    Watch watch;
-    Flight flight;
-    watch.see(flight);
-    for (int i = 0; i < 5; ++i) {
-        flight.move(test::cameraMotion(kSize, 4, 2, 0.3));
-        watch.see(flight);
-    }
-    for (int i = 0; i < 12; ++i) flight.move(test::cameraMotion(kSize, 4, 2, 0.3));
-    const RegisteredFrame jump = watch.see(flight);
-    ASSERT_EQ(jump.registration.state, RegistrationState::registered) << jump.registration.reason;
-    EXPECT_LT(watch.error(jump), 0.06);
-    // Nothing could predict this one.
-    flight.move(test::cameraMotion(kSize, -75, 40, -6));
-    const RegisteredFrame wild = watch.see(flight);
-    ASSERT_EQ(wild.registration.state, RegistrationState::registered) << wild.registration.reason;
-    EXPECT_LT(watch.error(wild), 0.1);
-}
-
-TEST(Registrar, repeatedPicturesAreFrozenAndAStandingCameraIsNot) {
-    Watch watch;
-    Flight flight;
-    watch.see(flight);
-    for (int i = 0; i < 3; ++i) {
-        flight.move(drift());
-        watch.see(flight);
-    }
-    EXPECT_EQ(watch.see(flight).registration.state, RegistrationState::registered);  // stands, but noise is new
-    flight.move(drift());
-    const cv::Mat gray = flight.picture();
-    const RegisteredFrame before = watch.seePicture(gray);
-    for (int i = 0; i < 3; ++i) {
-        const RegisteredFrame frozen = watch.seePicture(gray.clone());
-        ASSERT_EQ(frozen.registration.state, RegistrationState::frozen);
-        EXPECT_EQ(frozen.registration.current_from_previous.matrix, cv::Matx33d::eye());
-        ASSERT_EQ(frozen.corners.size(), before.corners.size());
-        EXPECT_EQ(frozen.corners[10].current, before.corners[10].current);
-        EXPECT_EQ(frozen.corners[10].previous, before.corners[10].current);
-        EXPECT_EQ(frozen.corners[10].age, before.corners[10].age + i + 1);
-    }
-    // The camera flew on meanwhile.
-    for (int i = 0; i < 4; ++i) flight.move(drift());
-    const RegisteredFrame after = watch.see(flight);
-    EXPECT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
-}
-
-TEST(Registrar, blankFrameIsMarkedAndBridged) {
-    Watch watch;
-    Flight flight;
-    watch.see(flight);
-    for (int i = 0; i < 4; ++i) {
-        flight.move(drift());
-        watch.see(flight);
-    }
-    flight.move(drift());
-    const RegisteredFrame blank = watch.seePicture(cv::Mat(kSize, CV_8UC1, cv::Scalar(0)));
-    EXPECT_EQ(blank.registration.state, RegistrationState::failed);
-    EXPECT_NE(blank.registration.reason.find("blank"), std::string::npos) << blank.registration.reason;
-    EXPECT_TRUE(blank.corners.empty());
-    const cv::Matx33d guess = blank.registration.current_from_previous.matrix;
-    EXPECT_LT(test::gridError(guess, drift(), kSize), 0.1);  // the camera is assumed to go on
-    flight.move(drift());
-    const RegisteredFrame after = watch.see(flight);
-    ASSERT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
-    // Over both frames the product is the truth, though the first half was a guess.
-    EXPECT_LT(test::gridError(after.registration.current_from_previous.matrix * guess, drift() * drift(), kSize), 0.03);
-    const auto old =
-        std::count_if(after.corners.begin(), after.corners.end(), [](const Corner& c) { return c.age >= 5; });
-    EXPECT_GT(old, 300);
-    expectWellFormed(after, kSize);
-}
-
-TEST(Registrar, blurredFrameIsBridged) {
-    Watch watch;
-    Flight flight;
-    watch.see(flight);
-    for (int i = 0; i < 4; ++i) {
-        flight.move(drift());
-        watch.see(flight);
-    }
-    flight.move(drift());
-    cv::Mat blurred;
-    cv::GaussianBlur(flight.picture(), blurred, {}, 9);
-    const RegisteredFrame blur = watch.seePicture(blurred);
-    EXPECT_EQ(blur.registration.state, RegistrationState::failed);
-    flight.move(drift());
-    const RegisteredFrame after = watch.see(flight);
-    EXPECT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
-}
-
-TEST(Registrar, cutIsMarkedAndStartsAnew) {
-    Watch watch;
-    Flight flight;
-    std::set<CornerId> used;
-    watch.see(flight);
-    for (int i = 0; i < 4; ++i) {
-        flight.move(drift());
-        for (const Corner& corner : watch.see(flight).corners) used.insert(corner.id);
-    }
-    const test::TexturedGround elsewhere(99);
-    const auto seen = [&](int i) {
-        return elsewhere.picture(kSize, test::cameraMotion(kSize, -1.1 * i, 0.4 * i, 0), 2, unsigned(i + 1));
-    };
-    const RegisteredFrame cut = watch.seePicture(seen(0));
-    EXPECT_EQ(cut.registration.state, RegistrationState::failed);
-    EXPECT_NE(cut.registration.reason.find("cut"), std::string::npos) << cut.registration.reason;
-    EXPECT_EQ(cut.registration.current_from_previous.matrix, cv::Matx33d::eye());
-    EXPECT_GT(cut.corners.size(), 500U);
-    for (const Corner& corner : cut.corners) {
-        EXPECT_EQ(used.count(corner.id), 0U);
-        EXPECT_EQ(corner.age, 0);
-    }
-    for (int i = 1; i < 4; ++i) {
-        const RegisteredFrame after = watch.seePicture(seen(i));
-        ASSERT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
-        EXPECT_LT(test::gridError(after.registration.current_from_previous.matrix,
-                                  test::cameraMotion(kSize, 1.1, -0.4, 0), kSize),
-                  0.04);
-        for (const Corner& corner : after.corners) EXPECT_EQ(used.count(corner.id), 0U);
-    }
-}
-
-TEST(Registrar, oneSpoiledFrameDoesNotEndTheTracks) {
-    Watch watch;
-    Flight flight;
-    watch.see(flight);
-    for (int i = 0; i < 4; ++i) {
-        flight.move(drift());
-        watch.see(flight);
-    }
-    flight.move(drift());
-    const cv::Mat rubbish = test::TexturedGround(123).picture(kSize, cv::Matx33d::eye(), 20, 1);
-    EXPECT_EQ(watch.seePicture(rubbish).registration.state, RegistrationState::failed);
-    flight.move(drift());
-    const RegisteredFrame after = watch.see(flight);
-    ASSERT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
-    EXPECT_GT(std::count_if(after.corners.begin(), after.corners.end(), [](const Corner& c) { return c.age >= 5; }),
-              300);
-}
-
-TEST(Registrar, longBlankStretchEndsInAFreshStart) {
-    Watch watch;
-    Flight flight;
-    watch.see(flight);
-    flight.move(drift());
-    watch.see(flight);
-    for (int i = 0; i < 20; ++i) {
-        EXPECT_NE(watch.seePicture(cv::Mat(kSize, CV_8UC1, cv::Scalar(i % 2))).registration.state,
-                  RegistrationState::registered);
-    }
-    EXPECT_EQ(watch.see(flight).registration.state, RegistrationState::failed);  // nothing left to compare with
-    flight.move(drift());
-    EXPECT_EQ(watch.see(flight).registration.state, RegistrationState::registered);
 }
 
 TEST(Registrar, everySizeRunsWithoutHarm) {

@@ -10,6 +10,7 @@
 #include "core/detection.h"
 #include "core/motion_vector.h"
 #include "core/scene_scale.h"
+#include "core/track_state.h"
 
 namespace eyrie::testing {
 
@@ -105,5 +106,29 @@ struct MovingScene {
         return all;
     }
 };
+
+/// The state that overlaps a box most, by more than 0.3; null: none.
+inline const TrackState* nearest(const std::vector<TrackState>& states, const OrientedBox& box) {
+    const TrackState* best = nullptr;
+    for (const TrackState& state : states) {
+        if (overlap(state.box, box) > 0.3 && (!best || overlap(state.box, box) > overlap(best->box, box))) {
+            best = &state;
+        }
+    }
+    return best;
+}
+
+inline MovingScene twoCars() {
+    MovingScene scene;
+    scene.objects = {{{100, 100}, {2, 0}, 20, 10, 0}, {{100, 200}, {2, 0.5}, 24, 11, 100}};
+    return scene;
+}
+
+/// Side by side with equal speed.
+inline MovingScene neighbours() {
+    MovingScene scene;
+    scene.objects = {{{100, 100}, {2, 0}, 20, 10, 0}, {{102, 113}, {2, 0}, 20, 10, 100}};
+    return scene;
+}
 
 }  // namespace eyrie::testing

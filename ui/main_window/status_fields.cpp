@@ -109,8 +109,10 @@ void StatusFields::showRun(const RunProgress& progress) {
     if (!session_.running()) return;
     const double share =
         progress.frames_total > 0 ? progress.frames_done / static_cast<double>(progress.frames_total) : 0;
-    QString text = tr("run: %1 %").arg(static_cast<int>(share * 100));
-    if (progress.frames_per_second > 0) {
+    const int percent = static_cast<int>(share * 100);
+    QString text =
+        progress.estimating_scale ? tr("looking for the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
+    if (!progress.estimating_scale && progress.frames_per_second > 0) {
         const auto left_us = static_cast<std::int64_t>(std::ceil(progress.seconds_left) * 1e6);
         text += tr("   %1 fps   %2 left")
                     .arg(QLocale().toString(progress.frames_per_second, 'f', 1),

@@ -48,7 +48,8 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const std::s
     int run_id = 0;
     try {
         const auto source = request.media.open({}, stop);
-        const SceneScale scale = chooseScale(*source, request.range, request.options, request.gsd_m_per_px, stop);
+        const SceneScale scale = chooseScale(*source, request.range, request.options, request.gsd_m_per_px, stop,
+                                             [&feed](const RunProgress& progress) { feed.onProgress(progress); });
         RunRecord record = plannedRun(source->info(), scale, request.range, request.preset);
         record.name = request.name;
         record.sequence.path = request.media.identity;

@@ -1,0 +1,173 @@
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "registration/flight.h"
+
+namespace eyrie {
+namespace {
+
+using test::drift;
+using test::expectWellFormed;
+using test::Flight;
+using test::kSize;
+using test::Watch;
+
+}  // namespace
+
+TEST(RegistrarTrouble, survivesDroppedFramesAndJumps) {
+    Watch watch;
+    Flight flight;
+    watch.see(flight);
+    for (int i = 0; i < 5; ++i) {
+        flight.move(test::cameraMotion(kSize, 4, 2, 0.3));
+        watch.see(flight);
+    }
+    for (int i = 0; i < 12; ++i) flight.move(test::cameraMotion(kSize, 4, 2, 0.3));
+    const RegisteredFrame jump = watch.see(flight);
+    ASSERT_EQ(jump.registration.state, RegistrationState::registered) << jump.registration.reason;
+    EXPECT_LT(watch.error(jump), 0.06);
+    // Nothing could predict this one.
+    flight.move(test::cameraMotion(kSize, -75, 40, -6));
+    const RegisteredFrame wild = watch.see(flight);
+    ASSERT_EQ(wild.registration.state, RegistrationState::registered) << wild.registration.reason;
+    EXPECT_LT(watch.error(wild), 0.1);
+}
+
+TEST(RegistrarTrouble, repeatedPicturesAreFrozenAndAStandingCameraIsNot) {
+    Watch watch;
+    Flight flight;
+    watch.see(flight);
+    for (int i = 0; i < 3; ++i) {
+        flight.move(drift());
+        watch.see(flight);
+    }
+    EXPECT_EQ(watch.see(flight).registration.state, RegistrationState::registered);  // stands, but noise is new
+    flight.move(drift());
+    const cv::Mat gray = flight.picture();
+    const RegisteredFrame before = watch.seePicture(gray);
+    for (int i = 0; i < 3; ++i) {
+        const RegisteredFrame frozen = watch.seePicture(gray.clone());
+        ASSERT_EQ(frozen.registration.state, RegistrationState::frozen);
+        EXPECT_EQ(frozen.registration.current_from_previous.matrix, cv::Matx33d::eye());
+        ASSERT_EQ(frozen.corners.size(), before.corners.size());
+        EXPECT_EQ(frozen.corners[10].current, before.corners[10].current);
+        EXPECT_EQ(frozen.corners[10].previous, before.corners[10].current);
+        EXPECT_EQ(frozen.corners[10].age, before.corners[10].age + i + 1);
+    }
+    // The camera flew on meanwhile.
+    for (int i = 0; i < 4; ++i) flight.move(drift());
+    const RegisteredFrame after = watch.see(flight);
+    EXPECT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
+}
+
+TEST(RegistrarTrouble, blankFrameIsMarkedAndBridged) {
+    Watch watch;
+    Flight flight;
+    watch.see(flight);
+    for (int i = 0; i < 4; ++i) {
+        flight.move(drift());
+        watch.see(flight);
+    }
+    flight.move(drift());
+    const RegisteredFrame blank = watch.seePicture(cv::Mat(kSize, CV_8UC1, cv::Scalar(0)));
+    EXPECT_EQ(blank.registration.state, RegistrationState::failed);
+    EXPECT_NE(blank.registration.reason.find("blank"), std::string::npos) << blank.registration.reason;
+    EXPECT_TRUE(blank.corners.empty());
+    const cv::Matx33d guess = blank.registration.current_from_previous.matrix;
+    EXPECT_LT(test::gridError(guess, drift(), kSize), 0.1);  // the camera is assumed to go on
+    flight.move(drift());
+    const RegisteredFrame after = watch.see(flight);
+    ASSERT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
+    // Over both frames the product is the truth, though the first half was a guess.
+    EXPECT_LT(test::gridError(after.registration.current_from_previous.matrix * guess, drift() * drift(), kSize), 0.03);
+    const auto old =
+        std::count_if(after.corners.begin(), after.corners.end(), [](const Corner& c) { return c.age >= 5; });
+    EXPECT_GT(old, 300);
+    expectWellFormed(after, kSize);
+}
+
+TEST(RegistrarTrouble, blurredFrameIsBridged) {
+    Watch watch;
+    Flight flight;
+    watch.see(flight);
+    for (int i = 0; i < 4; ++i) {
+        flight.move(drift());
+        watch.see(flight);
+    }
+    flight.move(drift());
+    cv::Mat blurred;
+    cv::GaussianBlur(flight.picture(), blurred, {}, 9);
+    const RegisteredFrame blur = watch.seePicture(blurred);
+    EXPECT_EQ(blur.registration.state, RegistrationState::failed);
+    flight.move(drift());
+    const RegisteredFrame after = watch.see(flight);
+    EXPECT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
+}
+
+TEST(RegistrarTrouble, cutIsMarkedAndStartsAnew) {
+    Watch watch;
+    Flight flight;
+    std::set<CornerId> used;
+    watch.see(flight);
+    for (int i = 0; i < 4; ++i) {
+        flight.move(drift());
+        for (const Corner& corner : watch.see(flight).corners) used.insert(corner.id);
+    }
+    const test::TexturedGround elsewhere(99);
+    const auto seen = [&](int i) {
+        return elsewhere.picture(kSize, test::cameraMotion(kSize, -1.1 * i, 0.4 * i, 0), 2, unsigned(i + 1));
+    };
+    const RegisteredFrame cut = watch.seePicture(seen(0));
+    EXPECT_EQ(cut.registration.state, RegistrationState::failed);
+    EXPECT_NE(cut.registration.reason.find("cut"), std::string::npos) << cut.registration.reason;
+    EXPECT_EQ(cut.registration.current_from_previous.matrix, cv::Matx33d::eye());
+    EXPECT_GT(cut.corners.size(), 500U);
+    for (const Corner& corner : cut.corners) {
+        EXPECT_EQ(used.count(corner.id), 0U);
+        EXPECT_EQ(corner.age, 0);
+    }
+    for (int i = 1; i < 4; ++i) {
+        const RegisteredFrame after = watch.seePicture(seen(i));
+        ASSERT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
+        EXPECT_LT(test::gridError(after.registration.current_from_previous.matrix,
+                                  test::cameraMotion(kSize, 1.1, -0.4, 0), kSize),
+                  0.04);
+        for (const Corner& corner : after.corners) EXPECT_EQ(used.count(corner.id), 0U);
+    }
+}
+
+TEST(RegistrarTrouble, oneSpoiledFrameDoesNotEndTheTracks) {
+    Watch watch;
+    Flight flight;
+    watch.see(flight);
+    for (int i = 0; i < 4; ++i) {
+        flight.move(drift());
+        watch.see(flight);
+    }
+    flight.move(drift());
+    const cv::Mat rubbish = test::TexturedGround(123).picture(kSize, cv::Matx33d::eye(), 20, 1);
+    EXPECT_EQ(watch.seePicture(rubbish).registration.state, RegistrationState::failed);
+    flight.move(drift());
+    const RegisteredFrame after = watch.see(flight);
+    ASSERT_EQ(after.registration.state, RegistrationState::registered) << after.registration.reason;
+    EXPECT_GT(std::count_if(after.corners.begin(), after.corners.end(), [](const Corner& c) { return c.age >= 5; }),
+              300);
+}
+
+TEST(RegistrarTrouble, longBlankStretchEndsInAFreshStart) {
+    Watch watch;
+    Flight flight;
+    watch.see(flight);
+    flight.move(drift());
+    watch.see(flight);
+    for (int i = 0; i < 20; ++i) {
+        EXPECT_NE(watch.seePicture(cv::Mat(kSize, CV_8UC1, cv::Scalar(i % 2))).registration.state,
+                  RegistrationState::registered);
+    }
+    EXPECT_EQ(watch.see(flight).registration.state, RegistrationState::failed);  // nothing left to compare with
+    flight.move(drift());
+    EXPECT_EQ(watch.see(flight).registration.state, RegistrationState::registered);
+}
+
+}  // namespace eyrie
