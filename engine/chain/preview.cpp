@@ -97,6 +97,20 @@ Preview::Known* Preview::known(FrameIndex frame) {
     return &made;
 }
 
+void Preview::makeWindows(const ChainOptions& options) {
+    const std::string registration = textOf(options, PreviewStart::registration, PreviewStart::registration);
+    if (windows_for_ == registration && window_) return;
+    window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
+    track_window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
+    windows_for_ = registration;
+}
+
+void Preview::warmUp(FrameIndex frame, const std::stop_token& stop) {
+    if (frame < source_.first_frame) return;
+    makeWindows(source_.options);
+    window_->cover(std::max(0, frame - MotionWindow::reachFor(source_.options.motion)), frame, source_.pixels, stop);
+}
+
 bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int range, const std::stop_token& stop) {
     const std::string wanted = textOf(options, PreviewStart::registration, PreviewStart::motion);
     if (wanted == textOf(source_.options, PreviewStart::registration, PreviewStart::motion)) {
@@ -107,12 +121,7 @@ bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int r
     }
     const FrameIndex first = std::max(source_.first_frame, frame - range);
     if (motions_for_ == wanted && motions_.count(frame) > 0 && motions_.count(first) > 0) return true;
-    const std::string registration = textOf(options, PreviewStart::registration, PreviewStart::registration);
-    if (windows_for_ != registration || !window_) {
-        window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
-        track_window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
-        windows_for_ = registration;
-    }
+    makeWindows(options);
     MotionWindow& window = range == 0 ? *window_ : *track_window_;
     const FrameIndex begin = std::max(0, first - MotionWindow::reachFor(options.motion));
     if (!window.cover(begin, frame, source_.pixels, stop)) return false;

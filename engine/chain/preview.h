@@ -43,6 +43,10 @@ class Preview {
     std::optional<PreviewedFrame> withTracks(FrameIndex frame, const ChainOptions& options, int range,
                                              const std::stop_token& stop, const std::function<void(int)>& progress);
 
+    /// Somebody may be about to move a parameter of motion: registers what now() will need for that. Stops early when
+    /// `stop` is requested; what is done is used.
+    void warmUp(FrameIndex frame, const std::stop_token& stop);
+
     const ChainOptions& storedOptions() const { return source_.options; }
 
  private:
@@ -59,6 +63,7 @@ class Preview {
     Known* known(FrameIndex frame);
     /// Motion of the frame and the `range` frames before it, by other parameters than the run's.
     bool prepareMotion(FrameIndex frame, const ChainOptions& options, int range, const std::stop_token& stop);
+    void makeWindows(const ChainOptions& options);
     const FrameMotion& motionOf(const Known& known) const;
     FrameResult secondHalf(Known& known, const ChainOptions& options);
     /// Pixels of a frame where tracks are known by their looks; else nothing.

@@ -9,24 +9,31 @@
 namespace eyrie {
 namespace {
 
-constexpr double kMoreAlike = 0.5;   ///< of the velocity difference that links neighbours
+constexpr double kMoreAlike = 0.5;  ///< of the velocity difference that links neighbours
+constexpr double kExpected = 0.4;  ///< standing corners in the gap, were it road like its surroundings; fewer: no proof
 constexpr double kVehicleEnd = 1.5;  ///< px: corners of the road next to a vehicle lie this close to its own
 
-/// Whether no standing corner lies between two places.
+/// Whether something hides the road between two places: no corner stands there though the surroundings have enough
+/// that one might be expected. Where the ground has hardly any corners, as at night, their absence says nothing.
 bool roadIsHidden(const std::vector<cv::Point2f>& standing, const NeighbourGrid& grid, cv::Point2d from, cv::Point2d to,
-                  double half_width) {
+                  const RoofBridge& bridge) {
     const cv::Point2d way = to - from;
     const double length = std::hypot(way.x, way.y);
-    if (length <= 2 * kVehicleEnd) return true;
+    if (length <= 2 * kVehicleEnd) return false;
     const cv::Point2d along = way / length;
-    bool hidden = true;
-    grid.around((from + to) / 2, [&](std::size_t i) {
-        const cv::Point2d offset = cv::Point2d(standing[i]) - from;
-        const double ahead = offset.dot(along);
-        if (ahead > kVehicleEnd && ahead < length - kVehicleEnd && std::abs(offset.cross(along)) < half_width)
-            hidden = false;
+    const cv::Point2d middle = (from + to) / 2;
+    bool between = false;
+    int around = 0;
+    grid.around(middle, [&](std::size_t i) {
+        const cv::Point2d place = standing[i];
+        const double ahead = (place - from).dot(along);
+        const double aside = std::abs((place - from).cross(along));
+        if (ahead > kVehicleEnd && ahead < length - kVehicleEnd && aside < bridge.half_width) between = true;
+        if (std::hypot(place.x - middle.x, place.y - middle.y) <= bridge.length) ++around;
     });
-    return hidden;
+    const double density = around / (CV_PI * bridge.length * bridge.length);
+    const double expected = density * (length - 2 * kVehicleEnd) * 2 * bridge.half_width;
+    return !between && expected >= kExpected;
 }
 
 }  // namespace
@@ -55,8 +62,7 @@ std::vector<int> joinAcrossRoofs(const FrameMotion& motion, const Linkage& linka
             const int a = static_cast<int>(i);
             const int b = static_cast<int>(j);
             if (b <= a || sets.root(a) == sets.root(b) || !across_roof.joins(vectors[i], vectors[j])) return;
-            if (roadIsHidden(motion.stationary_corners, standing, positions[i], positions[j], bridge.half_width))
-                sets.join(a, b);
+            if (roadIsHidden(motion.stationary_corners, standing, positions[i], positions[j], bridge)) sets.join(a, b);
         });
     }
     return sets.numbers();

@@ -140,6 +140,22 @@ TEST(Preview, doesOnlyWhatChanged) {
     EXPECT_FALSE(preview.now(30, options, 0, {})->approximate);
 }
 
+TEST(Preview, warmedUpItReadsNothingMoreForParametersOfMotion) {
+    Fixture run;
+    Preview preview(run.replaySource());
+    preview.warmUp(30, {});
+    const int warm = run.frames_read;
+    EXPECT_GT(warm, 10);
+    ChainOptions options;
+    options.motion.min_speed_m_s = 3;
+    ASSERT_TRUE(preview.now(30, options, 30, {}));
+    EXPECT_LE(run.frames_read, warm + 1);  // the pixels that are searched
+    Preview cold(run.replaySource());
+    const auto expected = cold.now(30, options, 30, {});
+    expectSame(preview.now(30, options, 30, {})->result, expected->result);
+    preview.warmUp(-5, {});
+}
+
 TEST(Preview, tracksKeepTheIdsOfTheRun) {
     Fixture run;
     Preview preview(run.replaySource());

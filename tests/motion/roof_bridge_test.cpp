@@ -12,7 +12,8 @@ namespace {
 
 const SceneScale kScale{0.25, 25, true};  // 6 m are 24 px, the ordinary 3.5 m are 14 px
 
-/// Front and rear of a lorry that drives to the right: two columns of vectors 20 px apart.
+/// Front and rear of a lorry that drives to the right: two columns of vectors 20 px apart. Corners stand beside its
+/// lane.
 FrameMotion lorry(float rear_speed = 2) {
     FrameMotion motion;
     motion.image_size = {640, 480};
@@ -22,6 +23,11 @@ FrameMotion lorry(float rear_speed = 2) {
         const float y = 100 + 2 * static_cast<float>(k);
         motion.motion_vectors.push_back({static_cast<CornerId>(2 * k + 1), {200, y}, {2, 0}, 9});
         motion.motion_vectors.push_back({static_cast<CornerId>(2 * k + 2), {180, y}, {rear_speed, 0}, 9});
+    }
+    for (int x = 140; x <= 240; x += 5) {
+        for (int y = 60; y <= 150; y += 5) {
+            if (std::abs(y - 103) > 9) motion.stationary_corners.emplace_back(float(x), float(y));
+        }
     }
     return motion;
 }
@@ -38,9 +44,16 @@ TEST(RoofBridge, TheRoadBetweenTwoCarsKeepsThemApart) {
     FrameMotion motion = lorry();
     for (int k = 0; k < 4; ++k) motion.stationary_corners.emplace_back(190.F, 100 + 2 * static_cast<float>(k));
     EXPECT_EQ(clustersOf(motion), 2U);
-    // The road beside the vehicle says nothing, nor do corners at its ends.
-    motion.stationary_corners = {{190, 90}, {190, 116}, {181, 103}, {199, 103}, {210, 103}};
+    // Corners at the ends and beyond say nothing.
+    motion = lorry();
+    for (const float x : {170.F, 181.F, 199.F, 210.F}) motion.stationary_corners.emplace_back(x, 103.F);
     EXPECT_EQ(clustersOf(motion), 1U);
+}
+
+TEST(RoofBridge, WhereTheGroundHasNoCornersTheirAbsenceSaysNothing) {
+    FrameMotion night = lorry();
+    night.stationary_corners.clear();
+    EXPECT_EQ(clustersOf(night), 2U);
 }
 
 TEST(RoofBridge, OnlyWhatMovesAlikeIsOneVehicle) {
@@ -86,14 +99,19 @@ TEST(RoofBridge, EqualsAskingEveryPair) {
                 if (label[i] == label[j] || !far.joins(a, b)) continue;
                 const cv::Point2d way = b.position - a.position;
                 const double length = cv::norm(way);
+                const cv::Point2d middle = (cv::Point2d(a.position) + cv::Point2d(b.position)) / 2;
                 bool free = true;
+                int around = 0;
                 for (const cv::Point2f& s : motion.stationary_corners) {
                     const cv::Point2d offset = s - a.position;
                     const double ahead = offset.dot(way) / length;
                     const double aside = std::abs(offset.cross(way)) / length;
                     if (ahead > 1.5 && ahead < length - 1.5 && aside < bridge.half_width) free = false;
+                    around += cv::norm(cv::Point2d(s) - middle) <= bridge.length;
                 }
-                if (free) relabel(label[j], label[i]);
+                const double expected =
+                    around / (CV_PI * bridge.length * bridge.length) * (length - 3) * 2 * bridge.half_width;
+                if (free && length > 3 && expected >= 0.4) relabel(label[j], label[i]);
             }
         }
         const std::vector<int> joined = joinAcrossRoofs(motion, linkage, bridge, linked);

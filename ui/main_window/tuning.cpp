@@ -71,6 +71,9 @@ void Tuning::buildPreview() {
     ParameterForm& form = parts_.docks.parameterForm();
     connect(&form, &ParameterForm::valueChanged, this, &Tuning::parameterMoved, Qt::QueuedConnection);
     connect(&form, &ParameterForm::presetChosen, this, &Tuning::parametersEdited, Qt::QueuedConnection);
+    connect(&form, &ParameterForm::pointedAt, this, [this](const QString& name) {
+        if (name.startsWith(QLatin1String("motion."))) preview_->warmUp();
+    });
     connect(parts_.actions.live_preview, &QAction::toggled, preview_, &LivePreview::setEnabled);
     connect(preview_bar_, &PreviewBar::runRequested, this, &Tuning::runRequested);
     connect(preview_bar_, &PreviewBar::discardRequested, this, [this] {

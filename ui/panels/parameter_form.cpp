@@ -145,7 +145,10 @@ void ParameterForm::makeRows(const std::vector<Parameter>& parameters) {
         group.rows.push_back(row);
         rows_.push_back(row);
         connect(row, &ParameterRow::valueChanged, this, &ParameterForm::onRowChanged);
-        connect(row, &ParameterRow::pointedAt, this, [this, row] { help_->setText(row->helpText()); });
+        connect(row, &ParameterRow::pointedAt, this, [this, row] {
+            help_->setText(row->helpText());
+            emit pointedAt(row->name());
+        });
     }
 }
 

@@ -51,6 +51,8 @@ class ParameterForm : public QWidget {
     void resetAll();
 
  signals:
+    /// The mouse or the keyboard came to a parameter.
+    void pointedAt(const QString& name);
     /// A person changed one value.
     void valueChanged(const QString& name, const QString& value);
     void presetChosen(const QString& name);

@@ -74,6 +74,13 @@ void LivePreview::parametersEdited() {
     emit changed();
 }
 
+void LivePreview::warmUp() {
+    const ViewFrame& frame = session_.viewFrame();
+    if (!enabled_ || !frame.result || session_.following() || session_.running() || session_.playback().playing())
+        return;
+    loader_.warmUp(frame.index);
+}
+
 void LivePreview::discard() {
     end();
 }

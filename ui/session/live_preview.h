@@ -35,6 +35,8 @@ class LivePreview : public QObject {
 
     /// A person changed a parameter of the next run.
     void parametersEdited();
+    /// Somebody points at a parameter of motion, which is slow to begin with.
+    void warmUp();
     /// Back to what the run stored.
     void discard();
 

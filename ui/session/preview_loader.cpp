@@ -27,14 +27,7 @@ class PreviewLoader::Worker {
               const std::stop_token& run_stop, const std::stop_token& wish_stop) {
         if (!run_ || run_stop.stop_requested()) return;
         try {
-            if (!preview_) {
-                open_ = std::make_unique<OpenRun>(*run_, run_stop);
-                if (run_stop.stop_requested()) {  // perhaps half open
-                    open_.reset();
-                    return;
-                }
-                preview_ = std::make_unique<Preview>(open_->source());
-            }
+            if (!open(run_stop)) return;
             auto first = preview_->now(frame, options, range, run_stop);
             if (!first) return;
             const bool final = first->tracks_final || range == 0;
@@ -58,7 +51,29 @@ class PreviewLoader::Worker {
         }
     }
 
+    void warmUp(FrameIndex frame, const std::stop_token& run_stop, const std::stop_token& warm_stop) {
+        if (!run_ || run_stop.stop_requested() || warm_stop.stop_requested()) return;
+        try {
+            if (open(run_stop)) preview_->warmUp(frame, warm_stop);
+        } catch (const std::exception&) {
+            preview_.reset();  // the first wish says what is wrong
+            open_.reset();
+        }
+    }
+
  private:
+    /// False when it was stopped.
+    bool open(const std::stop_token& run_stop) {
+        if (preview_) return true;
+        open_ = std::make_unique<OpenRun>(*run_, run_stop);
+        if (run_stop.stop_requested()) {  // perhaps half open
+            open_.reset();
+            return false;
+        }
+        preview_ = std::make_unique<Preview>(open_->source());
+        return true;
+    }
+
     void publish(FrameIndex frame, PreviewedFrame previewed, int left, double waited_ms) {
         auto view = std::make_shared<PreviewView>();
         view->frame = frame;
@@ -87,7 +102,16 @@ void PreviewLoader::useRun(std::optional<ReplayRun> run) {
     thread_.post([worker = worker_.get(), run = std::move(run)](const std::stop_token&) { worker->useRun(run); });
 }
 
+void PreviewLoader::warmUp(FrameIndex frame) {
+    warm_.request_stop();
+    warm_ = std::stop_source();
+    if (run_.stop_requested()) run_ = std::stop_source();
+    thread_.postIdle([worker = worker_.get(), frame, run = run_.get_token(),
+                      warm = warm_.get_token()](const std::stop_token&) { worker->warmUp(frame, run, warm); });
+}
+
 void PreviewLoader::request(FrameIndex frame, const ChainOptions& options, int range) {
+    warm_.request_stop();
     wish_.request_stop();
     wish_ = std::stop_source();
     if (run_.stop_requested()) run_ = std::stop_source();
@@ -99,6 +123,7 @@ void PreviewLoader::request(FrameIndex frame, const ChainOptions& options, int r
 void PreviewLoader::cancel() {
     run_.request_stop();
     wish_.request_stop();
+    warm_.request_stop();
 }
 
 }  // namespace eyrie::ui

@@ -35,6 +35,8 @@ class PreviewLoader : public QObject {
     /// Answers with previewed() twice, without and with tracks, or failed(). `range`: frames before, over which tracks
     /// are followed.
     void request(FrameIndex frame, const ChainOptions& options, int range);
+    /// A parameter of motion may be moved soon: does in spare time what the first answer to that will need.
+    void warmUp(FrameIndex frame);
     void cancel();
 
  signals:
@@ -47,6 +49,7 @@ class PreviewLoader : public QObject {
     std::unique_ptr<Worker> worker_;
     std::stop_source run_;   ///< everything of a run
     std::stop_source wish_;  ///< the tracks of one wish
+    std::stop_source warm_;  ///< what is done before there is a wish
     TaskThread thread_;      ///< last: stops before the worker goes
 };
 
