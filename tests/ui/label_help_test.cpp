@@ -78,6 +78,40 @@ class LabelHelpTest : public QObject, test::Labelling {
         }
     }
 
+    void severalProposalsAreTakenTogetherAsExactAsAsked() {
+        const auto window = labellingWindow(60, true);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        LabelProposals& proposals = window->labelling().proposals();
+        key(*window, Qt::Key_P);
+        QVERIFY(waitFor([&] { return proposals.shown() && !proposals.working(); }));
+        if (proposals.pending().size() < 2) QSKIP("the chain found fewer than two tracks in the toy scene");
+        const auto keyframes = [&] {
+            std::size_t count = 0;
+            for (const Proposal* proposal : proposals.pending()) count += proposal->object.keyframes.size();
+            return count;
+        };
+        const std::size_t usual = keyframes();
+        const std::size_t offered = proposals.pending().size();
+        proposals.setTolerance(50);
+        QVERIFY(waitFor([&] { return !proposals.working() && proposals.pending().size() == offered; }));
+        QVERIFY(keyframes() <= usual);
+        const TrackId first = proposals.pending()[0]->track;
+        const TrackId second = proposals.pending()[1]->track;
+        emit window->labelling().tool().proposalClicked(first, false);
+        emit window->labelling().tool().proposalClicked(second, true);
+        QCOMPARE(proposals.selection(), (std::vector<TrackId>{first, second}));
+        key(*window, Qt::Key_Return);
+        QCOMPARE(labels.annotations().objects.size(), std::size_t(2));
+        QCOMPARE(proposals.pending().size(), offered - 2);
+        key(*window, Qt::Key_Z, Qt::ControlModifier);  // one step
+        QCOMPARE(labels.annotations().objects.size(), std::size_t(0));
+        emit window->labelling().tool().proposalClicked(first, false);
+        emit window->labelling().tool().proposalClicked(second, true);
+        emit window->labelling().tool().proposalClicked(second, true);
+        QCOMPARE(proposals.selection(), std::vector<TrackId>{first});
+    }
+
     void aBoxIsTrackedThroughTheVideo() {
         const auto window = labellingWindow(40);
         QVERIFY(window);

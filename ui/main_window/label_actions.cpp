@@ -88,12 +88,14 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     proposals->setIconText(tr("Proposals"));
     proposals->setIcon(QIcon::fromTheme(QStringLiteral("tools-wizard")));
     next_proposal = add(tr("Next proposal"), {QKeySequence(Qt::Key_G)});
-    accept = add(tr("Take the proposal over"), {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
-    reject = add(tr("Reject the proposal"), {QKeySequence(Qt::Key_Backspace)}, true);
+    accept =
+        add(tr("Take the selected proposals over"), {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
+    reject = add(tr("Reject the selected proposals"), {QKeySequence(Qt::Key_Backspace)}, true);
     accept_all = add(tr("Take over all proposals of this frame"), {QKeySequence(tr("Shift+Return"))}, true);
     accept_range =
         add(tr("Take over all proposals in the range of frames above"), {QKeySequence(tr("Ctrl+Return"))}, true);
     offer_again = add(tr("Offer rejected ones again"), {});
+    proposal_tolerance = add(tr("Keyframes of proposals…"), {});
     track_on = add(tr("Track the box forward"), {QKeySequence(tr("Shift+F"))});
     track_back = add(tr("Track the box backward"), {QKeySequence(tr("Shift+B"))});
     stop_tracking = add(tr("Stop tracking (Esc)"), {});

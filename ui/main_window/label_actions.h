@@ -31,7 +31,7 @@ class LabelActions : public QObject {
     QAction *next_frame, *previous_frame, *ten_on, *ten_back, *next_object, *previous_object, *next_keyframe,
         *previous_keyframe, *next_attention, *next_unchecked, *follow, *follow_upright, *this_frame, *deselect;
     QAction *checked, *questionable, *unseen;
-    QAction *proposals, *accept, *accept_all, *accept_range, *reject, *next_proposal, *offer_again;
+    QAction *proposals, *accept, *accept_all, *accept_range, *reject, *next_proposal, *offer_again, *proposal_tolerance;
     QAction *track_on, *track_back, *stop_tracking;
     QAction *join, *fuse, *split, *swap, *renumber, *delete_before, *delete_after;
 

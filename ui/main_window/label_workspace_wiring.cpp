@@ -1,5 +1,6 @@
 // The part of LabelWorkspace that says what its commands do.
 #include <QDockWidget>
+#include <QInputDialog>
 #include <QMainWindow>
 #include <numbers>
 
@@ -49,9 +50,12 @@ void LabelWorkspace::wireTool() {
         else
             labels_->select(id);
     });
-    connect(tool_, &LabelTool::proposalClicked, this, [this](TrackId track) {
+    connect(tool_, &LabelTool::proposalClicked, this, [this](TrackId track, bool add) {
         labels_->select(std::nullopt);
-        proposals_->select(track);
+        if (add)
+            proposals_->toggle(track);
+        else
+            proposals_->select(track);
     });
     connect(actions_->draw, &QAction::triggered, this, [this](bool on) {
         if (!on)
@@ -188,7 +192,7 @@ void LabelWorkspace::wireProposals() {
     connect(actions_->accept, &QAction::triggered, this, &LabelWorkspace::acceptSelected);
     connect(actions_->reject, &QAction::triggered, this, [this] {
         if (!proposals_->selected()) return;
-        proposals_->reject(*proposals_->selected());
+        proposals_->reject(proposals_->selection());
         selectProposal(proposals_->next(around_.session.currentFrame()));
     });
     connect(actions_->accept_all, &QAction::triggered, this, [this] {
@@ -204,6 +208,14 @@ void LabelWorkspace::wireProposals() {
         tell(objects.empty() ? tr("No proposal is left there.") : tr("Took over %1 tracks.").arg(objects.size()));
     });
     connect(actions_->offer_again, &QAction::triggered, proposals_, &LabelProposals::offerAgain);
+    connect(actions_->proposal_tolerance, &QAction::triggered, this, [this] {
+        bool chosen = false;
+        const double px =
+            QInputDialog::getDouble(&around_.window, tr("Keyframes of proposals"),
+                                    tr("Corners may be off the track by up to (px):\nsmaller means more keyframes"),
+                                    proposals_->tolerance(), 0.1, 100, 1, &chosen);
+        if (chosen) proposals_->setTolerance(px);
+    });
 
     connect(actions_->track_on, &QAction::triggered, this, [this] { tracking_->start(1); });
     connect(actions_->track_back, &QAction::triggered, this, [this] { tracking_->start(-1); });
@@ -230,8 +242,9 @@ void LabelWorkspace::selectProposal(const Proposal* proposal) {
 
 void LabelWorkspace::acceptSelected() {
     if (!proposals_->selected()) return;
-    const auto objects = proposals_->accept({*proposals_->selected()});
+    const auto objects = proposals_->accept(proposals_->selection());
     if (objects.empty()) return;
+    if (objects.size() > 1) tell(tr("Took over %1 tracks.").arg(objects.size()));
     if (const Proposal* next = proposals_->next(around_.session.currentFrame()))
         selectProposal(next);
     else

@@ -1,5 +1,6 @@
 #include "session/label_proposals.h"
 
+#include <algorithm>
 #include <exception>
 #include <limits>
 
@@ -43,7 +44,7 @@ LabelProposals::LabelProposals(ProjectSession& session, LabelSession& labels, QO
         proposals_.clear();
         taken_.clear();
         rejected_.clear();
-        selected_.reset();
+        selection_.clear();
         emit changed();
         if (shown_) read();
     };
@@ -58,7 +59,7 @@ LabelProposals::~LabelProposals() = default;
 void LabelProposals::setShown(bool shown) {
     if (shown_ == shown) return;
     shown_ = shown;
-    if (!shown_) selected_.reset();
+    if (!shown_) selection_.clear();
     if (shown_) read();
     emit changed();
 }
@@ -68,11 +69,13 @@ void LabelProposals::read() {
     working_ = true;
     run_ = session_.currentRun();
     thread_.post([this, ticket = ++ticket_, path = session_.project(), run = *run_, labelled = labels_.annotations(),
-                  camera = labels_.sharedCamera()](const std::stop_token& stop) {
+                  camera = labels_.sharedCamera(), tolerance = tolerance_px_](const std::stop_token& stop) {
         std::vector<Proposal> proposals;
         QString failure;
         try {
-            proposals = proposeTracks(tracksOf(path, run, stop), labelled, *camera);
+            ProposalOptions options;
+            options.reduction.tolerance_px = tolerance;
+            proposals = proposeTracks(tracksOf(path, run, stop), labelled, *camera, options);
         } catch (const std::exception& error) {
             failure = QString::fromUtf8(error.what());
         }
@@ -124,10 +127,45 @@ const Proposal* LabelProposals::next(FrameIndex frame) const {
     return earliest;
 }
 
+std::optional<TrackId> LabelProposals::selected() const {
+    return selection_.empty() ? std::nullopt : std::optional(selection_.back());
+}
+
+bool LabelProposals::isSelected(TrackId track) const {
+    return std::find(selection_.begin(), selection_.end(), track) != selection_.end();
+}
+
 void LabelProposals::select(std::optional<TrackId> track) {
-    if (selected_ == track) return;
-    selected_ = track;
+    std::vector<TrackId> selection;
+    if (track) selection.push_back(*track);
+    if (selection_ == selection) return;
+    selection_ = std::move(selection);
     emit changed();
+}
+
+void LabelProposals::toggle(TrackId track) {
+    if (isSelected(track))
+        forgetSelected(track);
+    else
+        selection_.push_back(track);
+    emit changed();
+}
+
+void LabelProposals::forgetSelected(TrackId track) {
+    std::erase(selection_, track);
+}
+
+void LabelProposals::setTolerance(double px) {
+    if (tolerance_px_ == px) return;
+    tolerance_px_ = px;
+    ++ticket_;
+    working_ = false;
+    run_.reset();
+    // Those taken stay what they are.
+    std::erase_if(proposals_, [this](const Proposal& proposal) { return isPending(proposal); });
+    selection_.clear();
+    emit changed();
+    if (shown_) read();
 }
 
 std::vector<ObjectId> LabelProposals::accept(const std::vector<TrackId>& tracks) {
@@ -166,15 +204,17 @@ std::vector<ObjectId> LabelProposals::take(const std::vector<TrackId>& tracks, F
                     .toStdString();
     if (!labels_.apply(edit)) return {};
     for (const auto& [track, object] : taken) taken_[track] = object;
-    if (selected_ && taken.contains(*selected_)) selected_.reset();
+    for (const auto& [track, object] : taken) forgetSelected(track);
     emit changed();
     return ids;
 }
 
-void LabelProposals::reject(TrackId track) {
-    if (find(track) == nullptr) return;
-    rejected_.insert(track);
-    if (selected_ == track) selected_.reset();
+void LabelProposals::reject(const std::vector<TrackId>& tracks) {
+    for (const TrackId track : std::vector<TrackId>(tracks)) {
+        if (find(track) == nullptr) continue;
+        rejected_.insert(track);
+        forgetSelected(track);
+    }
     emit changed();
 }
 

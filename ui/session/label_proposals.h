@@ -30,8 +30,19 @@ class LabelProposals : public QObject {
     std::vector<const Proposal*> pendingIn(FrameIndex frame) const;
     const Proposal* find(TrackId track) const;
 
-    std::optional<TrackId> selected() const { return selected_; }
+    /// The one that keys work on first: the last of the selection.
+    std::optional<TrackId> selected() const;
+    const std::vector<TrackId>& selection() const { return selection_; }
+    bool isSelected(TrackId track) const;
     void select(std::optional<TrackId> track);
+    /// Adds it to the selection, or takes it out.
+    void toggle(TrackId track);
+
+    /// How far the interpolation of a proposal may be from its track, px, on top of what the length of the box allows;
+    /// smaller: more keyframes. Proposals not yet taken are made again.
+    void setTolerance(double px);
+    double tolerance() const { return tolerance_px_; }
+
     /// The next one, in this frame if there is one, else the earliest of all.
     const Proposal* next(FrameIndex frame) const;
 
@@ -39,7 +50,7 @@ class LabelProposals : public QObject {
     std::vector<ObjectId> accept(const std::vector<TrackId>& tracks);
     /// The parts of all pending ones that lie in a range of frames.
     std::vector<ObjectId> acceptRange(FrameIndex first, FrameIndex last);
-    void reject(TrackId track);
+    void reject(const std::vector<TrackId>& tracks);
     /// Rejected ones are offered again.
     void offerAgain();
     int rejectedCount() const { return static_cast<int>(rejected_.size()); }
@@ -50,6 +61,7 @@ class LabelProposals : public QObject {
  private:
     void read();
     bool isPending(const Proposal& proposal) const;
+    void forgetSelected(TrackId track);
     std::vector<ObjectId> take(const std::vector<TrackId>& tracks, FrameIndex first, FrameIndex last);
 
     ProjectSession& session_;
@@ -61,7 +73,8 @@ class LabelProposals : public QObject {
     std::vector<Proposal> proposals_;
     std::map<TrackId, ObjectId> taken_;
     std::set<TrackId> rejected_;
-    std::optional<TrackId> selected_;
+    std::vector<TrackId> selection_;
+    double tolerance_px_ = ReductionOptions().tolerance_px;
     TaskThread thread_;  ///< last: stops before the rest goes
 };
 

@@ -86,7 +86,7 @@ LabelScene labelScene(const LabelSession& labels, const LabelProposals& proposal
         mark.kind = LabelKind::proposal;
         mark.box = box.box;
         mark.colour = kProposalColour;
-        mark.selected = proposals.selected() == proposal->track;
+        mark.selected = proposals.isSelected(proposal->track);
         mark.text = QStringLiteral("?%1").arg(proposal->track);
         scene.marks.push_back(std::move(mark));
     }

@@ -239,7 +239,7 @@ bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
     const LabelMark* hit = markAt(scene_, point, kHitMargin / place.transform.scale());
     const bool add = (event.modifiers() & (Qt::ControlModifier | Qt::ShiftModifier)) != 0;
     if (hit != nullptr && hit->kind == LabelKind::proposal)
-        emit proposalClicked(hit->id);
+        emit proposalClicked(hit->id, add);
     else
         emit objectClicked(hit != nullptr ? std::optional<ObjectId>(hit->id) : std::nullopt, add);
     return false;  // the canvas ends its own press

@@ -70,7 +70,7 @@ class LabelTool : public QObject, public CanvasTool {
                     bool resized);
     /// An object was pointed at, or nothing; `add`: with Ctrl or Shift held.
     void objectClicked(std::optional<eyrie::ObjectId> object, bool add);
-    void proposalClicked(eyrie::TrackId track);
+    void proposalClicked(eyrie::TrackId track, bool add);
 
  private:
     const LabelMark* selectedMark() const;
