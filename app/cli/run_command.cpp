@@ -103,7 +103,8 @@ int run(const Arguments& arguments) {
             ChainRun(options, scale).run(*source, range, recorder, interrupt.token(), !arguments.annotated.empty());
         record = recorder.finish(summary);
     }
-    ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+    // Not only for reading: who closes a project last for writing leaves one file.
+    ProjectFile file = ProjectFile::open(project);
     const RunStore store(file);
     if (!arguments.tracks_csv.empty()) writeResultCsv(arguments.tracks_csv, store.trackBoxes(record.id));
     if (!arguments.detections_csv.empty()) writeResultCsv(arguments.detections_csv, store.detectionBoxes(record.id));
