@@ -50,6 +50,8 @@ TEST_F(CommandLine, runWritesProjectTracksDetectionsTimingAndVideo) {
     for (const char* name : {"p.eyrie", "t.csv", "d.csv", "t.json", "a.mp4"}) {
         EXPECT_GT(std::filesystem::file_size(folder / name), 100U) << name;
     }
+    for (const char* companion : {"p.eyrie-wal", "p.eyrie-shm"})
+        EXPECT_FALSE(std::filesystem::exists(folder / companion)) << "a project is one file: " << companion;
     std::ifstream tracks(at("t.csv"));
     std::string header;
     std::getline(tracks, header);
