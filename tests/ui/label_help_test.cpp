@@ -26,7 +26,16 @@ class LabelHelpTest : public QObject, test::Labelling {
         key(*window, Qt::Key_Y);  // split: shown first
         QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
         QVERIFY(window->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("frames 0 to 7")));
+        const auto planned = [&] {
+            QList<int> ids;
+            for (const LabelMark& mark : window->labelling().tool().scene().marks)
+                if (mark.kind == LabelKind::planned) ids.append(mark.id);
+            return ids;
+        };
+        QCOMPARE(planned().size(), 1);  // what begins here, under its new number
+        QVERIFY(planned().front() != id);
         key(*window, Qt::Key_Escape);
+        QCOMPARE(planned().size(), 0);
         QCOMPARE(labels.selected(), std::optional<ObjectId>(id));
         key(*window, Qt::Key_Y);
         key(*window, Qt::Key_Y);

@@ -208,7 +208,10 @@ void LabelWorkspace::labelsChanged() {
 void LabelWorkspace::showScene() {
     if (!active_) return;
     // Boxes belong to the picture that is shown, which may come later than the frame was asked for.
-    tool_->setScene(labelScene(*labels_, *proposals_, around_.session.viewFrame().index, around_.session.scale()));
+    const bool planned =
+        planned_.plan && planned_.plan->version == labels_->version() && planned_.selection == labels_->selection();
+    tool_->setScene(labelScene(*labels_, *proposals_, around_.session.viewFrame().index, around_.session.scale(),
+                               planned ? &planned_.plan->edit : nullptr));
 }
 
 void LabelWorkspace::showList() {

@@ -34,6 +34,7 @@ void LabelWorkspace::offer(QAction* action, const std::function<std::optional<La
     const QString text =
         tr("%1 → %2. %3 again does it, Esc does not.").arg(QString::fromStdString(plan->edit.name), plan->text, key);
     planned_ = {action, frame, labels_->selection(), std::move(plan)};
+    showScene();
     around_.messages.dismiss(MessageKind::info);
     around_.messages.showMessage(MessageKind::info, text, tr("Do it"), [this, action] { action->trigger(); });
 }

@@ -166,6 +166,7 @@ void LabelWorkspace::escape() {
         tracking_->stop();
     } else if (std::exchange(planned_, {}).plan) {
         around_.messages.dismiss(MessageKind::info);
+        showScene();
     } else if (!around_.canvas.hasFocus()) {
         around_.canvas.setFocus();
     } else if (!tool_->cancel()) {

@@ -10,6 +10,8 @@ namespace eyrie::ui {
 namespace {
 
 const QColor kProposalColour(64, 235, 80);  ///< tracks are green
+const QColor kPlannedColour(255, 110, 220);
+constexpr double kPlannedMargin = 2;  ///< px around the box, so that the present one stays visible
 
 QColor colourOf(const std::string& name, const AnnotationSet& set, std::map<std::string, QColor>& known) {
     const auto found = known.find(name);
@@ -17,10 +19,27 @@ QColor colourOf(const std::string& name, const AnnotationSet& set, std::map<std:
     return known[name] = QColor::fromRgb(static_cast<QRgb>(classNamed(set, name).colour | 0xff000000U));
 }
 
+void addPlanned(LabelScene& scene, const AnnotationEdit& planned, const CameraMotion& camera) {
+    for (const Change<LabelledObject>& change : planned.objects) {
+        if (!change.after) continue;
+        const LabelledBox box = boxAt(*change.after, scene.frame, camera);
+        if (!box.visible()) continue;
+        LabelMark mark;
+        mark.id = change.after->id;
+        mark.kind = LabelKind::planned;
+        mark.box = box.box;
+        mark.box.length += 2 * kPlannedMargin;
+        mark.box.width += 2 * kPlannedMargin;
+        mark.colour = kPlannedColour;
+        mark.text = QStringLiteral("→ %1").arg(change.after->id);
+        scene.marks.push_back(std::move(mark));
+    }
+}
+
 }  // namespace
 
 LabelScene labelScene(const LabelSession& labels, const LabelProposals& proposals, FrameIndex frame,
-                      const SceneScale& scale) {
+                      const SceneScale& scale, const AnnotationEdit* planned) {
     const AnnotationSet& set = labels.annotations();
     LabelScene scene;
     scene.frame = frame;
@@ -90,6 +109,7 @@ LabelScene labelScene(const LabelSession& labels, const LabelProposals& proposal
         mark.text = QStringLiteral("?%1").arg(proposal->track);
         scene.marks.push_back(std::move(mark));
     }
+    if (planned != nullptr) addPlanned(scene, *planned, labels.camera());
     return scene;
 }
 

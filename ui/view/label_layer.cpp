@@ -30,6 +30,8 @@ Qt::PenStyle styleOf(const LabelMark& mark) {
             return Qt::SolidLine;
         case LabelKind::interpolated:
             return Qt::DashLine;
+        case LabelKind::planned:
+            return Qt::DashDotLine;
         default:
             return Qt::DotLine;
     }
@@ -94,7 +96,7 @@ void paintTexts(QPainter& painter, const LabelScene& scene, const ViewTransform&
         if (!object.intersects(view)) continue;
         // Handles stand around the one that has them.
         constexpr double kHandles = 14;
-        if (scene.editable && scene.selected == mark.id && mark.kind != LabelKind::proposal)
+        if (scene.editable && scene.selected == mark.id && isObject(mark.kind))
             object.adjust(-kHandles, -kHandles, kHandles, kHandles);
         objects.push_back(object);
         if (!mark.text.isEmpty()) labelled.push_back({&mark, object});
@@ -148,6 +150,7 @@ const LabelMark* markAt(const LabelScene& scene, QPointF image_point, double mar
         return std::tuple(mark.kind == LabelKind::proposal || mark.kind == LabelKind::expected, mark.box.area());
     };
     for (const LabelMark& mark : scene.marks) {
+        if (mark.kind == LabelKind::planned) continue;
         if (!mark.box.contains({image_point.x(), image_point.y()}, margin)) continue;
         if (hit == nullptr || rank(mark) < rank(*hit)) hit = &mark;
     }

@@ -15,8 +15,14 @@ enum class LabelKind {
     keyframe,      ///< solid
     interpolated,  ///< dashed
     expected,      ///< dotted: beyond the object's life, no label yet
-    proposal       ///< a track offered by a run
+    proposal,      ///< a track offered by a run
+    planned        ///< what a verb would make of an object; no more than a picture
 };
+
+/// Whether it is an object of the labels that one can point at.
+constexpr bool isObject(LabelKind kind) {
+    return kind != LabelKind::proposal && kind != LabelKind::planned;
+}
 
 /// A labelled object, or a proposal, in the frame shown.
 struct LabelMark {

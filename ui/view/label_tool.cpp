@@ -44,7 +44,7 @@ void LabelTool::setScene(LabelScene scene) {
 const LabelMark* LabelTool::selectedMark() const {
     if (!scene_.selected) return nullptr;
     for (const LabelMark& mark : scene_.marks)
-        if (mark.kind != LabelKind::proposal && mark.id == *scene_.selected) return &mark;
+        if (isObject(mark.kind) && mark.id == *scene_.selected) return &mark;
     return nullptr;
 }
 
@@ -228,7 +228,7 @@ bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
         } else if (!dragging_) {
             // A click inside the selected box may mean a smaller one in it.
             const LabelMark* hit = markAt(scene_, point, kHitMargin / place.transform.scale());
-            if (hit != nullptr && hit->kind != LabelKind::proposal)
+            if (hit != nullptr && isObject(hit->kind))
                 emit objectClicked(hit->id, event.modifiers() & (Qt::ControlModifier | Qt::ShiftModifier));
         }
         dragging_ = false;
@@ -279,7 +279,7 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
     if (draft_ && handle_ && selected != nullptr) {
         LabelScene shown = scene_;
         for (LabelMark& mark : shown.marks)
-            if (mark.kind != LabelKind::proposal && mark.id == *scene_.selected) {
+            if (isObject(mark.kind) && mark.id == *scene_.selected) {
                 mark.box = *draft_;
                 mark.kind = LabelKind::keyframe;
             }
