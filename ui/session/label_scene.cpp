@@ -31,6 +31,7 @@ void addPlanned(LabelScene& scene, const AnnotationEdit& planned, const CameraMo
         mark.box.length += 2 * kPlannedMargin;
         mark.box.width += 2 * kPlannedMargin;
         mark.colour = kPlannedColour;
+        mark.selected = true;
         mark.text = QStringLiteral("→ %1").arg(change.after->id);
         scene.marks.push_back(std::move(mark));
     }

@@ -112,8 +112,10 @@ void paintTexts(QPainter& painter, const LabelScene& scene, const ViewTransform&
         const QSizeF size(metrics.horizontalAdvance(text) + 6, metrics.height());
         auto rectangle = placer.place(label.object, size);
         if (!rectangle && mark.selected)  // the one that is worked on is always named
-            rectangle = QRectF(label.object.center().x() - size.width() / 2, label.object.top() - size.height() - 18,
-                               size.width(), size.height());
+            rectangle = QRectF(
+                label.object.center().x() - size.width() / 2,
+                mark.kind == LabelKind::planned ? label.object.bottom() + 16 : label.object.top() - size.height() - 18,
+                size.width(), size.height());
         if (!rectangle) continue;
         painter.setPen(Qt::NoPen);
         painter.setBrush(mark.selected ? mark.colour : QColor(0, 0, 0, 165));

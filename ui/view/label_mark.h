@@ -34,7 +34,7 @@ struct LabelMark {
     bool ignore = false;
     bool in_image_only = false;  ///< interpolated without knowing how the camera moved
     ReviewState review = ReviewState::unseen;
-    bool selected = false;  ///< one of the selected ones
+    bool selected = false;  ///< one of the selected ones, or to be seen like them
     QString text;           ///< beside the box
 };
 
