@@ -55,8 +55,11 @@ LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
         if (arguments.labels) {
             const SequenceRecord sequence = chosenSequence(project, arguments.sequence);
             source = sequence.path;
-            labels = labelsOf(readAnnotations(project, sequence.id), sequence,
-                              cameraMotionOf(RunStore(project), sequence.id));
+            const AnnotationSet annotations = readAnnotations(project, sequence.id);
+            if (annotations.objects.empty())
+                throw Error(ErrorKind::project, arguments.project + ": nobody has labelled " + sequence.path +
+                                                    " yet; without --labels the tracks of a run are exported");
+            labels = labelsOf(annotations, sequence, cameraMotionOf(RunStore(project), sequence.id));
         } else {
             const RunStore store(project);
             const RunRecord run = chosenRun(store, arguments);

@@ -8,7 +8,9 @@
 
 #include "cli/command.h"
 #include "io/frame_source.h"
+#include "store/annotation_store.h"
 #include "store/run_store.h"
+#include "store/sweep_store.h"
 
 namespace eyrie::cli {
 namespace {
@@ -89,6 +91,13 @@ void printProject(const Json& facts) {
                     run["engine_version"].get<std::string>().c_str(), run["preset"].get<std::string>().c_str(),
                     gsd.is_null() ? "scale unknown" : (gsd.dump() + " m/px").c_str());
     }
+    for (const Json& labels : facts["labels"])
+        std::printf("  labels of %s: %d objects\n", labels["video"].get<std::string>().c_str(),
+                    labels["objects"].get<int>());
+    for (const Json& sweep : facts["sweeps"])
+        std::printf("  sweep %d: %s, %d of %d points done\n", sweep["id"].get<int>(),
+                    sweep["name"].get<std::string>().c_str(), sweep["points_done"].get<int>(),
+                    sweep["points"].get<int>());
 }
 
 Json projectFacts(const std::filesystem::path& path) {
@@ -96,6 +105,18 @@ Json projectFacts(const std::filesystem::path& path) {
     RunStore store(project);
     Json facts{{"file", std::filesystem::absolute(path).string()}, {"kind", "project"}, {"runs", Json::array()}};
     for (const RunRecord& run : store.runs()) facts["runs"].push_back(factsOf(store, run));
+    facts["labels"] = Json::array();
+    for (const SequenceRecord& sequence : sequencesOf(project)) {
+        const AnnotationSet labels = readAnnotations(project, sequence.id);
+        if (!labels.objects.empty())
+            facts["labels"].push_back({{"video", sequence.path}, {"objects", labels.objects.size()}});
+    }
+    facts["sweeps"] = Json::array();
+    for (const SweepRecord& sweep : SweepStore(project).sweeps())
+        facts["sweeps"].push_back({{"id", sweep.id},
+                                   {"name", sweep.name},
+                                   {"points", sweep.point_count},
+                                   {"points_done", sweep.points_done}});
     return facts;
 }
 

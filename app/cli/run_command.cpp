@@ -70,6 +70,21 @@ SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& op
                        });
 }
 
+/// Said before the work and not after it.
+void checkRange(FrameRange range, const VideoInfo& video) {
+    const FrameIndex end = video.frame_count - 1;
+    if (range.first <= end && range.last <= end) return;
+    throw Error(ErrorKind::parameter, "--frames: " + video.path.string() + " has frames 0 to " + std::to_string(end));
+}
+
+void checkFolderOf(const std::filesystem::path& file) {
+    std::error_code failed;
+    const std::filesystem::path folder = std::filesystem::absolute(file, failed).parent_path();
+    if (file.empty() || std::filesystem::is_directory(folder, failed)) return;
+    throw Error(ErrorKind::output,
+                "the folder " + folder.string() + " for " + file.string() + " does not exist; make it first");
+}
+
 std::filesystem::path projectPath(const Arguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
     const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
@@ -88,6 +103,11 @@ int run(const Arguments& arguments) {
     const VideoInfo& video = source->info();
     const std::filesystem::path project = projectPath(arguments);
 
+    checkRange(range, video);
+    for (const std::filesystem::path& file :
+         {project, std::filesystem::path(arguments.tracks_csv), std::filesystem::path(arguments.detections_csv),
+          std::filesystem::path(arguments.timing), std::filesystem::path(arguments.annotated)})
+        checkFolderOf(file);
     if (!arguments.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
         std::fputs("GSD unknown: looking at the traffic for the scale\n", stderr);
     }
@@ -103,8 +123,7 @@ int run(const Arguments& arguments) {
             ChainRun(options, scale).run(*source, range, recorder, interrupt.token(), !arguments.annotated.empty());
         record = recorder.finish(summary);
     }
-    // Not only for reading: who closes a project last for writing leaves one file.
-    ProjectFile file = ProjectFile::open(project);
+    ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     const RunStore store(file);
     if (!arguments.tracks_csv.empty()) writeResultCsv(arguments.tracks_csv, store.trackBoxes(record.id));
     if (!arguments.detections_csv.empty()) writeResultCsv(arguments.detections_csv, store.detectionBoxes(record.id));

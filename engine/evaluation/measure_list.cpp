@@ -1,5 +1,7 @@
 #include "evaluation/evaluate.h"
 
+#include <algorithm>
+
 namespace eyrie {
 namespace {
 
@@ -103,6 +105,12 @@ std::vector<std::string> remarksOn(const Measures& measures) {
         remarks.push_back(
             "truth and result have no frame in common; check that both belong to the same video and "
             "count frames alike (ours from 0, MOTChallenge from 1)");
+    }
+    const DetectionMeasures& detection = measures.detection;
+    const int fewer = std::min(detection.ground_truth, detection.true_positives + detection.false_positives);
+    if (measures.shared_frames > 0 && fewer >= 50 && detection.true_positives * 50 < fewer) {
+        remarks.push_back(
+            "hardly any result lies on an object of the ground truth; check that both belong to the same video");
     }
     if (measures.results_not_counted > 0) {
         remarks.push_back(std::to_string(measures.results_not_counted) +

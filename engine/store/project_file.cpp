@@ -48,6 +48,21 @@ std::unique_ptr<SQLite::Database> openReadOnly(const Path& path) {
     return database;
 }
 
+bool mayWrite(const Path& path) {
+    return access(path.c_str(), W_OK) == 0 && access(path.parent_path().c_str(), W_OK) == 0;
+}
+
+/// A connection for reading that tidies up: SQLite's companions of a log-keeping database go with the last connection
+/// that could write; one that could not leaves them.
+std::unique_ptr<SQLite::Database> openForReading(const Path& path) {
+    auto database = openReadOnly(path);
+    const bool ours = database->execAndGet("PRAGMA application_id").getInt() == schema::kApplicationId;
+    if (!ours || !mayWrite(path)) return database;
+    database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeoutMs);
+    database->exec("PRAGMA query_only = ON");
+    return database;
+}
+
 void refuseForeign(const Path& path, SQLite::Database& database) {
     const int application = database.execAndGet("PRAGMA application_id").getInt();
     if (application != schema::kApplicationId) {
@@ -133,7 +148,7 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, Mode mode) {
     return guarded(absolute, "opening", [&] {
         std::unique_ptr<SQLite::Database> database;
         if (mode == Mode::read_only) {
-            database = openReadOnly(absolute);
+            database = openForReading(absolute);
         } else {
             database = std::make_unique<SQLite::Database>(absolute.string(), SQLite::OPEN_READWRITE, kBusyTimeoutMs);
         }
