@@ -71,6 +71,14 @@ TEST_F(CommandLine, frameRangeIsInclusiveAndChecked) {
     const auto outside = cli({"run", at("clip"), "--frames", "5:400", "--project", at("p.eyrie")});
     EXPECT_NE(outside.exit_code, 0);
     EXPECT_THAT(outside.errors, HasSubstr("frames 0 to 29"));
+    EXPECT_EQ(cli({"run", at("clip"), "--frames", "30:", "--project", at("new.eyrie")}).exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.eyrie")) << "nothing was begun";
+    const auto nowhere = cli({"run", at("clip"), "--tracks", at("nowhere/t.csv"), "--project", at("new.eyrie")});
+    EXPECT_EQ(nowhere.exit_code, 4);
+    EXPECT_THAT(nowhere.errors, HasSubstr("nowhere"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.eyrie")) << "nothing was begun";
+    EXPECT_EQ(cli({"info", at("p.eyrie")}).exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "p.eyrie-shm")) << "reading leaves one file";
 }
 
 TEST_F(CommandLine, numbersThatCannotBeAreRefusedWithTheRemedy) {

@@ -66,6 +66,22 @@ TEST(DetectionMeasures, NothingAtAllIsZeroNotUndefined) {
     EXPECT_FALSE(remarksOn(m).empty());
 }
 
+TEST(DetectionMeasures, ATruthOfAnotherVideoIsSuspected) {
+    BoxesByFrame truth;
+    BoxesByFrame result;
+    for (int frame = 0; frame < 60; ++frame) {
+        BoxRecord record;
+        record.frame = frame;
+        record.box = {{20, 20}, 10, 5, 0};
+        truth[frame].push_back(record);
+        record.box.centre.x = frame == 7 ? 20 : 200;  // one hit by chance
+        result[frame].push_back(record);
+    }
+    const auto remarks = remarksOn(evaluate(truth, result, at(0.1)));
+    EXPECT_TRUE(std::any_of(remarks.begin(), remarks.end(),
+                            [](const std::string& r) { return r.find("same video") != std::string::npos; }));
+}
+
 TEST(TrackingMeasures, PerfectTracks) {
     const OneObject scene = oneObject(std::vector<int>(10, 4));
     for (const Convention convention : {Convention::thesis, Convention::trackeval}) {
