@@ -75,7 +75,8 @@ AnnotationStore::~AnnotationStore() = default;
 
 bool AnnotationStore::tryToWrite() {
     if (lock_) return true;
-    if (sqlite3_db_readonly(project_.database().getHandle(), "main") == 1) {
+    if (sqlite3_db_readonly(project_.database().getHandle(), "main") == 1 ||
+        project_.database().execAndGet("PRAGMA query_only").getInt() == 1) {
         read_only_reason_ = "the labels can only be read: the project is open for reading only";
         return false;
     }
