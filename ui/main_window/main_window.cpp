@@ -9,6 +9,7 @@
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "main_window/evaluation_docks.h"
 #include "main_window/label_workspace.h"
@@ -212,6 +213,12 @@ void MainWindow::wireSession() {
         updateTitle();
     });
     connect(&session_, &ProjectSession::viewFrameChanged, canvas_, &VideoView::setFrame);
+    // An empty picture of a run may not look as if nothing was found there.
+    connect(&session_, &ProjectSession::viewFrameChanged, this, [this, told = false](const ViewFrame& frame) mutable {
+        const bool missing = !frame.result && session_.currentRun() && !session_.running();
+        if (std::exchange(told, missing) != missing)
+            canvas_->setBadge(missing ? tr("Not processed in this run") : QString());
+    });
     connect(&session_, &ProjectSession::viewFrameChanged, evaluation_, &EvaluationDocks::showMarks);
     connect(&session_, &ProjectSession::selectionChanged, canvas_, &VideoView::setSelectedTrack);
     connect(canvas_, &VideoView::trackClicked, &session_, &ProjectSession::selectTrack);
