@@ -76,7 +76,10 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     updateTitle();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+    // Docks that vanish tell their panels, which ask the session: it must be there still.
+    hide();
+}
 
 // ---- assembly -------------------------------------------------------------------------------------------------------
 
