@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "panels/plot_colours.h"
 #include "panels/theme_colours.h"
 
 namespace eyrie::ui {
@@ -116,26 +117,9 @@ void HistogramChart::resizeEvent(QResizeEvent* event) {
 }
 
 void HistogramChart::applyColours() {
-    const QColor text = palette().color(QPalette::WindowText);
-    const QColor quiet = quietText(palette());
     const QColor ground = palette().color(QPalette::Base);
-    plot_->setBackground(palette().color(QPalette::Window));
-    plot_->axisRect()->setBackground(ground);
-    for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
-        axis->setLabelColor(text);
-        axis->setTickLabelColor(text);
-        axis->setLabelFont(font());
-        axis->setTickLabelFont(font());
-        axis->setBasePen(QPen(quiet));
-        axis->setTickPen(QPen(quiet));
-        axis->setSubTickPen(QPen(quiet));
-        axis->grid()->setPen(QPen(blend(ground, text, 0.15)));
-        axis->grid()->setZeroLinePen(Qt::NoPen);
-    }
-    plot_->legend->setFont(font());
-    plot_->legend->setTextColor(text);
+    applyTheme(*plot_, *this);
     plot_->legend->setBrush(ground);
-    plot_->legend->setBorderPen(Qt::NoPen);
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 

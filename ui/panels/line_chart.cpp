@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 
+#include "panels/plot_colours.h"
 #include "panels/theme_colours.h"
 
 namespace eyrie::ui {
@@ -112,25 +113,9 @@ void LineChart::fill() {
 
 void LineChart::applyColours() {
     const QColor text = palette().color(QPalette::WindowText);
-    const QColor quiet = quietText(palette());
     const QColor ground = palette().color(QPalette::Base);
-    plot_->setBackground(palette().color(QPalette::Window));
-    plot_->axisRect()->setBackground(ground);
-    for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
-        axis->setLabelColor(text);
-        axis->setTickLabelColor(text);
-        axis->setLabelFont(font());
-        axis->setTickLabelFont(font());
-        axis->setBasePen(QPen(quiet));
-        axis->setTickPen(QPen(quiet));
-        axis->setSubTickPen(QPen(quiet));
-        axis->grid()->setPen(QPen(blend(ground, text, 0.15)));
-        axis->grid()->setZeroLinePen(Qt::NoPen);
-    }
-    plot_->legend->setFont(font());
-    plot_->legend->setTextColor(text);
+    applyTheme(*plot_, *this);
     plot_->legend->setBrush(Qt::NoBrush);
-    plot_->legend->setBorderPen(Qt::NoPen);
     plot_->legend->setIconSize(14, 10);
     marker_->setPen(QPen(blend(ground, text, 0.6), 1, Qt::DashLine));
     fill();

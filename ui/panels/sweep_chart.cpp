@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 
+#include "panels/plot_colours.h"
 #include "panels/theme_colours.h"
 
 namespace eyrie::ui {
@@ -216,23 +217,8 @@ void SweepChart::resizeEvent(QResizeEvent* event) {
 
 void SweepChart::applyColours() {
     const QColor text = palette().color(QPalette::WindowText);
-    const QColor quiet = quietText(palette());
     const QColor ground = palette().color(QPalette::Base);
-    plot_->setBackground(palette().color(QPalette::Window));
-    plot_->axisRect()->setBackground(ground);
-    std::vector<QCPAxis*> axes{plot_->xAxis, plot_->yAxis};
-    if (scale_ != nullptr) axes.push_back(scale_->axis());
-    for (QCPAxis* axis : axes) {
-        axis->setLabelColor(text);
-        axis->setTickLabelColor(text);
-        axis->setLabelFont(font());
-        axis->setTickLabelFont(font());
-        axis->setBasePen(QPen(quiet));
-        axis->setTickPen(QPen(quiet));
-        axis->setSubTickPen(QPen(quiet));
-        axis->grid()->setPen(QPen(blend(ground, text, 0.15)));
-        axis->grid()->setZeroLinePen(Qt::NoPen);
-    }
+    applyTheme(*plot_, *this, scale_ != nullptr ? std::vector<QCPAxis*>{scale_->axis()} : std::vector<QCPAxis*>());
     for (int i = 0; i < plot_->itemCount(); ++i) {
         auto* rect = qobject_cast<QCPItemRect*>(plot_->item(i));
         if (rect == nullptr) continue;
@@ -251,10 +237,7 @@ void SweepChart::applyColours() {
         if (curve != nullptr && curve->objectName() == QStringLiteral("best"))
             curve->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(text, 2), Qt::NoBrush, 12));
     }
-    plot_->legend->setFont(font());
-    plot_->legend->setTextColor(text);
     plot_->legend->setBrush(blend(ground, text, 0.04));
-    plot_->legend->setBorderPen(Qt::NoPen);
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
