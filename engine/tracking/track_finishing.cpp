@@ -131,6 +131,13 @@ FinishingOptions FinishingOptions::thesis() {
     return options;
 }
 
+VectorsAt vectorsIn(const VectorsByFrame& kept) {
+    return [&kept](FrameIndex frame) {
+        const auto found = kept.find(frame);
+        return found == kept.end() ? std::vector<MotionVector>{} : found->second;
+    };
+}
+
 std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::vector<FrameMotionSummary>& motion,
                                      const FinishingOptions& options, const SceneScale& scale,
                                      const VectorsAt& vectors_at) {

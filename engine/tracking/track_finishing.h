@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <opencv2/core/types.hpp>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,10 @@ using TimedState = std::pair<FrameIndex, TrackState>;
 
 /// The motion vectors of a frame of the run, by ascending id; none for frames it does not have.
 using VectorsAt = std::function<std::vector<MotionVector>(FrameIndex)>;
+
+/// The vectors that were kept of frames; it must outlive the result.
+using VectorsByFrame = std::unordered_map<FrameIndex, std::vector<MotionVector>>;
+VectorsAt vectorsIn(const VectorsByFrame& kept);
 
 /// Turns all states of a finished run into its result. Keeps the tracks that were ever confirmed, with their tentative
 /// beginning; trims predicted ends; joins the fragments of one vehicle under the older id; gives every track a steady

@@ -57,9 +57,10 @@ double spreadOf(const std::vector<double>& values) {
 
 struct Sharing {
     int frames = 0;
-    double share = 0;          ///< mean
+    double share = 0;           ///< mean
     std::vector<double> ahead;  ///< px, of the one's centre in the axes of the other, one a frame
     std::vector<double> aside;
+    int too_wide = 0;  ///< frames in which one was wider than a vehicle: it may hold several
 };
 
 /// A box that is wider than a vehicle may hold several: then only boxes of like size share a place.
@@ -79,6 +80,7 @@ Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
             ++at_b;
         } else {
             sharing.share += sharedBy(at_a->second.box, at_b->second.box, widest);
+            sharing.too_wide += std::max(at_a->second.box.width, at_b->second.box.width) > widest;
             const cv::Point2d offset = at_a->second.box.toBox(at_b->second.box.centre);
             sharing.ahead.push_back(offset.x);
             sharing.aside.push_back(offset.y);
@@ -91,10 +93,10 @@ Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
     return sharing;
 }
 
-/// Whether the two keep their places to each other as if fixed, for so long that they are parts of one vehicle or it and
-/// its shadow.
+/// Whether the two keep their places to each other as if fixed, for so long that they are parts of one vehicle or it
+/// and its shadow.
 bool areFixed(const Sharing& sharing, const SceneScale& scale) {
-    if (sharing.frames < kFixedSeconds * scale.frame_rate_hz) return false;
+    if (2 * sharing.too_wide > sharing.frames || sharing.frames < kFixedSeconds * scale.frame_rate_hz) return false;
     const double loose = scale.px(kFixedLoose) + kFixedLoosePx;
     return spreadOf(sharing.ahead) <= loose && spreadOf(sharing.aside) <= loose;
 }
