@@ -22,7 +22,7 @@ struct Arguments {
     std::string video;
     std::optional<int> sequence;
     std::string out;
-    double tolerance_px = 0.5;
+    double tolerance_px = 0.45;  // less than half: whole pixels come back as they were
     bool show = false;
     bool add_doubles = false;
 };
@@ -120,8 +120,10 @@ void addImportCommand(CLI::App& app, int& exit_code) {
         ->add_option("--video", arguments->video, "Video that the labels belong to, for a project that knows none yet")
         ->needs(project);
     command
-        ->add_option("--tolerance", arguments->tolerance_px,
-                     "How far interpolated boxes may be from the file's, px; 0 makes every box a keyframe")
+        ->add_option(
+            "--tolerance", arguments->tolerance_px,
+            "How far interpolated boxes may be from the file's, px (below 0.5 whole pixels come back as they were); "
+            "0 makes every box a keyframe")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1000.0));
     command

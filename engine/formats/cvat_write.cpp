@@ -203,6 +203,9 @@ void writeCvat(const LabelFile& labels, const std::filesystem::path& path, const
     report.files.push_back(path);
     report.add(LossKind::class_name, other_class, "have another class than most of their track, which took that one");
     report.notes.push_back(counted(keyframes, "keyframe", "keyframes") + " reproduce all boxes within 0.02 px");
+    report.notes.push_back("CVAT takes them into a task that has these labels with the attributes " +
+                           std::string(cvat::kIgnoreAttribute) + " and " + cvat::kOcclusionAttribute +
+                           "; the file's head describes both");
 }
 
 LabelFormat cvatFormat() {

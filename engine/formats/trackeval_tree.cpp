@@ -46,6 +46,8 @@ bool numberDensely(LabelBoxes& boxes) {
 void listSequence(const fs::path& seqmap, const std::string& sequence, ExportReport& report) {
     std::vector<std::string> lines{"name"};
     if (fs::exists(seqmap)) lines = readTextLines(seqmap);
+    std::erase_if(lines, [](const std::string& line) { return line.find_first_not_of(" \t\r") == std::string::npos; });
+    if (lines.empty()) lines.emplace_back("name");  // TrackEval passes over the first line and breaks on blank ones
     if (std::find(lines.begin(), lines.end(), sequence) == lines.end()) lines.push_back(sequence);
     std::string text;
     for (const std::string& line : lines) text += line + '\n';
