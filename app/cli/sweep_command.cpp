@@ -176,7 +176,7 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
     CLI::Option* sequence = command->add_option("--sequence", sources.sequences,
                                                 "A video file, a folder of images, or scene:NAME; may be repeated");
     command->add_option("--ground-truth", sources.ground_truths,
-                        "True boxes of each sequence: our CSV, or gt.txt of MOTChallenge (with --project: default the "
+                        "True boxes of each sequence, in any format that import reads (with --project: default the "
                         "project's labels)");
     command->add_option("--project", sources.project, "Sweep over a stored run, whose motion vectors are used again")
         ->excludes(sequence);

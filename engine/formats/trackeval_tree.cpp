@@ -86,7 +86,7 @@ void writeTree(const LabelFile& labels, const fs::path& root, const ExportOption
         write.ignored_distract = true;
         const fs::path file = truth / benchmark / sequence / "gt" / "gt.txt";
         const MotLosses losses = writeMotTruth(file, dense.boxes, write);
-        report.add(LossKind::class_name, losses.classes, "became class 1, the only one that TrackEval scores");
+        report.add(LossKind::class_name, losses.classes, "became class 1, the only one that TrackEval scores (ignored ones 8)");
         report.files.push_back(file);
         writeOrientedSidecar(labels, file, report);
         writeFileAtomically(truth / benchmark / sequence / "seqinfo.ini", seqinfo(labels, sequence));
