@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/evaluation_files.h"
 #include "cli/evaluation_report.h"
+#include "cli/project_runs.h"
 #include "core/error.h"
 #include "diagnosis/label_truth.h"
 #include "diagnosis/mistake_csv.h"
@@ -42,20 +43,6 @@ struct Result {
     std::vector<Registration> registrations;
 };
 
-RunRecord chosenRun(const RunStore& store, const Arguments& arguments) {
-    const std::vector<RunRecord> runs = store.runs();
-    if (runs.empty())
-        throw Error(ErrorKind::project, arguments.project + ": holds no run; make one with eyrie-cli run");
-    if (!arguments.run) return runs.back();
-    std::string known;
-    for (const RunRecord& run : runs) {
-        if (run.id == *arguments.run) return run;
-        known += (known.empty() ? "" : ", ") + std::to_string(run.id);
-    }
-    throw Error(ErrorKind::parameter,
-                "--run " + std::to_string(*arguments.run) + ": " + arguments.project + " holds the runs " + known);
-}
-
 /// Joins how each frame was registered with how that ended.
 std::vector<Registration> registrationsOf(const RunStore& store, int run_id) {
     std::map<FrameIndex, RegistrationState> states;
@@ -78,7 +65,7 @@ Result readResult(const Arguments& arguments, const MotOptions& mot) {
     }
     ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
     const RunStore store(project);
-    result.run = chosenRun(store, arguments);
+    result.run = chosenRun(store, arguments.project, arguments.run);
     const int id = result.run->id;
     result.boxes = arguments.detections ? store.detectionBoxes(id) : store.trackBoxes(id);
     result.name =
@@ -158,8 +145,8 @@ BoxFile readTruth(const Arguments& arguments, const Result& result, const MotOpt
     ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
     const int sequence = result.run->sequence.id;
     if (readAnnotations(project, sequence).objects.empty())
-        throw Error(ErrorKind::input, arguments.project + ": nobody has labelled " + result.run->sequence.path +
-                                          " yet; name a file with --ground-truth, or label or import some");
+        throw Error(ErrorKind::project, arguments.project + ": nobody has labelled " + result.run->sequence.path +
+                                            " yet; name a file with --ground-truth, or label or import some");
     truth.boxes = labelTruth(project, *result.run);
     return truth;
 }
@@ -238,7 +225,8 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--errors", arguments->errors,
                         "Write every miss, false alarm, switch, fragment, split and merge at the first T_ov to this "
-                        "CSV file, with probable causes where a run is measured");
+                        "CSV file, with probable causes where a run is measured: the most frequent cause of a stretch, "
+                        "detail and box of the middle frame that shows it");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] {
         if (arguments->result.empty() == arguments->project.empty()) {

@@ -66,6 +66,14 @@ SequenceRecord sequenceFor(ProjectFile& project, const Arguments& arguments) {
     return sequence;
 }
 
+/// A project can be made here only where its video is named.
+void refuseAbsent(const Arguments& arguments) {
+    if (!arguments.video.empty() || std::filesystem::exists(arguments.project)) return;
+    throw Error(ErrorKind::project, "there is no project " + arguments.project +
+                                        "; check the name, or make it here by naming the video of the labels "
+                                        "(--video CLIP)");
+}
+
 void printNotes(const std::vector<std::string>& notes) {
     for (const std::string& note : notes) std::printf("  note        %s\n", note.c_str());
 }
@@ -76,7 +84,9 @@ void importLabels(const Arguments& arguments) {
     const LabelReport report = reportOn(labels);
     std::fputs(reportText(arguments.file, labels, report).c_str(), stdout);
     if (arguments.show) {
-        if (arguments.project.empty() || !std::filesystem::exists(arguments.project)) return;
+        if (arguments.project.empty() || (!arguments.video.empty() && !std::filesystem::exists(arguments.project)))
+            return;
+        refuseAbsent(arguments);
         ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
         if (arguments.video.empty())
             printNotes(doubtsAbout(labels, project, chosenSequence(project, arguments.sequence)));
@@ -87,6 +97,7 @@ void importLabels(const Arguments& arguments) {
         std::fputs(reportText(written).c_str(), stdout);
         return;
     }
+    refuseAbsent(arguments);
     ProjectFile project =
         arguments.video.empty() ? ProjectFile::open(arguments.project) : ProjectFile::openOrCreate(arguments.project);
     const SequenceRecord sequence = sequenceFor(project, arguments);

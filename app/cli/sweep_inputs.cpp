@@ -65,9 +65,9 @@ BoxesByFrame labelsOfProject(const SweepSources& sources, const StoredRun& run, 
     clip.upright = sources.upright;
     BoxesByFrame truth = groundTruthBoxes(labels, cameraMotionOf(store, sequence.id), options);
     if (std::all_of(truth.begin(), truth.end(), [](const auto& entry) { return entry.second.empty(); })) {
-        throw Error(ErrorKind::input, sources.project + ": has no labels in the frames of run " +
-                                          std::to_string(run.clip.run) +
-                                          "; name a file with --ground-truth, or label or import some");
+        throw Error(ErrorKind::project, sources.project + ": has no labels in the frames of run " +
+                                            std::to_string(run.clip.run) +
+                                            "; name a file with --ground-truth, or label or import some");
     }
     return truth;
 }

@@ -11,7 +11,7 @@ namespace eyrie {
 BoxesByFrame labelTruth(ProjectFile& project, const RunRecord& run) {
     const AnnotationSet labels = readAnnotations(project, run.sequence.id);
     if (labels.objects.empty())
-        throw Error(ErrorKind::input,
+        throw Error(ErrorKind::project,
                     "There are no labels of this video in the project. Draw or import them in the Label workspace, or "
                     "choose a file of ground truth.");
     const RunStore store(project);
