@@ -6,6 +6,7 @@
 #include "cli/evaluation_files.h"
 #include "cli/label_arguments.h"
 #include "cli/project_labels.h"
+#include "cli/project_runs.h"
 #include "core/error.h"
 #include "exchange/project_labels.h"
 #include "store/annotation_store.h"
@@ -27,18 +28,6 @@ struct Arguments {
     bool clip = false;
     bool keep = false;
 };
-
-RunRecord chosenRun(const RunStore& store, const Arguments& arguments) {
-    const std::vector<RunRecord> runs = store.runs();
-    if (runs.empty())
-        throw Error(ErrorKind::project, arguments.project + ": holds no run; --labels exports its labels");
-    if (!arguments.run) return runs.back();
-    if (const auto run = store.run(*arguments.run)) return *run;
-    std::string known;
-    for (const RunRecord& run : runs) known += (known.empty() ? "" : ", ") + std::to_string(run.id);
-    throw Error(ErrorKind::parameter,
-                "--run " + std::to_string(*arguments.run) + ": " + arguments.project + " holds the runs " + known);
-}
 
 /// What is to be exported; names the sequence after its video where nobody did.
 LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
@@ -62,7 +51,7 @@ LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
             labels = labelsOf(annotations, sequence, cameraMotionOf(RunStore(project), sequence.id));
         } else {
             const RunStore store(project);
-            const RunRecord run = chosenRun(store, arguments);
+            const RunRecord run = chosenRun(store, arguments.project, arguments.run);
             source = run.sequence.path;
             labels = labelsOf(store, run, arguments.detections);
         }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "annotation/keyframe_reduction.h"
+#include "core/angle.h"
 
 namespace eyrie {
 namespace {
@@ -22,9 +23,26 @@ std::vector<FrameBox> frameBoxes(const Track& track, std::size_t begin, std::siz
     return boxes;
 }
 
+/// All boxes lie along the image's axes, as those of a format without rotation do.
+bool isUpright(const Track& track) {
+    return std::all_of(track.begin(), track.end(), [](const LabelBox* box) {
+        const double quarters = box->box.heading / (kPi / 2);
+        return std::abs(quarters - std::round(quarters)) < 1e-9;
+    });
+}
+
+/// Boxes that a file has upright stay so however the camera turns, for which the interpolation wants two keyframes.
+void keepUpright(LabelledObject& object, const Track& track) {
+    if (object.keyframes.size() != 1 || track.size() < 2) return;
+    Keyframe last = object.keyframes.front();
+    last.frame = track.back()->frame;
+    last.box = track.back()->box;
+    object.keyframes.push_back(last);
+}
+
 /// Few keyframes for dense boxes: by stretches with the same flags, outside over gaps.
-void reduceObject(LabelledObject& object, const Track& track, const CameraMotion& camera,
-                  const ReductionOptions& options) {
+void reduceObject(LabelledObject& object, const Track& track, const CameraMotion& camera, ReductionOptions options) {
+    options.headings_set = isUpright(track);
     object.keyframes.clear();
     object.last_frame = track.back()->frame;
     std::size_t begin = 0;
@@ -45,6 +63,7 @@ void reduceObject(LabelledObject& object, const Track& track, const CameraMotion
         }
         begin = i;
     }
+    if (options.headings_set) keepUpright(object, track);
     object = refined(std::move(object), frameBoxes(track, 0, track.size()), camera, options);
     object.last_frame = std::max(object.last_frame, object.keyframes.back().frame);
     for (Keyframe& keyframe : object.keyframes) {

@@ -69,8 +69,9 @@ void write(const LabelFile& labels, const std::filesystem::path& path, const Exp
     std::map<std::string, int> categories;
     std::vector<std::string> names;
     const auto categoryOf = [&](const std::string& name) {
-        const auto [found, is_new] = categories.emplace(name, static_cast<int>(names.size()) + 1);
-        if (is_new) names.push_back(name.empty() ? "object" : name);
+        const std::string shown = name.empty() ? "object" : name;
+        const auto [found, is_new] = categories.emplace(shown, static_cast<int>(names.size()) + 1);
+        if (is_new) names.push_back(shown);
         return found->second;
     };
     for (const std::string& name : labels.classes) categoryOf(name);

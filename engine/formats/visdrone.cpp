@@ -91,7 +91,9 @@ void writeVisDrone(const LabelFile& labels, const std::filesystem::path& path, c
     writeFileAtomically(path, text);
     report.files.push_back(path);
     report.add(LossKind::rounded, rounded, "were rounded to whole pixels");
-    report.add(LossKind::class_name, strange, "have a class that VisDrone does not know and became \"others\"");
+    report.add(LossKind::class_name, strange,
+               "have a class that VisDrone does not know and became \"others\", which its toolkit leaves out like "
+               "ignored areas");
 }
 
 bool looksLike(const FileHead& head) {

@@ -200,7 +200,7 @@ TEST_F(LabelCommands, WrongUseIsToldApart) {
     EXPECT_EQ(cli({"import", truth(), "--show", "--class-map", "car"}).exit_code, 2);
     EXPECT_EQ(cli({"import", truth(), "--show", "--format", "nonsense"}).exit_code, 2);
     EXPECT_EQ(cli({"import", truth(), "--show", "--scale", "0"}).exit_code, 2);
-    EXPECT_EQ(cli({"import", truth(), "--project", at("none.eyrie")}).exit_code, 3);
+    EXPECT_EQ(cli({"import", truth(), "--project", at("none.eyrie")}).exit_code, 5);
     EXPECT_EQ(cli({"export", "--format", "cvat", "--out", at("x")}).exit_code, 2);
     EXPECT_EQ(cli({"export", "--from", truth(), "--format", "cvat", "--out", at("no/where/x.xml")}).exit_code, 4);
     ProjectFile::openOrCreate(at("empty.eyrie"));
