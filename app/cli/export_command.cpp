@@ -36,6 +36,8 @@ LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
     if (!arguments.from.empty()) {
         labels = readLabels(arguments.from, arguments.from_labels.format, importOptionsOf(arguments.from_labels));
         const MotSequence described = describedBeside(arguments.from);
+        if (!labels.image_size && !arguments.from_labels.size.empty())
+            labels.image_size = parseSize(arguments.from_labels.size);
         if (!labels.image_size) labels.image_size = described.image_size;
         if (!labels.frame_count) labels.frame_count = described.frame_count;
         if (!labels.frame_rate_hz) labels.frame_rate_hz = described.frame_rate_hz;

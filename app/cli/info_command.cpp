@@ -145,7 +145,6 @@ void addInfoCommand(CLI::App& app, int&) {
         if (is_project) {
             facts = projectFacts(arguments->file);
         } else {
-            refuseOtherThanVideo(arguments->file);
             SourceOptions options;
             options.frame_rate_hz = arguments->frame_rate_hz;
             facts = factsOf(*openSource(arguments->file, options));

@@ -1,6 +1,5 @@
 #include "cli/input.h"
 
-#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -38,27 +37,9 @@ bool isProject(const std::filesystem::path& path) {
     return beginning == "SQLite format 3";
 }
 
-void refuseOtherThanVideo(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return;
-    if (isProject(path)) {
-        throw Error(ErrorKind::input, path.string() + " is a project, no video; eyrie-cli info tells what it holds, " +
-                                          "and evaluate, report, sweep and export take it as --project");
-    }
-    std::string ending = path.extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    for (const char* table : {".csv", ".txt", ".xml", ".json", ".kw18"}) {
-        if (ending != table) continue;
-        throw Error(ErrorKind::input, path.string() + " is a table, no video; eyrie-cli import " + path.string() +
-                                          " --show tells what labels are in it, and evaluate takes it as "
-                                          "--ground-truth or --result");
-    }
-}
-
 std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop) {
     const std::string prefix = "scene:";
     if (input.rfind(prefix, 0) == 0) return openScene(input.substr(prefix.size()));
-    refuseOtherThanVideo(input);
     SourceOptions options;
     options.frame_rate_hz = frame_rate_hz;
     ConsoleProgress progress("% indexed");

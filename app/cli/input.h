@@ -15,8 +15,6 @@ std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_ra
 
 /// Whether a file is a project, by its name or, for a renamed one, by its first bytes.
 bool isProject(const std::filesystem::path& path);
-/// Throws Error(input) for a project, a table or labels where a video belongs, naming the command that takes them.
-void refuseOtherThanVideo(const std::filesystem::path& path);
 
 /// Throws Error(parameter) unless `gsd` is a usable number of metres per pixel.
 void checkGsd(double gsd_m_per_px);

@@ -42,7 +42,7 @@ std::string imagesText(const LabelFile& labels, int frames, bool video) {
 std::string annotationText(const LabelBox& record, int number, int category, const ExportOptions& options, bool video) {
     const OrientedBox& box = record.box;
     const OrientedBox unrotated{box.centre, box.length, box.width, 0};
-    const BoxEdges e = edgesOf(options.unrotated_bounds ? unrotated : box, 0);
+    const BoxEdges e = edgesOf(options.unrotated_bounds ? unrotated : box.upright(), 0);
     std::string text = "  {\"id\": " + std::to_string(number) + ", \"image_id\": " + std::to_string(record.frame + 1) +
                        ", \"category_id\": " + std::to_string(category) + ", \"bbox\": [" + px(e.left) + ", " +
                        px(e.top) + ", " + px(e.width) + ", " + px(e.height) + "], \"area\": " + px(box.area()) +

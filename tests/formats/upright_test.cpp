@@ -165,6 +165,26 @@ TEST_F(OwnPrograms, UavdtMarksBoxesAsInView) {
     EXPECT_THAT(linesOf(folder_ / "u_gt.txt"), Each(testing::EndsWith(",1,1,-1")));
 }
 
+TEST_F(OwnPrograms, CocoBoundsHoldAllCornersHoweverLittleABoxIsTurned) {
+    LabelFile labels = uprightLabels();
+    for (auto& [frame, records] : labels.boxes) {
+        for (LabelBox& record : records) record.box.heading = 0.02 * frame;
+    }
+    writeLabels(labels, folder_ / "c.json", "coco");
+    const auto json = nlohmann::json::parse(test::textOf(folder_ / "c.json"));
+    for (const auto& annotation : json["annotations"]) {
+        const auto& corners = annotation["segmentation"][0];
+        const double left = annotation["bbox"][0], width = annotation["bbox"][2];
+        double first = 1e9, last = -1e9;
+        for (std::size_t i = 0; i < 8; i += 2) {
+            first = std::min(first, corners[i].get<double>());
+            last = std::max(last, corners[i].get<double>());
+        }
+        EXPECT_NEAR(left, first, 2e-4);
+        EXPECT_NEAR(left + width, last, 2e-4);
+    }
+}
+
 TEST_F(OwnPrograms, CategoriesHaveNamesOfTheirOwn) {
     LabelFile labels = uprightLabels();
     labels.boxes[0][0].object_class.clear();
