@@ -10,16 +10,6 @@
 namespace eyrie {
 namespace {
 
-/// Colours apart from each other for any number of objects, by golden steps around the circle of hues.
-std::uint32_t colourOf(ObjectId id) {
-    const double hue = std::fmod(id * 0.61803398875, 1.0) * 6;
-    const auto channel = [&](double shift) {
-        const double distance = std::abs(std::fmod(hue + shift, 6.0) - 3.0);
-        return static_cast<std::uint32_t>(std::lround(70 + 170 * std::clamp(distance - 1.0, 0.0, 1.0)));
-    };
-    return channel(0) << 16 | channel(4) << 8 | channel(2);
-}
-
 /// The boxes of one object, ascending frames.
 using Track = std::vector<const LabelBox*>;
 
@@ -124,7 +114,6 @@ AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
     for (const auto& [id, object] : objects) {
         LabelledObject added = object;
         added.id = keep_ids ? id : next++;
-        added.colour = colourOf(added.id);
         edit.objects.push_back({std::nullopt, std::move(added)});
     }
     for (const auto& [id, region] : imported.annotations.regions) {
