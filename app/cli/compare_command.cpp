@@ -175,12 +175,12 @@ int compare(const Arguments& arguments) {
     ComparisonReport report;
     report.options = arguments.options;
     const std::vector<Planned> planned = plan(arguments, report.remarks);
-    BoxFile truth = readTruthBoxes(arguments.ground_truth, {arguments.mot_origin});
-    if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
-
     const InterruptGuard interrupt;
     const auto source = openInput(arguments.sequence, arguments.frame_rate_hz.value_or(0), interrupt.token());
     const VideoInfo& video = source->info();
+    BoxFile truth = readTruthBoxes(arguments.ground_truth, {arguments.mot_origin}, video.size);
+    if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
+    report.remarks.insert(report.remarks.end(), truth.remarks.begin(), truth.remarks.end());
     const FrameRange range{frames.first, frames.last < 0 ? video.frame_count - 1 : frames.last};
     const SceneScale scale = chooseScale(*source, range, planned.front().variant.options,
                                          arguments.gsd_m_per_px.value_or(0), interrupt.token());
@@ -218,9 +218,10 @@ int compare(const Arguments& arguments) {
     report.ground_truth = arguments.ground_truth;
     report.frames = reached - range.first + 1;
     report.options.image_size = video.size;
-    if (!report.options.upright && truth.format == BoxFormat::mot) {
+    if (!report.options.upright && !truth.has_headings) {
         report.options.upright = true;
-        report.remarks.push_back("MOTChallenge boxes are upright, so the enclosing boxes of the results are compared");
+        report.remarks.push_back(truth.format +
+                                 ": boxes are upright, so the enclosing boxes of the results are compared");
     } else if (!report.options.upright && allUpright(truth.boxes)) {
         report.remarks.push_back("the ground truth has upright boxes only; if it has no headings, add --upright");
     }
@@ -247,7 +248,7 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("compare", "Measure several methods on one sequence with ground truth");
     command->add_option("--sequence", arguments->sequence, "A video file, a folder of images, or scene:NAME")
         ->required();
-    command->add_option("--ground-truth", arguments->ground_truth, "True boxes: our CSV, or gt.txt of MOTChallenge")
+    command->add_option("--ground-truth", arguments->ground_truth, "True boxes, in any format that import reads")
         ->required();
     command->add_option("--methods", arguments->methods,
                         "Methods, or groups of them: detectors (default), gradients, rescaling, motion; the first one "

@@ -7,7 +7,10 @@
 #include "cli/command.h"
 #include "cli/evaluation_files.h"
 #include "cli/evaluation_report.h"
+#include "cli/project_labels.h"
+#include "cli/project_runs.h"
 #include "core/error.h"
+#include "diagnosis/label_truth.h"
 #include "diagnosis/mistake_csv.h"
 #include "diagnosis/run_evaluation.h"
 #include "io/homography_csv.h"
@@ -40,20 +43,6 @@ struct Result {
     std::vector<Registration> registrations;
 };
 
-RunRecord chosenRun(const RunStore& store, const Arguments& arguments) {
-    const std::vector<RunRecord> runs = store.runs();
-    if (runs.empty())
-        throw Error(ErrorKind::project, arguments.project + ": holds no run; make one with eyrie-cli run");
-    if (!arguments.run) return runs.back();
-    std::string known;
-    for (const RunRecord& run : runs) {
-        if (run.id == *arguments.run) return run;
-        known += (known.empty() ? "" : ", ") + std::to_string(run.id);
-    }
-    throw Error(ErrorKind::parameter,
-                "--run " + std::to_string(*arguments.run) + ": " + arguments.project + " holds the runs " + known);
-}
-
 /// Joins how each frame was registered with how that ended.
 std::vector<Registration> registrationsOf(const RunStore& store, int run_id) {
     std::map<FrameIndex, RegistrationState> states;
@@ -76,7 +65,7 @@ Result readResult(const Arguments& arguments, const MotOptions& mot) {
     }
     ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
     const RunStore store(project);
-    result.run = chosenRun(store, arguments);
+    result.run = chosenRun(store, arguments.project, arguments.run);
     const int id = result.run->id;
     result.boxes = arguments.detections ? store.detectionBoxes(id) : store.trackBoxes(id);
     result.name =
@@ -105,10 +94,14 @@ bool allUpright(const BoxesByFrame& boxes) {
     return true;
 }
 
-cv::Size imageSize(const Arguments& arguments, const Result& result) {
+std::optional<cv::Size> knownImageSize(const Arguments& arguments, const Result& result) {
     if (!arguments.size.empty()) return parseSize(arguments.size);
     if (result.run) return result.run->sequence.size;
-    if (const auto described = describedBeside(arguments.ground_truth).image_size) return *described;
+    return describedBeside(arguments.ground_truth).image_size;
+}
+
+cv::Size imageSize(const Arguments& arguments, const Result& result) {
+    if (const auto known = knownImageSize(arguments, result)) return *known;
     throw Error(ErrorKind::parameter,
                 "--border needs the size of the image, which neither a project nor a file beside " +
                     arguments.ground_truth + " tells; add --size WIDTHxHEIGHT");
@@ -141,6 +134,20 @@ void writeErrors(const Arguments& arguments, const BoxesByFrame& truth, const Re
                                                          {truth, result.boxes, input, matches, options}));
 }
 
+/// The file that was named, else what people labelled in the project.
+BoxFile readTruth(const Arguments& arguments, const Result& result, const MotOptions& mot) {
+    BoxFile truth;
+    if (!arguments.ground_truth.empty()) {
+        truth = readTruthBoxes(arguments.ground_truth, mot, knownImageSize(arguments, result));
+        if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
+        return truth;
+    }
+    ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+    needLabels(project, *result.run);
+    truth.boxes = labelTruth(project, *result.run);
+    return truth;
+}
+
 void evaluateAndPrint(const Arguments& arguments) {
     const MotOptions mot{arguments.mot_origin};
     EvaluationReport report;
@@ -148,22 +155,24 @@ void evaluateAndPrint(const Arguments& arguments) {
     EvaluationOptions& options = report.options;
     options.convention = arguments.convention == "trackeval" ? Convention::trackeval : Convention::thesis;
 
-    BoxFile truth = readTruthBoxes(arguments.ground_truth, mot);
-    if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
     const Result result = readResult(arguments, mot);
+    BoxFile truth = readTruth(arguments, result, mot);
+    report.remarks = truth.remarks;
     if (result.run) keepFramesOfRun(truth.boxes, *result.run, report.remarks);
-    report.ground_truth = arguments.ground_truth;
+    report.ground_truth =
+        arguments.ground_truth.empty() ? "labels of the project " + arguments.project : arguments.ground_truth;
     report.result = result.name;
 
     if (options.border) options.image_size = imageSize(arguments, result);
     if (options.convention == Convention::trackeval) {
-        options.frame_count = describedBeside(arguments.ground_truth).frame_count;
+        options.frame_count = arguments.ground_truth.empty() ? std::optional(result.run->sequence.frame_count)
+                                                             : describedBeside(arguments.ground_truth).frame_count;
     }
     if (!options.upright && allUpright(truth.boxes) && !allUpright(result.boxes)) {
-        if (truth.format == BoxFormat::mot) {
+        if (!truth.has_headings) {
             options.upright = true;
-            report.remarks.push_back(
-                "MOTChallenge boxes are upright, so the enclosing boxes of the result are compared");
+            report.remarks.push_back(truth.format +
+                                     ": boxes are upright, so the enclosing boxes of the result are compared");
         } else {
             report.remarks.push_back("the ground truth has upright boxes only; if it has no headings, add --upright");
         }
@@ -182,10 +191,10 @@ void evaluateAndPrint(const Arguments& arguments) {
 void addEvaluateCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("evaluate", "Measure tracks or detections against ground truth");
-    command->add_option("--ground-truth", arguments->ground_truth, "True boxes: our CSV, or gt.txt of MOTChallenge")
-        ->required();
-    CLI::Option* result =
-        command->add_option("--result", arguments->result, "Boxes to measure: our CSV, or MOTChallenge text");
+    command->add_option("--ground-truth", arguments->ground_truth,
+                        "True boxes, in any format that import reads (default: the project's labels of the video)");
+    CLI::Option* result = command->add_option(
+        "--result", arguments->result, "Boxes to measure: our CSV, MOTChallenge text, or what else import reads");
     CLI::Option* project =
         command->add_option("--project", arguments->project, "Measure a run of this project instead")->excludes(result);
     command->add_option("--run", arguments->run, "Number of the run (default: the last)")->needs(project);
@@ -213,11 +222,17 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--errors", arguments->errors,
                         "Write every miss, false alarm, switch, fragment, split and merge at the first T_ov to this "
-                        "CSV file, with probable causes where a run is measured");
+                        "CSV file, with probable causes where a run is measured: the most frequent cause of a stretch, "
+                        "detail and box of the middle frame that shows it");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] {
         if (arguments->result.empty() == arguments->project.empty()) {
             throw Error(ErrorKind::parameter, "evaluate needs what to measure: either --result FILE or --project FILE");
+        }
+        if (arguments->ground_truth.empty() && arguments->project.empty()) {
+            throw Error(ErrorKind::parameter,
+                        "evaluate needs the truth: --ground-truth FILE; only with --project are the project's labels "
+                        "used instead");
         }
         evaluateAndPrint(*arguments);
         exit_code = exit_ok;

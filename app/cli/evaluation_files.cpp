@@ -6,27 +6,52 @@
 #include <string>
 
 #include "core/error.h"
-#include "io/box_csv.h"
+#include "formats/label_formats.h"
 
 namespace eyrie::cli {
 namespace {
 
-BoxFormat formatOf(const std::filesystem::path& file) {
+/// Whether the file begins like MOTChallenge text, so that its errors are told by line and column.
+bool beginsWithNumbers(const std::filesystem::path& file) {
     std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
-        throw Error(ErrorKind::input, file.string() + ": there is no such file");
-    }
+    if (!std::filesystem::is_regular_file(file, ignored)) return false;
     std::ifstream stream(file, std::ios::binary);
     std::string line;
     while (std::getline(stream, line) && line.find_first_not_of(" \t\r") == std::string::npos) {
     }
-    if (line.find("frame") != std::string::npos) return BoxFormat::ours;
     const std::size_t first = line.find_first_not_of(" \t\r");
-    const bool numbers = first == std::string::npos || (line[first] >= '0' && line[first] <= '9');
-    if (numbers && !stream.bad() && !std::filesystem::is_directory(file, ignored)) return BoxFormat::mot;
-    throw Error(ErrorKind::input, file.string() +
-                                      ":1: neither our CSV, whose first line names the columns (frame,id,x,y,…), nor "
-                                      "MOTChallenge text (frame,id,left,top,width,height,…)");
+    const bool digit = first != std::string::npos && line[first] >= '0' && line[first] <= '9';
+    return digit && line.find(',') != std::string::npos;
+}
+
+bool isMot(const std::string& format) {
+    return format == "mot" || format == "mot-result";
+}
+
+BoxFile readAs(const std::string& format, const std::filesystem::path& file, const MotOptions& options,
+               std::optional<cv::Size> image_size) {
+    ImportOptions import;
+    import.first_pixel_edge = options.first_pixel_edge;
+    import.image_size = image_size;
+    const LabelFile labels = readLabels(file, format, import);
+    BoxFile read;
+    read.boxes = plainBoxes(labels.boxes);
+    for (const LabelFormatInfo& info : labelFormats()) {
+        if (info.name != format) continue;
+        read.format = info.title;
+        read.has_headings = info.carries.rotation;
+    }
+    if (!labels.further_files.empty() || !labels.notes.empty()) {
+        std::string text = file.string() + " was read as " + read.format;
+        std::string separator = " together with ";
+        for (const auto& further : labels.further_files) {
+            text += separator + further.filename().string();
+            separator = ", ";
+        }
+        read.remarks.push_back(text);
+    }
+    for (const std::string& note : labels.notes) read.remarks.push_back(note);
+    return read;
 }
 
 MotSequence readJsonDescription(const std::filesystem::path& file) {
@@ -47,14 +72,22 @@ MotSequence readJsonDescription(const std::filesystem::path& file) {
 
 }  // namespace
 
-BoxFile readTruthBoxes(const std::filesystem::path& file, const MotOptions& options) {
-    const BoxFormat format = formatOf(file);
-    return {format == BoxFormat::ours ? readBoxCsv(file) : readMotTruth(file, options), format};
+BoxFile readTruthBoxes(const std::filesystem::path& file, const MotOptions& options,
+                       std::optional<cv::Size> image_size) {
+    std::string format;
+    try {
+        format = sniffLabelFormat(file);
+    } catch (const Error&) {
+        if (!beginsWithNumbers(file)) throw;
+        format = "mot";
+    }
+    return readAs(isMot(format) ? "mot" : format, file, options, image_size);
 }
 
-BoxFile readResultBoxes(const std::filesystem::path& file, const MotOptions& options) {
-    const BoxFormat format = formatOf(file);
-    return {format == BoxFormat::ours ? readBoxCsv(file) : readMotResult(file, options), format};
+BoxFile readResultBoxes(const std::filesystem::path& file, const MotOptions& options,
+                        std::optional<cv::Size> image_size) {
+    const std::string format = beginsWithNumbers(file) ? "mot-result" : sniffLabelFormat(file);
+    return readAs(format == "mot" ? "mot-result" : format, file, options, image_size);
 }
 
 MotSequence describedBeside(const std::filesystem::path& file) {

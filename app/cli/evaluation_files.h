@@ -3,24 +3,29 @@
 #include <filesystem>
 #include <opencv2/core/types.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/box_record.h"
 #include "formats/motchallenge.h"
 
 namespace eyrie::cli {
 
-enum class BoxFormat { ours, mot };
-
 /// Boxes of a file together with what it was.
 struct BoxFile {
     BoxesByFrame boxes;
-    BoxFormat format = BoxFormat::ours;
+    std::string format;                ///< title for people: "UAVDT"
+    bool has_headings = true;          ///< whether the format can turn boxes
+    std::vector<std::string> remarks;  ///< which files were read besides, and what was odd
 };
 
-/// Reads our CSV (its first line names the column "frame") or MOTChallenge text. Throws Error(input) when it is neither
-/// or malformed.
-BoxFile readTruthBoxes(const std::filesystem::path& file, const MotOptions& options);
-BoxFile readResultBoxes(const std::filesystem::path& file, const MotOptions& options);
+/// Reads true boxes in any format that import reads, recognised in the same way. `image_size` is for formats relative
+/// to the image. Throws Error(input) when no format fits or the file is malformed.
+BoxFile readTruthBoxes(const std::filesystem::path& file, const MotOptions& options,
+                       std::optional<cv::Size> image_size = {});
+/// Reads boxes to be measured: a table of numbers is a MOTChallenge result, anything else as above.
+BoxFile readResultBoxes(const std::filesystem::path& file, const MotOptions& options,
+                        std::optional<cv::Size> image_size = {});
 
 /// Size of the image and length of the sequence as a seqinfo.ini, meta.json or scene.json beside the file or one folder
 /// up says; empty where none does. Throws Error(input) for a damaged one.

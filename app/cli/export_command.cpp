@@ -6,6 +6,7 @@
 #include "cli/evaluation_files.h"
 #include "cli/label_arguments.h"
 #include "cli/project_labels.h"
+#include "cli/project_runs.h"
 #include "core/error.h"
 #include "exchange/project_labels.h"
 #include "store/annotation_store.h"
@@ -28,18 +29,6 @@ struct Arguments {
     bool keep = false;
 };
 
-RunRecord chosenRun(const RunStore& store, const Arguments& arguments) {
-    const std::vector<RunRecord> runs = store.runs();
-    if (runs.empty())
-        throw Error(ErrorKind::project, arguments.project + ": holds no run; --labels exports its labels");
-    if (!arguments.run) return runs.back();
-    if (const auto run = store.run(*arguments.run)) return *run;
-    std::string known;
-    for (const RunRecord& run : runs) known += (known.empty() ? "" : ", ") + std::to_string(run.id);
-    throw Error(ErrorKind::parameter,
-                "--run " + std::to_string(*arguments.run) + ": " + arguments.project + " holds the runs " + known);
-}
-
 /// What is to be exported; names the sequence after its video where nobody did.
 LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
     std::string source = arguments.from;
@@ -47,6 +36,8 @@ LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
     if (!arguments.from.empty()) {
         labels = readLabels(arguments.from, arguments.from_labels.format, importOptionsOf(arguments.from_labels));
         const MotSequence described = describedBeside(arguments.from);
+        if (!labels.image_size && !arguments.from_labels.size.empty())
+            labels.image_size = parseSize(arguments.from_labels.size);
         if (!labels.image_size) labels.image_size = described.image_size;
         if (!labels.frame_count) labels.frame_count = described.frame_count;
         if (!labels.frame_rate_hz) labels.frame_rate_hz = described.frame_rate_hz;
@@ -62,7 +53,7 @@ LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
             labels = labelsOf(annotations, sequence, cameraMotionOf(RunStore(project), sequence.id));
         } else {
             const RunStore store(project);
-            const RunRecord run = chosenRun(store, arguments);
+            const RunRecord run = chosenRun(store, arguments.project, arguments.run);
             source = run.sequence.path;
             labels = labelsOf(store, run, arguments.detections);
         }

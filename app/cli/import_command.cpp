@@ -22,7 +22,7 @@ struct Arguments {
     std::string video;
     std::optional<int> sequence;
     std::string out;
-    double tolerance_px = 0.5;
+    double tolerance_px = 0.45;  // less than half: whole pixels come back as they were
     bool show = false;
     bool add_doubles = false;
 };
@@ -66,6 +66,14 @@ SequenceRecord sequenceFor(ProjectFile& project, const Arguments& arguments) {
     return sequence;
 }
 
+/// A project can be made here only where its video is named.
+void refuseAbsent(const Arguments& arguments) {
+    if (!arguments.video.empty() || std::filesystem::exists(arguments.project)) return;
+    throw Error(ErrorKind::project, "there is no project " + arguments.project +
+                                        "; check the name, or make it here by naming the video of the labels "
+                                        "(--video CLIP)");
+}
+
 void printNotes(const std::vector<std::string>& notes) {
     for (const std::string& note : notes) std::printf("  note        %s\n", note.c_str());
 }
@@ -76,7 +84,9 @@ void importLabels(const Arguments& arguments) {
     const LabelReport report = reportOn(labels);
     std::fputs(reportText(arguments.file, labels, report).c_str(), stdout);
     if (arguments.show) {
-        if (arguments.project.empty() || !std::filesystem::exists(arguments.project)) return;
+        if (arguments.project.empty() || (!arguments.video.empty() && !std::filesystem::exists(arguments.project)))
+            return;
+        refuseAbsent(arguments);
         ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
         if (arguments.video.empty())
             printNotes(doubtsAbout(labels, project, chosenSequence(project, arguments.sequence)));
@@ -87,6 +97,7 @@ void importLabels(const Arguments& arguments) {
         std::fputs(reportText(written).c_str(), stdout);
         return;
     }
+    refuseAbsent(arguments);
     ProjectFile project =
         arguments.video.empty() ? ProjectFile::open(arguments.project) : ProjectFile::openOrCreate(arguments.project);
     const SequenceRecord sequence = sequenceFor(project, arguments);
@@ -120,8 +131,10 @@ void addImportCommand(CLI::App& app, int& exit_code) {
         ->add_option("--video", arguments->video, "Video that the labels belong to, for a project that knows none yet")
         ->needs(project);
     command
-        ->add_option("--tolerance", arguments->tolerance_px,
-                     "How far interpolated boxes may be from the file's, px; 0 makes every box a keyframe")
+        ->add_option(
+            "--tolerance", arguments->tolerance_px,
+            "How far interpolated boxes may be from the file's, px (below 0.5 whole pixels come back as they were); "
+            "0 makes every box a keyframe")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1000.0));
     command

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "chain/scale_estimation.h"
 #include "cli/command.h"
+#include "cli/input.h"
 #include "io/frame_source.h"
 #include "store/annotation_store.h"
 #include "store/run_store.h"
@@ -16,15 +18,6 @@ namespace eyrie::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// By its name or, for a renamed one, by its first bytes.
-bool isProject(const std::filesystem::path& path) {
-    if (std::filesystem::is_directory(path)) return false;
-    if (path.extension() == ".eyrie") return true;
-    std::string beginning(15, '\0');
-    std::ifstream(path, std::ios::binary).read(beginning.data(), std::ssize(beginning));
-    return beginning == "SQLite format 3";
-}
 
 Json factsOf(const FrameSource& source) {
     const VideoInfo& info = source.info();
@@ -58,6 +51,10 @@ Json factsOf(RunStore& store, const RunRecord& run) {
                {"frames_done", run.frames_done},
                {"frame_rate_hz", sequence.frame_rate_hz}};
     facts["gsd_m_per_px"] = run.scale.gsd_known ? Json(run.scale.gsd_m_per_px) : Json(nullptr);
+    if (!run.scale.gsd_known) {
+        facts["worked_with_m_per_px"] = run.scale.gsd_m_per_px;
+        facts["scale_is_fallback"] = isFallbackScale(run.scale);
+    }
     int confirmed = 0;
     for (const TrackSummary& track : store.tracks(run.id)) confirmed += track.confirmed ? 1 : 0;
     facts["tracks"] = confirmed;
@@ -71,6 +68,14 @@ void printVideo(const Json& facts) {
                 facts["height"].get<int>(), facts["frames"].get<int>(), facts["frame_rate_hz"].get<double>(),
                 facts["variable_frame_rate"].get<bool>() ? " on average (variable)" : "",
                 facts["duration_s"].get<double>());
+}
+
+std::string guessText(const Json& run) {
+    char text[80];
+    std::snprintf(text, sizeof text, "scale unknown, %s %.2g m/px",
+                  run["scale_is_fallback"].get<bool>() ? "worked with a fallback of" : "estimated",
+                  run["worked_with_m_per_px"].get<double>());
+    return text;
 }
 
 void printProject(const Json& facts) {
@@ -89,7 +94,7 @@ void printProject(const Json& facts) {
         const Json& gsd = run["gsd_m_per_px"];
         std::printf("    %s, engine %s, preset %s, %s\n", run["started"].get<std::string>().c_str(),
                     run["engine_version"].get<std::string>().c_str(), run["preset"].get<std::string>().c_str(),
-                    gsd.is_null() ? "scale unknown" : (gsd.dump() + " m/px").c_str());
+                    gsd.is_null() ? guessText(run).c_str() : (gsd.dump() + " m/px").c_str());
     }
     for (const Json& labels : facts["labels"])
         std::printf("  labels of %s: %d objects\n", labels["video"].get<std::string>().c_str(),

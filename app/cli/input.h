@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -11,6 +12,9 @@ namespace eyrie::cli {
 /// Opens a video file, a folder of images, or a built-in scene ("scene:seq1"). Shows progress while a long video is
 /// indexed. Throws Error(input | parameter).
 std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop);
+
+/// Whether a file is a project, by its name or, for a renamed one, by its first bytes.
+bool isProject(const std::filesystem::path& path);
 
 /// Throws Error(parameter) unless `gsd` is a usable number of metres per pixel.
 void checkGsd(double gsd_m_per_px);

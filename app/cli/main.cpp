@@ -5,6 +5,7 @@
 
 #include "chain/run_recorder.h"
 #include "cli/command.h"
+#include "cli/usage_error.h"
 #include "core/error.h"
 
 namespace {
@@ -33,8 +34,9 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", eyrie::engineVersion());
     app.require_subcommand(1);
     app.footer(
-        "Exit codes: 0 done, 1 a defect of Eyrie, 2 wrong usage or parameter, 3 an input cannot be read,\n"
-        "4 an output cannot be written, 5 the project file cannot be used, 130 stopped by Ctrl-C (results so far are "
+        "Exit codes: 0 done, 1 a defect of Eyrie, 2 wrong usage or parameter, 3 an input cannot be read\n"
+        "or is incomplete, 4 an output cannot be written, 5 the project file cannot be used, 130 stopped by Ctrl-C "
+        "(results so far are "
         "kept).");
     int exit_code = eyrie::cli::exit_ok;
     eyrie::cli::addRunCommand(app, exit_code);
@@ -56,7 +58,14 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
         return exit_code;
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? eyrie::cli::exit_ok : eyrie::cli::exit_usage;
+        const bool asked = error.get_exit_code() == 0;  // for help or the version
+        const auto better = asked ? std::nullopt : eyrie::cli::explainUsage(app, {argv + 1, argv + argc});
+        if (better) {
+            std::fprintf(stderr, "eyrie-cli: %s\n", better->c_str());
+        } else {
+            app.exit(error);
+        }
+        return asked ? eyrie::cli::exit_ok : eyrie::cli::exit_usage;
     } catch (const eyrie::Error& error) {
         std::fprintf(stderr, "eyrie-cli: %s\n", error.what());
         return exitCodeOf(error.kind());

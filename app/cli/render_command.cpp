@@ -151,8 +151,8 @@ int run(const Arguments& arguments) {
     writeHomographyCsv(folder / "homography.csv", homographies);
     writeDescription(folder / "scene.json", scene, done);
     if (video) video->finish();
-    std::printf("%d frames of scene '%s' (seed %u) with their truth: %s\n", done, scene.name.c_str(), scene.seed,
-                folder.string().c_str());
+    std::printf("%d frames of scene '%s' (seed %u%s) with their truth: %s\n", done, scene.name.c_str(), scene.seed,
+                arguments.seed == 0 ? ", the scene's own" : "", folder.string().c_str());
     return done < count ? exit_stopped : exit_ok;
 }
 
@@ -173,7 +173,7 @@ void addRenderCommand(CLI::App& app, int& exit_code) {
                      "Folder for frames/, ground_truth.csv, homography.csv and scene.json; files of an earlier "
                      "rendering there are replaced")
         ->required();
-    command->add_option("--seed", arguments->seed, "Another scene of the same kind (default: 0, the scene's own)");
+    command->add_option("--seed", arguments->seed, "Another scene of the same kind (default: the scene's own)");
     command->add_option("--frames", arguments->frames, "Only the first N frames");
     command->add_option("--lost", arguments->lost, "Share of frames that a bad radio link freezes or drops (0..0.5)");
     command->add_flag("--upright", arguments->upright,

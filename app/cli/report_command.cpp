@@ -6,6 +6,8 @@
 
 #include "cli/command.h"
 #include "cli/input.h"
+#include "cli/project_labels.h"
+#include "cli/project_runs.h"
 #include "core/error.h"
 #include "report/evaluation_report.h"
 
@@ -32,18 +34,18 @@ std::string nowUtcText() {
     return text;
 }
 
-int newestRun(const std::string& path) {
-    ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
-    const std::vector<RunRecord> runs = RunStore(project).runs();
-    if (runs.empty()) throw Error(ErrorKind::project, path + ": holds no run; make one with eyrie-cli run");
-    return runs.back().id;
-}
-
 void makeReport(const Arguments& arguments) {
     EvaluationRequest request = arguments.request;
     request.project = arguments.project;
     request.truth_file = arguments.ground_truth;
-    request.run_id = arguments.run ? *arguments.run : newestRun(arguments.project);
+    {
+        ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+        const RunStore store(project);
+        const RunRecord run = chosenRun(store, arguments.project, arguments.run);
+        if (arguments.against) chosenRun(store, arguments.project, arguments.against, "--against");
+        if (arguments.ground_truth.empty()) needLabels(project, run);
+        request.run_id = run.id;
+    }
     request.other_run = arguments.against;
     request.options.border = arguments.border;
     RunEvaluator evaluator;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "chain/scale_estimation.h"
 #include "cli/console_progress.h"
 #include "core/error.h"
 
@@ -34,6 +35,17 @@ std::string speedText(const SceneScale& scale, double px_per_frame) {
                            : formatted("%.2f px/frame", px_per_frame);
 }
 
+/// A scale that nobody gave: seen in the traffic, or not even that.
+std::string scaleGuess(const SceneScale& scale) {
+    return isFallbackScale(scale)
+               ? formatted(
+                     "GSD unknown and the traffic shows none: works with a fallback of %.2g m/px, which may be far "
+                     "off; give --gsd",
+                     scale.gsd_m_per_px)
+               : formatted("GSD unknown, estimated %.2g m/px from the traffic (give --gsd for metres and km/h)",
+                           scale.gsd_m_per_px);
+}
+
 }  // namespace
 
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary,
@@ -41,10 +53,7 @@ std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunS
     std::string text = formatted(
         "%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(), video.size.width, video.size.height,
         video.frame_count, video.frame_rate_hz,
-        run.scale.gsd_known
-            ? formatted("%.3g m/px", run.scale.gsd_m_per_px).c_str()
-            : formatted("GSD unknown, assumed %.2g m/px (give --gsd for metres and km/h)", run.scale.gsd_m_per_px)
-                  .c_str());
+        run.scale.gsd_known ? formatted("%.3g m/px", run.scale.gsd_m_per_px).c_str() : scaleGuess(run.scale).c_str());
     text += formatted("Run %d %s: %d of %d frames in %s (%.1f frames/s)", run.id, nameOf(summary.outcome),
                       summary.frames_done, summary.frames_total, clockText(summary.seconds).c_str(),
                       summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0);

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <memory>
@@ -176,7 +177,7 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
     CLI::Option* sequence = command->add_option("--sequence", sources.sequences,
                                                 "A video file, a folder of images, or scene:NAME; may be repeated");
     command->add_option("--ground-truth", sources.ground_truths,
-                        "True boxes of each sequence: our CSV, or gt.txt of MOTChallenge (with --project: default the "
+                        "True boxes of each sequence, in any format that import reads (with --project: default the "
                         "project's labels)");
     command->add_option("--project", sources.project, "Sweep over a stored run, whose motion vectors are used again")
         ->excludes(sequence);
@@ -230,25 +231,41 @@ void addMergeCommand(CLI::App& app, int& exit_code) {
         std::string out;
         std::string criterion = "f_score";
         std::string csv;
+        bool add = false;
         bool json = false;
     };
     const auto arguments = std::make_shared<MergeArguments>();
     CLI::App* command = app.add_subcommand("merge", "Join the parts of a sweep that several machines did");
     command->add_option("files", arguments->files, "Project files written by sweep --shard")->required();
-    command->add_option("--out", arguments->out, "Project file for the whole sweep")->required();
+    command->add_option("--out", arguments->out, "Project file for the whole sweep, none of the parts")->required();
+    command->add_flag("--add", arguments->add, "Add the sweep to --out where that project exists already");
     command->add_option("--best", arguments->criterion, "The measure that decides which point is best")
         ->capture_default_str();
     command->add_option("--csv", arguments->csv, "Write all figures as CSV");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] {
+        const bool exists = std::filesystem::exists(arguments->out);
+        const bool is_part = std::any_of(arguments->files.begin(), arguments->files.end(), [&](const auto& file) {
+            std::error_code ignored;
+            return std::filesystem::equivalent(file, arguments->out, ignored);
+        });
+        if (exists && !is_part && !arguments->add) {
+            throw Error(ErrorKind::parameter, "--out " + arguments->out +
+                                                  ": exists already; choose another name, or say --add to put the "
+                                                  "sweep into that project");
+        }
         const SweepTable table = mergeSweeps({arguments->files.begin(), arguments->files.end()}, arguments->out);
         SweepCriterion criterion = usualCriterion(table.plan);
         criterion.key = measureText(arguments->criterion).key;
         if (!arguments->csv.empty()) writeFileAtomically(arguments->csv, csvText(table));
         std::fputs((arguments->json ? jsonText(table, criterion) : tableText(table, criterion)).c_str(), stdout);
         const std::vector<int> missing = table.missing();
-        if (!missing.empty()) std::fprintf(stderr, "missing: %s\n", listOf(table.plan, missing).c_str());
-        exit_code = exit_ok;
+        if (exists) std::fprintf(stderr, "note: the sweep was added to %s\n", arguments->out.c_str());
+        if (!missing.empty()) {
+            std::fprintf(stderr, "eyrie-cli: %zu of %d points are missing: %s\n", missing.size(),
+                         table.plan.pointCount(), listOf(table.plan, missing).c_str());
+        }
+        exit_code = missing.empty() ? exit_ok : exit_input;
     });
 }
 

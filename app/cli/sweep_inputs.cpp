@@ -32,19 +32,25 @@ std::string absolutePath(const std::string& path) {
 }
 
 /// Reads the truth of a clip and decides how boxes are compared.
-BoxesByFrame readTruth(const SweepSources& sources, const std::string& file, SweepClip& clip,
+BoxesByFrame readTruth(const SweepSources& sources, const std::string& file, cv::Size image_size, SweepClip& clip,
                        std::vector<std::string>& remarks) {
-    BoxFile truth = readTruthBoxes(file, {sources.mot_origin});
+    BoxFile truth = readTruthBoxes(file, {sources.mot_origin}, image_size);
+    remarks.insert(remarks.end(), truth.remarks.begin(), truth.remarks.end());
     clip.ground_truth = absolutePath(file);
     clip.upright = sources.upright;
-    if (!clip.upright && truth.format == BoxFormat::mot) {
+    if (!clip.upright && !truth.has_headings) {
         clip.upright = true;
-        remarks.push_back(file +
-                          ": MOTChallenge boxes are upright, so the enclosing boxes of the results are compared");
+        remarks.push_back(file + ": " + truth.format +
+                          ": boxes are upright, so the enclosing boxes of the results are compared");
     } else if (!clip.upright && allUpright(truth.boxes)) {
         remarks.push_back(file + ": has upright boxes only; if it has no headings, add --upright");
     }
     return std::move(truth.boxes);
+}
+
+cv::Size imageSizeOf(const SweepSources& sources, const StoredRun& run) {
+    ProjectFile project = ProjectFile::open(sources.project, ProjectFile::Mode::read_only);
+    return RunStore(project).run(run.clip.run).value().sequence.size;
 }
 
 BoxesByFrame labelsOfProject(const SweepSources& sources, const StoredRun& run, SweepClip& clip) {
@@ -59,9 +65,9 @@ BoxesByFrame labelsOfProject(const SweepSources& sources, const StoredRun& run, 
     clip.upright = sources.upright;
     BoxesByFrame truth = groundTruthBoxes(labels, cameraMotionOf(store, sequence.id), options);
     if (std::all_of(truth.begin(), truth.end(), [](const auto& entry) { return entry.second.empty(); })) {
-        throw Error(ErrorKind::input, sources.project + ": has no labels in the frames of run " +
-                                          std::to_string(run.clip.run) +
-                                          "; name a file with --ground-truth, or label or import some");
+        throw Error(ErrorKind::project, sources.project + ": has no labels in the frames of run " +
+                                            std::to_string(run.clip.run) +
+                                            "; name a file with --ground-truth, or label or import some");
     }
     return truth;
 }
@@ -86,10 +92,11 @@ OpenedSources openSequences(const SweepSources& sources, const ChainOptions& opt
     for (std::size_t i = 0; i < sources.sequences.size(); ++i) {
         const std::string& sequence = sources.sequences[i];
         SweepClip clip;
-        const BoxesByFrame truth = readTruth(sources, sources.ground_truths[i], clip, opened.remarks);
         clip.sequence = absolutePath(sequence);
         const double rate = sources.frame_rate_hz.value_or(0);
         const auto source = openInput(sequence, rate, stop);
+        const BoxesByFrame truth =
+            readTruth(sources, sources.ground_truths[i], source->info().size, clip, opened.remarks);
         const double gsd = sources.gsds.empty() ? 0 : sources.gsds[sources.gsds.size() == 1 ? 0 : i];
         clip.scale = chooseScale(*source, range, options, gsd, stop);
         opened.inputs.push_back(openClip(clip, opener(clip.sequence, rate), range, truth));
@@ -109,9 +116,10 @@ OpenedSources openStoredRuns(const SweepSources& sources, std::vector<StoredRun>
     for (std::size_t i = 0; i < runs.size(); ++i) {
         StoredRun& run = runs[i];
         SweepClip clip = run.clip;
-        const BoxesByFrame truth = sources.ground_truths.empty()
-                                       ? labelsOfProject(sources, run, clip)
-                                       : readTruth(sources, sources.ground_truths[i], clip, opened.remarks);
+        const BoxesByFrame truth =
+            sources.ground_truths.empty()
+                ? labelsOfProject(sources, run, clip)
+                : readTruth(sources, sources.ground_truths[i], imageSizeOf(sources, run), clip, opened.remarks);
         SweepInput input = openClip(clip, opener(clip.sequence, clip.scale.frame_rate_hz), run.range, truth);
         input.cache->useStoredMotion(run.options, std::move(run.motion));
         if (signatureUpTo(run.options, SweepStage::motion) != signatureUpTo(options, SweepStage::motion))

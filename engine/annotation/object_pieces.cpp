@@ -30,6 +30,7 @@ Keyframe shownAt(const LabelledObject& object, FrameIndex frame, const CameraMot
     keyframe.occlusion = box.occlusion;
     keyframe.outside = box.outside;
     keyframe.ignore = box.ignore;
+    if (const Keyframe* before = keyframeBefore(object, frame)) keyframe.computed = before->computed;
     return keyframe;
 }
 

@@ -51,6 +51,7 @@ Proposal propose(const DenseTrack& track, const AnnotationSet& labelled, const C
         reduction.tolerance_px = std::max(reduction.tolerance_px, options.tolerance_of_length * usual);
     reduction.thorough = true;  // every keyframe less is one less to check
     proposal.object.keyframes = reduceToKeyframes(track.boxes, camera, reduction);
+    for (Keyframe& keyframe : proposal.object.keyframes) keyframe.computed = true;
     proposal.object.last_frame = track.boxes.back().frame;
     proposal.max_corner_px = reductionError(proposal.object, track.boxes, camera).corner_px;
     proposal.same_as = labelledAlready(track, labelled, camera, options.min_overlap_with_object);

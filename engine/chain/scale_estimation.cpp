@@ -120,6 +120,10 @@ std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first
     return std::nullopt;
 }
 
+bool isFallbackScale(const SceneScale& scale) {
+    return !scale.gsd_known && scale.gsd_m_per_px == SceneScale().gsd_m_per_px;
+}
+
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
                        const std::stop_token& stop, const ScaleProgress& told) {
     SceneScale scale = sceneScale(source.info(), gsd_m_per_px);

@@ -32,4 +32,7 @@ std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
                        const std::stop_token& stop, const ScaleProgress& told = {});
 
+/// Whether a scale is neither given nor estimated but the fallback of chooseScale().
+bool isFallbackScale(const SceneScale& scale);
+
 }  // namespace eyrie

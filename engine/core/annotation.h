@@ -23,8 +23,9 @@ struct Keyframe {
     OrientedBox box;
     bool heading_set = false;  ///< false: the heading follows the path of the object
     Occlusion occlusion = Occlusion::none;
-    bool outside = false;  ///< the object is not in the image from here until the next keyframe
-    bool ignore = false;   ///< counts neither way from here until the next keyframe
+    bool outside = false;   ///< the object is not in the image from here until the next keyframe
+    bool ignore = false;    ///< counts neither way from here until the next keyframe
+    bool computed = false;  ///< placed by a run or by following; no hand has set or confirmed it
 };
 
 /// Where an object comes from.

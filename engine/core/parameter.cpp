@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace eyrie {
 namespace {
@@ -95,22 +96,6 @@ class Setter : public ParameterVisitor {
     const std::string& text_;
 };
 
-/// Levenshtein distance, for "did you mean".
-std::size_t editDistance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
-}
-
 }  // namespace
 
 std::string Parameter::expected() const {
@@ -144,7 +129,9 @@ void setParameter(const Describe& describe, const std::string& name, const std::
     const auto known = listParameters(describe);
     if (setter.found) {
         const auto at = std::find_if(known.begin(), known.end(), [&](const Parameter& p) { return p.name == name; });
-        throw Error(ErrorKind::parameter, name + " = " + value + ", expected " + at->expected());
+        const auto point = withDecimalPoint(value);
+        throw Error(ErrorKind::parameter, name + " = " + value + ", expected " + at->expected() +
+                                              (point ? "; write " + *point + " with a decimal point" : ""));
     }
     std::string nearest;
     std::size_t best = std::numeric_limits<std::size_t>::max();

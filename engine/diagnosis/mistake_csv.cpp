@@ -19,6 +19,13 @@ std::string idsText(const std::vector<int>& ids) {
     return text;
 }
 
+/// The numbers are those of one frame of the stretch; says of which.
+std::string detailOf(const DiagnosedMistake& one) {
+    const Mistake& mistake = one.mistake;
+    if (one.text.empty() || mistake.first_frame == mistake.last_frame) return one.text;
+    return "frame " + std::to_string(mistake.places[one.place].frame) + ": " + one.text;
+}
+
 }  // namespace
 
 std::string mistakeTable(const std::vector<DiagnosedMistake>& mistakes, char separator) {
@@ -31,7 +38,7 @@ std::string mistakeTable(const std::vector<DiagnosedMistake>& mistakes, char sep
         table += '\n';
     };
     row({"kind", "first_frame", "last_frame", "count", "objects", "tracks", "frame", "x", "y", "length", "width",
-         "heading", "cause", "detail"});
+         "heading", "cause", "detail", "frames_of_cause"});
     for (const DiagnosedMistake& one : mistakes) {
         const Mistake& mistake = one.mistake;
         const MistakePlace& place = mistake.places[one.place];
@@ -40,7 +47,8 @@ std::string mistakeTable(const std::vector<DiagnosedMistake>& mistakes, char sep
              std::to_string(mistake.count()), idsText(mistake.objects), idsText(mistake.tracks),
              std::to_string(place.frame), fixedText(box.centre.x, kDecimals), fixedText(box.centre.y, kDecimals),
              fixedText(box.length, kDecimals), fixedText(box.width, kDecimals),
-             fixedText(degreesFromRadians(box.heading), kDecimals), nameOf(one.cause), one.text});
+             fixedText(degreesFromRadians(box.heading), kDecimals), nameOf(one.cause), detailOf(one),
+             std::to_string(one.frames_of_cause)});
     }
     return table;
 }

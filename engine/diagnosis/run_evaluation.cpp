@@ -4,12 +4,10 @@
 #include <cmath>
 #include <set>
 
-#include "annotation/ignore_regions.h"
 #include "chain/replay.h"
 #include "core/error.h"
-#include "exchange/project_labels.h"
+#include "diagnosis/label_truth.h"
 #include "formats/label_formats.h"
-#include "store/annotation_store.h"
 
 namespace eyrie {
 namespace {
@@ -35,19 +33,8 @@ struct Truth {
 };
 
 Truth truthOfProject(ProjectFile& project, const RunRecord& run) {
-    const AnnotationSet labels = readAnnotations(project, run.sequence.id);
-    if (labels.objects.empty())
-        throw Error(ErrorKind::input,
-                    "There are no labels of this video in the project. Draw or import them in the Label workspace, or "
-                    "choose a file of ground truth.");
-    const RunStore store(project);
-    GroundTruthOptions options;
-    options.first_frame = 0;
-    options.last_frame = std::max(0, run.sequence.frame_count - 1);
-    options.image = run.sequence.size;
     Truth truth;
-    const CameraMotion camera = CameraMotion::fromRegistrations(store.registrations(run.id));
-    truth.boxes = groundTruthBoxes(labels, camera, options);
+    truth.boxes = labelTruth(project, run);
     truth.name = "labels of the project";
     return truth;
 }
@@ -84,7 +71,7 @@ void keepFrames(Truth& truth, FrameIndex first, FrameIndex end, std::vector<std:
 
 RunRecord existingRun(const RunStore& store, int id) {
     const auto run = store.run(id);
-    if (!run) throw Error(ErrorKind::project, "The project has no run " + std::to_string(id) + ".");
+    if (!run) throw Error(ErrorKind::parameter, "The project has no run " + std::to_string(id) + ".");
     if (run->frames_done == 0)
         throw Error(ErrorKind::input, "The run has no frame yet. Let it work, or choose another run.");
     return *run;

@@ -68,8 +68,8 @@ class RunEvaluator {
  public:
     RunEvaluator();
     ~RunEvaluator();
-    /// Nothing when `stop` was requested. Throws Error(input) when there is nothing to compare with, saying why and
-    /// what to do; Error(project | parameter) as the stores and evaluate() do.
+    /// Nothing when `stop` was requested. Throws Error(input | project) when there is nothing to compare with, saying
+    /// why and what to do; Error(project | parameter) as the stores and evaluate() do.
     std::shared_ptr<const RunEvaluation> evaluate(const EvaluationRequest& request, const std::stop_token& stop = {});
 
  private:

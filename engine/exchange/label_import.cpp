@@ -5,19 +5,10 @@
 #include <map>
 
 #include "annotation/keyframe_reduction.h"
+#include "core/angle.h"
 
 namespace eyrie {
 namespace {
-
-/// Colours apart from each other for any number of objects, by golden steps around the circle of hues.
-std::uint32_t colourOf(ObjectId id) {
-    const double hue = std::fmod(id * 0.61803398875, 1.0) * 6;
-    const auto channel = [&](double shift) {
-        const double distance = std::abs(std::fmod(hue + shift, 6.0) - 3.0);
-        return static_cast<std::uint32_t>(std::lround(70 + 170 * std::clamp(distance - 1.0, 0.0, 1.0)));
-    };
-    return channel(0) << 16 | channel(4) << 8 | channel(2);
-}
 
 /// The boxes of one object, ascending frames.
 using Track = std::vector<const LabelBox*>;
@@ -32,9 +23,26 @@ std::vector<FrameBox> frameBoxes(const Track& track, std::size_t begin, std::siz
     return boxes;
 }
 
+/// All boxes lie along the image's axes, as those of a format without rotation do.
+bool isUpright(const Track& track) {
+    return std::all_of(track.begin(), track.end(), [](const LabelBox* box) {
+        const double quarters = box->box.heading / (kPi / 2);
+        return std::abs(quarters - std::round(quarters)) < 1e-9;
+    });
+}
+
+/// Boxes that a file has upright stay so however the camera turns, for which the interpolation wants two keyframes.
+void keepUpright(LabelledObject& object, const Track& track) {
+    if (object.keyframes.size() != 1 || track.size() < 2) return;
+    Keyframe last = object.keyframes.front();
+    last.frame = track.back()->frame;
+    last.box = track.back()->box;
+    object.keyframes.push_back(last);
+}
+
 /// Few keyframes for dense boxes: by stretches with the same flags, outside over gaps.
-void reduceObject(LabelledObject& object, const Track& track, const CameraMotion& camera,
-                  const ReductionOptions& options) {
+void reduceObject(LabelledObject& object, const Track& track, const CameraMotion& camera, ReductionOptions options) {
+    options.headings_set = isUpright(track);
     object.keyframes.clear();
     object.last_frame = track.back()->frame;
     std::size_t begin = 0;
@@ -55,6 +63,7 @@ void reduceObject(LabelledObject& object, const Track& track, const CameraMotion
         }
         begin = i;
     }
+    if (options.headings_set) keepUpright(object, track);
     object = refined(std::move(object), frameBoxes(track, 0, track.size()), camera, options);
     object.last_frame = std::max(object.last_frame, object.keyframes.back().frame);
     for (Keyframe& keyframe : object.keyframes) {
@@ -105,7 +114,6 @@ AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
     for (const auto& [id, object] : objects) {
         LabelledObject added = object;
         added.id = keep_ids ? id : next++;
-        added.colour = colourOf(added.id);
         edit.objects.push_back({std::nullopt, std::move(added)});
     }
     for (const auto& [id, region] : imported.annotations.regions) {
@@ -166,7 +174,8 @@ LabelImport planImport(const LabelFile& file, const SequenceRecord& sequence, co
         options.tolerance_px = tolerance_px;
         for (auto& [id, object] : imported.annotations.objects) reduceObject(object, tracks.at(id), camera, options);
         if (camera.empty()) {
-            result.notes.push_back("the video was never registered, so keyframes were chosen for motion in the image");
+            result.notes.emplace_back(
+                "the video was never registered, so keyframes were chosen for motion in the image");
         }
     }
     result.objects = static_cast<int>(imported.annotations.objects.size());

@@ -42,7 +42,7 @@ std::string imagesText(const LabelFile& labels, int frames, bool video) {
 std::string annotationText(const LabelBox& record, int number, int category, const ExportOptions& options, bool video) {
     const OrientedBox& box = record.box;
     const OrientedBox unrotated{box.centre, box.length, box.width, 0};
-    const BoxEdges e = edgesOf(options.unrotated_bounds ? unrotated : box, 0);
+    const BoxEdges e = edgesOf(options.unrotated_bounds ? unrotated : box.upright(), 0);
     std::string text = "  {\"id\": " + std::to_string(number) + ", \"image_id\": " + std::to_string(record.frame + 1) +
                        ", \"category_id\": " + std::to_string(category) + ", \"bbox\": [" + px(e.left) + ", " +
                        px(e.top) + ", " + px(e.width) + ", " + px(e.height) + "], \"area\": " + px(box.area()) +
@@ -69,8 +69,9 @@ void write(const LabelFile& labels, const std::filesystem::path& path, const Exp
     std::map<std::string, int> categories;
     std::vector<std::string> names;
     const auto categoryOf = [&](const std::string& name) {
-        const auto [found, is_new] = categories.emplace(name, static_cast<int>(names.size()) + 1);
-        if (is_new) names.push_back(name.empty() ? "object" : name);
+        const std::string shown = name.empty() ? "object" : name;
+        const auto [found, is_new] = categories.emplace(shown, static_cast<int>(names.size()) + 1);
+        if (is_new) names.push_back(shown);
         return found->second;
     };
     for (const std::string& name : labels.classes) categoryOf(name);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/angle.h"
+#include "core/text.h"
 #include "formats/cvat.h"
 #include "formats/format_functions.h"
 #include "io/atomic_file.h"
@@ -14,29 +15,6 @@ namespace {
 
 constexpr double kTolerance = 0.02;  ///< px and degrees, about what two decimals leave
 constexpr int kDecimals = 2;
-
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                safe += "&amp;";
-                break;
-            case '<':
-                safe += "&lt;";
-                break;
-            case '>':
-                safe += "&gt;";
-                break;
-            case '"':
-                safe += "&quot;";
-                break;
-            default:
-                safe += static_cast<unsigned char>(c) < 0x20 ? '_' : c;
-        }
-    }
-    return safe;
-}
 
 /// What is written of a box, rounded as it will be.
 struct Written {
@@ -133,13 +111,13 @@ std::string trackText(std::vector<Written> boxes, FrameIndex stop) {
 
 std::string metaText(const LabelFile& labels, const std::set<std::string>& classes, const std::string& name) {
     const int frames = std::max(1, framesToWrite(labels));
-    std::string text = "  <meta>\n    <task>\n      <name>" + escaped(name) + "</name>\n      <size>" +
+    std::string text = "  <meta>\n    <task>\n      <name>" + markupEscaped(name) + "</name>\n      <size>" +
                        std::to_string(frames) +
                        "</size>\n      <mode>interpolation</mode>\n"
                        "      <start_frame>0</start_frame>\n      <stop_frame>" +
                        std::to_string(frames - 1) + "</stop_frame>\n      <labels>\n";
     for (const std::string& object_class : classes) {
-        text += "        <label>\n          <name>" + escaped(object_class) +
+        text += "        <label>\n          <name>" + markupEscaped(object_class) +
                 "</name>\n          <attributes>\n"
                 "            <attribute><name>" +
                 cvat::kIgnoreAttribute +
@@ -193,8 +171,8 @@ void writeCvat(const LabelFile& labels, const std::filesystem::path& path, const
         classes.insert(name);
         const std::string text = trackText(std::move(boxes), stop);
         for (std::size_t at = 0; (at = text.find("keyframe=\"1\"", at)) != std::string::npos; ++at) ++keyframes;
-        tracks += "  <track id=\"" + std::to_string(id) + "\" label=\"" + escaped(name) + "\" source=\"manual\">\n" +
-                  text + "  </track>\n";
+        tracks += "  <track id=\"" + std::to_string(id) + "\" label=\"" + markupEscaped(name) +
+                  "\" source=\"manual\">\n" + text + "  </track>\n";
     }
     classes.insert(labels.classes.begin(), labels.classes.end());
     classes.erase("");
@@ -203,6 +181,9 @@ void writeCvat(const LabelFile& labels, const std::filesystem::path& path, const
     report.files.push_back(path);
     report.add(LossKind::class_name, other_class, "have another class than most of their track, which took that one");
     report.notes.push_back(counted(keyframes, "keyframe", "keyframes") + " reproduce all boxes within 0.02 px");
+    report.notes.push_back("CVAT takes them into a task that has these labels with the attributes " +
+                           std::string(cvat::kIgnoreAttribute) + " and " + cvat::kOcclusionAttribute +
+                           "; the file's head describes both");
 }
 
 LabelFormat cvatFormat() {

@@ -54,6 +54,13 @@ LabelFile readDota(const std::filesystem::path& path, const ImportOptions&) {
     return labels;
 }
 
+/// A text as one word of a line of words.
+std::string joinedWord(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) <= 0x20 || c == ',' || c == '"') c = '-';
+    return text;
+}
+
 void writeDota(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
                ExportReport& report) {
     std::optional<cv::Size> clip;
@@ -61,24 +68,20 @@ void writeDota(const LabelFile& labels, const std::filesystem::path& path, const
     const std::filesystem::path folder = path / kFolder;
     makeTextFolder(folder);
     int cut = 0, blanks = 0;
+    // Readers know these lines by having fewer words than a box.
+    const std::string source = joinedWord(options.sequence);
     const int frames = imagesToWrite(labels, path);
     for (FrameIndex frame = 0; frame < frames; ++frame) {
-        std::string text = "imagesource:" + options.sequence.substr(0, options.sequence.find('\n')) +
-                           "\ngsd:" + (labels.gsd_m ? shortestText(*labels.gsd_m) : "null") + '\n';
+        std::string text =
+            "imagesource:" + source + "\ngsd:" + (labels.gsd_m ? shortestText(*labels.gsd_m) : "null") + '\n';
         const auto records = labels.boxes.find(frame);
         if (records != labels.boxes.end()) {
             for (const LabelBox& record : records->second) {
                 for (const cv::Point2d& corner : cornersToWrite(record.box, clip, cut)) {
                     text += fixedText(corner.x, 3) + ' ' + fixedText(corner.y, 3) + ' ';
                 }
-                std::string name = record.object_class.empty() ? "object" : record.object_class;
-                bool changed = false;
-                for (char& c : name) {
-                    if (static_cast<unsigned char>(c) > 0x20 && c != ',' && c != '"') continue;
-                    c = '-';
-                    changed = true;
-                }
-                blanks += changed;
+                const std::string name = record.object_class.empty() ? "object" : joinedWord(record.object_class);
+                blanks += !record.object_class.empty() && name != record.object_class;
                 text += name + (record.ignore ? " 1\n" : " 0\n");
             }
         }

@@ -48,13 +48,14 @@ int clipBoxes(LabelBoxes& boxes, cv::Size size) {
 
 /// What the format has no place for, before anything format-specific.
 void reportLosses(const LabelFile& labels, const Carries& carries, ExportReport& report) {
+    constexpr double kHeading = 0.005;  // half a degree is no heading that anybody set
     int turned = 0, headings = 0, ids = 0, classes = 0, occluded = 0, ignored = 0, scores = 0, velocities = 0;
     for (const auto& [frame, records] : labels.boxes) {
         for (const LabelBox& record : records) {
             ++report.boxes;
             const bool is_turned = isTurned(record.box);
             turned += is_turned;
-            headings += !is_turned && std::abs(std::sin(record.box.heading / 2)) > 1e-6;
+            headings += !is_turned && std::abs(std::sin(record.box.heading / 2)) > kHeading;
             ids += record.id.has_value();
             classes += !record.object_class.empty();
             occluded += record.occlusion != Occlusion::none;

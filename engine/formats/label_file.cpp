@@ -4,10 +4,20 @@
 #include <cmath>
 #include <set>
 
+#include "core/angle.h"
+
 namespace eyrie {
 
 bool isTurned(const OrientedBox& box) {
-    return std::abs(std::sin(2 * box.heading)) > 1e-6;
+    constexpr double kShift_px = 0.25;  // of an edge; less is lost in rounding
+    const OrientedBox enclosing = box.upright();
+    const OrientedBox kept = straightened(box);
+    return std::max(std::abs(enclosing.length - kept.length), std::abs(enclosing.width - kept.width)) / 2 > kShift_px;
+}
+
+OrientedBox straightened(const OrientedBox& box) {
+    const bool swapped = std::lround(box.heading / (kPi / 2)) % 2 != 0;
+    return {box.centre, swapped ? box.width : box.length, swapped ? box.length : box.width, 0};
 }
 
 OrientedBox boxFromEdges(const BoxEdges& edges, double first_pixel_edge) {
@@ -17,7 +27,7 @@ OrientedBox boxFromEdges(const BoxEdges& edges, double first_pixel_edge) {
 }
 
 BoxEdges edgesOf(const OrientedBox& box, double first_pixel_edge) {
-    const OrientedBox upright = box.upright();
+    const OrientedBox upright = isTurned(box) ? box.upright() : straightened(box);
     const double to_theirs = 0.5 + first_pixel_edge;
     return {upright.centre.x - upright.length / 2 + to_theirs, upright.centre.y - upright.width / 2 + to_theirs,
             upright.length, upright.width};

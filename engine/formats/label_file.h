@@ -66,8 +66,11 @@ LabelReport reportOn(const LabelFile& labels);
 BoxesByFrame plainBoxes(const LabelBoxes& labels);
 LabelBoxes labelBoxes(const BoxesByFrame& boxes);
 
-/// Whether the box is neither upright nor upright after a quarter turn, so that an upright format loses its shape.
+/// Whether the box is neither upright nor upright after a quarter turn, so that an upright format loses its shape: an
+/// edge of the enclosing upright box lies more than a quarter of a pixel off.
 bool isTurned(const OrientedBox& box);
+/// The box brought to the nearest quarter turn, as an upright box (heading 0).
+OrientedBox straightened(const OrientedBox& box);
 
 /// A box by its edges, px; `first_pixel_edge` is where the first pixel begins in those coordinates.
 struct BoxEdges {
@@ -77,7 +80,7 @@ struct BoxEdges {
     double height = 0;
 };
 OrientedBox boxFromEdges(const BoxEdges& edges, double first_pixel_edge);
-/// Edges of the smallest upright box around it.
+/// Edges of the smallest upright box around it; of a box that is not turned, its own.
 BoxEdges edgesOf(const OrientedBox& box, double first_pixel_edge);
 
 /// Rectangle through four corners in the order front left, front right, rear right, rear left (as a driver sees them),

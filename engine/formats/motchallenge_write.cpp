@@ -18,13 +18,11 @@ std::string pixels(double value) {
 }
 
 std::string boxColumns(const BoxRecord& record, const MotOptions& options, MotLosses& losses) {
-    const OrientedBox box = record.box.upright();
+    const BoxEdges e = edgesOf(record.box, options.first_pixel_edge);
     ++losses.boxes;
-    if (std::abs(std::sin(record.box.heading)) > 1e-9) ++losses.turned;
+    if (isTurned(record.box)) ++losses.turned;
     if (record.velocity != cv::Point2d(0, 0)) ++losses.velocities;
-    const double to_theirs = options.first_pixel_edge + 0.5;
-    return pixels(box.centre.x - box.length / 2 + to_theirs) + "," + pixels(box.centre.y - box.width / 2 + to_theirs) +
-           "," + pixels(box.length) + "," + pixels(box.width);
+    return pixels(e.left) + "," + pixels(e.top) + "," + pixels(e.width) + "," + pixels(e.height);
 }
 
 /// Writes the lines that `columns` makes of the boxes; the file appears whole or not at all.

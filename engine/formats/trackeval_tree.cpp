@@ -46,6 +46,8 @@ bool numberDensely(LabelBoxes& boxes) {
 void listSequence(const fs::path& seqmap, const std::string& sequence, ExportReport& report) {
     std::vector<std::string> lines{"name"};
     if (fs::exists(seqmap)) lines = readTextLines(seqmap);
+    std::erase_if(lines, [](const std::string& line) { return line.find_first_not_of(" \t\r") == std::string::npos; });
+    if (lines.empty()) lines.emplace_back("name");  // TrackEval passes over the first line and breaks on blank ones
     if (std::find(lines.begin(), lines.end(), sequence) == lines.end()) lines.push_back(sequence);
     std::string text;
     for (const std::string& line : lines) text += line + '\n';
@@ -84,7 +86,7 @@ void writeTree(const LabelFile& labels, const fs::path& root, const ExportOption
         write.ignored_distract = true;
         const fs::path file = truth / benchmark / sequence / "gt" / "gt.txt";
         const MotLosses losses = writeMotTruth(file, dense.boxes, write);
-        report.add(LossKind::class_name, losses.classes, "became class 1, the only one that TrackEval scores");
+        report.add(LossKind::class_name, losses.classes, "became class 1, the only one that TrackEval scores (ignored ones 8)");
         report.files.push_back(file);
         writeOrientedSidecar(labels, file, report);
         writeFileAtomically(truth / benchmark / sequence / "seqinfo.ini", seqinfo(labels, sequence));

@@ -6,11 +6,11 @@
 #include "io/atomic_file.h"
 
 /// UAVDT: three texts per sequence, whole pixels from 0, frames from 1.
-///   <name>_gt.txt         frame,id,left,top,width,height,score,-1,-1
+///   <name>_gt.txt         frame,id,left,top,width,height,score,in view (1),-1; without what is partly out of view
 ///   <name>_gt_whole.txt   frame,id,left,top,width,height,out of view,occlusion,category
 ///   <name>_gt_ignore.txt  frame,id,left,top,width,height,1,-1,-1: areas that count neither way
-/// Category 1 car, 2 truck, 3 bus; occlusion 1 none, 2 large, 3 medium, 4 small. Of the first two, the second says all
-/// that the first does and is read where it is there.
+/// Category 1 car, 2 truck, 3 bus; occlusion 1 none, 2 large, 3 medium, 4 small; out of view 1 not, 2 medium, 3 small.
+/// Of the first two, the second says all that the first does and is read where it is there.
 namespace eyrie {
 namespace {
 
@@ -48,6 +48,7 @@ void readPlain(const fs::path& path, LabelFile& labels) {
 }
 
 void readWhole(const fs::path& path, LabelFile& labels) {
+    int out_of_view = 0, occluded = 0;
     forEachLine(path, ',', '\0', [&](const TextLine& line) {
         LabelBox record = boxOf(line);
         const int occlusion = line.integer(7, "occlusion");
@@ -56,9 +57,16 @@ void readWhole(const fs::path& path, LabelFile& labels) {
         const int category = line.integer(8, "category");
         if (category < 1 || category > 3) line.fail(8, "category " + std::to_string(category) + ", expected 1 to 3");
         if (occlusion != 1) record.occlusion = Occlusion::partly;
+        occluded += occlusion != 1;
+        out_of_view += line.integer(6, "out of view") > 1;
         record.object_class = kCategories[static_cast<std::size_t>(category)];
         labels.boxes[record.frame].push_back(std::move(record));
     });
+    if (out_of_view > 0) {
+        labels.notes.push_back(counted(out_of_view, "box lies", "boxes lie") +
+                               " partly out of view; the benchmark leaves them out, here they are kept");
+    }
+    if (occluded > 0) labels.notes.push_back("how much of a box is hidden is not kept, only that it partly is");
 }
 
 /// The ids of ignored areas are of another count than those of the objects.
@@ -126,7 +134,7 @@ void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptio
             const char* occlusion = record.occlusion == Occlusion::none     ? "1"
                                     : record.occlusion == Occlusion::partly ? "3"
                                                                             : "2";
-            plain += begin + "1,-1,-1\n";
+            plain += begin + "1,1,-1\n";
             whole += begin + "1," + occlusion + ',' + std::to_string(category == 0 ? 1 : category) + '\n';
         }
     }

@@ -6,7 +6,8 @@
 
 /// VisDrone, video and multi-object tracking: one text per sequence, whole pixels from 0, frames from 1:
 ///   frame,id,left,top,width,height,score,category,truncation,occlusion
-/// score 0 and category 0 are areas that count neither way; occlusion 0 none, 1 up to half, 2 more.
+/// score 0 and category 0 are areas that count neither way (its toolkit goes by the category alone); occlusion 0 none,
+/// 1 up to half, 2 more.
 namespace eyrie {
 namespace {
 
@@ -69,7 +70,7 @@ LabelFile readVisDrone(const std::filesystem::path& path, const ImportOptions&) 
 void writeVisDrone(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions&,
                    ExportReport& report) {
     std::string text;
-    int rounded = 0, strange = 0;
+    int rounded = 0, strange = 0, areas = 0;
     for (const auto& [frame, records] : labels.boxes) {
         for (const LabelBox& record : records) {
             const BoxEdges e = edgesOf(record.box, 0);
@@ -79,8 +80,8 @@ void writeVisDrone(const LabelFile& labels, const std::filesystem::path& path, c
                            std::abs(bottom - e.top - e.height) >
                        1e-6;
             bool exact = true;
-            const bool region = record.ignore && record.object_class.empty();
-            const int category = region ? kIgnoredRegion : categoryOf(record.object_class, exact);
+            const int category = record.ignore ? kIgnoredRegion : categoryOf(record.object_class, exact);
+            areas += record.ignore && !record.object_class.empty();
             strange += !exact;
             text += std::to_string(frame + 1) + ',' + std::to_string(*record.id) + ',' + std::to_string(left) + ',' +
                     std::to_string(top) + ',' + std::to_string(right - left) + ',' + std::to_string(bottom - top) +
@@ -91,7 +92,10 @@ void writeVisDrone(const LabelFile& labels, const std::filesystem::path& path, c
     writeFileAtomically(path, text);
     report.files.push_back(path);
     report.add(LossKind::rounded, rounded, "were rounded to whole pixels");
-    report.add(LossKind::class_name, strange, "have a class that VisDrone does not know and became \"others\"");
+    report.add(LossKind::class_name, areas, "are ignored and became ignored areas, without class and id");
+    report.add(LossKind::class_name, strange,
+               "have a class that VisDrone does not know and became \"others\", which its toolkit leaves out like "
+               "ignored areas");
 }
 
 bool looksLike(const FileHead& head) {

@@ -159,8 +159,9 @@ void writeYolo(const LabelFile& labels, const fs::path& path, const ExportOption
     std::map<std::string, int> numbers;
     std::vector<std::string> names;
     const auto numberOf = [&](const std::string& name) {
-        const auto [found, is_new] = numbers.emplace(name, static_cast<int>(names.size()));
-        if (is_new) names.push_back(name.empty() ? "object" : name);
+        const std::string shown = name.empty() ? "object" : name;
+        const auto [found, is_new] = numbers.emplace(shown, static_cast<int>(names.size()));
+        if (is_new) names.push_back(shown);
         return found->second;
     };
     for (const std::string& name : labels.classes) numberOf(name);
@@ -187,12 +188,14 @@ void writeYolo(const LabelFile& labels, const fs::path& path, const ExportOption
         }
         writePlainFile(path / kFolder / (imageStem(labels, frame) + ".txt"), text);
     }
-    std::string yaml = "path: .\ntrain: images\nval: images\nimage_size: [" + std::to_string(size.width) + ", " +
+    // Without a key "path" trainers start from this file's own folder; "." would be the one they were called in.
+    std::string yaml = "train: images\nval: images\nimage_size: [" + std::to_string(size.width) + ", " +
                        std::to_string(size.height) + "]\nnames:\n";
     for (std::size_t i = 0; i < names.size(); ++i)
         yaml += "  " + std::to_string(i) + ": " + yamlString(names[i]) + '\n';
     writeFileAtomically(path / "data.yaml", yaml);
     report.files = {path / kFolder, path / "data.yaml"};
+    report.notes.push_back("for training, put the images into " + (path / "images").string() + ", named as the texts");
     report.add(LossKind::clipped, cut, "were cut at the image's border and are no rectangles any more");
 }
 

@@ -1,10 +1,38 @@
 #include "io/frame_source.h"
 
+#include <cctype>
+#include <fstream>
+
 #include "core/error.h"
 #include "io/image_sequence.h"
 #include "io/video_reader.h"
 
 namespace eyrie {
+namespace {
+
+/// A project or a table where a video belongs: says what takes them.
+void refuseOtherThanVideo(const std::filesystem::path& path) {
+    std::string beginning(15, '\0');
+    std::ifstream(path, std::ios::binary).read(beginning.data(), std::ssize(beginning));
+    if (path.extension() == ".eyrie" || beginning == "SQLite format 3") {
+        throw Error(ErrorKind::input,
+                    path.string() +
+                        ": is a project, not a video; open it as a project in the window, look with "
+                        "eyrie-cli info, or give it to evaluate, report, sweep or export as --project");
+    }
+    std::string ending = path.extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const char* table : {".csv", ".txt", ".xml", ".json", ".kw18"}) {
+        if (ending != table) continue;
+        throw Error(ErrorKind::input,
+                    path.string() +
+                        ": is a table, not a video; import its labels into a project (label workspace, or "
+                        "eyrie-cli import; --show tells what is in it), or evaluate against it as "
+                        "--ground-truth");
+    }
+}
+
+}  // namespace
 
 std::unique_ptr<FrameSource> openSource(const std::filesystem::path& path, const SourceOptions& options,
                                         const IndexProgress& progress, std::stop_token stop) {
@@ -21,6 +49,7 @@ std::unique_ptr<FrameSource> openSource(const std::filesystem::path& path, const
         throw Error(ErrorKind::input, path.string() + ": is neither a file nor a folder");
     if (std::filesystem::file_size(path, failure) == 0 && !failure)
         throw Error(ErrorKind::input, path.string() + ": the file is empty; record or copy it again");
+    refuseOtherThanVideo(path);
     return std::make_unique<VideoReader>(path, options, progress, std::move(stop));
 }
 

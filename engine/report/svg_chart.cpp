@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.h"
 #include "io/number_text.h"
 
 namespace eyrie {
@@ -29,7 +30,7 @@ std::string beginning(double width, double height) {
 
 std::string text(double x, double y, const std::string& anchor, const std::string& words) {
     return "<text x=\"" + n(x) + "\" y=\"" + n(y) + "\" text-anchor=\"" + anchor + "\" fill=\"#333333\">" +
-           escaped(words) + "</text>";
+           markupEscaped(words) + "</text>";
 }
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& colour) {
@@ -66,7 +67,7 @@ std::string axes(const Plot& plot, const CurveChart& chart) {
     svg += line(kLeft, plot.height - kBottom, plot.width - kRight, plot.height - kBottom, "#666666");
     svg += text((kLeft + plot.width - kRight) / 2, plot.height - 6, "middle", chart.place_label);
     svg += "<text transform=\"translate(14," + n((kTop + plot.height - kBottom) / 2) +
-           ") rotate(-90)\" text-anchor=\"middle\" fill=\"#333333\">" + escaped(chart.value_label) + "</text>";
+           ") rotate(-90)\" text-anchor=\"middle\" fill=\"#333333\">" + markupEscaped(chart.value_label) + "</text>";
     return svg;
 }
 
@@ -82,29 +83,6 @@ std::string legend(const CurveChart& chart) {
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                safe += "&amp;";
-                break;
-            case '<':
-                safe += "&lt;";
-                break;
-            case '>':
-                safe += "&gt;";
-                break;
-            case '"':
-                safe += "&quot;";
-                break;
-            default:
-                safe += c;
-        }
-    }
-    return safe;
-}
 
 double niceStep(double top, int most) {
     const double least = std::max(1e-9, top) / std::max(1, most);

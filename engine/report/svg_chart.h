@@ -41,9 +41,6 @@ std::string sharesSvg(const std::vector<ChartBar>& bars, const std::vector<doubl
 /// Bars that lie, one below the other, with name and value.
 std::string lyingBarsSvg(const std::vector<ChartBar>& bars, int width = 720);
 
-/// Text made safe for HTML and SVG.
-std::string escaped(const std::string& text);
-
 /// Steps of 1, 2 or 5 · 10ⁿ that divide a range from 0 into at most about `most` parts.
 double niceStep(double top, int most);
 

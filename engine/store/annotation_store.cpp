@@ -1,7 +1,6 @@
 #include "store/annotation_store.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <sqlite3.h>
 
 #include <algorithm>
 
@@ -75,8 +74,7 @@ AnnotationStore::~AnnotationStore() = default;
 
 bool AnnotationStore::tryToWrite() {
     if (lock_) return true;
-    if (sqlite3_db_readonly(project_.database().getHandle(), "main") == 1 ||
-        project_.database().execAndGet("PRAGMA query_only").getInt() == 1) {
+    if (project_.mode() == ProjectFile::Mode::read_only) {
         read_only_reason_ = "the labels can only be read: the project is open for reading only";
         return false;
     }

@@ -34,17 +34,17 @@ void checkFile(const std::filesystem::path& path) {
     std::error_code failed;
     const auto status = std::filesystem::status(path, failed);
     if (!std::filesystem::exists(status)) {
-        throw Error(ErrorKind::input,
+        throw Error(ErrorKind::project,
                     "there is no project " + path.string() + "; check the name, or start a new project");
     }
     if (!std::filesystem::is_regular_file(status)) {
-        throw Error(ErrorKind::input, path.string() + " is not a file; name the project file itself (*.eyrie)");
+        throw Error(ErrorKind::project, path.string() + " is not a file; name the project file itself (*.eyrie)");
     }
     std::ifstream file(path, std::ios::binary);
     std::array<char, kHeaderBytes> header{};
     const auto size = std::filesystem::file_size(path, failed);
     if (!file || failed) {
-        throw Error(ErrorKind::input, "the project " + path.string() + " cannot be read; check its permissions");
+        throw Error(ErrorKind::project, "the project " + path.string() + " cannot be read; check its permissions");
     }
     if (size == 0)
         throw Error(ErrorKind::project, path.string() + " is empty, not a project; delete it or choose another file");

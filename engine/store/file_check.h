@@ -4,8 +4,8 @@
 
 namespace eyrie {
 
-/// Looks at the bytes of a project file before SQLite does, for messages that help: Error(input) when it is missing or
-/// cannot be read; Error(project) when it is empty, no database, or shorter than its header says.
+/// Looks at the bytes of a project file before SQLite does, for messages that help: Error(project) when it is missing,
+/// cannot be read, is empty, no database, or shorter than its header says.
 void checkFile(const std::filesystem::path& path);
 
 /// Whether committed pages wait in a log beside the project to be moved into it (a process was killed, or works now).

@@ -11,7 +11,8 @@ namespace {
 constexpr unsigned kHeadingSet = 1;
 constexpr unsigned kOutside = 2;
 constexpr unsigned kIgnore = 4;
-constexpr unsigned kOcclusionShift = 3;
+constexpr unsigned kOcclusionShift = 3;  // two bits
+constexpr unsigned kComputed = 32;
 
 }  // namespace
 
@@ -29,7 +30,7 @@ void LabelBytesOut::keyframe(const Keyframe& value) {
         number(part);
     }
     number(static_cast<std::uint8_t>((value.heading_set ? kHeadingSet : 0) | (value.outside ? kOutside : 0) |
-                                     (value.ignore ? kIgnore : 0) |
+                                     (value.ignore ? kIgnore : 0) | (value.computed ? kComputed : 0) |
                                      (static_cast<unsigned>(value.occlusion) << kOcclusionShift)));
 }
 
@@ -104,13 +105,15 @@ Keyframe LabelBytesIn::keyframe() {
     value.box.length = finite();
     value.box.width = finite();
     value.box.heading = finite();
-    const unsigned flags = number<std::uint8_t>();
+    const unsigned all_flags = number<std::uint8_t>();
+    const unsigned flags = all_flags & ~kComputed;
     if (flags >> kOcclusionShift > 2) broken_ = true;
     if (broken_) return {};
     value.heading_set = (flags & kHeadingSet) != 0;
     value.outside = (flags & kOutside) != 0;
     value.ignore = (flags & kIgnore) != 0;
     value.occlusion = static_cast<Occlusion>(flags >> kOcclusionShift);
+    value.computed = (all_flags & kComputed) != 0;
     return value;
 }
 

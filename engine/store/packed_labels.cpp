@@ -23,7 +23,7 @@ Kind kindOf(const Change<Value>& change) {
 bool same(const Keyframe& a, const Keyframe& b) {
     return a.frame == b.frame && a.box.centre == b.box.centre && a.box.length == b.box.length &&
            a.box.width == b.box.width && a.box.heading == b.box.heading && a.heading_set == b.heading_set &&
-           a.occlusion == b.occlusion && a.outside == b.outside && a.ignore == b.ignore;
+           a.occlusion == b.occlusion && a.outside == b.outside && a.ignore == b.ignore && a.computed == b.computed;
 }
 
 void putKeyframes(LabelBytesOut& out, const std::vector<Keyframe>& keyframes, std::size_t first, std::size_t last) {

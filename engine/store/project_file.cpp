@@ -107,8 +107,8 @@ void removeWithCompanions(const Path& path) {
 
 }  // namespace
 
-ProjectFile::ProjectFile(std::filesystem::path path, std::unique_ptr<SQLite::Database> database)
-    : path_(std::move(path)), database_(std::move(database)) {}
+ProjectFile::ProjectFile(std::filesystem::path path, Mode mode, std::unique_ptr<SQLite::Database> database)
+    : path_(std::move(path)), mode_(mode), database_(std::move(database)) {}
 ProjectFile::ProjectFile(ProjectFile&&) noexcept = default;
 ProjectFile& ProjectFile::operator=(ProjectFile&&) noexcept = default;
 ProjectFile::~ProjectFile() = default;
@@ -171,7 +171,7 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, Mode mode) {
         }
         // Reads the whole schema, which tells a damaged one now and not in the middle of the work.
         if (!database->tableExists("run")) throw damagedProject(absolute, "it has no table of runs");
-        return ProjectFile(absolute, std::move(database));
+        return ProjectFile(absolute, mode, std::move(database));
     });
 }
 

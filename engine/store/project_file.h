@@ -17,8 +17,8 @@ class ProjectFile {
 
     /// Makes a new project. Throws Error(output) when the file exists or its folder cannot be written.
     static ProjectFile create(const std::filesystem::path& path);
-    /// Opens an existing project and migrates it if it is older (read_write only). Throws Error(project) when it is not
-    /// a project, is damaged, or was written by a newer version; Error(input) when it is missing or cannot be read.
+    /// Opens an existing project and migrates it if it is older (read_write only). Throws Error(project) when it is
+    /// missing, cannot be read, is no project, is damaged, or was written by a newer version.
     static ProjectFile open(const std::filesystem::path& path, Mode mode = Mode::read_write);
     static ProjectFile openOrCreate(const std::filesystem::path& path);
 
@@ -27,11 +27,14 @@ class ProjectFile {
     ~ProjectFile();
 
     const std::filesystem::path& path() const { return path_; }
+    /// As it was opened; what is read-only stays as it is, whoever could write it.
+    Mode mode() const { return mode_; }
     SQLite::Database& database() { return *database_; }
 
  private:
-    ProjectFile(std::filesystem::path path, std::unique_ptr<SQLite::Database> database);
+    ProjectFile(std::filesystem::path path, Mode mode, std::unique_ptr<SQLite::Database> database);
     std::filesystem::path path_;
+    Mode mode_;
     std::unique_ptr<SQLite::Database> database_;
 };
 

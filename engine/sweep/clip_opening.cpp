@@ -32,10 +32,10 @@ StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id) {
         known += (known.empty() ? "" : ", ") + std::to_string(record.id);
     }
     const std::string name = project.path().string();
-    if (!run && !run_id) throw Error(ErrorKind::parameter, name + ": holds no run; make one first (eyrie-cli run)");
+    if (runs.empty()) throw Error(ErrorKind::project, name + ": holds no run; make one first (eyrie-cli run)");
     if (!run) {
-        throw Error(ErrorKind::parameter, name + ": there is no run " + std::to_string(*run_id) +
-                                              (known.empty() ? "" : "; it holds the runs " + known));
+        throw Error(ErrorKind::parameter,
+                    name + ": there is no run " + std::to_string(*run_id) + "; it holds the runs " + known);
     }
     if (run->frames_done < 1)
         throw Error(ErrorKind::parameter, name + ": run " + std::to_string(run->id) + " has no frame");

@@ -18,7 +18,7 @@ struct StoredRun {
     FrameRange range;
     std::vector<FrameMotion> motion;
 };
-/// Throws Error(parameter) when the project has no such run, Error(project).
+/// Throws Error(parameter) when the project has no such run, Error(project) when it has none.
 StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id = {});
 
 /// Whether all boxes lie along the image's axes, so that there may be no headings in them.

@@ -82,6 +82,13 @@ SweepTable mergeSweeps(const std::vector<std::filesystem::path>& files, const st
         std::string name;
         std::vector<SweepPointRecord> points;
     };
+    for (const std::filesystem::path& file : files) {
+        std::error_code ignored;
+        if (!std::filesystem::equivalent(file, out, ignored)) continue;
+        throw Error(
+            ErrorKind::parameter,
+            out.string() + ": is one of the parts; write the whole sweep to another file, parts stay as they are");
+    }
     std::vector<Shard> shards;
     for (const std::filesystem::path& file : files) {
         ProjectFile project = ProjectFile::open(file, ProjectFile::Mode::read_only);

@@ -40,7 +40,7 @@ void storePoint(ProjectFile& project, int sweep, const SweepPoint& point);
 
 /// Joins the last sweeps of several files, which must have the same plan, in a new file or one that holds a part of
 /// them already. Throws Error(parameter) naming the files and what differs, also where two files hold different figures
-/// for one point.
+/// for one point, and where `out` is one of the files.
 SweepTable mergeSweeps(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out);
 
 /// "gradient.quantile = 0.3, gradient.quantile = 0.31 and 12 others".

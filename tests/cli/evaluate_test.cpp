@@ -136,6 +136,53 @@ TEST_F(Evaluate, motChallengeTextIsRecognised) {
     EXPECT_THAT(trackeval.output, testing::ContainsRegex("HOTA +1.0000"));
 }
 
+TEST_F(Evaluate, theLabelsOfTheProjectAreTheTruthWhereNoneIsNamed) {
+    const std::string path = project();
+    const auto none = evaluate({"--project", path});
+    EXPECT_EQ(none.exit_code, 5);
+    EXPECT_THAT(none.errors, HasSubstr("nobody has labelled /nowhere/clip.mp4"));
+    write("labels.csv",
+          "frame,id,x,y,length,width,heading\n0,1,50,40,20,10,0\n1,1,54,40,20,10,0\n2,1,58,40,20,10,0\n"
+          "3,1,62,40,20,10,0\n");
+    const auto labels =
+        test::runProcess({std::string(EYRIE_BIN_DIR) + "/eyrie-cli", "import", at("labels.csv"), "--project", path});
+    ASSERT_EQ(labels.exit_code, 0) << labels.errors;
+    const auto table = evaluate({"--project", path});
+    EXPECT_EQ(table.exit_code, 0) << table.errors;
+    EXPECT_THAT(table.output, HasSubstr("labels of the project " + path));
+    const auto json = nlohmann::json::parse(
+        evaluate({"--project", path, "--json", "--border", "3", "--errors", at("e.csv"), "--overlap", "0.3"}).output);
+    EXPECT_EQ(json["measures"][0]["tp"], 3);
+    EXPECT_EQ(json["measures"][0]["fn"], 0);
+    EXPECT_TRUE(std::filesystem::exists(at("e.csv")));
+    // A file that is named goes before them.
+    EXPECT_THAT(evaluate({"--project", path, "--ground-truth", truth()}).output, HasSubstr("truth.csv"));
+}
+
+TEST_F(Evaluate, theTruthMayHaveAnyFormatThatImportReads) {
+    const std::string cli = std::string(EYRIE_BIN_DIR) + "/eyrie-cli";
+    write("plain.csv",
+          "frame,id,x,y,length,width,heading,class\n0,1,50,40,20,10,0,car\n1,1,54,40,20,10,0,car\n"
+          "2,1,58,40,20,10,0,car\n");
+    const std::string path = project();
+    for (const std::string format : {"cvat", "coco", "kwcoco", "dota", "yolo-obb", "visdrone", "uavdt", "kw18", "virat",
+                                     "viame", "vivid", "trackeval", "mot"}) {
+        write("video.csv", "");
+        const std::string out = at(format + (format == "uavdt" ? "_gt.txt" : ""));
+        write("seqinfo.ini", "[Sequence]\nimWidth=160\nimHeight=120\n");
+        const auto made =
+            test::runProcess({cli, "export", "--from", at("plain.csv"), "--format", format, "--out", out});
+        ASSERT_EQ(made.exit_code, 0) << format << made.errors;
+        std::filesystem::remove(at("seqinfo.ini"));
+        const auto result = evaluate({"--ground-truth", out, "--project", path, "--json", "--overlap", "0.7"});
+        ASSERT_EQ(result.exit_code, 0) << format << result.errors;
+        const auto json = nlohmann::json::parse(result.output);
+        EXPECT_EQ(json["measures"][0]["tp"], 3) << format;
+        EXPECT_EQ(json["measures"][0]["fn"], 0) << format;
+        EXPECT_EQ(json["measures"][0]["fp"], 0) << format;
+    }
+}
+
 TEST_F(Evaluate, theBorderFindsTheSizeOfTheImage) {
     const auto arguments = [&](std::vector<std::string> more) {
         std::vector<std::string> all{"--ground-truth", truth(), "--result", truth(), "--border", "3"};
@@ -165,6 +212,7 @@ TEST_F(Evaluate, filesThatDoNotMeetAreNoticed) {
 
 TEST_F(Evaluate, wrongUseIsRefusedWithTheRemedy) {
     EXPECT_EQ(evaluate({"--result", truth()}).exit_code, 2);
+    EXPECT_THAT(evaluate({"--result", truth()}).errors, HasSubstr("--ground-truth"));
     const auto neither = evaluate({"--ground-truth", truth()});
     EXPECT_EQ(neither.exit_code, 2);
     EXPECT_THAT(neither.errors, HasSubstr("--result FILE or --project FILE"));

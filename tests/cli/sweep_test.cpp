@@ -135,7 +135,7 @@ TEST_F(Sweep, UsesTheMotionVectorsOfAProject) {
     EXPECT_EQ(SweepStore(project).sweeps().size(), 1U);
     const auto unlabelled =
         cli({"sweep", "--project", at("p.eyrie"), "--parameter", "gradient.quantile=0.1", "--quiet"});
-    EXPECT_EQ(unlabelled.exit_code, 3);
+    EXPECT_EQ(unlabelled.exit_code, 5);
     EXPECT_THAT(unlabelled.errors, HasSubstr("has no labels in the frames of run 1"));
     EXPECT_EQ(
         cli({"sweep", "--project", at("p.eyrie"), "--run", "7", "--parameter", "gradient.quantile=0.1"}).exit_code, 2);
@@ -150,10 +150,23 @@ TEST_F(Sweep, ShardsJoinToTheWhole) {
     ASSERT_EQ(with({"--out", at("whole.eyrie"), "--csv", at("whole.csv")}).exit_code, 0);
     ASSERT_EQ(with({"--out", at("1.eyrie"), "--shard", "1/2"}).exit_code, 0);
     const auto part = cli({"merge", at("1.eyrie"), "--out", at("m.eyrie")});
-    EXPECT_EQ(part.exit_code, 0);
+    EXPECT_EQ(part.exit_code, 3) << "not all of it is there";
     EXPECT_THAT(part.errors, HasSubstr("missing: gradient.quantile = 0.3"));
     ASSERT_EQ(with({"--out", at("2.eyrie"), "--shard", "2/2"}).exit_code, 0);
-    const auto merged = cli({"merge", at("1.eyrie"), at("2.eyrie"), "--out", at("m.eyrie"), "--csv", at("m.csv")});
+    const auto there = cli({"merge", at("1.eyrie"), at("2.eyrie"), "--out", at("m.eyrie")});
+    EXPECT_EQ(there.exit_code, 2);
+    EXPECT_THAT(there.errors, HasSubstr("--add"));
+    for (const auto& onto_a_part : {std::vector<std::string>{}, std::vector<std::string>{"--add"}}) {
+        std::vector<std::string> words{"merge", at("1.eyrie"), at("2.eyrie"), "--out", at("2.eyrie")};
+        words.insert(words.end(), onto_a_part.begin(), onto_a_part.end());
+        const auto refused = cli(words);
+        EXPECT_EQ(refused.exit_code, 2);
+        EXPECT_THAT(refused.errors, HasSubstr("is one of the parts"));
+    }
+    const auto added = cli({"merge", at("1.eyrie"), at("2.eyrie"), "--out", at("m.eyrie"), "--add"});
+    EXPECT_EQ(added.exit_code, 0) << added.errors;
+    EXPECT_THAT(added.errors, HasSubstr("was added to"));
+    const auto merged = cli({"merge", at("1.eyrie"), at("2.eyrie"), "--out", at("w.eyrie"), "--csv", at("m.csv")});
     ASSERT_EQ(merged.exit_code, 0) << merged.errors;
     EXPECT_EQ(contentsOf(at("m.csv")), contentsOf(at("whole.csv")));
     EXPECT_EQ(merged.errors, "");
@@ -163,7 +176,7 @@ TEST_F(Sweep, ShardsJoinToTheWhole) {
     const auto foreign = cli({"merge", at("1.eyrie"), at("3.eyrie"), "--out", at("n.eyrie")});
     EXPECT_EQ(foreign.exit_code, 2);
     EXPECT_THAT(foreign.errors, HasSubstr("no parts of one sweep: the values of gradient.quantile differ"));
-    EXPECT_EQ(cli({"merge", at("nothing.eyrie"), "--out", at("n.eyrie")}).exit_code, 3);
+    EXPECT_EQ(cli({"merge", at("nothing.eyrie"), "--out", at("n.eyrie")}).exit_code, 5);
     EXPECT_EQ(with({"--out", at("4.eyrie"), "--shard", "3/2"}).exit_code, 2);
     EXPECT_EQ(with({"--out", at("4.eyrie"), "--shard", "x"}).exit_code, 2);
 }

@@ -102,6 +102,60 @@ TEST_F(LabelExchange, AFileImportedTwiceAddsNothingUnlessAsked) {
     EXPECT_EQ(all.doubles, 0);
 }
 
+/// Whole pixels with the axes of the image must come back to the digit, however the camera turns and zooms below them.
+TEST_F(LabelExchange, UprightBoxesComeBackToTheDigitUnderATurningCamera) {
+    std::vector<Homography> steps;
+    for (int frame = 0; frame + 1 < 20; ++frame) {
+        Homography step;
+        step.from_frame = frame;
+        step.to_frame = frame + 1;
+        const double scale = 1.002, turn = 0.004;
+        step.matrix = {scale * std::cos(turn),
+                       -scale * std::sin(turn),
+                       0.6,
+                       scale * std::sin(turn),
+                       scale * std::cos(turn),
+                       -0.3,
+                       0,
+                       0,
+                       1};
+        steps.push_back(step);
+    }
+    const CameraMotion camera(steps);
+    LabelFile labels;
+    for (int frame = 0; frame < 20; ++frame) {
+        for (const int id : {1, 2, 3}) {  // one stands on the ground, one in the image, one jitters
+            LabelBox box;
+            box.frame = frame;
+            box.id = id;
+            box.object_class = "car";
+            cv::Point2d corner(40, 30);
+            if (id == 1) corner = camera.map(0, frame)->apply({90, 60});
+            if (id == 3) corner = {100.0 + 3 * frame, 20.0 + (frame * 7) % 3};
+            const double left = std::round(corner.x), top = std::round(corner.y);
+            box.box = boxFromEdges({left, top, 21, 10.0 + (id == 3 ? frame % 2 : 0)}, 0);
+            labels.boxes[frame].push_back(box);
+        }
+    }
+    AnnotationStore store(project_, sequence_.id);
+    store.apply(planImport(labels, sequence_, camera, store, 0.45).edit);
+    const LabelFile back = labelsOf(store.annotations(), sequence_, camera);
+    EXPECT_EQ(reportOn(back).turned, 0);
+    for (const auto& [frame, records] : labels.boxes) {
+        ASSERT_EQ(back.boxes.at(frame).size(), 3u);
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_EQ(back.boxes.at(frame)[i].box.heading, 0) << frame;
+            const BoxEdges before = edgesOf(records[i].box, 0);
+            const BoxEdges after = edgesOf(back.boxes.at(frame)[i].box, 0);
+            EXPECT_EQ(std::round(after.left), before.left) << frame;
+            EXPECT_EQ(std::round(after.top), before.top) << frame;
+            EXPECT_EQ(std::round(after.left + after.width), before.left + before.width) << frame;
+            EXPECT_EQ(std::round(after.top + after.height), before.top + before.height) << frame;
+        }
+    }
+    EXPECT_LT(store.annotations().objects.at(2).keyframes.size(), 20u) << "still few keyframes";
+}
+
 TEST_F(LabelExchange, RegionsLeaveAsBoxesThatCoverThem) {
     AnnotationSet annotations;
     IgnoreRegion square;

@@ -145,7 +145,8 @@ TEST_F(MotChallenge, TurnedBoxesAreEnclosedAndReported) {
     boxes.at(0)[0].box.heading = kPi / 2;
     boxes.at(0)[0].velocity = {1, 0};
     boxes.at(0)[1].object_class = "truck";
-    boxes.at(0)[1].box.heading = kPi;  // upright though turned
+    boxes.at(0)[1].box.heading = kPi;  // upright as well, as after any quarter turn
+    boxes.at(1)[0].box.heading = 0.6;
     const MotLosses losses = writeMotTruth(folder_ / "gt.txt", boxes);
     EXPECT_EQ(losses.turned, 1);
     EXPECT_EQ(losses.velocities, 1);

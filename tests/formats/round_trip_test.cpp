@@ -75,7 +75,8 @@ TEST_P(RoundTrip, BoxesComeBackAsFarAsTheFormatCarriesThem) {
     EXPECT_EQ(boxes, 32u);
     for (const auto& [frame, records] : before.boxes) {
         for (const LabelBox& a : records) {
-            const bool anonymous = info.name == "uavdt" && a.ignore;  // ignored areas have neither id nor class
+            // ignored areas have neither id nor class
+            const bool anonymous = (info.name == "uavdt" || info.name == "visdrone") && a.ignore;
             const LabelBox* found = find(after.boxes, a, carries.id && !anonymous && !renumbered);
             ASSERT_TRUE(found) << "frame " << frame << " id " << *a.id;
             const LabelBox& b = *found;
@@ -95,7 +96,7 @@ TEST_P(RoundTrip, BoxesComeBackAsFarAsTheFormatCarriesThem) {
             }
             const bool knows_vans =
                 info.name != "mot" && info.name != "trackeval" && info.name != "uavdt" && info.name != "virat";
-            if (carries.object_class && knows_vans) {
+            if (carries.object_class && knows_vans && !anonymous) {
                 EXPECT_EQ(a.object_class, b.object_class);
             }
         }

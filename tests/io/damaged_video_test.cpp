@@ -52,6 +52,15 @@ TEST_F(DamagedVideo, TextIsNoVideo) {
     }
 }
 
+TEST_F(DamagedVideo, WhatIsNoVideoNamesWhatTakesIt) {
+    test::writeBytes(folder_ / "boxes.CSV", "frame,id,x,y\n");
+    EXPECT_THAT(refusal(folder_ / "boxes.CSV"), AllOf(HasSubstr("boxes.CSV"), HasSubstr("import")));
+    test::writeBytes(folder_ / "p.eyrie", "anything");
+    EXPECT_THAT(refusal(folder_ / "p.eyrie"), AllOf(HasSubstr("p.eyrie"), HasSubstr("--project")));
+    test::writeBytes(folder_ / "renamed.mp4", "SQLite format 3 and so on");
+    EXPECT_THAT(refusal(folder_ / "renamed.mp4"), HasSubstr("is a project"));
+}
+
 TEST_F(DamagedVideo, NoiseIsNoVideo) {
     std::string bytes(50000, ' ');
     unsigned state = 1;

@@ -16,6 +16,7 @@ inline Keyframe sampleKeyframe(FrameIndex frame, double shift = 0) {
     keyframe.occlusion = static_cast<Occlusion>(frame % 3);
     keyframe.outside = frame % 5 == 0;
     keyframe.ignore = frame % 7 == 0;
+    keyframe.computed = frame % 4 == 0;
     return keyframe;
 }
 

@@ -74,8 +74,8 @@ TEST_F(ProjectFileTest, OpenOrCreateDoesBoth) {
 }
 
 TEST_F(ProjectFileTest, AMissingFileIsNamed) {
-    expectError(ErrorKind::input, path_.string(), [&] { ProjectFile::open(path_); });
-    expectError(ErrorKind::input, "is not a file", [&] { ProjectFile::open(folder_.path()); });
+    expectError(ErrorKind::project, path_.string(), [&] { ProjectFile::open(path_); });
+    expectError(ErrorKind::project, "is not a file", [&] { ProjectFile::open(folder_.path()); });
 }
 
 TEST_F(ProjectFileTest, AFolderThatCannotBeWrittenIsNamed) {

@@ -10,7 +10,9 @@
 
 #include "annotation/interpolation.h"
 #include "io/box_csv.h"
+#include "session/label_fitting.h"
 #include "ui/labelling.h"
+#include "view/box_handles.h"
 
 namespace eyrie::ui {
 namespace {
@@ -88,16 +90,12 @@ class Robot : public test::Labelling {
         QTest::mouseRelease(&canvas, Qt::LeftButton, {}, b);
         ++work.clicks;
     }
-    /// One click in the timeline.
-    void jump(FrameIndex frame) {
-        if (window_->session().viewFrame().index == frame) return;
-        go(*window_, frame);
-        ++work.clicks;
-    }
-    /// One click in the list of objects.
-    void choose(ObjectId id) {
-        if (labels().selected() == id) return;
-        labels().select(id);
+    /// One click in the object's row of the timeline: it is selected and the frame shown.
+    void goTo(ObjectId id, FrameIndex frame) {
+        const bool there = window_->session().viewFrame().index == frame;
+        if (there && labels().selected() == id) return;
+        if (labels().selected() != id) labels().select(id);
+        if (!there) go(*window_, frame);
         ++work.clicks;
     }
 
@@ -121,74 +119,146 @@ class Robot : public test::Labelling {
         point(truth.toImage({0, truth.width / 2}));
     }
 
-    /// Puts the selected object's box right in a frame: by moving it where that is enough, else by drawing it anew.
-    void correct(ObjectId id, FrameIndex frame, const OrientedBox& truth) {
-        jump(frame);
-        choose(id);
-        const auto expected = LabelEditor::expectedBox(labels().annotations().objects.at(id), frame, labels().camera());
-        const double scale = window_->canvas().transform().scale();
-        OrientedBox moved = expected.value_or(truth);
+    static constexpr double kGood = 0.85;    ///< overlap from which on nobody corrects
+    static constexpr double kLeastDrag = 6;  ///< px on screen
+    struct Drag {
+        BoxHandle handle;
+        cv::Point2d from;
+        cv::Point2d to;
+        OrientedBox box;  ///< after it
+    };
+
+    /// The handle whose dragging helps most.
+    Drag bestDrag(const OrientedBox& box, const OrientedBox& truth) {
+        const auto& transform = window_->canvas().transform();
+        Drag best{BoxHandle::centre, box.centre, truth.centre, box};
+        // Where moving it does, its size stays.
+        OrientedBox moved = box;
         moved.centre = truth.centre;
-        if (upright_) moved.centre += moved.centre - moved.upright().centre;
-        if (expected && likeness(*expected, truth) > 0.85) {
+        if (upright_) moved.centre += box.centre - box.upright().centre;
+        const bool can_move = cv::norm(box.centre - moved.centre) * transform.scale() > kLeastDrag;
+        if (can_move && likeness(moved, truth) > kGood) return {BoxHandle::centre, box.centre, moved.centre, moved};
+        double most = likeness(box, truth);
+        for (const auto& [handle, at] : boxHandles(box, transform)) {
+            const QPointF place = transform.imageFromView(at);
+            const cv::Point2d from(place.x(), place.y());
+            const cv::Point2d inside = box.toBox(from);
+            const auto side = [](double value, double half) {
+                return value > half / 2 ? 1 : value < -half / 2 ? -1 : 0;
+            };
+            const int along = side(inside.x, box.length / 2);
+            const int across = side(inside.y, box.width / 2);
+            const OrientedBox goal = alike(truth, box);
+            cv::Point2d to = from + goal.toImage({along * goal.length / 2, across * goal.width / 2}) -
+                             box.toImage({along * box.length / 2, across * box.width / 2});
+            if (handle == BoxHandle::turn) {
+                OrientedBox turned = box;
+                turned.heading = goal.heading;
+                to = turned.toImage(inside);
+            }
+            const OrientedBox after = draggedBox(box, handle, place, {to.x, to.y});
+            if (likeness(after, truth) <= most || cv::norm(to - from) * transform.scale() <= kLeastDrag) continue;
+            most = likeness(after, truth);
+            best = {handle, from, to, after};
+        }
+        return best;
+    }
+    /// The same box with sides named as another one's are.
+    static OrientedBox alike(OrientedBox box, const OrientedBox& other) {
+        for (int quarter = 0; quarter < 3 && std::cos(box.heading - other.heading) < 0.7; ++quarter) {
+            box.heading += std::acos(0.0);
+            std::swap(box.length, box.width);
+        }
+        return box;
+    }
+
+    /// Puts an object's box right in a frame: by dragging its handles where that is less work, else by drawing it anew.
+    void correct(ObjectId id, FrameIndex frame, const OrientedBox& truth) {
+        goTo(id, frame);
+        const auto expected = LabelEditor::expectedBox(labels().annotations().objects.at(id), frame, labels().camera());
+        std::vector<Drag> drags;
+        // Who draws upright boxes does not drag at turned ones.
+        const bool turned = expected && std::abs(std::sin(2 * expected->heading)) > 1e-6;
+        const std::size_t most = !upright_ ? 3 : turned ? 0 : 1;
+        OrientedBox box = expected.value_or(truth);
+        while (expected && likeness(box, truth) <= kGood && drags.size() < most) {
+            drags.push_back(bestDrag(box, truth));
+            if (likeness(drags.back().box, truth) <= likeness(box, truth)) break;
+            box = drags.back().box;
+        }
+        if (expected && likeness(*expected, truth) > kGood && most > 0) {
             press(Qt::Key_K);
-        } else if (expected && likeness(moved, truth) > 0.85 && cv::norm(expected->centre - truth.centre) * scale > 8) {
-            drag(expected->centre, truth.centre);
+        } else if (expected && likeness(box, truth) > kGood && most > 0) {
+            for (const Drag& each : drags) drag(each.from, each.to);
         } else {
             press(Qt::Key_B, Qt::ControlModifier);
             drawBox(truth);
         }
         if (likeness(id, frame, truth) < enough) {
-            choose(id);
+            goTo(id, frame);
             press(Qt::Key_B, Qt::ControlModifier);
             drawBox(truth);
         }
     }
 
+    /// The frame to put right next: the worst, and of those before or after its life the one at the end, where the way
+    /// is longest.
+    FrameIndex worstFrame(ObjectId id, const Truth& truth) {
+        FrameIndex worst = -1;
+        double least = enough;
+        for (const auto& [frame, box] : truth.counted) {
+            const double like = likeness(id, frame, box);
+            if (like >= least) continue;
+            least = like;
+            worst = frame;
+        }
+        const LabelledObject& object = labels().annotations().objects.at(id);
+        if (worst > object.last_frame) return truth.counted.rbegin()->first;
+        if (worst >= 0 && worst < firstFrameOf(object)) return truth.counted.begin()->first;
+        return worst;
+    }
+    /// A frame in the middle of an object's life in which all of the vehicle is to be seen.
+    FrameIndex middleOf(ObjectId id, const Truth& truth) {
+        const LabelledObject& object = labels().annotations().objects.at(id);
+        const auto middle = truth.counted.lower_bound((firstFrameOf(object) + object.last_frame) / 2);
+        const bool lives = middle != truth.counted.end() && middle->first <= object.last_frame;
+        return lives ? middle->first : truth.counted.begin()->first;
+    }
+
     /// Corrects an object until every box is good enough; the worst first.
     void finish(ObjectId id, const Truth& truth) {
         for (int round = 0; round < 60; ++round) {
-            FrameIndex worst = -1;
-            double least = enough;
-            for (const auto& [frame, box] : truth.counted) {
-                const double like = likeness(id, frame, box);
-                if (like < least) {
-                    least = like;
-                    worst = frame;
-                }
-            }
-            if (worst < 0) return;
-            // What is missing is put in at its end, where the way is longest.
-            const LabelledObject& object = labels().annotations().objects.at(id);
-            if (worst > object.last_frame) worst = truth.counted.rbegin()->first;
-            if (worst < firstFrameOf(object)) worst = truth.counted.begin()->first;
-            correct(id, worst, truth.counted.at(worst));
+            const FrameIndex frame = worstFrame(id, truth);
+            if (frame < 0) return;
+            correct(id, frame, truth.counted.at(frame));
         }
     }
 
-    /// What a track is wrong in throughout is put right once, in the middle of its life; then its keyframes one by one.
+    /// One box is put right and all others laid on the pictures by it; again where that did not do.
     void correctProposal(ObjectId id, const Truth& truth) {
-        if (worst(id, truth) >= enough) return;
-        const auto present = [&]() -> const LabelledObject& { return labels().annotations().objects.at(id); };
-        auto middle = truth.counted.lower_bound((firstFrameOf(present()) + present().last_frame) / 2);
-        if (middle == truth.counted.end() || middle->first > present().last_frame) middle = truth.counted.begin();
-        if (likeness(id, middle->first, middle->second) > 0) {
-            correct(id, middle->first, middle->second);
-            press(Qt::Key_K, Qt::ControlModifier);
-        }
-        std::vector<FrameIndex> frames;
-        for (const Keyframe& keyframe : present().keyframes) frames.push_back(keyframe.frame);
-        for (const FrameIndex frame : frames) {
-            const auto box = truth.counted.find(frame);
-            if (box == truth.counted.end() || worst(id, truth) >= enough) continue;
-            if (likeness(id, frame, box->second) < 0.8) correct(id, frame, box->second);
+        constexpr int kTries = 3;
+        for (int round = 0; round < kTries && worst(id, truth) < enough; ++round) {
+            const FrameIndex frame = round == 0 ? middleOf(id, truth) : worstFrame(id, truth);
+            correct(id, frame, truth.counted.at(frame));
+            if (worst(id, truth) >= enough) return;
+            press(Qt::Key_F, Qt::ControlModifier);
+            waitFor([&] { return !window_->labelling().fitting().working(); });
+            if (getenv("TALK")) {
+                int bad = 0;
+                for (auto& [fr, b] : truth.counted) bad += likeness(id, fr, b) < enough;
+                std::printf("   id %d round %d: worst %.2f bad %d/%zu\n", id, round, worst(id, truth), bad,
+                            truth.counted.size());
+            }
         }
         finish(id, truth);
     }
 
     ObjectId drawFromNothing(const Truth& truth) {
         const auto& [frame, box] = *truth.counted.begin();
-        jump(frame);
+        if (window_->session().viewFrame().index != frame) {
+            go(*window_, frame);
+            ++work.clicks;
+        }
         press(Qt::Key_B);
         drawBox(box);
         const ObjectId id = labels().selected().value_or(0);
@@ -225,14 +295,16 @@ class Robot : public test::Labelling {
         waitFor([&] { return !window_->labelling().proposals().working(); });
         press(Qt::Key_Return, Qt::ControlModifier);
     }
-    void removeObject(ObjectId id) {
-        choose(id);
+    /// A click each in the list, then one key.
+    void removeObjects(const std::vector<ObjectId>& ids) {
+        if (ids.empty()) return;
+        labels().setSelection({ids.begin(), ids.end()}, ids.back());
+        work.clicks += static_cast<int>(ids.size());
         press(Qt::Key_Delete, Qt::ShiftModifier);
     }
     void joinObjects(ObjectId first, ObjectId second) {
-        choose(first);
-        labels().toggle(second);
-        ++work.clicks;
+        labels().setSelection({first, second}, first);
+        work.clicks += 2;
         press(Qt::Key_J);  // shows what it will do
         press(Qt::Key_J);
     }
@@ -275,7 +347,7 @@ void fromProposals(Robot& robot, const std::map<int, Truth>& truth) {
     robot.work = {};
     robot.takeOver();
     std::map<int, std::vector<std::pair<int, ObjectId>>> shown;  // by vehicle: frames, object
-    int removed = 0;
+    std::vector<ObjectId> removed;
     std::vector<ObjectId> all;
     for (const auto& [id, object] : robot.labels().annotations().objects) all.push_back(id);
     const std::size_t taken = all.size();
@@ -285,8 +357,7 @@ void fromProposals(Robot& robot, const std::map<int, Truth>& truth) {
         if (vehicle != 0) {
             shown[vehicle].push_back({frames, id});
         } else {
-            robot.removeObject(id);
-            ++removed;
+            removed.push_back(id);
         }
     }
     double keyframes = 0;
@@ -307,8 +378,7 @@ void fromProposals(Robot& robot, const std::map<int, Truth>& truth) {
                 robot.joinObjects(id, objects[i].second);
                 ++joined;
             } else {
-                robot.removeObject(objects[i].second);
-                ++removed;
+                removed.push_back(objects[i].second);
             }
         }
         if (id == 0) {
@@ -317,15 +387,20 @@ void fromProposals(Robot& robot, const std::map<int, Truth>& truth) {
         } else {
             robot.correctProposal(id, known);
         }
+        if (getenv("TALK"))
+            std::printf("vehicle %d: %d actions, %zu tracks, keyframes %zu worst %.2f\n", vehicle,
+                        robot.work.clicks + robot.work.keys - before.clicks - before.keys, objects.size(),
+                        robot.keyframes(id), robot.worst(id, known));
         untouched += robot.work.clicks == before.clicks && robot.work.keys == before.keys ? 1 : 0;
         if (id == 0) continue;
         keyframes += static_cast<double>(robot.keyframes(id));
         worst = std::min(worst, robot.worst(id, known));
     }
+    robot.removeObjects(removed);
     print("from proposals", truth.size(), robot.work, keyframes, worst);
     std::printf(
-        "  %zu taken over by two keys, %d removed, %d joined, %d vehicles drawn from nothing, %d never touched\n",
-        taken, removed, joined, drawn, untouched);
+        "  %zu taken over by two keys, %zu removed, %d joined, %d vehicles drawn from nothing, %d never touched\n",
+        taken, removed.size(), joined, drawn, untouched);
 }
 
 }  // namespace

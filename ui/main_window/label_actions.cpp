@@ -36,6 +36,9 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     spread_size = add(tr("Give this size to all keyframes of the object"), {QKeySequence(tr("Shift+K"))});
     spread_correction =
         add(tr("Correct all keyframes of the object as this one was corrected"), {QKeySequence(tr("Ctrl+K"))});
+    fit_pictures = add(tr("Lay the object's computed boxes on the pictures, by the boxes set by hand"),
+                       {QKeySequence(tr("Ctrl+F"))});
+    carry_corrections = addToggle(tr("Corrections go on to computed keyframes"), {}, true);
     copy_on = add(tr("Copy the box to the next frame and go there"), {QKeySequence(Qt::Key_C)});
     copy_back = add(tr("Copy the box to the frame before and go there"), {QKeySequence(tr("Shift+C"))});
     delete_keyframe = add(tr("Delete this keyframe"), {QKeySequence(Qt::Key_Delete)});

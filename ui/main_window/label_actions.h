@@ -24,8 +24,9 @@ class LabelActions : public QObject {
 
     QAction *undo, *redo, *import_labels, *export_labels, *try_to_write;
     QAction *draw, *redraw, *region, *delete_region, *region_begins, *region_ends, *region_anchor, *loupe, *stack_loupe,
-        *keyframe, *spread_size, *spread_correction, *copy_on, *copy_back, *delete_keyframe, *delete_object, *end_here,
-        *occluded, *outside, *ignore, *spread_flags, *turn_left, *turn_right;
+        *keyframe, *spread_size, *spread_correction, *fit_pictures, *carry_corrections, *copy_on, *copy_back,
+        *delete_keyframe, *delete_object, *end_here, *occluded, *outside, *ignore, *spread_flags, *turn_left,
+        *turn_right;
     std::array<QAction*, 12> nudge;  ///< left, right, up, down: by 1, then by 0.1, then by 5 px
     std::array<QAction*, 8> object_class;
     QAction *next_frame, *previous_frame, *ten_on, *ten_back, *next_object, *previous_object, *next_keyframe,

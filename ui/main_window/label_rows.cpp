@@ -10,6 +10,7 @@
 #include "annotation/object_pieces.h"
 #include "models/display_text.h"
 #include "session/label_classes.h"
+#include "session/object_colours.h"
 
 namespace eyrie::ui {
 
@@ -18,21 +19,6 @@ namespace {
 QString tr(const char* text) {
     return QCoreApplication::translate("eyrie::ui::LabelRows", text);
 }
-
-/// Classes looked up once per list.
-class Colours {
- public:
-    explicit Colours(const AnnotationSet& set) : set_(set) {}
-    QColor of(const std::string& name) {
-        const auto known = known_.find(name);
-        if (known != known_.end()) return known->second;
-        return known_[name] = QColor::fromRgb(static_cast<QRgb>(classNamed(set_, name).colour | 0xff000000U));
-    }
-
- private:
-    const AnnotationSet& set_;
-    std::map<std::string, QColor> known_;
-};
 
 /// Way over the ground from the first keyframe to the last, keyframe by keyframe where there are few of them.
 double meanSpeed(const LabelledObject& object, const CameraMotion& camera) {
@@ -81,12 +67,12 @@ void addFlagSpans(ObjectTimelineRow& row, const LabelledObject& object) {
     }
 }
 
-QString sourceText(const LabelledBox& box, bool lives) {
+QString sourceText(const LabelledBox& box, bool lives, const Keyframe* keyframe) {
     if (!lives) return tr("expected here; moving it makes it live as long");
     if (box.outside) return tr("outside the image");
     switch (box.source) {
         case BoxSource::keyframe:
-            return tr("keyframe");
+            return keyframe != nullptr && keyframe->computed ? tr("keyframe, computed") : tr("keyframe");
         case BoxSource::ground:
             return tr("interpolated over the ground");
         case BoxSource::image:
@@ -101,12 +87,12 @@ QString sourceText(const LabelledBox& box, bool lives) {
 
 std::vector<ObjectRow> objectRows(const LabelSession& labels) {
     std::vector<ObjectRow> rows;
-    Colours colours(labels.annotations());
+    ObjectColours colours(labels.annotations());
     for (const auto& [id, object] : labels.annotations().objects) {
         ObjectRow row;
         row.id = id;
         row.object_class = classText(object.object_class);
-        row.colour = colours.of(object.object_class);
+        row.colour = colours.of(object);
         row.first_frame = firstFrameOf(object);
         row.last_frame = object.last_frame;
         row.keyframes = static_cast<int>(object.keyframes.size());
@@ -121,15 +107,18 @@ std::vector<ObjectRow> objectRows(const LabelSession& labels) {
 
 std::vector<ObjectTimelineRow> timelineRows(const LabelSession& labels) {
     std::vector<ObjectTimelineRow> rows;
-    Colours colours(labels.annotations());
+    ObjectColours colours(labels.annotations());
     for (const auto& [id, object] : labels.annotations().objects) {
         ObjectTimelineRow row;
         row.id = id;
         row.name = QString::fromStdString(nameOf(object));
-        row.colour = colours.of(object.object_class);
+        row.colour = colours.of(object);
         row.first = firstFrameOf(object);
         row.last = object.last_frame;
-        for (const Keyframe& keyframe : object.keyframes) row.keyframes.push_back(keyframe.frame);
+        for (const Keyframe& keyframe : object.keyframes) {
+            row.keyframes.push_back(keyframe.frame);
+            if (keyframe.computed) row.computed.insert(keyframe.frame);
+        }
         addFlagSpans(row, object);
         for (const ReviewSpan& span : labels.review().spansOf(id))
             if (span.state != ReviewState::unseen)
@@ -169,7 +158,7 @@ ObjectDetails objectDetails(const LabelSession& labels, const LabelEditor& edito
         double degrees = std::fmod(box->heading * 180 / std::numbers::pi, 360);
         if (degrees < 0) degrees += 360;
         details.box = tr("%1 · %2, %3 px · %4 × %5 · %6°")
-                          .arg(sourceText(shown, shown.exists()))
+                          .arg(sourceText(shown, shown.exists(), keyframeAt(object, frame)))
                           .arg(box->centre.x, 0, 'f', 1)
                           .arg(box->centre.y, 0, 'f', 1)
                           .arg(lengthText(box->length, scale), lengthText(box->width, scale))
@@ -179,6 +168,9 @@ ObjectDetails objectDetails(const LabelSession& labels, const LabelEditor& edito
         details.box.replace(QStringLiteral("\u00a0·\u00a0"), QStringLiteral("\u00a0· "));
     }
     details.object_class = classText(object.object_class);
+    ObjectColours colours(labels.annotations());
+    details.colour = colours.of(object);
+    details.own_colour = colours.isOwn(object);
     details.lives_here = shown.exists();
     details.occlusion = shown.occlusion;
     details.outside = shown.outside;

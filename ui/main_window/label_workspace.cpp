@@ -21,6 +21,7 @@
 #include "panels/objects_panel.h"
 #include "session/label_chips.h"
 #include "session/label_classes.h"
+#include "session/label_fitting.h"
 #include "session/label_scene.h"
 #include "session/label_stacks.h"
 #include "session/label_tracking.h"
@@ -35,6 +36,7 @@ LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&aroun
     labels_ = new LabelSession(around_.session, this);
     proposals_ = new LabelProposals(around_.session, *labels_, this);
     editor_ = new LabelEditor(around_.session, *labels_, this);
+    fitting_ = new LabelFitting(around_.session, *labels_, this);
     tracking_ = new LabelTracking(around_.session, *labels_, this);
     tool_ = new LabelTool(this);
     actions_ = new LabelActions(around_.actions, around_.window, around_.canvas);
@@ -247,41 +249,27 @@ void LabelWorkspace::enableActions() {
     actions_->undo->setToolTip(labels_->canUndo() ? tr("Undo: %1 (Ctrl+Z)").arg(labels_->undoName()) : tr("Undo"));
     actions_->redo->setToolTip(labels_->canRedo() ? tr("Redo: %1 (Ctrl+Shift+Z)").arg(labels_->redoName())
                                                   : tr("Redo"));
-    for (QAction* action : {actions_->keyframe,
-                            actions_->redraw,
-                            actions_->spread_size,
-                            actions_->spread_correction,
-                            actions_->copy_on,
-                            actions_->copy_back,
-                            actions_->delete_keyframe,
-                            actions_->delete_object,
-                            actions_->end_here,
-                            actions_->occluded,
-                            actions_->outside,
-                            actions_->ignore,
-                            actions_->spread_flags,
-                            actions_->turn_left,
-                            actions_->turn_right,
-                            actions_->checked,
-                            actions_->questionable,
-                            actions_->unseen,
-                            actions_->join,
-                            actions_->fuse,
-                            actions_->split,
-                            actions_->swap,
-                            actions_->renumber,
-                            actions_->delete_before,
-                            actions_->delete_after,
-                            actions_->track_on,
-                            actions_->track_back,
-                            actions_->next_keyframe,
-                            actions_->previous_keyframe})
+    for (QAction* action : {actions_->keyframe,      actions_->redraw,
+                            actions_->spread_size,   actions_->spread_correction,
+                            actions_->fit_pictures,  actions_->copy_on,
+                            actions_->copy_back,     actions_->delete_keyframe,
+                            actions_->delete_object, actions_->end_here,
+                            actions_->occluded,      actions_->outside,
+                            actions_->ignore,        actions_->spread_flags,
+                            actions_->turn_left,     actions_->turn_right,
+                            actions_->checked,       actions_->questionable,
+                            actions_->unseen,        actions_->join,
+                            actions_->fuse,          actions_->split,
+                            actions_->swap,          actions_->renumber,
+                            actions_->delete_before, actions_->delete_after,
+                            actions_->track_on,      actions_->track_back,
+                            actions_->next_keyframe, actions_->previous_keyframe})
         action->setEnabled(any);
     for (QAction* action : {actions_->accept, actions_->reject}) action->setEnabled(proposal);
     for (QAction* action : {actions_->accept_all, actions_->accept_range, actions_->next_proposal})
         action->setEnabled(proposals_->shown());
     actions_->offer_again->setEnabled(proposals_->rejectedCount() > 0);
-    actions_->stop_tracking->setEnabled(tracking_->working());
+    actions_->stop_tracking->setEnabled(tracking_->working() || fitting_->working());
     actions_->try_to_write->setEnabled(labels_->isOpen() && labels_->readOnly());
     for (QAction* action : {actions_->draw, actions_->region}) action->setEnabled(labels_->isOpen());
 }

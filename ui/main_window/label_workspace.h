@@ -20,6 +20,7 @@ namespace eyrie::ui {
 class ChipGrid;
 class LabelActions;
 class LabelChips;
+class LabelFitting;
 class LabelStacks;
 class LabelTimeline;
 class LabelTool;
@@ -63,6 +64,7 @@ class LabelWorkspace : public QObject {
     LabelSession& labels() { return *labels_; }
     LabelEditor& editor() { return *editor_; }
     LabelTool& tool() { return *tool_; }
+    LabelFitting& fitting() { return *fitting_; }
     LabelProposals& proposals() { return *proposals_; }
     LabelActions& actions() { return *actions_; }
     ObjectsPanel& objects() { return *objects_; }
@@ -125,6 +127,7 @@ class LabelWorkspace : public QObject {
     LabelTool* tool_;
     LabelActions* actions_;
     LabelTracking* tracking_;
+    LabelFitting* fitting_;
     ObjectsModel* model_;
     ObjectsPanel* objects_;
     ObjectInspector* inspector_;

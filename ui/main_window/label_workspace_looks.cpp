@@ -6,6 +6,7 @@
 #include "panels/chip_grid.h"
 #include "session/label_chips.h"
 #include "session/label_stacks.h"
+#include "session/object_colours.h"
 #include "view/image_convert.h"
 #include "view/label_tool.h"
 
@@ -24,11 +25,14 @@ void LabelWorkspace::wireChips() {
     connect(chips_, &LabelChips::ready, this, [this](ObjectId id, const std::vector<LabelChip>& chips) {
         if (labels_->selected() != id) return;
         std::vector<ChipCard> cards;
+        const LabelledObject* object = labels_->object(id);
+        const QColor colour = object != nullptr ? ObjectColours(labels_->annotations()).of(*object) : QColor();
         for (const LabelChip& cut : chips) {
             Chip chip;
             chip.title = cut.keyframe ? tr("%1 ◆").arg(cut.frame) : QString::number(cut.frame);
             chip.values = cut.gray;
             chip.image = wrapImage(cut.gray);
+            chip.box_colour = colour;
             const QPointF middle((cut.gray.cols - 1) / 2.0, (cut.gray.rows - 1) / 2.0);
             const QPointF half(cut.box.width / 2, cut.box.height / 2);
             chip.boxes.push_back(QRectF(middle - half, middle + half));
@@ -71,8 +75,13 @@ void LabelWorkspace::wireStacks() {
         shown.object = id;
         shown.frame = stack.frame;
         shown.area = stack.area;
-        shown.image = wrapImage(stack.stacked);
+        if (!stack.stacked.empty()) shown.image = wrapImage(stack.stacked);
         shown.layers = stack.layers;
+        if (stack.stacked.empty())
+            shown.missing =
+                stack.layers < 2
+                    ? tr("No stack yet: it needs three frames that show the object")
+                    : tr("No stack yet: it needs three frames that look alike, there are %1").arg(stack.layers);
         tool_->setStack(std::move(shown));
     });
 }

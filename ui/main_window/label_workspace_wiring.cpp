@@ -13,6 +13,7 @@
 #include "panels/object_inspector.h"
 #include "panels/objects_panel.h"
 #include "session/label_classes.h"
+#include "session/label_fitting.h"
 #include "session/label_tracking.h"
 #include "view/label_timeline.h"
 #include "view/label_tool.h"
@@ -88,6 +89,10 @@ void LabelWorkspace::wireEditActions() {
     does(actions_->keyframe, [this] { editor_->setKeyframe(); });
     does(actions_->spread_size, [this] { editor_->spreadSize(); });
     does(actions_->spread_correction, [this] { editor_->spreadCorrection(); });
+    does(actions_->fit_pictures, [this] { fitting_->start(); });
+    connect(fitting_, &LabelFitting::workingChanged, this, [this] { enableActions(); });
+    connect(actions_->carry_corrections, &QAction::toggled, this,
+            [this](bool on) { editor_->setCarriesCorrections(on); });
     does(actions_->copy_on, [this] { editor_->copyOn(1); });
     does(actions_->copy_back, [this] { editor_->copyOn(-1); });
     does(actions_->delete_keyframe, [this] { editor_->deleteKeyframe(); });
@@ -119,6 +124,9 @@ void LabelWorkspace::wireEditActions() {
 
     connect(inspector_, &ObjectInspector::classChosen, this,
             [this](const QString& name) { editor_->setClass(name.toStdString()); });
+    connect(inspector_, &ObjectInspector::colourChosen, this, [this](const QColor& colour) {
+        editor_->setColour(colour.isValid() ? std::optional<std::uint32_t>(colour.rgb() & 0xffffffU) : std::nullopt);
+    });
     connect(inspector_, &ObjectInspector::occlusionToggled, editor_, &LabelEditor::toggleOccluded);
     connect(inspector_, &ObjectInspector::outsideToggled, editor_, &LabelEditor::toggleOutside);
     connect(inspector_, &ObjectInspector::ignoreToggled, editor_, &LabelEditor::toggleIgnore);
@@ -162,8 +170,9 @@ void LabelWorkspace::wireGoActions() {
 }
 
 void LabelWorkspace::escape() {
-    if (tracking_->working()) {
+    if (tracking_->working() || fitting_->working()) {
         tracking_->stop();
+        fitting_->stop();
     } else if (std::exchange(planned_, {}).plan) {
         around_.messages.dismiss(MessageKind::info);
         showScene();
@@ -221,6 +230,7 @@ void LabelWorkspace::wireProposals() {
     connect(actions_->track_on, &QAction::triggered, this, [this] { tracking_->start(1); });
     connect(actions_->track_back, &QAction::triggered, this, [this] { tracking_->start(-1); });
     connect(actions_->stop_tracking, &QAction::triggered, tracking_, &LabelTracking::stop);
+    connect(actions_->stop_tracking, &QAction::triggered, fitting_, &LabelFitting::stop);
     connect(tracking_, &LabelTracking::workingChanged, this, [this] { enableActions(); });
     connect(tracking_, &LabelTracking::advanced, &around_.session, &ProjectSession::goToFrame);
     connect(tracking_, &LabelTracking::ended, this, [this](FrameIndex frame, const QString& reason) {

@@ -254,7 +254,7 @@ void ChipGrid::paintChip(QPainter& painter, const Chip& chip, const QRectF& pict
         const QRectF shown(picture.topLeft() + (box.topLeft() + QPointF(0.5, 0.5)) * zoom_, box.size() * zoom_);
         painter.setPen(QPen(QColor(12, 12, 14), 3.2));
         painter.drawRect(shown);
-        painter.setPen(QPen(QColor(255, 90, 60), 1.6));
+        painter.setPen(QPen(chip.box_colour, 1.6));
         painter.drawRect(shown);
     }
     if (!cursor_ || !QRectF(QPointF(0, 0), sizeOf(chip)).contains(*cursor_)) return;

@@ -20,11 +20,12 @@ struct ChipHistogram {
 /// One small picture with its title.
 struct Chip {
     QString title;
-    QString note;               ///< under the title, such as the range of values
-    cv::Mat values;             ///< what the cursor reads: CV_8UC1, CV_8UC3 or CV_32FC1; the size that boxes refer to
-    QImage image;               ///< the values as they are shown, pixel by pixel
-    std::vector<QRectF> boxes;  ///< drawn over it; edges, pixel 0 covers −0.5 … 0.5
-    QString unit;               ///< of the values
+    QString note;    ///< under the title, such as the range of values
+    cv::Mat values;  ///< what the cursor reads: CV_8UC1, CV_8UC3 or CV_32FC1; the size that boxes refer to
+    QImage image;    ///< the values as they are shown, pixel by pixel
+    QColor box_colour{255, 90, 60};
+    std::vector<QRectF> boxes;               ///< drawn over it; edges, pixel 0 covers −0.5 … 0.5
+    QString unit;                            ///< of the values
     std::optional<ChipHistogram> histogram;  ///< shown in place of the image
 };
 

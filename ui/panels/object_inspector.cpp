@@ -1,10 +1,13 @@
 #include "panels/object_inspector.h"
 
+#include <QColorDialog>
 #include <QComboBox>
 #include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMenu>
+#include <QPainter>
 #include <QSignalBlocker>
 #include <QStackedLayout>
 #include <QToolButton>
@@ -59,6 +62,14 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     class_->setToolTip(tr("Class (keys 1 to 8); type a name and press Return for one of your own"));
     class_->setEditable(true);
     class_->setInsertPolicy(QComboBox::NoInsert);
+    colour_ = new QToolButton;
+    colour_->setPopupMode(QToolButton::InstantPopup);
+    colour_->setFocusPolicy(Qt::TabFocus);
+    colour_->setAccessibleName(tr("Colour"));
+    auto* colours = new QMenu(colour_);
+    colours->addAction(tr("A colour of its own…"), this, &ObjectInspector::chooseColour);
+    class_colour_ = colours->addAction(tr("Colour of its class"), this, [this] { emit colourChosen({}); });
+    colour_->setMenu(colours);
     occluded_ = button(tr("Occluded"), tr("Not, partly or fully hidden from here (O)"), true);
     outside_ = button(tr("Outside"), tr("Outside the image from here until the next keyframe (L)"), true);
     ignore_ = button(tr("Ignore"), tr("Counts neither way from here until the next keyframe (I)"), true);
@@ -75,7 +86,11 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     layout->addWidget(title_);
     layout->addWidget(life_);
     layout->addWidget(box_);
-    layout->addWidget(class_);
+    auto* kind = new QHBoxLayout;
+    kind->setSpacing(4);
+    kind->addWidget(class_, 1);
+    kind->addWidget(colour_);
+    layout->addLayout(kind);
     layout->addLayout(row({occluded_, outside_, ignore_}));
     layout->addWidget(review_);
     layout->addLayout(row({checked_, questionable_}));
@@ -102,6 +117,27 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
             [this](QListWidgetItem* item) { emit candidateChosen(item->data(Qt::UserRole).toInt()); });
 }
 
+void ObjectInspector::chooseColour() {
+    const QColor chosen = QColorDialog::getColor(shown_colour_, this, tr("Colour of %1").arg(title_->text()));
+    if (chosen.isValid()) emit colourChosen(chosen);
+}
+
+void ObjectInspector::showColour(const ObjectDetails& details) {
+    shown_colour_ = details.colour;
+    class_colour_->setEnabled(details.own_colour);
+    colour_->setEnabled(details.editable);
+    colour_->setToolTip(details.own_colour ? tr("Shown in a colour of its own")
+                                           : tr("Shown in the colour of its class"));
+    QPixmap swatch(16, 16);
+    swatch.fill(Qt::transparent);
+    QPainter painter(&swatch);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QColor(0, 0, 0, 150));
+    painter.setBrush(details.colour);
+    painter.drawRoundedRect(QRectF(1.5, 1.5, 13, 13), 3, 3);
+    colour_->setIcon(swatch);
+}
+
 void ObjectInspector::setClasses(const QStringList& classes) {
     QStringList known;
     for (int i = 0; i < class_->count(); ++i) known << class_->itemText(i);
@@ -120,6 +156,7 @@ void ObjectInspector::showObject(const std::optional<ObjectDetails>& details) {
     life_->setText(details->life);
     box_->setText(details->box);
     review_->setText(details->review);
+    showColour(*details);
     const QSignalBlocker class_blocker(class_);
     class_->setCurrentText(details->object_class);
     occluded_->setChecked(details->occlusion != Occlusion::none);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <QColor>
 #include <QWidget>
 #include <optional>
 #include <vector>
 
 #include "core/annotation.h"
 
+class QAction;
 class QComboBox;
 class QLabel;
 class QLineEdit;
@@ -31,6 +33,8 @@ struct ObjectDetails {
     QString box;     ///< "keyframe · 512.0, 233.5 px · 17.9 × 7.1 px · 45°"
     QString review;  ///< "checked by kim, today 12:40"
     QString object_class;
+    QColor colour;            ///< as it is shown
+    bool own_colour = false;  ///< and not its class'
     Occlusion occlusion = Occlusion::none;
     bool outside = false;
     bool ignore = false;
@@ -51,9 +55,12 @@ class ObjectInspector : public QWidget {
     void showObject(const std::optional<ObjectDetails>& details);
     QString title() const;
     QString boxText() const;
+    QToolButton* colourButton() const { return colour_; }
 
  signals:
     void classChosen(const QString& name);
+    /// An invalid one: that of its class.
+    void colourChosen(const QColor& colour);
     void occlusionToggled();
     void outsideToggled();
     void ignoreToggled();
@@ -65,6 +72,8 @@ class ObjectInspector : public QWidget {
     void candidateChosen(int object);
 
  private:
+    void chooseColour();
+    void showColour(const ObjectDetails& details);
     QStackedLayout* pages_;
     EmptyState* empty_;
     QLabel* title_;
@@ -72,6 +81,9 @@ class ObjectInspector : public QWidget {
     QLabel* box_;
     QLabel* review_;
     QComboBox* class_;
+    QToolButton* colour_;
+    QAction* class_colour_;
+    QColor shown_colour_;
     QToolButton* occluded_;
     QToolButton* outside_;
     QToolButton* ignore_;

@@ -9,6 +9,7 @@
 #include "annotation/object_pieces.h"
 #include "annotation/proposals.h"
 #include "session/label_classes.h"
+#include "session/object_colours.h"
 
 namespace eyrie::ui {
 
@@ -96,7 +97,6 @@ std::optional<ObjectId> LabelEditor::add(const OrientedBox& box, FrameIndex fram
     LabelledObject object;
     object.id = labels_.newObjectId();
     object.object_class = labels_.drawnClass();
-    object.colour = classNamed(labels_.annotations(), object.object_class).colour;
     object.origin = ObjectOrigin::hand;
     object.last_frame = frame;
     Keyframe keyframe;
@@ -110,13 +110,19 @@ std::optional<ObjectId> LabelEditor::add(const OrientedBox& box, FrameIndex fram
     return id;
 }
 
+bool LabelEditor::carriesOn(const OrientedBox& box) const {
+    // What the border cuts is no measure of the whole vehicle.
+    return carries_corrections_ && session_.video() && !isCutByBorder(box, session_.video()->size);
+}
+
 bool LabelEditor::setBox(ObjectId id, FrameIndex frame, const OrientedBox& box, bool turned, const QString& what) {
     const LabelledObject* known = labels_.object(id);
     if (known == nullptr) return false;
     const Keyframe* present = keyframeAt(*known, frame);
     if (present != nullptr && sameBox(present->box, box)) return false;
     const bool heading_set = turned || (present != nullptr && present->heading_set);
-    LabelledObject changed = withBox(*known, frame, box, heading_set);
+    LabelledObject changed = carriesOn(box) ? withBoxCarriedOn(*known, frame, box, heading_set, labels_.camera())
+                                            : withBox(*known, frame, box, heading_set);
     changed.origin = originAfterChange(changed.origin);
     return applyObject(what.arg(QString::fromStdString(nameOf(changed))), std::move(changed));
 }
@@ -153,7 +159,14 @@ void LabelEditor::spreadCorrection() {
 
 void LabelEditor::setKeyframe() {
     const auto box = shownBox();
-    if (!box || keyframeAt(*object(), frame()) != nullptr) return;
+    if (!box) return;
+    if (const Keyframe* present = keyframeAt(*object(), frame()); present != nullptr) {
+        if (!present->computed) return;
+        Keyframe confirmed = *present;
+        confirmed.computed = false;
+        applyObject(named(tr("Confirm box of %1")), withKeyframe(*object(), confirmed));
+        return;
+    }
     setBox(*labels_.selected(), frame(), *box, false, tr("Set keyframe of %1"));
 }
 
@@ -248,9 +261,26 @@ void LabelEditor::setClass(const std::string& name) {
         if (const LabelledObject* known = labels_.object(id); known && known->object_class != name)
             changed.push_back(*known);
     if (changed.empty()) return;
-    changed = withClass(std::move(changed), name, classNamed(labels_.annotations(), name).colour);
+    const ObjectColours colours(labels_.annotations());
+    std::vector<std::uint32_t> own;
+    for (const LabelledObject& each : changed) own.push_back(colours.isOwn(each) ? each.colour : 0);
+    changed = withClass(std::move(changed), name, 0);
+    for (std::size_t i = 0; i < changed.size(); ++i) changed[i].colour = own[i];
     labels_.apply(
         editOf(tr("Class %1").arg(QString::fromStdString(name)).toStdString(), labels_.annotations(), changed));
+}
+
+void LabelEditor::setColour(std::optional<std::uint32_t> colour) {
+    std::vector<LabelledObject> changed;
+    // Black is no colour that can be seen, and 0 says that there is none.
+    const std::uint32_t stored = colour ? std::max<std::uint32_t>(*colour, 1) : 0;
+    for (const ObjectId id : labels_.selection())
+        if (const LabelledObject* known = labels_.object(id); known != nullptr && known->colour != stored) {
+            changed.push_back(*known);
+            changed.back().colour = stored;
+        }
+    if (changed.empty()) return;
+    labels_.apply(editOf(named(tr("Colour of %1")).toStdString(), labels_.annotations(), changed));
 }
 
 void LabelEditor::setNotes(const QString& notes) {

@@ -34,6 +34,8 @@ class LabelEditor : public QObject {
     std::optional<ObjectId> add(const OrientedBox& box, FrameIndex frame);
     /// Sets a box; beyond the object's life it lives as long. `turned`: its heading was set by hand, too.
     bool setBox(ObjectId id, FrameIndex frame, const OrientedBox& box, bool turned, const QString& what);
+    /// Whether what a hand corrects goes on to the keyframes that were computed; it does unless told otherwise.
+    void setCarriesCorrections(bool carries) { carries_corrections_ = carries; }
     void nudge(double right_px, double down_px);
     void turn(double radians);
     /// The size of the box as it is shown goes to all keyframes: vehicles keep theirs.
@@ -52,6 +54,8 @@ class LabelEditor : public QObject {
     void toggleOutside();
     void toggleIgnore();
     void setClass(const std::string& name);
+    /// A colour of their own for the selected objects (0xRRGGBB); nothing: that of their class.
+    void setColour(std::optional<std::uint32_t> colour);
     void setNotes(const QString& notes);
     void mark(ReviewState state);
     /// Flags of the selected objects over a range of frames.
@@ -101,6 +105,7 @@ class LabelEditor : public QObject {
 
  private:
     bool ready() const;
+    bool carriesOn(const OrientedBox& box) const;
     /// Tells Error(parameter) of the engine's verbs; answers whether there was none.
     bool guarded(const std::function<void()>& work);
     std::optional<Plan> planOf(const QString& name, const std::function<IdentityChange()>& change);
@@ -110,6 +115,7 @@ class LabelEditor : public QObject {
 
     ProjectSession& session_;
     LabelSession& labels_;
+    bool carries_corrections_ = true;
 };
 
 }  // namespace eyrie::ui

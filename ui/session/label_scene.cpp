@@ -4,6 +4,7 @@
 #include "annotation/interpolation.h"
 #include "session/label_classes.h"
 #include "session/label_editor.h"
+#include "session/object_colours.h"
 
 namespace eyrie::ui {
 
@@ -12,12 +13,6 @@ namespace {
 const QColor kProposalColour(64, 235, 80);  ///< tracks are green
 const QColor kPlannedColour(255, 110, 220);
 constexpr double kPlannedMargin = 2;  ///< px around the box, so that the present one stays visible
-
-QColor colourOf(const std::string& name, const AnnotationSet& set, std::map<std::string, QColor>& known) {
-    const auto found = known.find(name);
-    if (found != known.end()) return found->second;
-    return known[name] = QColor::fromRgb(static_cast<QRgb>(classNamed(set, name).colour | 0xff000000U));
-}
 
 void addPlanned(LabelScene& scene, const AnnotationEdit& planned, const CameraMotion& camera) {
     for (const Change<LabelledObject>& change : planned.objects) {
@@ -46,9 +41,9 @@ LabelScene labelScene(const LabelSession& labels, const LabelProposals& proposal
     scene.frame = frame;
     scene.editable = labels.canEdit();
     scene.selected = labels.selected();
-    std::map<std::string, QColor> colours;
+    ObjectColours colours(set);
     const ObjectClass drawn = classNamed(set, labels.drawnClass());
-    scene.drawn_colour = colourOf(drawn.name, set, colours);
+    scene.drawn_colour = colours.ofClass(drawn.name);
     if (drawn.length_m > 0 && drawn.width_m > 0) {
         scene.width_of_length = drawn.width_m / drawn.length_m;
         if (scale.gsd_known) {
@@ -60,9 +55,10 @@ LabelScene labelScene(const LabelSession& labels, const LabelProposals& proposal
         LabelMark mark;
         mark.id = object.id;
         mark.box = box.box;
-        mark.kind = box.source == BoxSource::keyframe ? LabelKind::keyframe : LabelKind::interpolated;
+        const Keyframe* keyframe = box.source == BoxSource::keyframe ? keyframeAt(object, frame) : nullptr;
+        mark.kind = keyframe != nullptr && !keyframe->computed ? LabelKind::keyframe : LabelKind::interpolated;
         mark.in_image_only = box.source == BoxSource::image;
-        mark.colour = colourOf(object.object_class, set, colours);
+        mark.colour = colours.of(object);
         mark.occlusion = box.occlusion;
         mark.ignore = box.ignore;
         mark.review = labels.review().stateAt(object.id, frame);

@@ -1,7 +1,9 @@
 #include "session/label_stacks.h"
 
+#include <algorithm>
 #include <exception>
 
+#include "annotation/interpolation.h"
 #include "session/lru_cache.h"
 #include "session/queued_call.h"
 
@@ -10,6 +12,20 @@ namespace eyrie::ui {
 namespace {
 constexpr int kWait_ms = 120;                             ///< while keys are held nothing is made
 constexpr std::size_t kBudget_bytes = 96U * 1024 * 1024;  ///< 25 grey frames of 2560×1440
+/// An object that was just drawn lives in this frame only: for its stack it is followed a little to either side.
+LabelledObject livedOn(LabelledObject object, FrameIndex frame, const GrayFrames& gray, const CameraMotion& camera,
+                       const std::stop_token& stop) {
+    constexpr FrameIndex kLongEnough = 3;
+    constexpr FrameIndex kReach = 6;
+    if (object.last_frame - firstFrameOf(object) + 1 >= kLongEnough) return object;
+    const LabelledBox shown = boxAt(object, frame, camera);
+    if (!shown.visible() || shown.box.length < 2 || shown.box.width < 2) return object;
+    for (const FrameIndex last : {frame + kReach, std::max(0, frame - kReach)})
+        for (const FollowedBox& box : followBox(shown.box, frame, last, gray, camera, {}, {}, stop).boxes)
+            object = withBox(std::move(object), box.frame, box.box, true);
+    return object;
+}
+
 }  // namespace
 
 /// The pictures of one video, the last ones kept.
@@ -75,9 +91,10 @@ void LabelStacks::begin() {
                 return cv::Mat();  // the canvas tells of pictures that cannot be read
             }
         };
-        ObjectStack stack = stackObject(object, frame, *camera, gray, {}, either.get_token());
-        if (stack.stacked.empty() || either.stop_requested()) return;
-        queuedCall(this, [this, ticket, id = object.id, stack = std::move(stack)] {
+        const ObjectStack stack = stackObject(livedOn(object, frame, gray, *camera, either.get_token()), frame, *camera,
+                                              gray, {}, either.get_token());
+        if (either.stop_requested()) return;
+        queuedCall(this, [this, ticket, id = object.id, stack] {
             if (ticket == ticket_) emit ready(id, stack);
         });
     });

@@ -92,8 +92,12 @@ void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, 
         options.tolerance_px = kTolerance_px;
         LabelledObject changed = *object;
         for (const Keyframe& keyframe : reduceToKeyframes(boxes, labels_.camera(), options))
-            if (keyframeAt(*object, keyframe.frame) == nullptr)
+            if (keyframeAt(*object, keyframe.frame) == nullptr) {
                 changed = withBox(std::move(changed), keyframe.frame, keyframe.box, keyframe.heading_set);
+                Keyframe computed = *keyframeAt(changed, keyframe.frame);
+                computed.computed = true;
+                changed = withKeyframe(std::move(changed), computed);
+            }
         changed.last_frame = std::max(changed.last_frame, end);
         changed.origin = originAfterChange(changed.origin);
         labels_.apply(editOf(tr("Track %1").arg(QString::fromStdString(nameOf(changed))).toStdString(),

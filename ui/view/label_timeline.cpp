@@ -140,13 +140,15 @@ void LabelTimeline::paintRow(QPainter& painter, const ObjectTimelineRow& row, do
         }
     }
     // Keyframes nearer than a diamond are one on screen.
-    painter.setBrush(chosen ? palette().text().color() : mixed(palette().text().color(), row.colour, 0.3));
-    painter.setPen(QPen(ground, 0.8));
+    const QColor by_hand = chosen ? palette().text().color() : mixed(palette().text().color(), row.colour, 0.3);
     double drawn = -1e9;
     for (const FrameIndex keyframe : row.keyframes) {
         const double x = axis.centreOf(keyframe);
         if (x - drawn < kLeastDiamondGap || x < axis.left() - kDiamond || x > axis.right() + kDiamond) continue;
         drawn = x;
+        // Hollow: no hand set it.
+        painter.setBrush(row.computed.contains(keyframe) ? ground : by_hand);
+        painter.setPen(row.computed.contains(keyframe) ? QPen(by_hand, 1) : QPen(ground, 0.8));
         const QPointF points[] = {
             {x - kDiamond, middle}, {x, middle - kDiamond}, {x + kDiamond, middle}, {x, middle + kDiamond}};
         painter.drawPolygon(points, 4);

@@ -28,6 +28,7 @@ struct ObjectTimelineRow {
     FrameIndex first = 0;
     FrameIndex last = 0;
     std::vector<FrameIndex> keyframes;
+    std::set<FrameIndex> computed;  ///< of these, the ones that no hand set
     std::vector<RowSpan> spans;
 };
 

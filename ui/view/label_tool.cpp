@@ -339,7 +339,8 @@ void LabelTool::paintLoupes(QPainter& painter, const CanvasPlace& place) const {
         const OrientedBox& box = selected->box;
         constexpr double kShare = 0.8;
         loupe.magnification = std::min(loupe.magnification, kShare * kLoupeSide / std::hypot(box.length, box.width));
-        if (loupe.magnification < place.transform.scale() && stackHere() == nullptr) return;
+        const LoupeStack* stack = stackHere();
+        if (loupe.magnification < place.transform.scale() && (stack == nullptr || stack->image.isNull())) return;
         loupe.image_point = {box.centre.x, box.centre.y};
         loupe.view_point = place.transform.viewFromImage(loupe.image_point);
         for (const cv::Point2d& corner : box.corners()) {

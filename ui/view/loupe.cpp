@@ -12,7 +12,8 @@ namespace eyrie::ui {
 
 namespace {
 constexpr double kSide = kLoupeSide;
-constexpr double kBetween = 6;    ///< two loupes
+constexpr double kBetween = 6;  ///< two loupes
+constexpr double kNoteHeight = 64;
 constexpr double kDistance = 28;  ///< from the cursor
 constexpr double kDegrees = 180 / std::numbers::pi;
 const QColor kRim(20, 20, 24);
@@ -107,16 +108,35 @@ void paintPane(QPainter& painter, const QRectF& frame, const Loupe& loupe, const
     painter.restore();
 }
 
+/// What stands where a stack will be.
+void paintNote(QPainter& painter, const QRectF& frame, const QString& text) {
+    painter.save();
+    painter.setPen(QPen(kRim, 2));
+    painter.setBrush(kOutside);
+    painter.drawRoundedRect(frame, 6, 6);
+    QFont font = painter.font();
+    font.setBold(false);
+    painter.setFont(font);
+    painter.setPen(QColor(225, 225, 225));
+    painter.drawText(frame.adjusted(8, 4, -8, -4), Qt::AlignCenter | Qt::TextWordWrap, text);
+    painter.restore();
+}
+
 }  // namespace
 
 void paintLoupe(QPainter& painter, const QImage& image, const Loupe& loupe, const LoupeStack* stack) {
     if (image.isNull()) return;
-    const bool two = stack != nullptr && !stack->image.isNull();
+    const bool stacked = stack != nullptr && !stack->image.isNull();
+    const bool two = stacked || (stack != nullptr && !stack->missing.isEmpty());
     const QPointF corner = cornerOf(loupe, two ? 2 * kSide + kBetween : kSide);
     const QSizeF size(kSide, kSide);
     const QString caption = two ? QCoreApplication::translate("Loupe", "this frame") : QString();
     paintPane(painter, QRectF(corner, size), loupe, caption, [&] { paintRaw(painter, image, loupe); });
     if (!two) return;
+    if (!stacked) {
+        paintNote(painter, QRectF(corner + QPointF(kSide + kBetween, 0), QSizeF(kSide, kNoteHeight)), stack->missing);
+        return;
+    }
     paintPane(painter, QRectF(corner + QPointF(kSide + kBetween, 0), size), loupe,
               QCoreApplication::translate("Loupe", "stack of %1").arg(stack->layers),
               [&] { paintStack(painter, *stack); });

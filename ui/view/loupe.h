@@ -19,6 +19,7 @@ struct LoupeStack {
     OrientedBox area;  ///< px of the frame; its heading points to the right in `image`
     QImage image;
     int layers = 0;
+    QString missing;  ///< where there is no image: why not
 };
 
 /// The part of the picture under a loupe and where the loupe stands.

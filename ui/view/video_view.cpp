@@ -204,9 +204,10 @@ void VideoView::paint(QPainter& painter) const {
                                  selected_track_, QRectF(rect()).adjusted(-8, -8, 8, 8)};
         for (const auto& layer : layers_)
             if (settings_.isVisible(layer->kind())) layer->paint(painter, scene);
-        paintInspectedArea(painter);
+        if (tool_ == nullptr) paintInspectedArea(painter);
     }
-    paintPlaceMark(painter);
+    // Marks of the review are in the way of who draws.
+    if (tool_ == nullptr) paintPlaceMark(painter);
     paintBadge(painter);
     if (tool_ != nullptr) tool_->paint(painter, {transform_, frame_.image, QRectF(rect())});
 }
