@@ -7,13 +7,13 @@
 #include "cli/command.h"
 #include "cli/evaluation_files.h"
 #include "cli/evaluation_report.h"
+#include "cli/project_labels.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
 #include "diagnosis/label_truth.h"
 #include "diagnosis/mistake_csv.h"
 #include "diagnosis/run_evaluation.h"
 #include "io/homography_csv.h"
-#include "store/annotation_store.h"
 #include "store/run_store.h"
 
 namespace eyrie::cli {
@@ -143,10 +143,7 @@ BoxFile readTruth(const Arguments& arguments, const Result& result, const MotOpt
         return truth;
     }
     ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
-    const int sequence = result.run->sequence.id;
-    if (readAnnotations(project, sequence).objects.empty())
-        throw Error(ErrorKind::project, arguments.project + ": nobody has labelled " + result.run->sequence.path +
-                                            " yet; name a file with --ground-truth, or label or import some");
+    needLabels(project, *result.run);
     truth.boxes = labelTruth(project, *result.run);
     return truth;
 }

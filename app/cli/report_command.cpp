@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/input.h"
+#include "cli/project_labels.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
 #include "report/evaluation_report.h"
@@ -40,8 +41,10 @@ void makeReport(const Arguments& arguments) {
     {
         ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
         const RunStore store(project);
-        request.run_id = chosenRun(store, arguments.project, arguments.run).id;
+        const RunRecord run = chosenRun(store, arguments.project, arguments.run);
         if (arguments.against) chosenRun(store, arguments.project, arguments.against, "--against");
+        if (arguments.ground_truth.empty()) needLabels(project, run);
+        request.run_id = run.id;
     }
     request.other_run = arguments.against;
     request.options.border = arguments.border;

@@ -39,9 +39,9 @@ class Method {
         return found;
     }
 
-    MethodResult finish(const std::vector<FrameMotionSummary>& motions) {
+    MethodResult finish(const std::vector<FrameMotionSummary>& motions, const VectorsByFrame& vectors) {
         for (const auto& [frame, state] :
-             finishTracks(std::move(states_), motions, variant_.options.finishing, scale_)) {
+             finishTracks(std::move(states_), motions, variant_.options.finishing, scale_, vectorsIn(vectors))) {
             BoxRecord record;
             record.frame = frame;
             record.id = state.id;
@@ -104,6 +104,7 @@ std::vector<MethodResult> runMethods(FrameSource& source, FrameRange range, cons
     running.reserve(methods.size());
     for (const MethodVariant& method : methods) running.emplace_back(method, scale);
     std::vector<FrameMotionSummary> motions;
+    VectorsByFrame vectors;
     RunProgress state;
     state.frames_total = last - range.first + 1;
     const auto start = std::chrono::steady_clock::now();
@@ -112,6 +113,7 @@ std::vector<MethodResult> runMethods(FrameSource& source, FrameRange range, cons
         StageTimes times{};
         const FrameMotion motion = motion_half.next(frame, times);
         motions.push_back({motion.frame, motion.registration, motion.image_size});
+        vectors[motion.frame] = motion.motion_vectors;
         for (std::size_t i = 0; i < running.size(); ++i) {
             const auto found = running[i].next(frame, motion);
             if (observer) observer(i, found, frame);
@@ -124,7 +126,7 @@ std::vector<MethodResult> runMethods(FrameSource& source, FrameRange range, cons
         progress(state);
     }
     std::vector<MethodResult> results;
-    for (Method& method : running) results.push_back(method.finish(motions));
+    for (Method& method : running) results.push_back(method.finish(motions, vectors));
     return results;
 }
 

@@ -42,7 +42,8 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     ProjectFile project = ProjectFile::open(project_);
     RunStore store(project);
     std::vector<TrackFrame> finished;
-    for (auto& [frame, track_state] : finishTracks(std::move(states_), motions_, finishing_, scale_)) {
+    const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
+    for (auto& [frame, track_state] : finishTracks(std::move(states_), motions_, finishing_, scale_, vectors_at)) {
         finished.push_back({frame, track_state});
     }
     store.replaceTrackStates(writer_.runId(), finished);

@@ -174,7 +174,8 @@ LabelImport planImport(const LabelFile& file, const SequenceRecord& sequence, co
         options.tolerance_px = tolerance_px;
         for (auto& [id, object] : imported.annotations.objects) reduceObject(object, tracks.at(id), camera, options);
         if (camera.empty()) {
-            result.notes.push_back("the video was never registered, so keyframes were chosen for motion in the image");
+            result.notes.emplace_back(
+                "the video was never registered, so keyframes were chosen for motion in the image");
         }
     }
     result.objects = static_cast<int>(imported.annotations.objects.size());

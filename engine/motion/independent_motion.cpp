@@ -236,8 +236,9 @@ void IndependentMotion::leaveOutShadows(const Frame& frame, FrameMotion& motion,
     std::vector<char> looks_like_shadow;
     looks_like_shadow.reserve(vectors.size());
     for (const MotionVector& vector : vectors) looks_like_shadow.push_back(shadow_test_.isShadow(vector.position));
-    const std::vector<char> cast =
-        shadow_owners_.castShadows(vectors, looks_like_shadow, motion.background_speed_sigma);
+    const std::vector<char> cast = shadow_owners_.castShadows(
+        vectors, looks_like_shadow, motion.background_speed_sigma,
+        [this](const OrientedBox& vehicle, cv::Point2f corner) { return shadow_test_.litUpTo(vehicle, corner); });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         if (!cast[i]) {

@@ -54,6 +54,15 @@ double distanceTo(const OrientedBox& box, cv::Point2d point) {
                       std::max(0.0, std::abs(in_box.y) - box.width / 2));
 }
 
+/// Whether lit ground parts most of what looks like a shadow from the vehicle.
+bool standsApart(const Group& shadow, const Group& owner, const std::vector<MotionVector>& vectors,
+                 const ShadowOwners::LitUpTo& lit_up_to) {
+    const auto lit = std::count_if(shadow.members.begin(), shadow.members.end(), [&](int member) {
+        return lit_up_to(owner.box, vectors[static_cast<std::size_t>(member)].position);
+    });
+    return 2 * static_cast<std::size_t>(lit) > shadow.members.size();
+}
+
 }  // namespace
 
 ShadowOwners::ShadowOwners(const ShadowTestOptions& options, const SceneScale& scale)
@@ -65,8 +74,8 @@ ShadowOwners::ShadowOwners(const ShadowTestOptions& options, const SceneScale& s
       shadow_linkage_(std::max(kSmallestLinkage, scale.px(1.2))) {}
 
 std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vectors,
-                                            const std::vector<char>& looks_like_shadow,
-                                            double background_speed_sigma) const {
+                                            const std::vector<char>& looks_like_shadow, double background_speed_sigma,
+                                            const LitUpTo& lit_up_to) const {
     std::vector<char> cast(vectors.size(), 0);
     std::vector<int> lit;
     std::vector<int> dark;
@@ -95,7 +104,7 @@ std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vec
             const bool within = std::all_of(shadow.members.begin(), shadow.members.end(), [&](int member) {
                 return distanceTo(owner.box, vectors[static_cast<std::size_t>(member)].position) <= reach_;
             });
-            if (!within) continue;
+            if (!within || (lit_up_to && standsApart(shadow, owner, vectors, lit_up_to))) continue;
             for (const int member : shadow.members) {
                 const auto at = static_cast<std::size_t>(member);
                 if (distanceTo(owner.box, vectors[at].position) > kOwnMargin) cast[at] = 1;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/motion_vector.h"
+#include "core/oriented_box.h"
 #include "core/scene_scale.h"
 #include "motion/shadow_test.h"
 
@@ -12,11 +14,14 @@ namespace eyrie {
 /// but a shadow lies beside a vehicle that moves like it and reaches only so far from it, and a dark car stands alone.
 class ShadowOwners {
  public:
+    using LitUpTo = std::function<bool(const OrientedBox& vehicle, cv::Point2f corner)>;
+
     ShadowOwners(const ShadowTestOptions& options, const SceneScale& scale);
 
     /// For every vector whether it belongs to a cast shadow. `looks_like_shadow`: 1 where ShadowTest says so.
+    /// `lit_up_to(vehicle, corner)`: whether lit ground parts them; see ShadowTest.
     std::vector<char> castShadows(const std::vector<MotionVector>& vectors, const std::vector<char>& looks_like_shadow,
-                                  double background_speed_sigma) const;
+                                  double background_speed_sigma, const LitUpTo& lit_up_to = {}) const;
 
  private:
     double reach_;           ///< px

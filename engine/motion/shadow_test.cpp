@@ -5,6 +5,13 @@
 #include <opencv2/imgproc.hpp>
 
 namespace eyrie {
+namespace {
+
+constexpr double kCornerBeside = 1.5;   ///< px: corners lie this close to the edges they belong to
+constexpr double kVehicleBeside = 0.5;  ///< px by which the box of a vehicle's corners is smaller than it
+constexpr int kLitRun = 2;              ///< half pixels of lit ground that are a gap
+
+}  // namespace
 
 void ShadowTestOptions::describe(ParameterVisitor& visitor) {
     visitor.flag(
@@ -19,6 +26,11 @@ void ShadowTestOptions::describe(ParameterVisitor& visitor) {
     visitor.real("motion.shadow_radius", radius_m, 0, 5, {"m", "What counts as near a corner; at least 2 px.", ""});
     visitor.real("motion.shadow_ground", ground_m, 1, 100,
                  {"m", "Side of the window whose median is the ground's brightness.", ""});
+    visitor.real("motion.shadow_lit", lit, 0, 5,
+                 {"",
+                  "Where the ground between a shadow and its vehicle reaches this share of its usual brightness, the "
+                  "dark thing is a vehicle of its own. 5: never.",
+                  ""});
     visitor.real("motion.shadow_min_brightness", min_brightness, 0, 255,
                  {"grey", "Where the ground is darker than this (night), the test is not used.", ""});
     visitor.real("motion.shadow_reach", reach_m, 0, 100,
@@ -48,15 +60,39 @@ void ShadowTest::prepare(const cv::Mat& gray) {
     cv::medianBlur(cells, ground_, window_);
 }
 
+double ShadowTest::groundAt(cv::Point2d place) const {
+    const int x = std::clamp(cvRound(place.x) * ground_.cols / gray_.cols, 0, ground_.cols - 1);
+    const int y = std::clamp(cvRound(place.y) * ground_.rows / gray_.rows, 0, ground_.rows - 1);
+    return ground_.at<uchar>(y, x);
+}
+
+bool ShadowTest::litUpTo(const OrientedBox& vehicle, cv::Point2f corner) const {
+    if (gray_.empty()) return false;
+    // Towards the middle: a shadow and its vehicle together are convex, so that this way stays inside.
+    const cv::Point2d way = vehicle.centre - cv::Point2d(corner);
+    const double length = std::hypot(way.x, way.y);
+    const double ground = groundAt(corner);
+    int run = 0;
+    for (double gone = kCornerBeside; gone < length; gone += 0.5) {
+        const cv::Point2d place = cv::Point2d(corner) + way * (gone / length);
+        if (vehicle.contains(place, kVehicleBeside)) return false;
+        const cv::Point pixel(cvRound(place.x), cvRound(place.y));
+        if (!cv::Rect(0, 0, gray_.cols, gray_.rows).contains(pixel)) continue;
+        const double brightness = gray_.at<uchar>(pixel);
+        if (brightness > options_.bright_near * ground) return false;  // the vehicle, beyond the box of its corners
+        run = brightness >= options_.lit * ground ? run + 1 : 0;
+        if (run >= kLitRun) return true;
+    }
+    return false;
+}
+
 bool ShadowTest::isShadow(cv::Point2f corner) const {
     if (gray_.empty()) return false;
     const cv::Point pixel(cvRound(corner.x), cvRound(corner.y));
     const cv::Rect near = cv::Rect(pixel.x - radius_, pixel.y - radius_, 2 * radius_ + 1, 2 * radius_ + 1) &
                           cv::Rect(0, 0, gray_.cols, gray_.rows);
     if (near.width < 3 || near.height < 3) return false;
-    const int cell_x = std::clamp(pixel.x * ground_.cols / gray_.cols, 0, ground_.cols - 1);
-    const int cell_y = std::clamp(pixel.y * ground_.rows / gray_.rows, 0, ground_.rows - 1);
-    const double ground = ground_.at<uchar>(cell_y, cell_x);
+    const double ground = groundAt(corner);
     if (ground < options_.min_brightness) return false;
 
     // Means of 2×2 pixels, so that a noisy pixel decides nothing.

@@ -2,6 +2,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "core/oriented_box.h"
 #include "core/parameter.h"
 #include "core/scene_scale.h"
 
@@ -15,6 +16,7 @@ struct ShadowTestOptions {
     double bright_near = 1.2;     ///< anything brighter than this near the corner belongs to a vehicle
     double radius_m = 0.7;        ///< what counts as near
     double ground_m = 12;         ///< side of the window whose median is the ground's brightness
+    double lit = 0.85;            ///< ground at least this bright between shadow and vehicle parts them
     double min_brightness = 60;   ///< grey values; on darker ground (night) the test is not used
     double reach_m = 2.5;         ///< a shadow ends at most this far from its vehicle; farther dark things are vehicles
     double owner_length_m = 2.2;  ///< vectors that own a shadow spread over at least this length …
@@ -33,8 +35,12 @@ class ShadowTest {
     void prepare(const cv::Mat& gray);
     /// Whether a corner (px) belongs to a shadow; false without an image.
     bool isShadow(cv::Point2f corner) const;
+    /// Whether lit ground lies between a corner and a vehicle (px): a shadow on flat ground reaches to what casts it.
+    bool litUpTo(const OrientedBox& vehicle, cv::Point2f corner) const;
 
  private:
+    double groundAt(cv::Point2d place) const;
+
     ShadowTestOptions options_;
     int radius_;  ///< px
     int block_;   ///< px, side of a cell of `ground_`

@@ -88,6 +88,7 @@ void tellCauses(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
         return;
     }
     std::vector<ChartBar> bars;
+    bars.reserve(by_cause.size());
     for (const auto& [cause, count] : by_cause)
         bars.push_back({nameOf(static_cast<MistakeCause>(cause)), kBar, static_cast<double>(count)});
     std::stable_sort(bars.begin(), bars.end(), [](const ChartBar& a, const ChartBar& b) { return a.value > b.value; });

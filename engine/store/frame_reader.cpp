@@ -132,4 +132,12 @@ std::optional<FrameResult> RunStore::frameResult(int run_id, FrameIndex frame) c
     });
 }
 
+std::vector<MotionVector> RunStore::motionVectors(int run_id, FrameIndex frame) const {
+    const std::string doing =
+        "reading the motion vectors of frame " + std::to_string(frame) + " of run " + std::to_string(run_id);
+    return guarded(project_.path(), doing, [&] {
+        return readPacked(project_.database(), "motion_vectors", run_id, frame, unpackMotionVectors);
+    });
+}
+
 }  // namespace eyrie

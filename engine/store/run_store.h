@@ -92,6 +92,8 @@ class RunStore {
     std::vector<Registration> registrations(int run_id) const;
     /// All a finished run knows of a frame; nothing when the run has no such frame.
     std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
+    /// Its motion vectors alone, by ascending id; none when the run has no such frame.
+    std::vector<MotionVector> motionVectors(int run_id, FrameIndex frame) const;
     std::vector<TrackSummary> tracks(int run_id) const;                    ///< ascending id
     std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;  ///< ascending frames
     std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame,

@@ -288,7 +288,15 @@ std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& optio
     return tracks_.get(signatureUpTo(options, SweepStage::finishing), [&] {
         count(SweepStage::finishing);
         auto boxes = std::make_shared<BoxesByFrame>();
-        for (const auto& [frame, state] : finishTracks(states, summariesOf(motion), options.finishing, scale_))
+        const VectorsAt vectors_at = [&motion](FrameIndex frame) {
+            const auto found =
+                std::lower_bound(motion.begin(), motion.end(), frame,
+                                 [](const FrameMotion& candidate, FrameIndex at) { return candidate.frame < at; });
+            const bool there = found != motion.end() && found->frame == frame;
+            return there ? found->motion_vectors : std::vector<MotionVector>{};
+        };
+        for (const auto& [frame, state] :
+             finishTracks(states, summariesOf(motion), options.finishing, scale_, vectors_at))
             (*boxes)[frame].push_back(recordOf(frame, state));
         return boxes;
     });

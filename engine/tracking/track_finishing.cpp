@@ -93,6 +93,11 @@ void FinishingOptions::describe(ParameterVisitor& v) {
         {"frames", "Extend a track back to where its motion vectors began, before they were old enough to count.", ""});
     v.real("finishing.extend_entry", extend_entry_s, 0, 60,
            {"s", "Longest extension of a track back to the border of the image where it came in.", ""});
+    v.real("finishing.trace_back", trace_back_s, 0, 60,
+           {"s",
+            "Follow a track back in time by single motion vectors, by at most this long: vehicles that start slowly or "
+            "hardly stand out show some before they are detected. 0: never.",
+            ""});
     v.real("finishing.min_length", min_length_m, 0, 100,
            {"m", "Tracks whose boxes stay shorter are no vehicles. Used where the ground sampling distance is known.",
             ""});
@@ -118,6 +123,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.smooth_path = false;
     options.extend_back = 0;
     options.extend_entry_s = 0;
+    options.trace_back_s = 0;
     options.min_length_m = 0;
     options.min_width_m = 0;
     options.max_sharing = 1;
@@ -125,8 +131,16 @@ FinishingOptions FinishingOptions::thesis() {
     return options;
 }
 
+VectorsAt vectorsIn(const VectorsByFrame& kept) {
+    return [&kept](FrameIndex frame) {
+        const auto found = kept.find(frame);
+        return found == kept.end() ? std::vector<MotionVector>{} : found->second;
+    };
+}
+
 std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::vector<FrameMotionSummary>& motion,
-                                     const FinishingOptions& options, const SceneScale& scale) {
+                                     const FinishingOptions& options, const SceneScale& scale,
+                                     const VectorsAt& vectors_at) {
     const GroundMotion ground(motion);
     std::vector<TrackPath> paths = groupedById(std::move(states));
     std::erase_if(paths, [](const TrackPath& path) { return !everConfirmed(path); });
@@ -145,6 +159,7 @@ std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::
         if (options.constant_size) steadySize(path, ground, framesOf(options.size_window_s / 2, scale));
         if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));
     }
+    traceBack(paths, ground, vectors_at, framesOf(options.trace_back_s, scale));
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
 
     std::vector<TimedState> result;

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <functional>
 #include <opencv2/core/types.hpp>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "core/corner.h"
 #include "core/ids.h"
+#include "core/motion_vector.h"
 #include "core/parameter.h"
 #include "core/scene_scale.h"
 #include "core/track_state.h"
@@ -33,6 +36,7 @@ struct FinishingOptions {
     double smooth_window_s = 0.4;
     int extend_back = 5;
     double extend_entry_s = 0.5;
+    double trace_back_s = 4;
     double min_length_m = 1.8;
     double min_width_m = 0.9;
     double max_sharing = 0.5;
@@ -46,12 +50,21 @@ struct FinishingOptions {
 /// A state of a track and the frame it belongs to.
 using TimedState = std::pair<FrameIndex, TrackState>;
 
+/// The motion vectors of a frame of the run, by ascending id; none for frames it does not have.
+using VectorsAt = std::function<std::vector<MotionVector>(FrameIndex)>;
+
+/// The vectors that were kept of frames; it must outlive the result.
+using VectorsByFrame = std::unordered_map<FrameIndex, std::vector<MotionVector>>;
+VectorsAt vectorsIn(const VectorsByFrame& kept);
+
 /// Turns all states of a finished run into its result. Keeps the tracks that were ever confirmed, with their tentative
 /// beginning; trims predicted ends; joins the fragments of one vehicle under the older id; gives every track a steady
 /// size on the ground and a smooth path; extends tracks back to where their motion vectors began. States come in any
 /// order and leave ordered by frame, then id, one per frame and id. `motion` may lack frames; nothing is carried across
-/// those. Clean tracks come out as they went in, so finishing twice is finishing once.
+/// those. Without `vectors_at` no track is traced back. Clean tracks come out as they went in, so finishing twice is
+/// finishing once.
 std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::vector<FrameMotionSummary>& motion,
-                                     const FinishingOptions& options, const SceneScale& scale);
+                                     const FinishingOptions& options, const SceneScale& scale,
+                                     const VectorsAt& vectors_at = {});
 
 }  // namespace eyrie

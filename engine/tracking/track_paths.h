@@ -41,6 +41,10 @@ void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options
 /// way where they meet, or wholly when little of it is left.
 void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale);
 
+/// Follows tracks back in time by the motion vectors in their boxes, by at most `frames`: where a vehicle starts slowly
+/// or hardly stands out, single vectors show it long before there are enough for a detection.
+void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const VectorsAt& vectors_at, int frames);
+
 /// Extends paths back over frames in which the motion vectors were too young, by constant velocity over the ground,
 /// while the box stays in the image and off other tracks. Tracks that came in over the border less than `entry_frames`
 /// before they were found are extended back to it.

@@ -7,6 +7,11 @@
 namespace eyrie {
 namespace {
 
+constexpr double kFixedSeconds = 0.4;     ///< tracks that keep their places to each other for this long …
+constexpr double kFixedOfShorter = 0.8;   ///< … and for this share of the shorter one's life …
+constexpr double kFixedLoose = 0.15;      ///< m, … scattering no more than this …
+constexpr double kFixedLoosePx = 0.2;     ///< px, … and this …
+constexpr double kFixedShare = 0.35;      ///< … are one vehicle when they share this share of what is allowed
 constexpr int kFewestShared = 5;          ///< frames two tracks must share to be compared
 constexpr double kSharedOfShorter = 0.3;  ///< … and this share of the shorter one's life
 constexpr double kWidestVehicle = 3.2;    ///< m
@@ -37,9 +42,25 @@ int detectedStates(const TrackPath& path) {
 }
 
 /// How two tracks lie on each other in the frames they share.
+double medianOf(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+double spreadOf(const std::vector<double>& values) {
+    const double middle = medianOf(values);
+    std::vector<double> off;
+    for (const double value : values) off.push_back(std::abs(value - middle));
+    return 1.48 * medianOf(std::move(off));
+}
+
 struct Sharing {
     int frames = 0;
-    double share = 0;  ///< mean
+    double share = 0;           ///< mean
+    std::vector<double> ahead;  ///< px, of the one's centre in the axes of the other, one a frame
+    std::vector<double> aside;
+    int too_wide = 0;  ///< frames in which one was wider than a vehicle: it may hold several
 };
 
 /// A box that is wider than a vehicle may hold several: then only boxes of like size share a place.
@@ -59,6 +80,10 @@ Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
             ++at_b;
         } else {
             sharing.share += sharedBy(at_a->second.box, at_b->second.box, widest);
+            sharing.too_wide += std::max(at_a->second.box.width, at_b->second.box.width) > widest;
+            const cv::Point2d offset = at_a->second.box.toBox(at_b->second.box.centre);
+            sharing.ahead.push_back(offset.x);
+            sharing.aside.push_back(offset.y);
             ++sharing.frames;
             ++at_a;
             ++at_b;
@@ -66,6 +91,14 @@ Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
     }
     if (sharing.frames > 0) sharing.share /= sharing.frames;
     return sharing;
+}
+
+/// Whether the two keep their places to each other as if fixed, for so long that they are parts of one vehicle or it
+/// and its shadow.
+bool areFixed(const Sharing& sharing, const SceneScale& scale) {
+    if (2 * sharing.too_wide > sharing.frames || sharing.frames < kFixedSeconds * scale.frame_rate_hz) return false;
+    const double loose = scale.px(kFixedLoose) + kFixedLoosePx;
+    return spreadOf(sharing.ahead) <= loose && spreadOf(sharing.aside) <= loose;
 }
 
 /// Removes the states of `weaker` that lie on `stronger`.
@@ -109,6 +142,11 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
             const Sharing sharing = sharingOf(stronger, weaker, widest);
             const auto shorter = static_cast<double>(std::min(stronger.states.size(), weaker.states.size()));
             if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
+            const bool fixed = sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scale);
+            if (fixed && sharing.share > kFixedShare * max_sharing) {
+                weaker.states.clear();
+                continue;
+            }
             if (sharing.share <= max_sharing) continue;
             const std::size_t before = weaker.states.size();
             giveWay(weaker, stronger, max_sharing / 2);

@@ -84,7 +84,7 @@ TEST_F(ExitCodes, AProjectWithoutRunsOrLabelsIsFiveEverywhere) {
             {{"sweep", "--project", "@empty.eyrie", "--parameter", "gradient.quantile=0.3"}, 5, "holds no run"},
             {{"import", "@boxes.csv", "--project", "@empty.eyrie"}, 5, "--video"},
             {{"evaluate", "--project", "@p.eyrie"}, 5, "--ground-truth"},
-            {{"report", "--project", "@p.eyrie", "--out", "@r.html"}, 5, "no labels"},
+            {{"report", "--project", "@p.eyrie", "--out", "@r.html"}, 5, "--ground-truth"},
             {{"export", "--project", "@p.eyrie", "--labels", "--format", "mot", "--out", "@x.txt"}, 5, "labelled"},
             {{"sweep", "--project", "@p.eyrie", "--parameter", "gradient.quantile=0.3"}, 5, "no labels"},
             {{"info", "@empty.eyrie"}, 0, ""}});

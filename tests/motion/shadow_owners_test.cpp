@@ -41,6 +41,21 @@ TEST(ShadowOwners, AShadowBesideItsVehicleIsOne) {
     EXPECT_EQ(scene.cast(), 21);
 }
 
+TEST(ShadowOwners, WhatLitGroundPartsFromTheVehicleStays) {
+    Scene scene;
+    scene.add({100, 100}, {18, 6}, kVelocity, false);
+    scene.add({102, 109}, {18, 6}, kVelocity, true);
+    const auto cast = [&](float lit_from_y) {
+        const auto found =
+            ShadowOwners({}, kScale)
+                .castShadows(scene.vectors, scene.dark, 0.02,
+                             [&](const OrientedBox&, cv::Point2f corner) { return corner.y >= lit_from_y; });
+        return std::count(found.begin(), found.end(), 1);
+    };
+    EXPECT_EQ(cast(109), 0);
+    EXPECT_EQ(cast(114), 21) << "most of it is not parted";
+}
+
 TEST(ShadowOwners, ADarkCarAloneStays) {
     Scene scene;
     scene.add({100, 100}, {18, 6}, kVelocity, true);

@@ -35,6 +35,23 @@ TEST(ShadowTest, ABrightRoofBesideTheShadowSavesTheCorner) {
     EXPECT_FALSE(shadowAtCorner(gray));
 }
 
+/// Whether lit ground parts the dark patch from a vehicle whose lower edge is `gap` px above it.
+bool litAcross(int gap, int between) {
+    cv::Mat gray = road(140, 80);
+    gray(cv::Rect(100, 100 - gap, 16, gap)).setTo(between);
+    ShadowTest test({}, kScale);
+    test.prepare(gray);
+    const OrientedBox vehicle{{107.5, 100.0 - gap - 4}, 16, 8, 0};
+    return test.litUpTo(vehicle, {108, 107});
+}
+
+TEST(ShadowTest, AShadowReachesUpToItsVehicleAndADarkCarInTheNextLaneDoesNot) {
+    EXPECT_FALSE(litAcross(0, 80)) << "the shadow begins at the vehicle";
+    EXPECT_FALSE(litAcross(3, 80)) << "… which is larger than the box of its corners";
+    EXPECT_TRUE(litAcross(3, 140)) << "the road shines between";
+    EXPECT_FALSE(litAcross(3, 220)) << "a bright edge of the vehicle is no road";
+}
+
 TEST(ShadowTest, IsNotUsedAtNight) {
     EXPECT_FALSE(shadowAtCorner(road(40, 22)));
 }

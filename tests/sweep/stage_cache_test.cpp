@@ -26,7 +26,8 @@ class OwnRun : public ChainObserver {
         const auto source = test::sweepSource();
         const RunSummary summary = ChainRun(options, kScale).run(*source, {}, *this, {});
         EXPECT_EQ(summary.outcome, RunOutcome::finished) << summary.message;
-        for (const auto& [frame, state] : finishTracks(states_, motions_, options.finishing, kScale))
+        for (const auto& [frame, state] :
+             finishTracks(states_, motions_, options.finishing, kScale, vectorsIn(vectors_)))
             tracks_.emplace_back(frame, state.id, state.box, state.velocity, state.score);
     }
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
@@ -35,6 +36,7 @@ class OwnRun : public ChainObserver {
             if (d.rejection == Rejection::none) detections_.emplace_back(frame, 0, d.box, d.velocity, d.score);
         }
         for (const TrackState& state : result->tracks) states_.emplace_back(frame, state);
+        vectors_[frame] = result->motion.motion_vectors;
         motions_.push_back({frame, result->motion.registration, result->motion.image_size});
     }
     struct Box {
@@ -54,6 +56,7 @@ class OwnRun : public ChainObserver {
     std::vector<Box> tracks_;
     std::vector<TimedState> states_;
     std::vector<FrameMotionSummary> motions_;
+    VectorsByFrame vectors_;
 };
 
 void expectSame(const std::vector<OwnRun::Box>& expected, const BoxesByFrame& found, const std::string& what) {

@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "tracking/track_paths.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kPatience = 8;           ///< frames without a fitting vector after which the trace is lost
+constexpr double kSpeedShare = 0.35;   ///< vectors may differ from the track's velocity by this share of its speed …
+constexpr double kSpeedFloor = 0.08;   ///< … or by this, px/frame
+constexpr double kMargin = 1;          ///< px by which a vector may lie outside the box
+constexpr double kVelocityGain = 0.3;  ///< of a frame's vectors on the track's velocity
+constexpr std::size_t kNewcomers = 2;  ///< vectors of other corners that together support the track
+constexpr double kFree = 0.15;         ///< largest overlap of a traced box with another track
+constexpr double kInImage = 0.5;       ///< share of a traced box that must lie in the image
+
+using BoxesAt = std::unordered_map<FrameIndex, std::vector<OrientedBox>>;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+cv::Point2d median(const std::vector<cv::Point2d>& points) {
+    std::vector<double> x, y;
+    for (const cv::Point2d& point : points) {
+        x.push_back(point.x);
+        y.push_back(point.y);
+    }
+    return {median(std::move(x)), median(std::move(y))};
+}
+
+/// Follows one track back in time, frame by frame, by the motion vectors in its box.
+class Trace {
+ public:
+    Trace(const TrackPath& path, const GroundMotion& ground, const VectorsAt& vectors_at)
+        : ground_(ground), vectors_at_(vectors_at), state_(path.states.front().second), frame_(path.firstFrame()) {
+        fitting_ = fittingVectors(vectors_at_(frame_), {state_.box, state_.velocity}, {});
+    }
+
+    /// One frame back; nothing where the track leaves the image, reaches another one or was not supported lately.
+    std::optional<TimedState> back(const BoxesAt& boxes) {
+        const FrameIndex to = frame_ - 1;
+        const auto mapped = ground_.carried({state_.box, {0, 0}}, frame_, to, false);
+        auto moved = ground_.carried({state_.box, state_.velocity}, frame_, to, false);
+        if (!mapped || !moved) return std::nullopt;
+        const std::vector<MotionVector> vectors = vectors_at_(to);
+        const auto followed = shiftsOf(vectors, to);
+        if (!followed.empty()) moved->box.centre = mapped->box.centre + median(followed);
+        const auto others = boxes.find(to);
+        static const std::vector<OrientedBox> kNone;
+        const std::vector<OrientedBox>& taken = others == boxes.end() ? kNone : others->second;
+        if (areaInImage(moved->box, ground_.imageSize(to)) < kInImage * moved->box.area()) return std::nullopt;
+        const bool free = std::all_of(taken.begin(), taken.end(),
+                                      [&](const OrientedBox& other) { return overlap(other, moved->box) <= kFree; });
+        if (!free) return std::nullopt;
+        fitting_ = fittingVectors(vectors, *moved, taken);
+        const bool supported = !followed.empty() || fitting_.size() >= kNewcomers;
+        unsupported_ = supported ? 0 : unsupported_ + 1;
+        if (unsupported_ > kPatience) return std::nullopt;
+        if (!fitting_.empty()) {
+            std::vector<cv::Point2d> velocities;
+            for (const MotionVector& vector : fitting_) velocities.emplace_back(vector.velocity);
+            moved->velocity += (median(velocities) - moved->velocity) * kVelocityGain;
+        }
+        state_.box = moved->box;
+        state_.velocity = moved->velocity;
+        state_.origin = supported ? StateOrigin::reconstructed : StateOrigin::predicted;
+        state_.hits = 0;
+        frame_ = to;
+        return TimedState{frame_, state_};
+    }
+
+ private:
+    /// How far the corners that were in the box moved by themselves; only those that still move alike.
+    std::vector<cv::Point2d> shiftsOf(const std::vector<MotionVector>& vectors, FrameIndex to) const {
+        std::vector<cv::Point2d> shifts;
+        for (const MotionVector& later : fitting_) {
+            const auto earlier =
+                std::lower_bound(vectors.begin(), vectors.end(), later.id,
+                                 [](const MotionVector& vector, CornerId id) { return vector.id < id; });
+            if (earlier == vectors.end() || earlier->id != later.id) continue;
+            OrientedBox place = state_.box;
+            place.centre = later.position;
+            const auto stood = ground_.carried({place, {0, 0}}, frame_, to, false);
+            if (stood) shifts.push_back(cv::Point2d(earlier->position) - stood->box.centre);
+        }
+        return shifts;
+    }
+
+    static std::vector<MotionVector> fittingVectors(const std::vector<MotionVector>& vectors, const MovingState& state,
+                                                    const std::vector<OrientedBox>& taken) {
+        const double allowed = std::max(kSpeedFloor, kSpeedShare * std::hypot(state.velocity.x, state.velocity.y));
+        std::vector<MotionVector> fitting;
+        for (const MotionVector& vector : vectors) {
+            const cv::Point2d apart = cv::Point2d(vector.velocity) - state.velocity;
+            if (std::hypot(apart.x, apart.y) > allowed || !state.box.contains(vector.position, kMargin)) continue;
+            const bool free = std::none_of(taken.begin(), taken.end(),
+                                           [&](const OrientedBox& other) { return other.contains(vector.position); });
+            if (free) fitting.push_back(vector);
+        }
+        return fitting;
+    }
+
+    const GroundMotion& ground_;
+    const VectorsAt& vectors_at_;
+    TrackState state_;
+    FrameIndex frame_;
+    std::vector<MotionVector> fitting_;  ///< in `frame_`
+    int unsupported_ = 0;
+};
+
+}  // namespace
+
+void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const VectorsAt& vectors_at, int frames) {
+    if (frames < 1 || !vectors_at) return;
+    BoxesAt boxes;
+    for (const TrackPath& path : paths) {
+        for (const auto& [frame, state] : path.states) boxes[frame].push_back(state.box);
+    }
+    for (TrackPath& path : paths) {
+        if (path.states.front().second.origin == StateOrigin::predicted) continue;
+        Trace trace(path, ground, vectors_at);
+        std::vector<TimedState> traced;
+        const auto longest = std::min(static_cast<std::size_t>(frames), path.states.size() / 2);
+        while (traced.size() < longest) {
+            auto earlier = trace.back(boxes);
+            if (!earlier) break;
+            traced.push_back(*earlier);
+        }
+        while (!traced.empty() && traced.back().second.origin == StateOrigin::predicted) traced.pop_back();
+        for (const auto& [frame, state] : traced) boxes[frame].push_back(state.box);
+        path.states.insert(path.states.begin(), traced.rbegin(), traced.rend());
+    }
+}
+
+}  // namespace eyrie
