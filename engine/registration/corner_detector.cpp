@@ -183,6 +183,11 @@ void CornerOptions::describe(ParameterVisitor& visitor) {
     visitor.real(
         "registration.min_roundness", min_roundness, 0, 0.95,
         {"", "0 accepts points on edges as corners, 1 only texture without a direction.", "Förstner and Gülch 1987"});
+    visitor.flag("registration.favour_movers", favour_movers,
+                 {"",
+                  "Where vehicles were seen to move, corners stay as dense as they can be, whatever the largest number "
+                  "of corners.",
+                  ""});
     visitor.integer("registration.tensor_window", tensor_window, 3, 7,
                     {"px", "Side of the window over which the structure tensor is summed; even numbers round up.", ""});
 }
@@ -205,12 +210,13 @@ std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
 
     const double cap = kOrdinaryShare * options_.max_corners;
     const int ordinary = static_cast<int>(cap) - static_cast<int>(surroundings.living.size());
-    if (ordinary <= 0 && surroundings.movers.empty()) return corners;
+    const std::vector<cv::Point2f> moving = options_.favour_movers ? surroundings.movers : std::vector<cv::Point2f>{};
+    if (ordinary <= 0 && moving.empty()) return corners;
     const std::vector<StrengthPeak> peaks = allPeaks(picture, limits);
     const PaddingMask padding(picture);
-    const CornerGrid movers(size, static_cast<float>(std::max(6.0, 2.5 * spacing_px_)), surroundings.movers);
+    const CornerGrid movers(size, static_cast<float>(std::max(6.0, 2.5 * spacing_px_)), moving);
     std::vector<Candidate> candidates;
-    if (!surroundings.movers.empty()) {
+    if (!moving.empty()) {
         appendCandidates(
             peaks, size, surroundings.living, spacing_px_,
             [&](const StrengthPeak& peak, cv::Point2f at) {

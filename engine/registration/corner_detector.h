@@ -17,6 +17,7 @@ struct CornerOptions {
     double max_deviation_px = 0.5;
     double min_roundness = 0.05;
     int tensor_window = 3;
+    bool favour_movers = true;  ///< the cap does not thin out corners near moving ones
 
     void describe(ParameterVisitor& visitor);
 };

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <unordered_map>
 
 #include "tracking/track_paths.h"
@@ -33,12 +34,36 @@ cv::Point2d median(const std::vector<cv::Point2d>& points) {
     return {median(std::move(x)), median(std::move(y))};
 }
 
+/// Keeps the vectors of the frames used last: neighbouring tracks need the same ones.
+class RecentVectors {
+ public:
+    explicit RecentVectors(const VectorsAt& source) : source_(source) {}
+    /// Valid until the next but kFramesKept frames were asked for.
+    const std::vector<MotionVector>& at(FrameIndex frame) {
+        const auto [entry, is_new] = kept_.try_emplace(frame);
+        if (!is_new) return entry->second;
+        entry->second = source_(frame);
+        order_.push_back(frame);
+        if (order_.size() > kFramesKept) {
+            kept_.erase(order_.front());
+            order_.pop_front();
+        }
+        return entry->second;
+    }
+
+ private:
+    static constexpr std::size_t kFramesKept = 256;
+    const VectorsAt& source_;
+    std::unordered_map<FrameIndex, std::vector<MotionVector>> kept_;
+    std::deque<FrameIndex> order_;
+};
+
 /// Follows one track back in time, frame by frame, by the motion vectors in its box.
 class Trace {
  public:
-    Trace(const TrackPath& path, const GroundMotion& ground, const VectorsAt& vectors_at)
-        : ground_(ground), vectors_at_(vectors_at), state_(path.states.front().second), frame_(path.firstFrame()) {
-        fitting_ = fittingVectors(vectors_at_(frame_), {state_.box, state_.velocity}, {});
+    Trace(const TrackPath& path, const GroundMotion& ground, RecentVectors& vectors)
+        : ground_(ground), vectors_(vectors), state_(path.states.front().second), frame_(path.firstFrame()) {
+        fitting_ = fittingVectors(vectors_.at(frame_), {state_.box, state_.velocity}, {});
     }
 
     /// One frame back; nothing where the track leaves the image, reaches another one or was not supported lately.
@@ -47,7 +72,7 @@ class Trace {
         const auto mapped = ground_.carried({state_.box, {0, 0}}, frame_, to, false);
         auto moved = ground_.carried({state_.box, state_.velocity}, frame_, to, false);
         if (!mapped || !moved) return std::nullopt;
-        const std::vector<MotionVector> vectors = vectors_at_(to);
+        const std::vector<MotionVector>& vectors = vectors_.at(to);
         const auto followed = shiftsOf(vectors, to);
         if (!followed.empty()) moved->box.centre = mapped->box.centre + median(followed);
         const auto others = boxes.find(to);
@@ -106,7 +131,7 @@ class Trace {
     }
 
     const GroundMotion& ground_;
-    const VectorsAt& vectors_at_;
+    RecentVectors& vectors_;
     TrackState state_;
     FrameIndex frame_;
     std::vector<MotionVector> fitting_;  ///< in `frame_`
@@ -121,9 +146,10 @@ void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const 
     for (const TrackPath& path : paths) {
         for (const auto& [frame, state] : path.states) boxes[frame].push_back(state.box);
     }
+    RecentVectors vectors(vectors_at);
     for (TrackPath& path : paths) {
         if (path.states.front().second.origin == StateOrigin::predicted) continue;
-        Trace trace(path, ground, vectors_at);
+        Trace trace(path, ground, vectors);
         std::vector<TimedState> traced;
         const auto longest = std::min(static_cast<std::size_t>(frames), path.states.size() / 2);
         while (traced.size() < longest) {

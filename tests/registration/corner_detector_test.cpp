@@ -127,6 +127,8 @@ TEST(CornerDetector, moversKeepTheirDensityUnderTheCap) {
     surroundings.movers = {{96, 100}, {100, 100}, {104, 100}};
     const auto with = countNear(detector.detect(picture, surroundings));
     EXPECT_GE(with, 3 * std::max<long>(1, without));
+    options.favour_movers = false;
+    EXPECT_EQ(countNear(CornerDetector(options, scaleOf(0.3)).detect(picture, surroundings)), without);
 }
 
 TEST(CornerDetector, placesNothingAtPadding) {
