@@ -255,7 +255,11 @@ class Fitter {
 
     cv::Mat ownCost(const Place& place, int rows, int columns, float away, float never) const {
         cv::Mat cost = cv::Mat::zeros(rows, columns, CV_32F);
-        if (!place.likeness.empty()) cost = 1 - place.likeness;
+        // What looks like nothing known tells nothing.
+        if (!place.likeness.empty()) {
+            const cv::Mat alike = cv::max(place.likeness, 0);
+            cost = 1 - alike.mul(alike);
+        }
         for (int y = 0; y < rows; ++y)
             for (int x = 0; x < columns; ++x) {
                 const int dx = x - grid_.reach.width;
@@ -282,6 +286,10 @@ class Fitter {
                 return bend < -1e-6 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
             };
             place.found += cv::Point2d(vertex({1, 0}), vertex({0, 1}));
+            constexpr double kNotAtAll = 0.3;
+            constexpr double kWell = 0.55;
+            const double trust = (static_cast<double>(place.likeness.at<float>(at)) - kNotAtAll) / (kWell - kNotAtAll);
+            place.found *= std::clamp(trust, 0.0, 1.0);
         }
     }
 

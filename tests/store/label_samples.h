@@ -69,7 +69,8 @@ inline void expectSame(const LabelledObject& a, const LabelledObject& b) {
         const Keyframe& q = b.keyframes[i];
         EXPECT_TRUE(p.frame == q.frame && p.box.centre == q.box.centre && p.box.length == q.box.length &&
                     p.box.width == q.box.width && p.box.heading == q.box.heading && p.heading_set == q.heading_set &&
-                    p.occlusion == q.occlusion && p.outside == q.outside && p.ignore == q.ignore)
+                    p.occlusion == q.occlusion && p.outside == q.outside && p.ignore == q.ignore &&
+                    p.computed == q.computed)
             << "object " << a.id << ", keyframe " << i;
     }
 }

@@ -140,7 +140,7 @@ class LabelHelpTest : public QObject, test::Labelling {
         QVERIFY(window);
         LabelTool& tool = window->labelling().tool();
         const ObjectId id = draw(*window, {20, 55.5}, {42, 55.5});
-        QVERIFY(tool.stackHere() == nullptr);  // one frame is no stack
+        QVERIFY(tool.stackHere() == nullptr);  // not at once
         go(*window, 20);
         for (int i = 0; i < 12; ++i) key(*window, Qt::Key_Right, Qt::ShiftModifier);
         QVERIFY(waitFor([&] { return tool.stackHere() != nullptr; }));

@@ -57,6 +57,10 @@ class Photographer : public test::Labelling {
                 for (Keyframe& keyframe : object.keyframes)
                     keyframe.box.centre += cv::Point2d(17.0 * (copy % 5), 13.0 * copy);
                 object.last_frame = boxes.back().frame;
+                // One object of its own colour, and one of a run with a single box set by hand.
+                if (edit.objects.size() == 1) object.colour = 0xff4fd8;
+                if (edit.objects.size() == 2)
+                    for (std::size_t i = 1; i < object.keyframes.size(); ++i) object.keyframes[i].computed = true;
                 edit.objects.push_back({std::nullopt, std::move(object)});
             }
         }

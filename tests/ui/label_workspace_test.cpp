@@ -1,9 +1,11 @@
 #include <QDockWidget>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "panels/object_inspector.h"
 #include "panels/objects_panel.h"
+#include "session/label_fitting.h"
 #include "ui/labelling.h"
 #include "view/label_timeline.h"
 
@@ -62,6 +64,72 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QVERIFY(std::abs(car.keyframes[0].box.length - 18) < 1);
         QVERIFY(car.keyframes[0].heading_set);
         QCOMPARE(window->labelling().inspector().title(), QStringLiteral("car 1"));
+    }
+
+    void correctionsGoOnToWhatARunComputed() {
+        const auto window = labellingWindow(30, true);
+        QVERIFY(window);
+        auto& proposals = window->labelling().proposals();
+        key(*window, Qt::Key_P);
+        QVERIFY(waitFor([&] { return !proposals.working() && !proposals.pending().empty(); }));
+        key(*window, Qt::Key_Return, Qt::ControlModifier);
+        LabelSession& labels = window->labelling().labels();
+        QVERIFY(!labels.annotations().objects.empty());
+        const ObjectId id = labels.annotations().objects.begin()->first;
+        const auto computed = [&] {
+            return std::ranges::count_if(object(*window, id).keyframes, [](const Keyframe& k) { return k.computed; });
+        };
+        const auto taken = object(*window, id).keyframes;
+        QCOMPARE(computed(), static_cast<std::ptrdiff_t>(taken.size()));
+        QVERIFY(taken.size() >= 2);
+        labels.select(id);
+        go(*window, taken.front().frame);
+        key(*window, Qt::Key_Down, Qt::ShiftModifier);
+        QCOMPARE(computed(), static_cast<std::ptrdiff_t>(taken.size()) - 1);
+        QVERIFY(std::abs(object(*window, id).keyframes.back().box.centre.y - taken.back().box.centre.y) > 3);
+        key(*window, Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(object(*window, id).keyframes.back().box.centre.y, taken.back().box.centre.y);
+        // Told not to, only the box shown changes.
+        window->labelling().actions().carry_corrections->trigger();
+        key(*window, Qt::Key_Down, Qt::ShiftModifier);
+        QCOMPARE(object(*window, id).keyframes.back().box.centre.y, taken.back().box.centre.y);
+        key(*window, Qt::Key_Z, Qt::ControlModifier);
+        // K says that a computed box is right; then the others can be laid on the pictures by it.
+        key(*window, Qt::Key_K);
+        QCOMPARE(computed(), static_cast<std::ptrdiff_t>(taken.size()) - 1);
+        QCOMPARE(object(*window, id).keyframes.front().box.centre, taken.front().box.centre);
+        key(*window, Qt::Key_F, Qt::ControlModifier);
+        QVERIFY(waitFor([&] { return !window->labelling().fitting().working(); }));
+        QVERIFY(!object(*window, id).keyframes.front().computed);
+        QCOMPARE(object(*window, id).keyframes.front().box.centre, taken.front().box.centre);
+        QVERIFY(object(*window, id).origin == ObjectOrigin::proposal_corrected);
+    }
+
+    void anObjectMayHaveAColourOfItsOwn() {
+        const auto window = labellingWindow(5);
+        QVERIFY(window);
+        const ObjectId id = draw(*window, {40, 60}, {58, 60});
+        const auto shown = [&] { return window->labelling().tool().scene().marks.front().colour; };
+        const QColor of_class = shown();
+        emit window->labelling().inspector().colourChosen(QColor(10, 200, 250));
+        QCOMPARE(object(*window, id).colour, 0x0ac8faU);
+        QCOMPARE(shown(), QColor(10, 200, 250));
+        key(*window, Qt::Key_4);  // another class, the same colour
+        QCOMPARE(shown(), QColor(10, 200, 250));
+        key(*window, Qt::Key_Z, Qt::ControlModifier);
+        emit window->labelling().inspector().colourChosen({});
+        QCOMPARE(shown(), of_class);
+        key(*window, Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(shown(), QColor(10, 200, 250));
+    }
+
+    void whatWasJustDrawnHasAStackOrSaysWhyNot() {
+        const auto window = labellingWindow(12);
+        QVERIFY(window);
+        QVERIFY(draw(*window, {40, 60}, {58, 60}) > 0);
+        QVERIFY(waitFor([&] { return window->labelling().tool().stackHere() != nullptr; }));
+        const LoupeStack* stack = window->labelling().tool().stackHere();
+        QVERIFY(!stack->image.isNull() || !stack->missing.isEmpty());
     }
 
     void keysMoveAndTurnTheBoxByTheRightAmounts() {

@@ -234,23 +234,49 @@ class Robot : public test::Labelling {
         }
     }
 
-    /// One box is put right and all others laid on the pictures by it; again where that did not do.
-    void correctProposal(ObjectId id, const Truth& truth) {
+    /// Whether boxes lie beside the vehicle in more than a few frames of the object's life.
+    bool isElsewhere(ObjectId id, const Truth& truth) {
+        constexpr double kBeside = 0.3;
+        constexpr double kFew = 0.1;
+        const LabelledObject& object = labels().annotations().objects.at(id);
+        int frames = 0;
+        int beside = 0;
+        for (const auto& [frame, box] : truth.counted) {
+            if (frame < firstFrameOf(object) || frame > object.last_frame) continue;
+            ++frames;
+            beside += likeness(id, frame, box) < kBeside ? 1 : 0;
+        }
+        return beside > kFew * frames;
+    }
+
+    int badFrames(ObjectId id, const Truth& truth) {
+        return static_cast<int>(std::count_if(truth.counted.begin(), truth.counted.end(), [&](const auto& entry) {
+            return likeness(id, entry.first, entry.second) < enough;
+        }));
+    }
+
+    /// One box is put right and all others laid on the pictures by it; again where that did not do, and taken back
+    /// where it did harm.
+    /// What is far off even then is drawn from nothing. Answers the object that stays.
+    ObjectId correctProposal(ObjectId id, const Truth& truth) {
         constexpr int kTries = 3;
         for (int round = 0; round < kTries && worst(id, truth) < enough; ++round) {
             const FrameIndex frame = round == 0 ? middleOf(id, truth) : worstFrame(id, truth);
             correct(id, frame, truth.counted.at(frame));
-            if (worst(id, truth) >= enough) return;
+            const int before = badFrames(id, truth);
+            if (before == 0) return id;
             press(Qt::Key_F, Qt::ControlModifier);
             waitFor([&] { return !window_->labelling().fitting().working(); });
-            if (getenv("TALK")) {
-                int bad = 0;
-                for (auto& [fr, b] : truth.counted) bad += likeness(id, fr, b) < enough;
-                std::printf("   id %d round %d: worst %.2f bad %d/%zu\n", id, round, worst(id, truth), bad,
-                            truth.counted.size());
+            if (isElsewhere(id, truth)) {
+                removeObjects({id});
+                return drawFromNothing(truth);
             }
+            if (badFrames(id, truth) < before) continue;
+            press(Qt::Key_Z, Qt::ControlModifier);
+            break;
         }
         finish(id, truth);
+        return id;
     }
 
     ObjectId drawFromNothing(const Truth& truth) {
@@ -277,7 +303,7 @@ class Robot : public test::Labelling {
     }
     std::size_t keyframes(ObjectId id) { return labels().annotations().objects.at(id).keyframes.size(); }
 
-    /// Which vehicle an object shows, and in how many frames.
+    /// Which vehicle an object shows for at least half of its life, and in how many frames. Nobody mends what does not.
     std::pair<int, int> vehicleOf(ObjectId id, const std::map<int, Truth>& truth, bool& of_any) {
         std::pair<int, int> best{0, 0};
         of_any = false;
@@ -287,6 +313,8 @@ class Robot : public test::Labelling {
             of_any = of_any || frames > 0;
             if (frames > best.second) best = {vehicle, frames};
         }
+        const LabelledObject& object = labels().annotations().objects.at(id);
+        if (2 * best.second < object.last_frame - firstFrameOf(object) + 1) best = {0, 0};
         return best;
     }
 
@@ -385,12 +413,13 @@ void fromProposals(Robot& robot, const std::map<int, Truth>& truth) {
             id = robot.drawFromNothing(known);
             ++drawn;
         } else {
-            robot.correctProposal(id, known);
+            id = robot.correctProposal(id, known);
         }
-        if (getenv("TALK"))
-            std::printf("vehicle %d: %d actions, %zu tracks, keyframes %zu worst %.2f\n", vehicle,
-                        robot.work.clicks + robot.work.keys - before.clicks - before.keys, objects.size(),
-                        robot.keyframes(id), robot.worst(id, known));
+        const int actions = robot.work.clicks + robot.work.keys - before.clicks - before.keys;
+        constexpr int kMany = 15;
+        if (actions >= kMany)
+            std::printf("  vehicle %d took %d clicks and keys: %zu frames, %zu tracks, %zu keyframes\n", vehicle,
+                        actions, known.counted.size(), objects.size(), robot.keyframes(id));
         untouched += robot.work.clicks == before.clicks && robot.work.keys == before.keys ? 1 : 0;
         if (id == 0) continue;
         keyframes += static_cast<double>(robot.keyframes(id));

@@ -92,6 +92,12 @@ void TablePanel::buildTable() {
     table_->installEventFilter(this);
     restoreColumns();
 
+    connect(table_->horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, [this](int column) {
+        // Widths that somebody chose stay.
+        QHeaderView* header = table_->horizontalHeader();
+        if (fitted_widths_.value(column, -1) != header->sectionSize(column)) return;
+        header->resizeSection(column, std::max(header->sectionSize(column), header->sectionSizeHint(column)));
+    });
     connect(table_->horizontalHeader(), &QWidget::customContextMenuRequested, this, &TablePanel::showHeaderMenu);
     connect(table_, &QWidget::customContextMenuRequested, this, &TablePanel::showRowMenu);
     connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& now) {
@@ -134,9 +140,25 @@ void TablePanel::selectId(int id) {
     table_->selectionModel()->clear();
 }
 
+void TablePanel::fitColumns() {
+    // The arrow of the order needs room in the column that has it only.
+    constexpr int kMargin = 14;
+    constexpr int kArrow = 18;
+    const QHeaderView* header = table_->horizontalHeader();
+    const QAbstractItemView* view = table_;
+    fitted_widths_.clear();
+    for (int column = 0; column < proxy_->columnCount(); ++column) {
+        const QString title = proxy_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+        const int arrow = header->sortIndicatorSection() == column ? kArrow : 0;
+        const int own = header->fontMetrics().horizontalAdvance(title) + kMargin + arrow;
+        fitted_widths_ << std::max(own, view->sizeHintForColumn(column) + 1);
+        table_->setColumnWidth(column, fitted_widths_.back());
+    }
+}
+
 void TablePanel::keepSelection() {
     if (!columns_fit_ && proxy_->rowCount() > 0) {
-        table_->resizeColumnsToContents();
+        fitColumns();
         columns_fit_ = true;
     }
     showTableOrEmptyState();

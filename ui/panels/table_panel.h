@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QList>
 #include <QWidget>
 
 #include "models/table_sort_proxy.h"
@@ -57,6 +58,7 @@ class TablePanel : public QWidget {
     void showRowMenu(const QPoint& place);
     void showTableOrEmptyState();
     void keepSelection();
+    void fitColumns();
     int idOf(const QModelIndex& index) const;
     QList<int> shownColumns() const;
 
@@ -69,6 +71,7 @@ class TablePanel : public QWidget {
     EmptyState* empty_;
     EmptyState* nothing_found_;
     QStackedLayout* stack_;
+    QList<int> fitted_widths_;
     bool columns_fit_ = false;  ///< widths were remembered, or fitted to the first rows
     int kept_id_ = 0;           ///< selected by user or program; selected again when its row comes back
     bool telling_ = true;       ///< false while the program selects
