@@ -26,8 +26,8 @@ struct PictureFit {
 
 /// Lays an object on the pictures: all its frames are compared with how it looks in the boxes that a hand set, and
 /// those in which it was computed move to where they look most alike; the whole way is found at once, so that one
-/// frame that looks like something else does not lead away. Sizes and headings stay, keyframes set by hand and flags,
-/// too. As it is where no keyframe was set by hand or none was computed.
+/// frame that looks like something else does not lead away. They turn where that looks more alike; sizes, keyframes set
+/// by hand and flags stay. As it is where no keyframe was set by hand or none was computed.
 PictureFit fittedToPictures(const LabelledObject& object, const CameraMotion& camera, const GrayFrames& gray,
                             const PictureFitOptions& options = {}, std::stop_token stop = {});
 
