@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/angle.h"
+#include "tracking/spread.h"
 #include "tracking/track_paths.h"
 
 namespace eyrie {
@@ -21,19 +22,6 @@ constexpr double kPart = 3.6;             ///< m; one of the two is shorter than
 constexpr double kLongest = 20;           ///< m
 constexpr double kWidest = 3.6;           ///< m
 constexpr double kPixel = 1;              ///< px of tolerance, whatever the scale
-
-double medianOf(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-double spreadOf(const std::vector<double>& values) {
-    const double middle = medianOf(values);
-    std::vector<double> off;
-    for (const double value : values) off.push_back(std::abs(value - middle));
-    return 1.48 * medianOf(off);
-}
 
 /// What a whole box adds to one of its parts, in the part's own axes; px.
 struct Growth {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "tracking/spread.h"
 #include "tracking/track_paths.h"
 
 namespace eyrie {
@@ -42,19 +43,6 @@ int detectedStates(const TrackPath& path) {
 }
 
 /// How two tracks lie on each other in the frames they share.
-double medianOf(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-double spreadOf(const std::vector<double>& values) {
-    const double middle = medianOf(values);
-    std::vector<double> off;
-    for (const double value : values) off.push_back(std::abs(value - middle));
-    return 1.48 * medianOf(std::move(off));
-}
-
 struct Sharing {
     int frames = 0;
     double share = 0;           ///< mean

@@ -3,6 +3,7 @@
 #include <deque>
 #include <unordered_map>
 
+#include "tracking/spread.h"
 #include "tracking/track_paths.h"
 
 namespace eyrie {
@@ -19,19 +20,13 @@ constexpr double kInImage = 0.5;       ///< share of a traced box that must lie 
 
 using BoxesAt = std::unordered_map<FrameIndex, std::vector<OrientedBox>>;
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 cv::Point2d median(const std::vector<cv::Point2d>& points) {
     std::vector<double> x, y;
     for (const cv::Point2d& point : points) {
         x.push_back(point.x);
         y.push_back(point.y);
     }
-    return {median(std::move(x)), median(std::move(y))};
+    return {medianOf(std::move(x)), medianOf(std::move(y))};
 }
 
 /// Keeps the vectors of the frames used last: neighbouring tracks need the same ones.

@@ -118,7 +118,10 @@ void LabelFitting::take(const std::vector<Fitted>& fitted) {
         frames += fit.frames;
         sure += fit.sure;
     }
-    if (changed.empty()) return;
+    if (changed.empty()) {
+        if (!fitted.empty()) emit labels_.notice(tr("The boxes already lie where the pictures look most alike."));
+        return;
+    }
     const QString name = changed.size() == 1
                              ? tr("Lay %1 on the pictures").arg(QString::fromStdString(nameOf(changed.front())))
                              : tr("Lay %1 objects on the pictures").arg(changed.size());
