@@ -35,9 +35,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 done, 1 a defect of Eyrie, 2 wrong usage or parameter, 3 an input cannot be read\n"
-        "or is incomplete, 4 an output cannot be written, 5 the project file cannot be used, 130 stopped by Ctrl-C "
-        "(results so far are "
-        "kept).");
+        "or is incomplete, 4 an output cannot be written, 5 the project file cannot be used, 130 stopped by Ctrl-C\n"
+        "(results so far are kept).");
     int exit_code = eyrie::cli::exit_ok;
     eyrie::cli::addRunCommand(app, exit_code);
     eyrie::cli::addEvaluateCommand(app, exit_code);

@@ -5,6 +5,7 @@
 
 #include "annotation/keyframe_path.h"
 #include "core/angle.h"
+#include "core/upright.h"
 
 namespace eyrie {
 namespace {
@@ -26,12 +27,9 @@ std::optional<OrientedBox> mapped(const OrientedBox& box, const Homography& targ
     return result;
 }
 
-/// Boxes along the image's axes are those of somebody (or some file) who does not turn boxes: drawn with any other
-/// heading they would not be to the last digit.
-bool isUpright(const Keyframe& keyframe) {
-    if (!keyframe.heading_set) return false;
-    const double quarters = keyframe.box.heading / (kPi / 2);
-    return std::abs(quarters - std::round(quarters)) < 1e-9;
+/// Boxes along the image's axes are those of somebody (or some file) who does not turn boxes.
+bool drawnUpright(const Keyframe& keyframe) {
+    return keyframe.heading_set && isUpright(keyframe.box);
 }
 
 /// Whether boxes between a keyframe and the next (after the last one: the one before) stay upright in the image,
@@ -40,7 +38,7 @@ bool staysUpright(const std::vector<Keyframe>& keyframes, std::size_t here) {
     if (keyframes.size() < 2) return false;
     const Keyframe& a = keyframes[here];
     const Keyframe& b = keyframes[here + 1 < keyframes.size() ? here + 1 : here - 1];
-    return isUpright(a) && isUpright(b) && std::abs(turnBetween(a.box.heading, b.box.heading)) < 1e-9;
+    return drawnUpright(a) && drawnUpright(b) && std::abs(turnBetween(a.box.heading, b.box.heading)) < 1e-9;
 }
 
 /// Keyframes as knots in the image of a reference frame, over the ground or as they are.
@@ -58,7 +56,7 @@ class KnotMaker {
                     box->width,
                     box->heading,
                     keyframe.heading_set,
-                    isUpright(keyframe)};
+                    drawnUpright(keyframe)};
     }
 
     bool onGround() const { return camera_ != nullptr; }

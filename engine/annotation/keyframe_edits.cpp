@@ -6,6 +6,7 @@
 
 #include "annotation/interpolation.h"
 #include "core/angle.h"
+#include "core/upright.h"
 
 namespace eyrie {
 namespace {
@@ -13,12 +14,6 @@ namespace {
 auto placeOf(std::vector<Keyframe>& keyframes, FrameIndex frame) {
     return std::lower_bound(keyframes.begin(), keyframes.end(), frame,
                             [](const Keyframe& keyframe, FrameIndex f) { return keyframe.frame < f; });
-}
-
-/// Along the image's axes, as somebody draws who does not turn boxes.
-bool isUpright(const OrientedBox& box) {
-    const double quarters = box.heading / (kPi / 2);
-    return std::abs(quarters - std::round(quarters)) < 1e-9;
 }
 
 /// The smallest box around one that heads along the image's axes.

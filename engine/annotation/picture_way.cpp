@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/angle.h"
+#include "core/upright.h"
 
 namespace eyrie {
 namespace {
@@ -36,10 +37,8 @@ class Fitter {
  private:
     /// Boxes drawn along the image's axes stay along them.
     bool upright() const {
-        return std::all_of(places_.begin(), places_.end(), [](const PicturePlace& place) {
-            const double quarters = place.box.heading / (kPi / 2);
-            return std::abs(quarters - std::round(quarters)) < 1e-9;
-        });
+        return std::all_of(places_.begin(), places_.end(),
+                           [](const PicturePlace& place) { return isUpright(place.box); });
     }
 
     void findPlaces() {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "annotation/keyframe_reduction.h"
-#include "core/angle.h"
+#include "core/upright.h"
 
 namespace eyrie {
 namespace {
@@ -24,11 +24,8 @@ std::vector<FrameBox> frameBoxes(const Track& track, std::size_t begin, std::siz
 }
 
 /// All boxes lie along the image's axes, as those of a format without rotation do.
-bool isUpright(const Track& track) {
-    return std::all_of(track.begin(), track.end(), [](const LabelBox* box) {
-        const double quarters = box->box.heading / (kPi / 2);
-        return std::abs(quarters - std::round(quarters)) < 1e-9;
-    });
+bool staysUpright(const Track& track) {
+    return std::all_of(track.begin(), track.end(), [](const LabelBox* box) { return isUpright(box->box); });
 }
 
 /// Boxes that a file has upright stay so however the camera turns, for which the interpolation wants two keyframes.
@@ -42,7 +39,7 @@ void keepUpright(LabelledObject& object, const Track& track) {
 
 /// Few keyframes for dense boxes: by stretches with the same flags, outside over gaps.
 void reduceObject(LabelledObject& object, const Track& track, const CameraMotion& camera, ReductionOptions options) {
-    options.headings_set = isUpright(track);
+    options.headings_set = staysUpright(track);
     object.keyframes.clear();
     object.last_frame = track.back()->frame;
     std::size_t begin = 0;
