@@ -98,6 +98,11 @@ void FinishingOptions::describe(ParameterVisitor& v) {
             "Follow a track back in time by single motion vectors, by at most this long: vehicles that start slowly or "
             "hardly stand out show some before they are detected. 0: never.",
             ""});
+    v.real("finishing.from_rest", from_rest_s, 0, 60,
+           {"s",
+            "A track that begins slowly and gathers speed is carried back to where the vehicle stood and stands there, "
+            "in all by at most this long. 0: never.",
+            ""});
     v.real("finishing.min_length", min_length_m, 0, 100,
            {"m", "Tracks whose boxes stay shorter are no vehicles. Used where the ground sampling distance is known.",
             ""});
@@ -124,6 +129,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.extend_back = 0;
     options.extend_entry_s = 0;
     options.trace_back_s = 0;
+    options.from_rest_s = 0;
     options.min_length_m = 0;
     options.min_width_m = 0;
     options.max_sharing = 1;
@@ -160,6 +166,7 @@ std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::
         if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));
     }
     traceBack(paths, ground, vectors_at, framesOf(options.trace_back_s, scale));
+    extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
 
     std::vector<TimedState> result;

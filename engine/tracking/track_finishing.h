@@ -37,6 +37,7 @@ struct FinishingOptions {
     int extend_back = 5;
     double extend_entry_s = 0.5;
     double trace_back_s = 4;
+    double from_rest_s = 4;
     double min_length_m = 1.8;
     double min_width_m = 0.9;
     double max_sharing = 0.5;
@@ -59,7 +60,8 @@ VectorsAt vectorsIn(const VectorsByFrame& kept);
 
 /// Turns all states of a finished run into its result. Keeps the tracks that were ever confirmed, with their tentative
 /// beginning; trims predicted ends; joins the fragments of one vehicle under the older id; gives every track a steady
-/// size on the ground and a smooth path; extends tracks back to where their motion vectors began. States come in any
+/// size on the ground and a smooth path; extends tracks back to where their
+/// motion vectors began or the vehicle stood. States come in any
 /// order and leave ordered by frame, then id, one per frame and id. `motion` may lack frames; nothing is carried across
 /// those. Without `vectors_at` no track is traced back. Clean tracks come out as they went in, so finishing twice is
 /// finishing once.
