@@ -11,7 +11,9 @@ constexpr int kSettling = 12;      ///< frames until the corners are spread as i
 }  // namespace
 
 int MotionWindow::reachFor(const IndependentMotionOptions& options) {
-    return std::max({options.baseline, options.min_age, options.find_slow ? options.slow_baseline : 0}) + kSettling;
+    const int speeds =
+        std::max({options.baseline, options.min_age, options.find_slow ? options.slow_baseline : 0}) + kSettling;
+    return std::max(speeds, options.silhouettes.enabled ? options.silhouettes.frames : 0);
 }
 
 bool MotionWindow::cover(FrameIndex first, FrameIndex last, const std::function<Frame(FrameIndex)>& pixels,
@@ -48,7 +50,7 @@ std::vector<FrameMotion> MotionWindow::motions(const IndependentMotionOptions& o
         // A frozen frame repeats the one before it, so a few more are done.
         const bool may_be_repeated = i >= total - count - 3;
         if (!may_be_repeated) {
-            motion.remember(registered_[at]);
+            motion.remember(registered_[at], frames_[at]);
             continue;
         }
         FrameMotion found = motion.next(registered_[at], frames_[at], i + 1 == total ? verdicts : nullptr);

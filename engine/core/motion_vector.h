@@ -8,12 +8,14 @@
 
 namespace eyrie {
 
-/// A corner that moves independently of the camera (Teutsch §4.2).
+/// A corner that moves independently of the camera (Teutsch §4.2), or a place on a plain roof that moves with such.
 struct MotionVector {
     CornerId id = 0;
     cv::Point2f position{0, 0};  ///< px in the current frame
     cv::Point2f velocity{0, 0};  ///< px/frame relative to the ground, in current image axes
-    int age = 0;                 ///< frames the corner has been tracked
+    int age = 0;                 ///< frames the corner has been tracked; 0: inferred, there is no corner
+
+    bool isInferred() const { return age == 0; }
 };
 
 /// The product of the first half of the chain (pixels → motion vectors) for one frame. Stored, so that the second half

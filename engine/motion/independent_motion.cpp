@@ -33,6 +33,7 @@ IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, co
       shadow_owners_(options.shadow, scale),
       local_background_(options.local_background, scale),
       parallax_test_(options.parallax),
+      silhouettes_(options.silhouettes, scale),
       history_(std::max(options.baseline, options.find_slow ? options.slow_baseline : 0)) {
     options_.baseline = std::max(options_.baseline, options_.min_age);
     if (options_.baseline > history_.depth()) history_ = CornerHistory(options_.baseline);
@@ -42,6 +43,7 @@ void IndependentMotion::reset() {
     restart();
     last_frame_.reset();
     last_motion_ = {};
+    silhouettes_.clear();
 }
 
 void IndependentMotion::restart() {
@@ -227,15 +229,35 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
             motion.motion_vectors.push_back({corner.id, corner.current, velocity, corner.age});
         }
     }
-    if (options_.shadow.enabled) leaveOutShadows(frame, motion, verdicts);
+    std::vector<char> looks_like_shadow = shadowLooks(frame, motion.motion_vectors);
+    inferRoofs(motion, looks_like_shadow);
+    if (options_.shadow.enabled) leaveOutShadows(motion, looks_like_shadow, verdicts);
 }
 
-void IndependentMotion::leaveOutShadows(const Frame& frame, FrameMotion& motion, CornerVerdicts* verdicts) {
+std::vector<char> IndependentMotion::shadowLooks(const Frame& frame, const std::vector<MotionVector>& vectors) {
+    std::vector<char> looks_like_shadow(vectors.size(), 0);
+    if (!options_.shadow.enabled) return looks_like_shadow;
     shadow_test_.prepare(frame.gray);
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        looks_like_shadow[i] = shadow_test_.isShadow(vectors[i].position) ? 1 : 0;
+    }
+    return looks_like_shadow;
+}
+
+void IndependentMotion::inferRoofs(FrameMotion& motion, std::vector<char>& looks_like_shadow) {
     std::vector<MotionVector>& vectors = motion.motion_vectors;
-    std::vector<char> looks_like_shadow;
-    looks_like_shadow.reserve(vectors.size());
-    for (const MotionVector& vector : vectors) looks_like_shadow.push_back(shadow_test_.isShadow(vector.position));
+    std::vector<int> lit;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        if (!looks_like_shadow[i]) lit.push_back(static_cast<int>(i));
+    }
+    const std::vector<MotionVector> inferred = silhouettes_.infer(vectors, lit, motion.background_speed_sigma);
+    vectors.insert(vectors.end(), inferred.begin(), inferred.end());
+    looks_like_shadow.resize(vectors.size(), 0);
+}
+
+void IndependentMotion::leaveOutShadows(FrameMotion& motion, const std::vector<char>& looks_like_shadow,
+                                        CornerVerdicts* verdicts) {
+    std::vector<MotionVector>& vectors = motion.motion_vectors;
     const std::vector<char> cast = shadow_owners_.castShadows(
         vectors, looks_like_shadow, motion.background_speed_sigma,
         [this](const OrientedBox& vehicle, cv::Point2f corner) { return shadow_test_.litUpTo(vehicle, corner); });
@@ -261,7 +283,8 @@ bool IndependentMotion::follow(const RegisteredFrame& registered) {
     return follows;
 }
 
-void IndependentMotion::remember(const RegisteredFrame& registered) {
+void IndependentMotion::remember(const RegisteredFrame& registered, const Frame& frame) {
+    silhouettes_.add(frame, registered.registration);
     const RegistrationState state = registered.registration.state;
     const bool repeats = follow(registered) && state == RegistrationState::frozen;
     if (!repeats && state != RegistrationState::failed) takePicture(registered);
@@ -278,6 +301,7 @@ FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Fra
     motion.registration = registered.registration;
     motion.corner_count = static_cast<int>(registered.corners.size());
 
+    silhouettes_.add(frame, registered.registration);
     const RegistrationState state = registered.registration.state;
     const bool follows = follow(registered);
     if (state == RegistrationState::frozen && follows) {

@@ -13,6 +13,7 @@
 #include "motion/corner_verdict.h"
 #include "motion/independent_motion_options.h"
 #include "motion/shadow_owners.h"
+#include "motion/silhouettes.h"
 
 namespace eyrie {
 
@@ -26,12 +27,12 @@ class IndependentMotion {
  public:
     IndependentMotion(const IndependentMotionOptions& options, const SceneScale& scale);
 
-    /// The motion of the next frame. `registered.corners` must ascend by id, else Error(internal). `frame.gray` is only
-    /// read by the shadow test and may be empty, which switches that test off for the frame. `verdicts`, if given,
-    /// receives how every corner was judged.
+    /// The motion of the next frame. `registered.corners` must ascend by id, else Error(internal). `frame.gray`
+    /// is only read by the shadow test and for silhouettes and may be empty, which switches these off for the frame.
+    /// `verdicts`, if given, receives how every corner was judged.
     FrameMotion next(const RegisteredFrame& registered, const Frame& frame, CornerVerdicts* verdicts = nullptr);
     /// Takes a frame whose motion nobody asks for: what comes after is the same, but it costs next to nothing.
-    void remember(const RegisteredFrame& registered);
+    void remember(const RegisteredFrame& registered, const Frame& frame);
     void reset();
 
  private:
@@ -50,7 +51,10 @@ class IndependentMotion {
     void takePicture(const RegisteredFrame& registered);
     Measured measure(std::size_t corner, cv::Point2d now, int longest) const;
     cv::Point2d presentVelocity(std::size_t corner, cv::Point2d now, cv::Point2d mean, double sigma) const;
-    void leaveOutShadows(const Frame& frame, FrameMotion& motion, CornerVerdicts* verdicts);
+    /// Which vectors look like the outline of a shadow; none where that is not tested.
+    std::vector<char> shadowLooks(const Frame& frame, const std::vector<MotionVector>& vectors);
+    void leaveOutShadows(FrameMotion& motion, const std::vector<char>& looks_like_shadow, CornerVerdicts* verdicts);
+    void inferRoofs(FrameMotion& motion, std::vector<char>& looks_like_shadow);
     void sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion,
                      CornerVerdicts* verdicts);
     /// What the speed over `measured.baseline` frames must reach, and which parameter says so.
@@ -66,6 +70,7 @@ class IndependentMotion {
     ShadowOwners shadow_owners_;
     LocalBackground local_background_;
     ParallaxTest parallax_test_;
+    Silhouettes silhouettes_;
     CornerHistory history_;
     std::deque<Path> paths_;  ///< [n − 1]: from n usable pictures before the newest
     Path newest_;             ///< from the newest usable picture to the last frame

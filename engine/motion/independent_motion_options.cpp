@@ -10,6 +10,7 @@ IndependentMotionOptions IndependentMotionOptions::thesis() {
     options.find_slow = false;
     options.sigma_factor = 0;
     options.shadow.enabled = false;
+    options.silhouettes.enabled = false;
     options.parallax.enabled = false;
     options.local_background.enabled = false;
     return options;
@@ -54,6 +55,7 @@ void IndependentMotionOptions::describe(ParameterVisitor& visitor) {
                     {"frames", "A corner must have been tracked this long for the slow test.", ""});
     visitor.real("motion.slow_min_speed", slow_min_speed_m_s, 0, 50, {"m/s", "Lowest speed in the slow test.", ""});
     shadow.describe(visitor);
+    silhouettes.describe(visitor);
     local_background.describe(visitor);
     parallax.describe(visitor);
 }

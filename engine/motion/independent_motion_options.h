@@ -4,6 +4,7 @@
 #include "motion/local_background.h"
 #include "motion/parallax_test.h"
 #include "motion/shadow_test.h"
+#include "motion/silhouettes.h"
 
 namespace eyrie {
 
@@ -21,6 +22,7 @@ struct IndependentMotionOptions {
     int slow_min_age = 10;       ///< frames a corner must have been tracked for it
     double slow_min_speed_m_s = 0.7;
     ShadowTestOptions shadow;
+    SilhouetteOptions silhouettes;
     LocalBackgroundOptions local_background;
     ParallaxTestOptions parallax;
 

@@ -32,6 +32,10 @@ class RegisteredFrames {
     const cv::Mat& newest() const { return pictures_.front().gray; }
     /// The picture `back` ones before the newest, 1 ≤ back ≤ count(), in the newest picture's coordinates.
     WarpedFrame past(int back) const;
+    /// The same picture as it is, 0 ≤ back ≤ count(), …
+    const cv::Mat& picture(int back) const { return pictures_.at(static_cast<std::size_t>(back)).gray; }
+    /// … and the way from the newest picture to it.
+    Homography pathTo(int back) const { return pictures_.at(static_cast<std::size_t>(back)).newest_from_it.inverse(); }
 
  private:
     struct Picture {

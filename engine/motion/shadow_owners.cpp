@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/oriented_box.h"
-#include "motion/single_linkage.h"
+#include "motion/vector_groups.h"
 
 namespace eyrie {
 namespace {
@@ -17,37 +17,6 @@ constexpr double kOwnerAlike = 2.5;     ///< shadow and owner may differ by this
 constexpr double kSmallestLinkage = 4;  ///< px; corners are at least 2 px apart
 constexpr double kOwnMargin = 0.5;      ///< px; dark corners within the owner's box are its own
 
-struct Group {
-    OrientedBox box;
-    cv::Point2d velocity{0, 0};
-    std::vector<int> members;
-};
-
-std::vector<Group> groupsOf(const std::vector<MotionVector>& vectors, const std::vector<int>& chosen,
-                            const Linkage& linkage) {
-    std::vector<MotionVector> part;
-    part.reserve(chosen.size());
-    for (const int index : chosen) part.push_back(vectors[static_cast<std::size_t>(index)]);
-    const std::vector<int> numbers = singleLinkage(part, linkage);
-    std::vector<Group> groups;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const auto number = static_cast<std::size_t>(numbers[i]);
-        if (number >= groups.size()) groups.resize(number + 1);
-        groups[number].members.push_back(chosen[i]);
-    }
-    for (Group& group : groups) {
-        std::vector<cv::Point2d> positions;
-        for (const int member : group.members) {
-            const MotionVector& vector = vectors[static_cast<std::size_t>(member)];
-            group.velocity += cv::Point2d(vector.velocity);
-            positions.push_back(vector.position);
-        }
-        group.velocity /= static_cast<double>(group.members.size());
-        group.box = boxAround(positions, std::atan2(group.velocity.y, group.velocity.x));
-    }
-    return groups;
-}
-
 double distanceTo(const OrientedBox& box, cv::Point2d point) {
     const cv::Point2d in_box = box.toBox(point);
     return std::hypot(std::max(0.0, std::abs(in_box.x) - box.length / 2),
@@ -55,7 +24,7 @@ double distanceTo(const OrientedBox& box, cv::Point2d point) {
 }
 
 /// Whether lit ground parts most of what looks like a shadow from the vehicle.
-bool standsApart(const Group& shadow, const Group& owner, const std::vector<MotionVector>& vectors,
+bool standsApart(const VectorGroup& shadow, const VectorGroup& owner, const std::vector<MotionVector>& vectors,
                  const ShadowOwners::LitUpTo& lit_up_to) {
     const auto lit = std::count_if(shadow.members.begin(), shadow.members.end(), [&](int member) {
         return lit_up_to(owner.box, vectors[static_cast<std::size_t>(member)].position);
@@ -89,14 +58,14 @@ std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vec
     linkage.across = owner_across_;
     linkage.velocity_floor = std::max(kVelocityFloor, std::min(background_speed_sigma, kNoiseLimit));
     linkage.velocity_share = kVelocityShare;
-    std::vector<Group> owners = groupsOf(vectors, lit, linkage);
-    std::erase_if(owners, [&](const Group& group) {
+    std::vector<VectorGroup> owners = groupVectors(vectors, lit, linkage);
+    std::erase_if(owners, [&](const VectorGroup& group) {
         return group.members.size() < kOwnerVectors || group.box.length < owner_length_ ||
                group.box.width < owner_width_;
     });
     linkage.along = linkage.across = shadow_linkage_;
-    for (const Group& shadow : groupsOf(vectors, dark, linkage)) {
-        for (const Group& owner : owners) {
+    for (const VectorGroup& shadow : groupVectors(vectors, dark, linkage)) {
+        for (const VectorGroup& owner : owners) {
             const cv::Point2d apart = shadow.velocity - owner.velocity;
             const double speed = std::hypot(owner.velocity.x, owner.velocity.y);
             const double allowed = std::max(linkage.velocity_floor, linkage.velocity_share * speed);

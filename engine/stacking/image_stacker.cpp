@@ -21,6 +21,15 @@ OrientedBox stackArea(const MasterPose& pose, cv::Size area) {
     return {pose.position, static_cast<double>(area.height), static_cast<double>(area.width), pose.heading};
 }
 
+/// The clusters with those members only that come from corners: inferred ones last for one frame.
+std::vector<MotionCluster> cornersOf(std::vector<MotionCluster> clusters, const FrameMotion& motion) {
+    for (MotionCluster& cluster : clusters) {
+        std::erase_if(cluster.members,
+                      [&](int member) { return motion.motion_vectors[static_cast<std::size_t>(member)].isInferred(); });
+    }
+    return clusters;
+}
+
 }  // namespace
 
 void StackingOptions::describe(ParameterVisitor& v) {
@@ -240,11 +249,12 @@ void ImageStacker::addLayers(const Frame& frame) {
     });
 }
 
-void ImageStacker::update(const Frame& frame, const FrameMotion& motion, const std::vector<MotionCluster>& clusters) {
+void ImageStacker::update(const Frame& frame, const FrameMotion& motion, const std::vector<MotionCluster>& found) {
     if (!motion.registration.reliable()) {
         remembered_.clear();
         return;
     }
+    const std::vector<MotionCluster> clusters = cornersOf(found, motion);
     const std::vector<Placed> placed = placeVectors(motion, clusters);
     moveMasters(placed);
     relateNewVectors(placed, clusters);
@@ -307,8 +317,10 @@ void ImageStacker::remember(const FrameMotion& motion, const std::vector<Detecti
     for (const auto& detection : detections) {
         if (detection.rejection != Rejection::none) continue;
         std::vector<CornerId> ids;
-        for (const int index : detection.vectors)
-            ids.push_back(motion.motion_vectors[static_cast<std::size_t>(index)].id);
+        for (const int index : detection.vectors) {
+            const MotionVector& vector = motion.motion_vectors[static_cast<std::size_t>(index)];
+            if (!vector.isInferred()) ids.push_back(vector.id);
+        }
         if (!ids.empty()) remembered_.push_back(std::move(ids));
     }
 }

@@ -58,7 +58,7 @@ class ImageStacker {
 
     /// Moves the master vectors with their related vectors, adds the current areas as layers, relates new vectors,
     /// drops the dead and starts stacks (§5.3.1–5.3.3).
-    void update(const Frame& frame, const FrameMotion& motion, const std::vector<MotionCluster>& clusters);
+    void update(const Frame& frame, const FrameMotion& motion, const std::vector<MotionCluster>& found);
 
     /// The ROIs of suitable stacks for a cluster whose extended box is `extended` (§5.3.4); empty: use the raw image.
     std::vector<MotionRoi> replace(const MotionCluster& cluster, int cluster_index, const OrientedBox& extended,

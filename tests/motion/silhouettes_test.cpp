@@ -1,0 +1,146 @@
+#include "motion/silhouettes.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+namespace eyrie {
+namespace {
+
+const SceneScale kScale{0.3, 25, true};
+constexpr int kFrames = 40;
+
+/// A plain lorry, 40 × 9 px, on textured ground under a camera that pans. Only its front has corners.
+struct LorryScene {
+    cv::Point2d velocity{2, 0};  ///< px/frame over the ground
+    int roof = 220;              ///< grey values
+    double shadow = 0;           ///< share of the ground's brightness left below the lorry; 0: none
+    int road_gap = 0;            ///< px of road visible behind the first 12 px
+    cv::Point2d camera{0.5, 0.25};
+
+    cv::Rect2d lorryAt(int frame) const {
+        const cv::Point2d corner = cv::Point2d(120, 100) + (velocity - camera) * frame;
+        return {corner.x, corner.y, 40, 9};
+    }
+    Frame frame(int index) const {
+        static const cv::Mat ground = [] {
+            cv::Mat texture(400, 600, CV_8UC1);
+            cv::RNG random(3);
+            random.fill(texture, cv::RNG::NORMAL, 110, 25);
+            cv::GaussianBlur(texture, texture, {}, 2);
+            return texture;
+        }();
+        cv::Mat gray;
+        cv::getRectSubPix(ground, {320, 240}, cv::Point2f(200, 150) + cv::Point2f(camera * index), gray);
+        const cv::Rect2d box = lorryAt(index);
+        const cv::Rect lorry(cvRound(box.x), cvRound(box.y), 40, 9);
+        if (shadow > 0) {
+            cv::Mat below = gray(cv::Rect(lorry.x, lorry.br().y, 40, 6));
+            below.convertTo(below, CV_8U, shadow);
+        }
+        gray(cv::Rect(lorry.x + 28, lorry.y, 12, 9)).setTo(roof);
+        const int rest = 28 - road_gap;
+        gray(cv::Rect(lorry.x, lorry.y, rest, 9)).setTo(roof);
+        return {index, index * 40000, gray, {}};
+    }
+    Registration registration(int index) const {
+        Registration registration;
+        registration.state = index == 0 ? RegistrationState::first : RegistrationState::registered;
+        registration.current_from_previous.from_frame = std::max(0, index - 1);
+        registration.current_from_previous.to_frame = index;
+        if (index > 0) {
+            registration.current_from_previous.matrix(0, 2) = -camera.x;
+            registration.current_from_previous.matrix(1, 2) = -camera.y;
+        }
+        return registration;
+    }
+    /// What is inferred from the corners of the front in the last frame.
+    std::vector<MotionVector> inferred(const SilhouetteOptions& options = {}) const {
+        Silhouettes silhouettes(options, kScale);
+        for (int index = 0; index < kFrames; ++index) silhouettes.add(frame(index), registration(index));
+        const cv::Rect2d box = lorryAt(kFrames - 1);
+        std::vector<MotionVector> corners;
+        for (const cv::Point2d offset : {cv::Point2d(33, 1), {38, 1}, {39, 4}, {38, 7}, {33, 7}}) {
+            corners.push_back({static_cast<CornerId>(corners.size()), offset + box.tl(), velocity, 20});
+        }
+        return silhouettes.infer(corners, {0, 1, 2, 3, 4}, 0.01);
+    }
+};
+
+/// How far behind the front the vectors reach, px; 0 without any.
+double reachBehindFront(const LorryScene& scene, const std::vector<MotionVector>& vectors) {
+    double reach = 0;
+    for (const MotionVector& vector : vectors)
+        reach = std::max(reach, scene.lorryAt(kFrames - 1).br().x - double(vector.position.x));
+    return reach;
+}
+
+TEST(Silhouettes, APlainRoofMovesLikeTheCornersInFrontOfIt) {
+    LorryScene scene;
+    const auto vectors = scene.inferred();
+    EXPECT_NEAR(reachBehindFront(scene, vectors), 40, 2);
+    const cv::Rect2d lorry = scene.lorryAt(kFrames - 1);
+    for (const MotionVector& vector : vectors) {
+        EXPECT_TRUE(vector.isInferred());
+        EXPECT_EQ(vector.velocity, cv::Point2f(2, 0));
+        EXPECT_GT(vector.position.y, lorry.y - 1.5);
+        EXPECT_LT(vector.position.y, lorry.br().y + 1.5);
+    }
+    EXPECT_GE(vectors.size(), 20u) << "an outline, both sides";
+}
+
+TEST(Silhouettes, IdsGrowAndAreNoCorners) {
+    const auto vectors = LorryScene{}.inferred();
+    ASSERT_FALSE(vectors.empty());
+    EXPECT_GT(vectors.front().id, CornerId{1} << 32);
+    for (std::size_t i = 1; i < vectors.size(); ++i) EXPECT_LT(vectors[i - 1].id, vectors[i].id);
+}
+
+TEST(Silhouettes, EndWhereTheRoadIsSeen) {
+    LorryScene scene;
+    scene.road_gap = 8;
+    EXPECT_NEAR(reachBehindFront(scene, scene.inferred()), 12, 2) << "the next vehicle is another one";
+}
+
+TEST(Silhouettes, LeaveOutShadows) {
+    LorryScene scene;
+    scene.shadow = 0.55;
+    for (const MotionVector& vector : scene.inferred())
+        EXPECT_LT(vector.position.y, scene.lorryAt(kFrames - 1).br().y + 1.5);
+}
+
+TEST(Silhouettes, NothingWhereNothingIsKnownOfTheGround) {
+    LorryScene slow;
+    slow.velocity = {0.8, 0};  // 6 m/s: in 28 frames it moves 22 px, half its length
+    const double reach = reachBehindFront(slow, slow.inferred());
+    EXPECT_LT(reach, 24);
+    SilhouetteOptions longer;
+    longer.frames = 39;
+    EXPECT_GT(reachBehindFront(slow, slow.inferred(longer)), reach + 5) << "a longer memory sees more of it";
+    LorryScene creeping;
+    creeping.velocity = {0.2, 0};
+    EXPECT_TRUE(creeping.inferred().empty());
+    LorryScene camouflaged;
+    camouflaged.roof = 112;
+    EXPECT_LT(reachBehindFront(camouflaged, camouflaged.inferred()), 15);
+}
+
+TEST(Silhouettes, TooLargeOnesAreNotUsed) {
+    SilhouetteOptions options;
+    options.max_length_m = 10;  // 33 px
+    EXPECT_TRUE(LorryScene{}.inferred(options).empty());
+}
+
+TEST(Silhouettes, CanBeSwitchedOffAndForget) {
+    SilhouetteOptions off;
+    off.enabled = false;
+    EXPECT_TRUE(LorryScene{}.inferred(off).empty());
+    const LorryScene scene;
+    Silhouettes silhouettes({}, kScale);
+    for (int index = 0; index < kFrames; ++index) silhouettes.add(scene.frame(index), scene.registration(index));
+    silhouettes.add({kFrames, 0, {}, {}}, scene.registration(kFrames));
+    EXPECT_TRUE(silhouettes.infer({}, {}, 0.01).empty()) << "a frame without a picture";
+}
+
+}  // namespace
+}  // namespace eyrie
