@@ -76,7 +76,7 @@ void DuplicateRemovalOptions::describe(ParameterVisitor& visitor) {
 std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const FrameMotion& motion,
                                         const DuplicateRemovalOptions& options, const SceneScale& scale,
                                         RemovalTrace* trace) {
-    detections = joinParts(std::move(detections), options.parts, scale, trace);
+    detections = joinParts(std::move(detections), motion, options.parts, scale, trace);
     SupportRule rule;
     rule.compare_velocity = options.compare_speed;
     for (Detection& detection : detections) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "core/angle.h"
 #include "removal/vector_support.h"
@@ -10,28 +10,72 @@
 namespace eyrie {
 namespace {
 
+constexpr double kOutlineMargin = 1;  ///< px: vectors lie on outlines
+constexpr double kVectorFloor = 0.1;  ///< px/frame by which vectors of one vehicle may differ …
+constexpr double kVectorShare = 0.2;  ///< … or this share of the speed
+constexpr double kSmallestGap = 3;    ///< px: vectors of an outline are about 2 px apart
+
 /// Lengths in px.
 struct Limits {
     double car_length;
     double part_length;
     double vehicle_length;
     double width;
+    double silhouette_length;
+    double silhouette_gap;  ///< 0: silhouettes are not looked at
 };
 
-/// The union of two parts, or an empty box when they are not parts of one vehicle.
-OrientedBox unionOfParts(const Detection& a, const Detection& b, const PartJoiningOptions& options,
-                         const Limits& limits) {
+/// Whether the silhouette of one vehicle reaches from the middle of the one to the middle of the other: vectors that
+/// move like them, some of them inferred, without a larger gap.
+bool onOneSilhouette(const Detection& a, const Detection& b, const FrameMotion& motion, double largest_gap) {
+    const cv::Point2d way = b.box.centre - a.box.centre;
+    const double length = std::hypot(way.x, way.y);
+    if (!(length >= 1)) return false;
+    const cv::Point2d along = way / length;
+    const double half_width = std::min(a.box.width, b.box.width) / 2 + kOutlineMargin;
+    std::vector<double> places{0, length};
+    bool inferred = false;
+    for (const MotionVector& vector : motion.motion_vectors) {
+        const cv::Point2d from = cv::Point2d(vector.position) - a.box.centre;
+        const double place = from.dot(along);
+        if (place < 0 || place > length || std::abs(from.cross(along)) > half_width) continue;
+        if (!similarVelocity(vector.velocity, a.velocity, kVectorFloor, kVectorShare)) continue;
+        inferred = inferred || vector.isInferred();
+        places.push_back(place);
+    }
+    if (!inferred) return false;
+    std::sort(places.begin(), places.end());
+    return std::adjacent_find(places.begin(), places.end(), [&](double p, double q) { return q - p > largest_gap; }) ==
+           places.end();
+}
+
+/// Which parameter let two parts be joined, its limit and what was compared with it.
+struct Joined {
+    OrientedBox box;
+    double limit = 0;
+    const char* parameter = "";
+};
+
+/// The union of two parts; nothing when they are not parts of one vehicle.
+std::optional<Joined> unionOfParts(const Detection& a, const Detection& b, const FrameMotion& motion,
+                                   const PartJoiningOptions& options, const Limits& limits) {
     if (!similarVelocity(a.velocity, b.velocity, options.velocity_floor_px, options.velocity_share)) return {};
     if (std::abs(turnBetween(a.box.heading, b.box.heading)) > radiansFromDegrees(options.max_turn_deg)) return {};
     const bool a_leads = a.box.area() >= b.box.area();
     const OrientedBox both = unionBox(a_leads ? a.box : b.box, a_leads ? b.box : a.box);
     const double widest = std::max(a.box.width, b.box.width);
-    if (both.width > std::max(limits.width, widest)) return {};
+    if (both.area() <= 0 || both.width > std::max(limits.width, widest)) return {};
     // Parts lie one behind the other: beside each other they are two vehicles, or one and its shadow.
     if (both.width > 1.5 * widest + 1) return {};
+    if (limits.silhouette_gap > 0 && both.length <= limits.silhouette_length &&
+        onOneSilhouette(a, b, motion, limits.silhouette_gap)) {
+        return Joined{both, limits.silhouette_length, "duplicates.part_silhouette_length"};
+    }
+    if (a.complete || b.complete) return {};
     const bool parts = std::max(a.box.length, b.box.length) <= limits.part_length;
-    if (both.length > (parts ? limits.vehicle_length : limits.car_length)) return {};
-    return both;
+    const double longest = parts ? limits.vehicle_length : limits.car_length;
+    if (both.length > longest) return {};
+    return Joined{both, longest, parts ? "duplicates.part_vehicle_length" : "duplicates.part_car_length"};
 }
 
 }  // namespace
@@ -50,6 +94,14 @@ void PartJoiningOptions::describe(ParameterVisitor& visitor) {
                  {"m", "Longest vehicle that two short parts may make up.", ""});
     visitor.real("duplicates.part_vehicle_width", vehicle_width_m, 0, 100,
                  {"m", "Parts are not joined into anything wider than this.", ""});
+    visitor.real(
+        "duplicates.part_silhouette_gap", silhouette_gap_m, 0, 100,
+        {"m",
+         "Detections are joined, complete ones too, where the silhouette of one vehicle reaches from one to the "
+         "other without a larger gap. 0: never.",
+         ""});
+    visitor.real("duplicates.part_silhouette_length", silhouette_length_m, 0, 100,
+                 {"m", "Longest vehicle that parts on one silhouette may make up.", ""});
     visitor.real("duplicates.part_velocity_floor", velocity_floor_px, 0, 10,
                  {"px/frame", "Velocities of parts may always differ by this.", ""});
     visitor.real("duplicates.part_velocity_share", velocity_share, 0, 1,
@@ -58,47 +110,49 @@ void PartJoiningOptions::describe(ParameterVisitor& visitor) {
                  {"°", "Largest difference of the parts' headings.", ""});
 }
 
-std::vector<Detection> joinParts(std::vector<Detection> detections, const PartJoiningOptions& options,
-                                 const SceneScale& scale, RemovalTrace* trace) {
+std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameMotion& motion,
+                                 const PartJoiningOptions& options, const SceneScale& scale, RemovalTrace* trace) {
     if (!options.enabled) return detections;
-    const Limits limits{scale.px(options.car_length_m), scale.px(options.part_length_m),
-                        scale.px(options.vehicle_length_m), std::max(4.0, scale.px(options.vehicle_width_m))};
+    const double gap = scale.px(options.silhouette_gap_m);
+    const Limits limits{scale.px(options.car_length_m),        scale.px(options.part_length_m),
+                        scale.px(options.vehicle_length_m),    std::max(4.0, scale.px(options.vehicle_width_m)),
+                        scale.px(options.silhouette_length_m), gap > 0 ? std::max(kSmallestGap, gap) : 0};
+    const double farthest = std::max({limits.vehicle_length, limits.car_length, limits.silhouette_length});
     for (;;) {
-        double closest = std::numeric_limits<double>::max();
+        double closest = farthest;
         Detection* first = nullptr;
         Detection* second = nullptr;
-        OrientedBox box;
+        std::optional<Joined> joined;
         for (std::size_t i = 0; i < detections.size(); ++i) {
             Detection& a = detections[i];
             if (a.rejection != Rejection::none) continue;
             for (std::size_t k = i + 1; k < detections.size(); ++k) {
                 Detection& b = detections[k];
-                if (b.rejection != Rejection::none || a.complete || b.complete) continue;
+                if (b.rejection != Rejection::none) continue;
                 const cv::Point2d apart = a.box.centre - b.box.centre;
                 const double distance = std::hypot(apart.x, apart.y);
-                if (distance >= closest || distance > std::max(limits.vehicle_length, limits.car_length)) continue;
-                const OrientedBox both = unionOfParts(a, b, options, limits);
-                if (both.area() <= 0) continue;
+                if (!(distance < closest)) continue;
+                const auto both = unionOfParts(a, b, motion, options, limits);
+                if (!both) continue;
                 closest = distance;
                 first = &a;
                 second = &b;
-                box = both;
+                joined = both;
             }
         }
         if (first == nullptr) return detections;
         if (trace != nullptr) {
-            const bool parts = std::max(first->box.length, second->box.length) <= limits.part_length;
             trace->duplicates.push_back({static_cast<int>(second - detections.data()),
-                                         static_cast<int>(first - detections.data()), box.length,
-                                         parts ? limits.vehicle_length : limits.car_length,
-                                         parts ? "duplicates.part_vehicle_length" : "duplicates.part_car_length"});
+                                         static_cast<int>(first - detections.data()), joined->box.length, joined->limit,
+                                         joined->parameter});
         }
         const double area = first->box.area() + second->box.area();
         if (area > 0) {
             first->velocity = (first->velocity * first->box.area() + second->velocity * second->box.area()) / area;
         }
-        first->box = box;
+        first->box = joined->box;
         first->score = std::max(first->score, second->score);
+        first->complete = first->complete && second->complete;
         second->rejection = Rejection::duplicate;
     }
 }

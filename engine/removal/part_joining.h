@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/detection.h"
+#include "core/motion_vector.h"
 #include "core/parameter.h"
 #include "core/scene_scale.h"
 #include "removal/removal_trace.h"
@@ -17,6 +18,8 @@ struct PartJoiningOptions {
     double part_length_m = 2.5;       ///< two parts shorter than this …
     double vehicle_length_m = 13;     ///< … are joined up to the length of a bus
     double vehicle_width_m = 3.2;     ///< largest width of the union
+    double silhouette_gap_m = 1.0;    ///< parts on one silhouette without a larger gap are joined …
+    double silhouette_length_m = 18;  ///< … up to this length
     double velocity_floor_px = 0.04;  ///< px/frame the parts' velocities may differ by …
     double velocity_share = 0.05;     ///< … or this share of the speed
     double max_turn_deg = 20;         ///< largest difference of headings
@@ -27,7 +30,8 @@ struct PartJoiningOptions {
 /// Fuses parts of one vehicle into their union, the closest pair first. The second of a pair stays in the list with
 /// Rejection::duplicate. Velocities become the mean weighted by area; vectors are not touched. `trace`, if given, is
 /// added to.
-std::vector<Detection> joinParts(std::vector<Detection> detections, const PartJoiningOptions& options,
-                                 const SceneScale& scale, RemovalTrace* trace = nullptr);
+std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameMotion& motion,
+                                 const PartJoiningOptions& options, const SceneScale& scale,
+                                 RemovalTrace* trace = nullptr);
 
 }  // namespace eyrie
