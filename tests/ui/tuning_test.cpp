@@ -246,11 +246,9 @@ class TuningTest : public QObject {
         QCOMPARE(comparison.differences().rowCount(), 0);
         QCOMPARE(comparison.parameters().rowCount(), 0);
         // A slider of the form is followed.
-        slide("clustering.min_members", 150);
+        slide("outliers.min_length", 1000);  // as far as it goes
         QVERIFY(waitFor([&] { return comparison.parameters().rowCount() == 1; }));
         QVERIFY(comparison.differences().rowCount() > 0);
-        for (int row = 0; row < comparison.differences().rowCount(); ++row)
-            QCOMPARE(comparison.differences().item(row, 2)->text(), QStringLiteral("only in B"));
         // Only computed frames are played, again and again.
         header.setRange(10, 14);
         QSignalSpy shown(&comparison, &ComparisonWindow::framesShown);

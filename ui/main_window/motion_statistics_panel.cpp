@@ -163,9 +163,11 @@ void MotionStatisticsPanel::showSpeeds() {
     if (wholeRun()) {
         speeds.assign(counted_->speeds().begin(), counted_->speeds().end());
     } else {
-        for (const MotionVector& vector : frame.result->motion.motion_vectors)
+        for (const MotionVector& vector : frame.result->motion.motion_vectors) {
+            if (vector.isInferred()) continue;
             speeds.push_back(
                 std::hypot(static_cast<double>(vector.velocity.x), static_cast<double>(vector.velocity.y)));
+        }
     }
     const auto count = static_cast<double>(speeds.size());
     const QString mean = speeds.empty()

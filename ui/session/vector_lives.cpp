@@ -35,6 +35,7 @@ QString lifeBinText(int bin) {
 
 void VectorLifeCounter::add(const FrameResult& result) {
     for (const MotionVector& vector : result.motion.motion_vectors) {
+        if (vector.isInferred()) continue;  // lasts for one frame, and others tell its speed
         speeds_.push_back(std::hypot(vector.velocity.x, vector.velocity.y));
         Life& life = lives_[vector.id];
         ++life.frames;
