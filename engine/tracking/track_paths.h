@@ -46,8 +46,8 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
 void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const VectorsAt& vectors_at, int frames);
 
 /// Carries tracks that begin slowly and gather speed back to where they stood, as uniformly accelerated, and lets them
-/// stand there, in all by at most `frames`: nothing moves yet, but the vehicle is there. While the box stays in the image
-/// and off other tracks. Not where the GSD is unknown.
+/// stand there, in all by at most `frames`: nothing moves yet, but the vehicle is there. While the box stays in the
+/// image and off other tracks. Not where the GSD is unknown.
 void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, const SceneScale& scale);
 
 /// Extends paths back over frames in which the motion vectors were too young, by constant velocity over the ground,
