@@ -119,13 +119,18 @@ class InspectionTest : public QObject {
             MotionVector followed;
             followed.id = 1;
             followed.position = {50, 50};
+            followed.age = 9;
             result.motion.motion_vectors.push_back(followed);
             if (frame < 5) {
                 MotionVector other;
                 other.id = 2;
                 other.position = {90, 90};
+                other.age = 9;
                 result.motion.motion_vectors.push_back(other);
             }
+            MotionVector inferred;  // of age 0, without a corner: it has no life
+            inferred.id = 1000 + frame;
+            result.motion.motion_vectors.push_back(inferred);
             TrackState track;
             track.box = {{50, 50}, 20, 10, 0};
             track.status = frame < 12 ? TrackStatus::coasting : TrackStatus::tentative;
