@@ -9,6 +9,7 @@
 #include <QSet>
 #include <QSignalSpy>
 #include <QTest>
+#include <algorithm>
 
 #include "main_window/key_sheet.h"
 #include "main_window/motion_statistics_panel.h"
