@@ -10,12 +10,9 @@ namespace eyrie {
 namespace {
 
 constexpr std::size_t kOwnerVectors = 4;
-constexpr double kVelocityFloor = 0.03;  ///< px/frame
 constexpr double kVelocityShare = 0.05;
-constexpr double kNoiseLimit = 0.06;    ///< px/frame; noise beyond this is not trusted
-constexpr double kOwnerAlike = 2.5;     ///< shadow and owner may differ by this many times what members may
-constexpr double kSmallestLinkage = 4;  ///< px; corners are at least 2 px apart
-constexpr double kOwnMargin = 0.5;      ///< px; dark corners within the owner's box are its own
+constexpr double kOwnerAlike = 2.5;  ///< shadow and owner may differ by this many times what members may
+constexpr double kOwnMargin = 0.5;   ///< px; dark corners within the owner's box are its own
 
 double distanceTo(const OrientedBox& box, cv::Point2d point) {
     const cv::Point2d in_box = box.toBox(point);
@@ -35,11 +32,10 @@ bool standsApart(const VectorGroup& shadow, const VectorGroup& owner, const std:
 }  // namespace
 
 ShadowOwners::ShadowOwners(const ShadowTestOptions& options, const SceneScale& scale)
-    : reach_(scale.px(options.reach_m) + 1),
+    : scale_(scale),
+      reach_(scale.px(options.reach_m) + 1),
       owner_length_(scale.px(options.owner_length_m)),
       owner_width_(scale.px(options.owner_width_m)),
-      owner_along_(std::max(kSmallestLinkage, scale.px(3.5))),
-      owner_across_(std::max(kSmallestLinkage, scale.px(1.0))),
       shadow_linkage_(std::max(kSmallestLinkage, scale.px(1.2))) {}
 
 std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vectors,
@@ -53,11 +49,7 @@ std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vec
     }
     if (lit.size() < kOwnerVectors || dark.empty()) return cast;
 
-    Linkage linkage;
-    linkage.along = owner_along_;
-    linkage.across = owner_across_;
-    linkage.velocity_floor = std::max(kVelocityFloor, std::min(background_speed_sigma, kNoiseLimit));
-    linkage.velocity_share = kVelocityShare;
+    Linkage linkage = vehicleLinkage(scale_, background_speed_sigma, kVelocityShare);
     std::vector<VectorGroup> owners = groupVectors(vectors, lit, linkage);
     std::erase_if(owners, [&](const VectorGroup& group) {
         return group.members.size() < kOwnerVectors || group.box.length < owner_length_ ||

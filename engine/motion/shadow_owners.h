@@ -24,12 +24,11 @@ class ShadowOwners {
                                   double background_speed_sigma, const LitUpTo& lit_up_to = {}) const;
 
  private:
+    SceneScale scale_;
     double reach_;           ///< px
     double owner_length_;    ///< px, shortest box of vectors that owns a shadow
     double owner_width_;     ///< px
-    double owner_along_;     ///< px, linkage distances of owners …
-    double owner_across_;    ///< px
-    double shadow_linkage_;  ///< px, … and of shadows
+    double shadow_linkage_;  ///< px, linkage distance of shadows
 };
 
 }  // namespace eyrie

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core/utility.hpp>
 #include <optional>
 #include <utility>
 
@@ -11,12 +12,7 @@ namespace {
 
 constexpr CornerId kFirstInferred = CornerId{1} << 40;  ///< far above any corner's
 constexpr double kCell = 0.3;                           ///< m, at least a pixel: how finely a silhouette is looked at
-constexpr double kAlong = 3.5;                          ///< m, linkage of corners on one vehicle …
-constexpr double kAcross = 1.0;                         ///< m
-constexpr double kSmallestLinkage = 4;                  ///< px; corners are at least 2 px apart
 constexpr double kVelocityShare = 0.12;
-constexpr double kVelocityFloor = 0.03;    ///< px/frame
-constexpr double kNoiseLimit = 0.06;       ///< px/frame; noise beyond this is not trusted
 constexpr std::size_t kFewestCorners = 3;  ///< from which a silhouette is grown
 constexpr std::size_t kFewestCells = 6;    ///< a silhouette has
 constexpr double kFrontPx = 2;             ///< px by which a vehicle reaches beyond its corners …
@@ -25,8 +21,8 @@ constexpr double kAsideM = 1.5;            ///< m to either side of the corners 
 constexpr double kTolerancePx = 2;         ///< px by which silhouettes may be wider: edges are blurred
 constexpr double kShadowDarkest = 0.4;     ///< share of the ground's brightness that is left in a shadow …
 constexpr double kShadowBrightest = 0.75;  ///< … at most
-constexpr std::size_t kSamples = 5;        ///< of the ground's brightness, at different times …
-constexpr std::size_t kFewestSamples = 3;  ///< … at least
+constexpr int kSamples = 5;                ///< of the ground's brightness, at different times …
+constexpr int kFewestSamples = 3;          ///< … at least
 constexpr double kOutlineStep = 2;         ///< px between inferred vectors
 constexpr double kBesideCorner = 1.5;      ///< px: so close to a corner nothing needs to be inferred
 
@@ -34,47 +30,6 @@ constexpr double kBesideCorner = 1.5;      ///< px: so close to a corner nothing
 struct GroundBrightness {
     int median = 0;
     int spread = 0;  ///< without the extremes
-};
-
-/// The pictures before the newest one, asked by places of the newest one.
-class Past {
- public:
-    explicit Past(const RegisteredFrames& frames) : frames_(frames) {
-        for (int back = 0; back <= frames.count(); ++back) to_past_.push_back(frames.pathTo(back));
-    }
-
-    /// The ground as it was at least `since` pictures ago; nothing where it was hardly seen.
-    std::optional<GroundBrightness> groundAt(cv::Point2d place, int since) const {
-        std::array<int, kSamples> values{};
-        std::size_t count = 0;
-        const int step = std::max(1, (frames_.count() - since) / (static_cast<int>(kSamples) + 1));
-        for (int back = since; back <= frames_.count() && count < kSamples; back += step) {
-            const int value = valueAt(back, place);
-            if (value >= 0) values[count++] = value;
-        }
-        if (count < kFewestSamples) return std::nullopt;
-        std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
-        return GroundBrightness{values[count / 2], values[count - 2] - values[1]};
-    }
-
- private:
-    /// Interpolated; -1 outside the picture.
-    int valueAt(int back, cv::Point2d place) const {
-        const cv::Mat& gray = frames_.picture(back);
-        const cv::Point2d there = to_past_[static_cast<std::size_t>(back)].apply(place);
-        if (!(there.x >= 0 && there.y >= 0 && there.x < gray.cols - 1 && there.y < gray.rows - 1)) return -1;
-        const int x = cvFloor(there.x);
-        const int y = cvFloor(there.y);
-        const double right = there.x - x;
-        const double down = there.y - y;
-        const uchar* upper = gray.ptr<uchar>(y) + x;
-        const uchar* lower = gray.ptr<uchar>(y + 1) + x;
-        return cvRound((1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
-                       down * ((1 - right) * lower[0] + right * lower[1]));
-    }
-
-    const RegisteredFrames& frames_;
-    std::vector<Homography> to_past_;
 };
 
 /// Cells behind the front of a group of vectors, in rows across its motion.
@@ -182,6 +137,48 @@ cv::Size2d extentOf(const std::vector<Lattice::Cell>& region, double cell) {
 
 }  // namespace
 
+/// The pictures before the newest one, asked by places of the newest one.
+class Silhouettes::Past {
+ public:
+    explicit Past(const RegisteredFrames& frames) : frames_(frames) {
+        for (int back = 0; back <= frames.count(); ++back) to_past_.push_back(frames.pathTo(back));
+    }
+
+    /// The ground as it was at least `since` pictures ago; nothing where it was hardly seen.
+    std::optional<GroundBrightness> groundAt(cv::Point2d place, int since) const {
+        std::array<int, kSamples> values{};
+        int count = 0;
+        const int step = std::max(1, (frames_.count() - since) / (kSamples + 1));
+        for (int back = since; back <= frames_.count() && count < kSamples; back += step) {
+            const int value = valueAt(back, place);
+            if (value >= 0) values[static_cast<std::size_t>(count++)] = value;
+        }
+        if (count < kFewestSamples) return std::nullopt;
+        std::sort(values.begin(), values.begin() + count);
+        const auto seen = static_cast<std::size_t>(count);
+        return GroundBrightness{values[seen / 2], values[seen - 2] - values[1]};
+    }
+
+ private:
+    /// Interpolated; -1 outside the picture.
+    int valueAt(int back, cv::Point2d place) const {
+        const cv::Mat& gray = frames_.picture(back);
+        const cv::Point2d there = to_past_[static_cast<std::size_t>(back)].apply(place);
+        if (!(there.x >= 0 && there.y >= 0 && there.x < gray.cols - 1 && there.y < gray.rows - 1)) return -1;
+        const int x = cvFloor(there.x);
+        const int y = cvFloor(there.y);
+        const double right = there.x - x;
+        const double down = there.y - y;
+        const uchar* upper = gray.ptr<uchar>(y) + x;
+        const uchar* lower = gray.ptr<uchar>(y + 1) + x;
+        return cvRound((1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
+                       down * ((1 - right) * lower[0] + right * lower[1]));
+    }
+
+    const RegisteredFrames& frames_;
+    std::vector<Homography> to_past_;
+};
+
 void SilhouetteOptions::describe(ParameterVisitor& visitor) {
     visitor.flag(
         "motion.silhouettes", enabled,
@@ -220,53 +217,66 @@ void Silhouettes::add(const Frame& frame, const Registration& registration) {
 std::vector<MotionVector> Silhouettes::infer(const std::vector<MotionVector>& vectors, const std::vector<int>& chosen,
                                              double background_speed_sigma) {
     std::vector<MotionVector> inferred;
-    if (!options_.enabled || frames_.count() < static_cast<int>(kFewestSamples)) return inferred;
-    Linkage linkage;
-    linkage.along = std::max(kSmallestLinkage, scale_.px(kAlong));
-    linkage.across = std::max(kSmallestLinkage, scale_.px(kAcross));
-    linkage.velocity_floor = std::max(kVelocityFloor, std::min(background_speed_sigma, kNoiseLimit));
-    linkage.velocity_share = kVelocityShare;
+    if (!options_.enabled || frames_.count() < kFewestSamples) return inferred;
+    const std::vector<VectorGroup> groups =
+        groupVectors(vectors, chosen, vehicleLinkage(scale_, background_speed_sigma, kVelocityShare));
     const Past past(frames_);
-    const cv::Mat& now = frames_.newest();
-    const cv::Rect image(0, 0, now.cols, now.rows);
-    const double max_length = scale_.px(options_.max_length_m);
-    const double max_width = scale_.px(options_.max_width_m) + kTolerancePx;
-    for (const VectorGroup& group : groupVectors(vectors, chosen, linkage)) {
-        const double speed = std::hypot(group.velocity.x, group.velocity.y);
-        if (group.members.size() < kFewestCorners || !(speed >= scale_.pxPerFrame(options_.min_speed_m_s))) continue;
-        const double ahead = kFrontPx + scale_.px(kFrontM);
-        // Longer than what is allowed, to see what is too long.
-        const Lattice lattice(group, std::max(1.0, scale_.px(kCell)), ahead, ahead + max_length + 2 * kTolerancePx,
-                              group.box.width / 2 + scale_.px(kAsideM) + 1);
-        const auto is_vehicle = [&](Lattice::Cell cell) {
-            const cv::Point2d place = lattice.place(cell);
-            const cv::Point pixel(cvRound(place.x), cvRound(place.y));
-            // The vehicle's front had not come here yet.
-            const double since = std::max(2.0, std::ceil((lattice.behind(cell.row) + 1) / speed));
-            if (!image.contains(pixel) || since > frames_.count() - 2) return false;
-            const auto ground = past.groundAt(pixel, static_cast<int>(since));
-            if (!ground) return false;
-            const double brightness = now.at<uchar>(pixel);
-            const double share = brightness / std::max(1, ground->median);
-            return std::abs(brightness - ground->median) >
-                       std::max(options_.contrast, options_.noise_factor * ground->spread) &&
-                   !(share > kShadowDarkest && share < kShadowBrightest);
-        };
-        std::vector<cv::Point2d> corners;
-        for (const int member : group.members) corners.push_back(vectors[static_cast<std::size_t>(member)].position);
-        const std::vector<Lattice::Cell> region = grown(lattice, corners, is_vehicle);
-        if (region.size() < kFewestCells) continue;
-        const cv::Size2d extent = extentOf(region, lattice.cell());
-        if (extent.width >= max_length || extent.height >= max_width) continue;
-        for (const Lattice::Cell& cell : outlineOf(region, lattice)) {
-            const cv::Point2d place = lattice.place(cell);
-            const bool has_corner = std::any_of(corners.begin(), corners.end(), [&](const cv::Point2d& corner) {
-                return std::hypot(corner.x - place.x, corner.y - place.y) < kBesideCorner;
-            });
-            if (!has_corner) inferred.push_back({next_id_++, place, group.velocity, 0});
+    std::vector<std::vector<cv::Point2d>> outlines(groups.size());
+    // Written by index, so that the result does not depend on the number of threads.
+    cv::parallel_for_(cv::Range(0, static_cast<int>(groups.size())), [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            std::vector<cv::Point2d> corners;
+            for (const int member : groups[at].members)
+                corners.push_back(vectors[static_cast<std::size_t>(member)].position);
+            outlines[at] = outlineAround(groups[at], corners, past);
         }
+    });
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        for (const cv::Point2d& place : outlines[i]) inferred.push_back({next_id_++, place, groups[i].velocity, 0});
     }
     return inferred;
+}
+
+std::vector<cv::Point2d> Silhouettes::outlineAround(const VectorGroup& group, const std::vector<cv::Point2d>& corners,
+                                                    const Past& past) const {
+    const double speed = std::hypot(group.velocity.x, group.velocity.y);
+    if (corners.size() < kFewestCorners || !(speed >= scale_.pxPerFrame(options_.min_speed_m_s))) return {};
+    const double max_length = scale_.px(options_.max_length_m);
+    const double max_width = scale_.px(options_.max_width_m) + kTolerancePx;
+    const double ahead = kFrontPx + scale_.px(kFrontM);
+    // Longer than what is allowed, to see what is too long.
+    const Lattice lattice(group, std::max(1.0, scale_.px(kCell)), ahead, ahead + max_length + 2 * kTolerancePx,
+                          group.box.width / 2 + scale_.px(kAsideM) + 1);
+    const cv::Mat& now = frames_.newest();
+    const cv::Rect image(0, 0, now.cols, now.rows);
+    const auto is_vehicle = [&](Lattice::Cell cell) {
+        const cv::Point2d place = lattice.place(cell);
+        const cv::Point pixel(cvRound(place.x), cvRound(place.y));
+        // The vehicle's front had not come here yet.
+        const double since = std::max(2.0, std::ceil((lattice.behind(cell.row) + 1) / speed));
+        if (!image.contains(pixel) || since > frames_.count() + 1 - kFewestSamples) return false;
+        const auto ground = past.groundAt(pixel, static_cast<int>(since));
+        if (!ground) return false;
+        const double brightness = now.at<uchar>(pixel);
+        const double share = brightness / std::max(1, ground->median);
+        const bool shadow = share > kShadowDarkest && share < kShadowBrightest;
+        return !shadow && std::abs(brightness - ground->median) >
+                              std::max(options_.contrast, options_.noise_factor * ground->spread);
+    };
+    const std::vector<Lattice::Cell> region = grown(lattice, corners, is_vehicle);
+    if (region.size() < kFewestCells) return {};
+    const cv::Size2d extent = extentOf(region, lattice.cell());
+    if (extent.width >= max_length || extent.height >= max_width) return {};
+    std::vector<cv::Point2d> outline;
+    for (const Lattice::Cell& cell : outlineOf(region, lattice)) {
+        const cv::Point2d place = lattice.place(cell);
+        const bool has_corner = std::any_of(corners.begin(), corners.end(), [&](const cv::Point2d& corner) {
+            return std::hypot(corner.x - place.x, corner.y - place.y) < kBesideCorner;
+        });
+        if (!has_corner) outline.push_back(place);
+    }
+    return outline;
 }
 
 }  // namespace eyrie

@@ -38,11 +38,17 @@ class Silhouettes {
     void add(const Frame& frame, const Registration& registration);
     void clear() { frames_.clear(); }
     /// Vectors on the outlines of the silhouettes in the newest frame, with ids above those of all corners and of age
-    /// 0. `vectors` are those of corners, `chosen` the indices of those that lie on vehicles.
+    /// 0. `vectors` are those of corners, `chosen` the indices of those that lie on vehicles, the deviation of the
+    /// background's speed is in px/frame.
     std::vector<MotionVector> infer(const std::vector<MotionVector>& vectors, const std::vector<int>& chosen,
                                     double background_speed_sigma);
 
  private:
+    class Past;
+    /// Places (px) on the outline of the silhouette around the corners of one group; none where there is no silhouette.
+    std::vector<cv::Point2d> outlineAround(const VectorGroup& group, const std::vector<cv::Point2d>& corners,
+                                           const Past& past) const;
+
     SilhouetteOptions options_;
     SceneScale scale_;
     RegisteredFrames frames_;

@@ -1,8 +1,26 @@
 #include "motion/vector_groups.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace eyrie {
+namespace {
+
+constexpr double kAlong = 3.5;           ///< m
+constexpr double kAcross = 1.0;          ///< m
+constexpr double kVelocityFloor = 0.03;  ///< px/frame
+constexpr double kNoiseLimit = 0.06;     ///< px/frame; noise beyond this is not trusted
+
+}  // namespace
+
+Linkage vehicleLinkage(const SceneScale& scale, double background_speed_sigma, double velocity_share) {
+    Linkage linkage;
+    linkage.along = std::max(kSmallestLinkage, scale.px(kAlong));
+    linkage.across = std::max(kSmallestLinkage, scale.px(kAcross));
+    linkage.velocity_floor = std::max(kVelocityFloor, std::min(background_speed_sigma, kNoiseLimit));
+    linkage.velocity_share = velocity_share;
+    return linkage;
+}
 
 std::vector<VectorGroup> groupVectors(const std::vector<MotionVector>& vectors, const std::vector<int>& chosen,
                                       const Linkage& linkage) {

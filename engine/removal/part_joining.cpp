@@ -49,14 +49,14 @@ bool onOneSilhouette(const Detection& a, const Detection& b, const FrameMotion& 
            places.end();
 }
 
-/// Which parameter let two parts be joined, its limit and what was compared with it.
+/// The union of two parts, and which parameter allowed its length (px) up to what limit.
 struct Joined {
     OrientedBox box;
     double limit = 0;
     const char* parameter = "";
 };
 
-/// The union of two parts; nothing when they are not parts of one vehicle.
+/// Nothing when they are not parts of one vehicle.
 std::optional<Joined> unionOfParts(const Detection& a, const Detection& b, const FrameMotion& motion,
                                    const PartJoiningOptions& options, const Limits& limits) {
     if (!similarVelocity(a.velocity, b.velocity, options.velocity_floor_px, options.velocity_share)) return {};

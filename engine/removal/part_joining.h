@@ -28,8 +28,8 @@ struct PartJoiningOptions {
 };
 
 /// Fuses parts of one vehicle into their union, the closest pair first. The second of a pair stays in the list with
-/// Rejection::duplicate. Velocities become the mean weighted by area; vectors are not touched. `trace`, if given, is
-/// added to.
+/// Rejection::duplicate. Velocities become the mean weighted by area; the vectors that detections hold are not touched.
+/// `motion` shows which parts lie on one silhouette. `trace`, if given, is added to.
 std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameMotion& motion,
                                  const PartJoiningOptions& options, const SceneScale& scale,
                                  RemovalTrace* trace = nullptr);

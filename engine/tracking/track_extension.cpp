@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <unordered_map>
 
+#include "tracking/taken_places.h"
 #include "tracking/track_paths.h"
 
 namespace eyrie {
 namespace {
 
-constexpr double kFree = 0.15;    ///< largest overlap of an extension with another track
 constexpr double kInImage = 0.5;  ///< share of the box an extension must have in the image
 
 bool inImage(const OrientedBox& box, cv::Size image) {
@@ -31,10 +30,7 @@ int extensionOf(const TrackPath& path, const GroundMotion& ground, int frames, i
 
 void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, int entry_frames) {
     if (frames < 1 && entry_frames < 1) return;
-    std::unordered_map<FrameIndex, std::vector<OrientedBox>> boxes;
-    for (const TrackPath& path : paths) {
-        for (const auto& [frame, state] : path.states) boxes[frame].push_back(state.box);
-    }
+    TakenPlaces taken(paths);
     for (TrackPath& path : paths) {
         // A predicted beginning was extended before.
         if (path.states.front().second.origin == StateOrigin::predicted) continue;
@@ -44,16 +40,12 @@ void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int f
         for (FrameIndex frame = path.firstFrame(); static_cast<int>(extension.size()) < wanted; --frame) {
             const auto carried = ground.carried({earlier.box, earlier.velocity}, frame, frame - 1, false);
             if (!carried || !inImage(carried->box, ground.imageSize(frame - 1))) break;
-            std::vector<OrientedBox>& others = boxes[frame - 1];
-            const bool free = std::all_of(others.begin(), others.end(), [&](const OrientedBox& other) {
-                return overlap(other, carried->box) <= kFree;
-            });
-            if (!free) break;
+            if (!taken.isFree(frame - 1, carried->box)) break;
             earlier.box = carried->box;
             earlier.velocity = carried->velocity;
             earlier.origin = StateOrigin::predicted;
             earlier.hits = 0;
-            others.push_back(earlier.box);
+            taken.take(frame - 1, earlier.box);
             extension.emplace_back(frame - 1, earlier);
         }
         path.states.insert(path.states.begin(), extension.rbegin(), extension.rend());

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <unordered_map>
 
 #include "core/homography.h"
-#include "tracking/track_paths.h"
+#include "tracking/taken_places.h"
 
 namespace eyrie {
 namespace {
@@ -16,7 +15,6 @@ constexpr double kShortestWay = 1;         ///< px; what moved less says nothing
 constexpr int kRounds = 8;                 ///< of reweighting
 constexpr double kSmallestResidual = 0.1;  ///< px; smaller ones weigh alike
 constexpr double kFastest = 3.5;           ///< m/s at which a vehicle that starts from rest is found at the latest
-constexpr double kFree = 0.15;             ///< largest overlap of an extension with another track
 constexpr double kInImage = 0.9;           ///< share of the box that must lie in the image
 
 /// A place along the way at some frame after the first.
@@ -96,10 +94,7 @@ std::optional<Start> startOf(const TrackPath& path, const GroundMotion& ground, 
 
 void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, const SceneScale& scale) {
     if (frames < 1 || !scale.gsd_known) return;
-    std::unordered_map<FrameIndex, std::vector<OrientedBox>> boxes;
-    for (const TrackPath& path : paths) {
-        for (const auto& [frame, state] : path.states) boxes[frame].push_back(state.box);
-    }
+    TakenPlaces taken(paths);
     for (TrackPath& path : paths) {
         const TrackState first = path.states.front().second;
         // A predicted beginning was extended before.
@@ -120,11 +115,10 @@ void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int
             state.velocity = first.velocity * (start->speedAt(before) / start->speed);
             state.origin = StateOrigin::predicted;
             state.hits = 0;
-            std::vector<OrientedBox>& others = boxes[frame];
-            const bool free = std::none_of(others.begin(), others.end(),
-                                           [&](const OrientedBox& other) { return overlap(other, state.box) > kFree; });
-            if (!free || areaInImage(state.box, ground.imageSize(frame)) < kInImage * state.box.area()) break;
-            others.push_back(state.box);
+            if (!taken.isFree(frame, state.box) ||
+                areaInImage(state.box, ground.imageSize(frame)) < kInImage * state.box.area())
+                break;
+            taken.take(frame, state.box);
             extension.emplace_back(frame, state);
         }
         path.states.insert(path.states.begin(), extension.rbegin(), extension.rend());

@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "tracking/spread.h"
-#include "tracking/track_paths.h"
+#include "tracking/taken_places.h"
 
 namespace eyrie {
 namespace {
@@ -15,10 +15,7 @@ constexpr double kSpeedFloor = 0.08;   ///< … or by this, px/frame
 constexpr double kMargin = 1;          ///< px by which a vector may lie outside the box
 constexpr double kVelocityGain = 0.3;  ///< of a frame's vectors on the track's velocity
 constexpr std::size_t kNewcomers = 2;  ///< vectors of other corners that together support the track
-constexpr double kFree = 0.15;         ///< largest overlap of a traced box with another track
 constexpr double kInImage = 0.5;       ///< share of a traced box that must lie in the image
-
-using BoxesAt = std::unordered_map<FrameIndex, std::vector<OrientedBox>>;
 
 cv::Point2d median(const std::vector<cv::Point2d>& points) {
     std::vector<double> x, y;
@@ -62,7 +59,7 @@ class Trace {
     }
 
     /// One frame back; nothing where the track leaves the image, reaches another one or was not supported lately.
-    std::optional<TimedState> back(const BoxesAt& boxes) {
+    std::optional<TimedState> back(const TakenPlaces& taken) {
         const FrameIndex to = frame_ - 1;
         const auto mapped = ground_.carried({state_.box, {0, 0}}, frame_, to, false);
         auto moved = ground_.carried({state_.box, state_.velocity}, frame_, to, false);
@@ -70,14 +67,9 @@ class Trace {
         const std::vector<MotionVector>& vectors = vectors_.at(to);
         const auto followed = shiftsOf(vectors, to);
         if (!followed.empty()) moved->box.centre = mapped->box.centre + median(followed);
-        const auto others = boxes.find(to);
-        static const std::vector<OrientedBox> kNone;
-        const std::vector<OrientedBox>& taken = others == boxes.end() ? kNone : others->second;
         if (areaInImage(moved->box, ground_.imageSize(to)) < kInImage * moved->box.area()) return std::nullopt;
-        const bool free = std::all_of(taken.begin(), taken.end(),
-                                      [&](const OrientedBox& other) { return overlap(other, moved->box) <= kFree; });
-        if (!free) return std::nullopt;
-        fitting_ = fittingVectors(vectors, *moved, taken);
+        if (!taken.isFree(to, moved->box)) return std::nullopt;
+        fitting_ = fittingVectors(vectors, *moved, taken.in(to));
         const bool supported = !followed.empty() || fitting_.size() >= kNewcomers;
         unsupported_ = supported ? 0 : unsupported_ + 1;
         if (unsupported_ > kPatience) return std::nullopt;
@@ -137,10 +129,7 @@ class Trace {
 
 void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const VectorsAt& vectors_at, int frames) {
     if (frames < 1 || !vectors_at) return;
-    BoxesAt boxes;
-    for (const TrackPath& path : paths) {
-        for (const auto& [frame, state] : path.states) boxes[frame].push_back(state.box);
-    }
+    TakenPlaces taken(paths);
     RecentVectors vectors(vectors_at);
     for (TrackPath& path : paths) {
         if (path.states.front().second.origin == StateOrigin::predicted) continue;
@@ -148,12 +137,12 @@ void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const 
         std::vector<TimedState> traced;
         const auto longest = std::min(static_cast<std::size_t>(frames), path.states.size() / 2);
         while (traced.size() < longest) {
-            auto earlier = trace.back(boxes);
+            auto earlier = trace.back(taken);
             if (!earlier) break;
             traced.push_back(*earlier);
         }
         while (!traced.empty() && traced.back().second.origin == StateOrigin::predicted) traced.pop_back();
-        for (const auto& [frame, state] : traced) boxes[frame].push_back(state.box);
+        for (const auto& [frame, state] : traced) taken.take(frame, state.box);
         path.states.insert(path.states.begin(), traced.rbegin(), traced.rend());
     }
 }

@@ -23,18 +23,12 @@ class Photographer : public test::Labelling {
     ~Photographer() { end(); }
 
     bool open() {
-        window_ = std::make_unique<MainWindow>();
-        window_->resize(1600, 1000);
-        window_->show();
-        QSignalSpy finished(&window_->session(), &ProjectSession::runFinished);
         StartOptions options;
         options.input = clip_;
         options.gsd_m_per_px = gsd_;
         options.frame_rate_hz = rate_;
-        window_->start(options);
-        if (!finished.wait(10 * test::kPatience_ms)) return false;
-        window_->actions().label_workspace->trigger();
-        return waitFor([&] { return labels().isOpen() && !labels().camera().empty(); });
+        window_ = clipWindow(options);
+        return window_ != nullptr;
     }
     LabelSession& labels() { return window_->labelling().labels(); }
 

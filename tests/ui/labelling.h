@@ -49,6 +49,19 @@ class Labelling {
         go(*window, 0);
         return window;
     }
+    /// A large window that labels a clip after a run over it; null when that takes too long.
+    static std::unique_ptr<MainWindow> clipWindow(const StartOptions& options) {
+        auto window = std::make_unique<MainWindow>();
+        window->resize(1600, 1000);
+        window->show();
+        QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
+        window->start(options);
+        if (!finished.wait(10 * kPatience_ms)) return nullptr;
+        window->actions().label_workspace->trigger();
+        const LabelSession& labels = window->labelling().labels();
+        if (!waitFor([&] { return labels.isOpen() && !labels.camera().empty(); })) return nullptr;
+        return window;
+    }
     static void go(MainWindow& window, FrameIndex frame) {
         window.session().goToFrame(frame);
         waitFor([&] { return window.canvas().frame().index == frame && !window.canvas().frame().image.isNull(); });
