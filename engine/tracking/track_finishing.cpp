@@ -112,6 +112,16 @@ void FinishingOptions::describe(ParameterVisitor& v) {
             "Two tracks that on average share more than this of the smaller box are one vehicle: the one detected "
             "less often gives way. 1: never.",
             ""});
+    v.flag("finishing.drop_shadows", drop_shadows,
+           {"",
+            "Tracks that drive beside a vehicle as if fixed to it and were detected less than half as often are its "
+            "shadow and are dropped.",
+            ""});
+    v.real("finishing.min_detected", min_detected, 0, 1,
+           {"",
+            "Tracks detected in less than this share of their frames, not counting predicted ones, and in less than "
+            "0.4 s altogether, are dropped. 0: none.",
+            ""});
     v.flag(
         "finishing.join_parts", join_parts,
         {"",
@@ -133,6 +143,8 @@ FinishingOptions FinishingOptions::thesis() {
     options.min_length_m = 0;
     options.min_width_m = 0;
     options.max_sharing = 1;
+    options.drop_shadows = false;
+    options.min_detected = 0;
     options.join_parts = false;
     return options;
 }
@@ -165,7 +177,9 @@ std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::
         if (options.constant_size) steadySize(path, ground, framesOf(options.size_window_s / 2, scale));
         if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));
     }
+    if (options.drop_shadows) dropShadows(paths, scale);
     traceBack(paths, ground, vectors_at, framesOf(options.trace_back_s, scale));
+    dropHardlyDetected(paths, options.min_detected, scale);
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
 

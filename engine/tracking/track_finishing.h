@@ -41,6 +41,8 @@ struct FinishingOptions {
     double min_length_m = 1.8;
     double min_width_m = 0.9;
     double max_sharing = 0.5;
+    bool drop_shadows = true;
+    double min_detected = 0.4;
     bool join_parts = true;
 
     void describe(ParameterVisitor& visitor);

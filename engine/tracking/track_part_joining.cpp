@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/angle.h"
+#include "tracking/shared_frames.h"
 #include "tracking/spread.h"
 #include "tracking/track_paths.h"
 
@@ -57,13 +58,9 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     Whole whole;
     std::vector<double> along, across, gaps, parts, lengths, widths;
     double travelled = 0;
-    auto b = other.states.begin();
-    for (const auto& [frame, state] : leader.states) {
-        while (b != other.states.end() && b->first < frame) ++b;
-        if (b == other.states.end()) break;
-        if (b->first != frame) continue;
-        const OrientedBox& part = b->second.box;
-        if (std::abs(axisTurnBetween(state.box.heading, part.heading)) > kMostTurn) continue;
+    forSharedFrames(leader, other, [&](const TrackState& state, const TrackState& of_other) {
+        const OrientedBox& part = of_other.box;
+        if (std::abs(axisTurnBetween(state.box.heading, part.heading)) > kMostTurn) return;
         const cv::Point2d offset = state.box.toBox(part.centre);
         along.push_back(offset.x);
         across.push_back(std::abs(offset.y));
@@ -75,7 +72,7 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
         widths.push_back(both.width);
         whole.of_leader.add(state.box, both);
         whole.of_other.add(part, both);
-    }
+    });
     const auto frames = static_cast<double>(along.size());
     const auto shorter = static_cast<double>(std::min(leader.states.size(), other.states.size()));
     if (frames < std::max(5.0, kSharedSeconds * scale.frame_rate_hz) || frames < kSharedOfShorter * shorter) return {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "tracking/ground_motion.h"
@@ -14,6 +15,10 @@ struct TrackPath {
 
     FrameIndex firstFrame() const { return states.front().first; }
     FrameIndex lastFrame() const { return states.back().first; }
+    int statesOf(StateOrigin origin) const {
+        return static_cast<int>(std::count_if(
+            states.begin(), states.end(), [origin](const TimedState& state) { return state.second.origin == origin; }));
+    }
 };
 
 /// Joins the fragments of one vehicle: where a track ends and another starts soon after at the predicted place with
@@ -40,6 +45,14 @@ void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options
 /// average (of the union where the larger box is wider than any vehicle), the one that was detected less often gives
 /// way where they meet, or wholly when little of it is left.
 void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale);
+
+/// Drops tracks that drive beside a vehicle as if fixed to it, touch it and were detected less than half as often: they
+/// are its shadow or its side.
+void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale);
+
+/// Drops tracks that were guessed rather than seen: detected in less than `min_share` of their frames, not counting
+/// predicted ones, and in less than 0.4 s altogether.
+void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale);
 
 /// Follows tracks back in time by the motion vectors in their boxes, by at most `frames`: where a vehicle starts slowly
 /// or hardly stands out, single vectors show it long before there are enough for a detection.

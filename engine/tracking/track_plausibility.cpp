@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "tracking/shared_frames.h"
 #include "tracking/spread.h"
 #include "tracking/track_paths.h"
 
@@ -17,6 +18,7 @@ constexpr int kFewestShared = 5;          ///< frames two tracks must share to b
 constexpr double kSharedOfShorter = 0.3;  ///< … and this share of the shorter one's life
 constexpr double kWidestVehicle = 3.2;    ///< m
 constexpr double kBoxMargin = 1;          ///< px
+constexpr double kSureSeconds = 0.4;      ///< a track detected for so long altogether is not doubted
 constexpr double kSizeQuantile = 0.75;    ///< boxes miss parts more often than they exceed the vehicle
 
 double quantileOf(std::vector<double> values, double share) {
@@ -36,12 +38,6 @@ bool tooSmall(const TrackPath& path, double length, double width) {
            quantileOf(std::move(widths), kSizeQuantile) < width;
 }
 
-int detectedStates(const TrackPath& path) {
-    return static_cast<int>(std::count_if(path.states.begin(), path.states.end(), [](const TimedState& state) {
-        return state.second.origin == StateOrigin::detected;
-    }));
-}
-
 /// How two tracks lie on each other in the frames they share.
 struct Sharing {
     int frames = 0;
@@ -59,24 +55,14 @@ double sharedBy(const OrientedBox& a, const OrientedBox& b, double widest) {
 
 Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
     Sharing sharing;
-    auto at_a = a.states.begin();
-    auto at_b = b.states.begin();
-    while (at_a != a.states.end() && at_b != b.states.end()) {
-        if (at_a->first < at_b->first) {
-            ++at_a;
-        } else if (at_b->first < at_a->first) {
-            ++at_b;
-        } else {
-            sharing.share += sharedBy(at_a->second.box, at_b->second.box, widest);
-            sharing.too_wide += std::max(at_a->second.box.width, at_b->second.box.width) > widest;
-            const cv::Point2d offset = at_a->second.box.toBox(at_b->second.box.centre);
-            sharing.ahead.push_back(offset.x);
-            sharing.aside.push_back(offset.y);
-            ++sharing.frames;
-            ++at_a;
-            ++at_b;
-        }
-    }
+    forSharedFrames(a, b, [&](const TrackState& one, const TrackState& other) {
+        sharing.share += sharedBy(one.box, other.box, widest);
+        sharing.too_wide += std::max(one.box.width, other.box.width) > widest;
+        const cv::Point2d offset = one.box.toBox(other.box.centre);
+        sharing.ahead.push_back(offset.x);
+        sharing.aside.push_back(offset.y);
+        ++sharing.frames;
+    });
     if (sharing.frames > 0) sharing.share /= sharing.frames;
     return sharing;
 }
@@ -108,6 +94,14 @@ void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options
     std::erase_if(paths, [&](const TrackPath& path) { return tooSmall(path, length, width); });
 }
 
+void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale) {
+    std::erase_if(paths, [&](const TrackPath& path) {
+        const int detected = path.statesOf(StateOrigin::detected);
+        const int supposed = path.statesOf(StateOrigin::reconstructed);
+        return detected < kSureSeconds * scale.frame_rate_hz && detected < min_share * (detected + supposed);
+    });
+}
+
 void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale) {
     if (!(max_sharing < 1)) return;
     const double widest = scale.px(kWidestVehicle) + kBoxMargin;
@@ -115,7 +109,7 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
     std::vector<int> strength;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         order[i] = i;
-        strength.push_back(detectedStates(paths[i]));
+        strength.push_back(paths[i].statesOf(StateOrigin::detected));
     }
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return strength[a] > strength[b]; });

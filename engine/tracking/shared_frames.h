@@ -1,0 +1,25 @@
+#pragma once
+
+#include "tracking/track_paths.h"
+
+namespace eyrie {
+
+/// Calls `visit(state of a, state of b)` for every frame that both tracks have, in order.
+template <typename Visit>
+void forSharedFrames(const TrackPath& a, const TrackPath& b, Visit visit) {
+    auto at_a = a.states.begin();
+    auto at_b = b.states.begin();
+    while (at_a != a.states.end() && at_b != b.states.end()) {
+        if (at_a->first < at_b->first) {
+            ++at_a;
+        } else if (at_b->first < at_a->first) {
+            ++at_b;
+        } else {
+            visit(at_a->second, at_b->second);
+            ++at_a;
+            ++at_b;
+        }
+    }
+}
+
+}  // namespace eyrie

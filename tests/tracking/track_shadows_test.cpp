@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "tracking/track_finishing.h"
+
+namespace eyrie {
+namespace {
+
+const SceneScale kScale{0.3, 25, true};
+constexpr int kFrames = 60;
+
+/// Tracks over flat ground under a camera that stands still.
+class Road {
+ public:
+    /// A box that drives at `speed` (px/frame), `beside` (px) a vehicle that starts at x = 100; every `detected_every`
+    /// frames it is a detection, otherwise `otherwise`.
+    void add(TrackId id, cv::Point2d beside, cv::Size2d size, double speed, int first, int last, int detected_every,
+             StateOrigin otherwise = StateOrigin::reconstructed) {
+        for (int frame = first; frame <= last; ++frame) {
+            TrackState state;
+            state.id = id;
+            state.box = {{100 + speed * frame + beside.x, 150 + beside.y}, size.width, size.height, 0};
+            state.velocity = {speed, 0};
+            state.status = TrackStatus::confirmed;
+            const bool detected = (frame - first) % detected_every == 0;
+            state.origin = detected ? StateOrigin::detected : otherwise;
+            states_.emplace_back(frame, state);
+        }
+    }
+
+    std::set<TrackId> finished(const FinishingOptions& options = {}) const {
+        std::vector<FrameMotionSummary> motion;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            FrameMotionSummary summary;
+            summary.frame = frame;
+            summary.image_size = {640, 360};
+            summary.registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
+            summary.registration.current_from_previous.from_frame = std::max(0, frame - 1);
+            summary.registration.current_from_previous.to_frame = frame;
+            motion.push_back(summary);
+        }
+        std::set<TrackId> ids;
+        for (const auto& [frame, state] : finishTracks(states_, motion, options, kScale)) ids.insert(state.id);
+        return ids;
+    }
+
+ private:
+    std::vector<TimedState> states_;
+};
+
+constexpr double kSpeed = 1.5;  ///< px/frame, 11 m/s
+const cv::Size2d kCar{15, 6};
+const cv::Size2d kShadow{12, 5};
+
+TEST(DropShadows, OneThatTouchesAVehicleAndMovesAsItDoesGoes) {
+    Road road;
+    road.add(1, {0, 0}, kCar, kSpeed, 0, 59, 1);
+    road.add(2, {3, 5.8}, kShadow, kSpeed, 10, 50, 3, StateOrigin::predicted);
+    EXPECT_EQ(road.finished(), std::set<TrackId>{1});
+    FinishingOptions options;
+    options.drop_shadows = false;
+    EXPECT_EQ(road.finished(options), (std::set<TrackId>{1, 2}));
+}
+
+TEST(DropShadows, AVehicleInTheNextLaneStays) {
+    Road road;
+    road.add(1, {0, 0}, kCar, kSpeed, 0, 59, 1);
+    road.add(2, {3, 10}, kCar, kSpeed, 10, 50, 3, StateOrigin::predicted);
+    EXPECT_EQ(road.finished().size(), 2U);
+}
+
+TEST(DropShadows, WhatIsDetectedAsWellAsTheVehicleStays) {
+    Road road;
+    road.add(1, {0, 0}, kCar, kSpeed, 0, 59, 1);
+    road.add(2, {3, 5.8}, kShadow, kSpeed, 10, 50, 1);
+    EXPECT_EQ(road.finished().size(), 2U);
+}
+
+TEST(DropShadows, WhatOvertakesStays) {
+    Road road;
+    road.add(1, {0, 0}, kCar, kSpeed, 0, 59, 1);
+    road.add(2, {-8, 5.8}, kShadow, 1.25 * kSpeed, 10, 50, 3, StateOrigin::predicted);
+    EXPECT_EQ(road.finished().size(), 2U);
+}
+
+TEST(DropShadows, SlowTrafficStays) {
+    Road road;
+    road.add(1, {0, 0}, kCar, 0.25, 0, 59, 1);  // 1.9 m/s
+    road.add(2, {3, 5.8}, kShadow, 0.25, 10, 50, 3, StateOrigin::predicted);
+    EXPECT_EQ(road.finished().size(), 2U);
+}
+
+TEST(DropHardlyDetected, ATrackGuessedRatherThanSeenGoes) {
+    Road road;
+    road.add(1, {0, 0}, kCar, kSpeed, 0, 59, 1);
+    road.add(2, {0, 60}, kCar, kSpeed, 10, 34, 3);  // 9 of 25 frames
+    EXPECT_EQ(road.finished(), std::set<TrackId>{1});
+    FinishingOptions options;
+    options.min_detected = 0.3;
+    EXPECT_EQ(road.finished(options), (std::set<TrackId>{1, 2}));
+}
+
+TEST(DropHardlyDetected, PredictedFramesDoNotCountAgainstATrack) {
+    Road road;
+    road.add(1, {0, 60}, kCar, kSpeed, 10, 34, 3, StateOrigin::predicted);
+    EXPECT_EQ(road.finished(), std::set<TrackId>{1});
+}
+
+TEST(DropHardlyDetected, FourTenthsOfASecondOfDetectionsAreEnough) {
+    Road road;
+    road.add(1, {0, 60}, kCar, kSpeed, 0, 59, 4);  // 15 of 60 frames
+    EXPECT_EQ(road.finished(), std::set<TrackId>{1});
+}
+
+}  // namespace
+}  // namespace eyrie
