@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "core/error.h"
 #include "stacking/stack_median.h"
@@ -13,24 +14,25 @@ ImageStack::ImageStack(StackArrangement arrangement, cv::Size size, int capacity
     if (arrangement_ != StackArrangement::circular_median) sum_ = cv::Mat(size_, CV_32SC1, cv::Scalar(0));
 }
 
-void ImageStack::add(const cv::Mat& layer) {
+cv::Mat ImageStack::add(cv::Mat layer) {
     if (layer.size() != size_ || layer.type() != CV_8UC1) {
         throw Error(ErrorKind::internal, "a stack layer has another size or type than its stack");
     }
     if (!sum_.empty()) cv::add(sum_, layer, sum_, {}, CV_32S);
     if (arrangement_ == StackArrangement::accumulation) {
         ++height_;
-        return;
+        return layer;
     }
     if (static_cast<int>(layers_.size()) < capacity_) {
-        layers_.push_back(layer.clone());
+        layers_.push_back(std::move(layer));
+        layer.release();
     } else {
-        cv::Mat& oldest = layers_[static_cast<std::size_t>(next_)];
-        if (!sum_.empty()) cv::subtract(sum_, oldest, sum_, {}, CV_32S);
-        layer.copyTo(oldest);
+        std::swap(layer, layers_[static_cast<std::size_t>(next_)]);
+        if (!sum_.empty()) cv::subtract(sum_, layer, sum_, {}, CV_32S);
     }
     next_ = (next_ + 1) % capacity_;
     height_ = static_cast<int>(layers_.size());
+    return layer;
 }
 
 cv::Mat ImageStack::stacked(const cv::Rect& part) const {

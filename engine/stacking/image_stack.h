@@ -21,8 +21,9 @@ class ImageStack {
     /// `capacity`: H, layers kept by the circular arrangements, 1 … 4096.
     ImageStack(StackArrangement arrangement, cv::Size size, int capacity);
 
-    /// Adds a layer; in a full circular buffer it replaces the oldest.
-    void add(const cv::Mat& layer);
+    /// Adds a layer, whose memory the stack keeps. Returns the one that it replaces in a full circular buffer, so that
+    /// its memory can be used again.
+    cv::Mat add(cv::Mat layer);
     /// Layers that count at present.
     int height() const { return height_; }
     cv::Size size() const { return size_; }

@@ -232,9 +232,8 @@ void ImageStacker::startFromClusters(const std::vector<Placed>& placed, const st
     }
 }
 
-cv::Mat ImageStacker::cut(const Frame& frame, const MasterPose& pose) const {
+cv::Mat ImageStacker::cut(const Frame& frame, const MasterPose& pose, cv::Mat layer) const {
     const cv::Matx23d image_from_patch = imageFromPatch(stackArea(pose, area_), area_);
-    cv::Mat layer;
     cv::warpAffine(frame.gray, layer, image_from_patch, area_, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
                    cv::BORDER_CONSTANT, cv::Scalar(kOutsideGrey));
     return layer;
@@ -244,7 +243,7 @@ void ImageStacker::addLayers(const Frame& frame) {
     cv::parallel_for_(cv::Range(0, static_cast<int>(entries_.size())), [&](const cv::Range& range) {
         for (int i = range.start; i < range.end; ++i) {
             Entry& entry = entries_[static_cast<std::size_t>(i)];
-            entry.stack.add(cut(frame, entry.master.pose()));
+            entry.spare = entry.stack.add(cut(frame, entry.master.pose(), std::move(entry.spare)));
         }
     });
 }

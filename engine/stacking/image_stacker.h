@@ -74,6 +74,7 @@ class ImageStacker {
     struct Entry {
         MasterVector master;
         ImageStack stack;
+        cv::Mat spare{};  ///< memory for the next layer
     };
     /// A motion vector with the direction its cluster lends it.
     struct Placed {
@@ -88,7 +89,8 @@ class ImageStacker {
     void startFromClusters(const std::vector<Placed>& placed, const std::vector<MotionCluster>& clusters);
     void start(const std::vector<const Placed*>& members);
     void addLayers(const Frame& frame);
-    cv::Mat cut(const Frame& frame, const MasterPose& pose) const;
+    /// Into the memory of `layer` where that fits.
+    cv::Mat cut(const Frame& frame, const MasterPose& pose, cv::Mat layer = {}) const;
 
     StackingOptions options_;
     SceneScale scale_;
