@@ -39,8 +39,8 @@ TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
     if (options.stacking.enabled) stacker_ = std::make_unique<ImageStacker>(options.stacking, scale);
 }
 
-std::vector<StackView> TrackHalf::stackViews(const Frame& frame) const {
-    return stacker_ ? stacker_->views(frame) : std::vector<StackView>{};
+std::vector<StackView> TrackHalf::stackViews(const Frame& frame, StackPictures pictures) const {
+    return stacker_ ? stacker_->views(frame, pictures) : std::vector<StackView>{};
 }
 
 std::vector<SearchTrace> TrackHalf::trace(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,

@@ -45,7 +45,7 @@ class TrackHalf {
     void remember(const Frame& frame, const FrameMotion& motion);
 
     /// All image stacks as they are after the last frame, which `frame` is; none where stacking is off.
-    std::vector<StackView> stackViews(const Frame& frame) const;
+    std::vector<StackView> stackViews(const Frame& frame, StackPictures pictures) const;
     /// What the difference images of the last frame showed; null where clusters come from motion vectors.
     const DifferenceResult* differences() const { return difference_ ? &last_difference_ : nullptr; }
     /// What duplicate removal did in the last frame.

@@ -86,11 +86,14 @@ const ReplayedFrame* Replay::at(FrameIndex frame, const std::stop_token& stop) {
             if (stop.stop_requested() || !advance(frame)) return nullptr;
         }
     }
-    present_.stacks = half_.stackViews(present_.frame);
     present_.differences.reset();
     if (const DifferenceResult* differences = half_.differences()) present_.differences = *differences;
     present_.exact = started_ == source_.first_frame || !source_.options.stacking.enabled;
     return &present_;
+}
+
+std::vector<StackView> Replay::stacks(StackPictures pictures) const {
+    return present_valid_ ? half_.stackViews(present_.frame, pictures) : std::vector<StackView>{};
 }
 
 std::vector<SearchTrace> Replay::trace(int cluster) const {

@@ -33,7 +33,6 @@ int framesBefore(const ChainOptions& options);
 struct ReplayedFrame {
     Frame frame;
     FrameResult result;  ///< tracks are those since the start of the replay, with ids of their own
-    std::vector<StackView> stacks;
     std::optional<DifferenceResult> differences;  ///< nothing where clusters come from motion vectors
     bool exact = false;  ///< the same as the run found: nothing before the start of the replay can play a part
 };
@@ -51,6 +50,8 @@ class Replay {
     /// The answer is valid until the next call. Throws Error(input | project) when pixels or motion cannot be read.
     const ReplayedFrame* at(FrameIndex frame, const std::stop_token& stop);
 
+    /// The stacks of the frame that `at` answered last.
+    std::vector<StackView> stacks(StackPictures pictures) const;
     /// The steps of the detection in one cluster of the frame that `at` answered last.
     std::vector<SearchTrace> trace(int cluster) const;
     /// What duplicate removal did in the frame that `at` answered last.

@@ -16,24 +16,6 @@ bool lies(cv::Point2d p, cv::Size image) {
     return p.x >= -0.5 && p.y >= -0.5 && p.x <= image.width - 0.5 && p.y <= image.height - 0.5;
 }
 
-cv::Mat insideMask(const cv::Matx23d& image_from_patch, cv::Size patch, cv::Size image) {
-    const cv::Point2d right(patch.width - 1, 0);
-    const cv::Point2d down(0, patch.height - 1);
-    bool all = true;
-    for (const cv::Point2d corner : {cv::Point2d(0, 0), right, down, right + down}) {
-        all = all && lies(toImage(image_from_patch, corner), image);
-    }
-    cv::Mat inside(patch, CV_8UC1, cv::Scalar(all ? 255 : 0));
-    if (all) return inside;
-    for (int y = 0; y < patch.height; ++y) {
-        uchar* row = inside.ptr<uchar>(y);
-        for (int x = 0; x < patch.width; ++x) {
-            row[x] = lies(toImage(image_from_patch, {double(x), double(y)}), image) ? 255 : 0;
-        }
-    }
-    return inside;
-}
-
 }  // namespace
 
 cv::Size patchSize(const OrientedBox& area) {
@@ -65,6 +47,24 @@ UprightPatch cutUpright(const cv::Mat& gray, const OrientedBox& area) {
     cv::warpAffine(gray, patch.image, patch.image_from_patch, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
                    cv::BORDER_REPLICATE);
     return patch;
+}
+
+cv::Mat insideMask(const cv::Matx23d& image_from_patch, cv::Size patch, cv::Size image) {
+    const cv::Point2d right(patch.width - 1, 0);
+    const cv::Point2d down(0, patch.height - 1);
+    bool all = true;
+    for (const cv::Point2d corner : {cv::Point2d(0, 0), right, down, right + down}) {
+        all = all && lies(toImage(image_from_patch, corner), image);
+    }
+    cv::Mat inside(patch, CV_8UC1, cv::Scalar(all ? 255 : 0));
+    if (all) return inside;
+    for (int y = 0; y < patch.height; ++y) {
+        uchar* row = inside.ptr<uchar>(y);
+        for (int x = 0; x < patch.width; ++x) {
+            row[x] = lies(toImage(image_from_patch, {double(x), double(y)}), image) ? 255 : 0;
+        }
+    }
+    return inside;
 }
 
 cv::Point2d toImage(const cv::Matx23d& m, cv::Point2d p) {

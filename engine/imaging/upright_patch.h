@@ -24,6 +24,9 @@ cv::Matx23d imageFromPatch(const OrientedBox& area, cv::Size size);
 /// Cuts `area` out of a CV_8UC1 image. Areas partly or wholly outside the image are allowed; `gray` must not be empty.
 UprightPatch cutUpright(const cv::Mat& gray, const OrientedBox& area);
 
+/// CV_8UC1 of size `patch`: 255 where a patch pixel lies in an image of size `image`, else 0.
+cv::Mat insideMask(const cv::Matx23d& image_from_patch, cv::Size patch, cv::Size image);
+
 /// Image point of a patch point and back; the map must be a turn and a shift, as made by `imageFromPatch`.
 cv::Point2d toImage(const cv::Matx23d& image_from_patch, cv::Point2d in_patch);
 cv::Point2d toPatch(const cv::Matx23d& image_from_patch, cv::Point2d in_image);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "core/angle.h"
@@ -11,6 +10,10 @@
 
 namespace eyrie {
 namespace {
+
+constexpr double kShownLengths = 2.5;  ///< of a standard vehicle, along the motion
+constexpr double kShownWidths = 1.25;  ///< of its length, across the motion
+const cv::Size kFewestShown(16, 32);
 
 double squaredDistance(cv::Point2f a, cv::Point2f b) {
     const cv::Point2f d = a - b;
@@ -232,20 +235,8 @@ void ImageStacker::startFromClusters(const std::vector<Placed>& placed, const st
     }
 }
 
-cv::Mat ImageStacker::cut(const Frame& frame, const MasterPose& pose, cv::Mat layer) const {
-    const cv::Matx23d image_from_patch = imageFromPatch(stackArea(pose, area_), area_);
-    cv::warpAffine(frame.gray, layer, image_from_patch, area_, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
-                   cv::BORDER_CONSTANT, cv::Scalar(kOutsideGrey));
-    return layer;
-}
-
-void ImageStacker::addLayers(const Frame& frame) {
-    cv::parallel_for_(cv::Range(0, static_cast<int>(entries_.size())), [&](const cv::Range& range) {
-        for (int i = range.start; i < range.end; ++i) {
-            Entry& entry = entries_[static_cast<std::size_t>(i)];
-            entry.spare = entry.stack.add(cut(frame, entry.master.pose(), std::move(entry.spare)));
-        }
-    });
+StackLayer ImageStacker::layerOf(const Frame& frame, const MasterPose& pose) const {
+    return {frame.gray, imageFromPatch(stackArea(pose, area_), area_), area_};
 }
 
 void ImageStacker::update(const Frame& frame, const FrameMotion& motion, const std::vector<MotionCluster>& found) {
@@ -263,7 +254,7 @@ void ImageStacker::update(const Frame& frame, const FrameMotion& motion, const s
         startFromClusters(placed, clusters);
     }
     std::erase_if(entries_, [](const Entry& entry) { return entry.master.related().empty(); });
-    addLayers(frame);
+    for (auto& entry : entries_) entry.stack.add(layerOf(frame, entry.master.pose()));
     remembered_.clear();
 }
 
@@ -295,8 +286,7 @@ std::vector<MotionRoi> ImageStacker::replace(const MotionCluster& cluster, int c
         const cv::Point2d origin = toImage(image_from_stack, part.tl());
         roi.image_from_roi(0, 2) = origin.x;
         roi.image_from_roi(1, 2) = origin.y;
-        cv::Mat whole(motion.image_size, CV_8UC1, cv::Scalar(255));
-        cv::warpAffine(whole, roi.inside, roi.image_from_roi, part.size(), cv::INTER_NEAREST | cv::WARP_INVERSE_MAP);
+        roi.inside = insideMask(roi.image_from_roi, part.size(), motion.image_size);
         roi.box = extended;
         roi.cluster = cluster_index;
         roi.velocity = cluster.velocity;
@@ -324,13 +314,33 @@ void ImageStacker::remember(const FrameMotion& motion, const std::vector<Detecti
     }
 }
 
-std::vector<StackView> ImageStacker::views(const Frame& frame) const {
+cv::Rect ImageStacker::shownPart(StackPictures pictures) const {
+    if (pictures == StackPictures::none) return {};
+    if (pictures == StackPictures::whole_area) return {{0, 0}, area_};
+    const double vehicle = scale_.px(options_.vehicle_length_m);
+    const cv::Size size(std::clamp(cvRound(kShownWidths * vehicle), kFewestShown.width, area_.width),
+                        std::clamp(cvRound(kShownLengths * vehicle), kFewestShown.height, area_.height));
+    return {{(area_.width - size.width) / 2, (area_.height - size.height) / 2}, size};
+}
+
+std::vector<StackView> ImageStacker::views(const Frame& frame, StackPictures pictures) const {
     std::vector<StackView> views;
+    std::vector<const Entry*> shown;
     for (const auto& entry : entries_) {
         if (entry.stack.height() == 0) continue;
-        views.push_back({entry.master.id(), entry.master.pose(), entry.stack.height(), entry.master.related(),
-                         entry.stack.stacked(), cut(frame, entry.master.pose())});
+        views.push_back(
+            {entry.master.id(), entry.master.pose(), entry.stack.height(), entry.master.related(), {}, {}});
+        shown.push_back(&entry);
     }
+    const cv::Rect part = shownPart(pictures);
+    if (part.empty()) return views;
+    cv::parallel_for_(cv::Range(0, static_cast<int>(views.size())), [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            StackView& view = views[static_cast<std::size_t>(i)];
+            view.stacked = shown[static_cast<std::size_t>(i)]->stack.stacked(part);
+            view.raw = layerOf(frame, view.pose).cut(part);
+        }
+    });
     return views;
 }
 

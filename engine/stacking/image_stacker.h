@@ -40,14 +40,22 @@ struct StackingOptions {
     static StackingOptions thesis();
 };
 
+/// How much of the stacks' pictures is made for looking at them. Whole areas of many stacks take a second and more where
+/// the GSD is fine.
+enum class StackPictures {
+    none,          ///< pose, height and vectors only
+    surroundings,  ///< the middle: 2.5 vehicle lengths along the motion, 1.25 across
+    whole_area
+};
+
 /// A stack as it can be looked at.
 struct StackView {
     int id = 0;
     MasterPose pose;
     int height = 0;
     std::vector<CornerId> related;
-    cv::Mat stacked;  ///< CV_8UC1 upright, the whole stack area
-    cv::Mat raw;      ///< CV_8UC1 upright, the same area of the current frame
+    cv::Mat stacked;  ///< CV_8UC1 upright; empty without pictures
+    cv::Mat raw;      ///< CV_8UC1 upright, the same part of the current frame; empty without pictures
 };
 
 /// Keeps one image stack per object and offers stacked images in place of the raw ones (Teutsch §5.3). Frames must come
@@ -67,14 +75,13 @@ class ImageStacker {
     /// Detections of this frame, from which stacks are started in the next.
     void remember(const FrameMotion& motion, const std::vector<Detection>& detections);
 
-    std::vector<StackView> views(const Frame& frame) const;
+    std::vector<StackView> views(const Frame& frame, StackPictures pictures) const;
     void reset();
 
  private:
     struct Entry {
         MasterVector master;
         ImageStack stack;
-        cv::Mat spare{};  ///< memory for the next layer
     };
     /// A motion vector with the direction its cluster lends it.
     struct Placed {
@@ -88,9 +95,8 @@ class ImageStacker {
     void startFromDetections(const std::vector<Placed>& placed);
     void startFromClusters(const std::vector<Placed>& placed, const std::vector<MotionCluster>& clusters);
     void start(const std::vector<const Placed*>& members);
-    void addLayers(const Frame& frame);
-    /// Into the memory of `layer` where that fits.
-    cv::Mat cut(const Frame& frame, const MasterPose& pose, cv::Mat layer = {}) const;
+    cv::Rect shownPart(StackPictures pictures) const;
+    StackLayer layerOf(const Frame& frame, const MasterPose& pose) const;
 
     StackingOptions options_;
     SceneScale scale_;

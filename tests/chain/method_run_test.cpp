@@ -133,8 +133,8 @@ TEST(TrackHalf, ShowsItsStacksAndDifferences) {
         differing.next(frame, found, {});
         if (i < 24) continue;
         EXPECT_EQ(stacked.differences(), nullptr);
-        EXPECT_FALSE(stacked.stackViews(frame).empty());
-        EXPECT_TRUE(differing.stackViews(frame).empty());
+        EXPECT_FALSE(stacked.stackViews(frame, StackPictures::none).empty());
+        EXPECT_TRUE(differing.stackViews(frame, StackPictures::none).empty());
         ASSERT_NE(differing.differences(), nullptr);
         EXPECT_EQ(differing.differences()->difference.values.size(), scene.size);
     }

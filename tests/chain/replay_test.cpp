@@ -121,13 +121,15 @@ TEST(Replay, buildsTheStacksAndSaysWhenTheyMayDiffer) {
     const ReplayedFrame* early = replay.at(18, {});
     ASSERT_NE(early, nullptr);
     EXPECT_TRUE(early->exact);  // began with the run
-    ASSERT_FALSE(early->stacks.empty());
-    EXPECT_GT(early->stacks.front().height, 5);
+    const std::vector<StackView> stacks = replay.stacks(StackPictures::surroundings);
+    ASSERT_FALSE(stacks.empty());
+    EXPECT_GT(stacks.front().height, 5);
+    EXPECT_FALSE(stacks.front().stacked.empty());
     expectSame(early->result, run.stored(18));
     const ReplayedFrame* late = replay.at(44, {});
     ASSERT_NE(late, nullptr);
     EXPECT_FALSE(late->exact);
-    EXPECT_EQ(late->stacks.empty(), false);
+    EXPECT_FALSE(replay.stacks(StackPictures::none).empty());
 }
 
 TEST(Replay, tracesTheStepsOfOneCluster) {

@@ -131,8 +131,8 @@ TEST(ImageStacker, keepsTheObjectSharpAndBlursTheGround) {
             }
             stacker.remember(world.motionAt(t), world.detectionsAt(t));
         }
-        ASSERT_EQ(stacker.views(world.frameAt(59)).size(), 1U);
-        EXPECT_EQ(stacker.views(world.frameAt(59))[0].height, 50);
+        ASSERT_EQ(stacker.views(world.frameAt(59), StackPictures::none).size(), 1U);
+        EXPECT_EQ(stacker.views(world.frameAt(59), StackPictures::none)[0].height, 50);
     }
 }
 
@@ -145,9 +145,29 @@ TEST(ImageStacker, newVectorsJoinTheStackOfTheirNeighbours) {
     FrameMotion motion = world.motionAt(2);
     for (std::size_t i = 6; i < 12; ++i) motion.motion_vectors[i].id += 100;  // half of the corners were lost
     stacker.update(world.frameAt(2), motion, world.clustersAt(2));
-    const auto views = stacker.views(world.frameAt(2));
+    const auto views = stacker.views(world.frameAt(2), StackPictures::none);
     ASSERT_EQ(views.size(), 1U);
     EXPECT_EQ(views[0].related.size(), 12U);
+}
+
+TEST(ImageStacker, showsAsMuchOfAStackAsIsAskedFor) {
+    const World world;
+    ImageStacker stacker(StackingOptions::thesis(), scale());
+    for (int t = 0; t < 5; ++t) {
+        stacker.update(world.frameAt(t), world.motionAt(t), world.clustersAt(t));
+        stacker.remember(world.motionAt(t), world.detectionsAt(t));
+    }
+    const Frame frame = world.frameAt(4);
+    EXPECT_TRUE(stacker.views(frame, StackPictures::none).at(0).stacked.empty());
+    const StackView near = stacker.views(frame, StackPictures::surroundings).at(0);
+    const StackView whole = stacker.views(frame, StackPictures::whole_area).at(0);
+    EXPECT_EQ(whole.stacked.size(), cv::Size(115, 345));
+    EXPECT_EQ(near.stacked.size(), cv::Size(16, 33)) << "4.5 m are 13 px";
+    EXPECT_EQ(near.raw.size(), near.stacked.size());
+    EXPECT_EQ(whole.raw.size(), whole.stacked.size());
+    const cv::Rect middle(49, 156, 16, 33);
+    EXPECT_EQ(cv::norm(near.stacked, whole.stacked(middle), cv::NORM_INF), 0);
+    EXPECT_LE(cv::norm(near.raw, whole.raw(middle), cv::NORM_INF), 6);
 }
 
 TEST(ImageStacker, refusesAStackThatMovesOtherwise) {

@@ -188,13 +188,17 @@ class InspectionTest : public QObject {
         const auto session = sessionWithRun(options, 20);
         QVERIFY(session);
         Inspection inspection(*session);
-        inspection.wantStacks(true);
+        inspection.wantStacks(StackPictures::surroundings);
         for (const FrameIndex frame : {10, 50, 21, 40}) session->goToFrame(frame);
         QVERIFY(waitFor([&] { return inspection.view() && inspection.view()->wish.frame == 40; }));
         const ReplayView& view = *inspection.view();
         QVERIFY(!view.stacks.empty());
         QVERIFY(view.stacks.front().height > 6);
         QCOMPARE(view.stacks.front().raw.size(), view.stacks.front().stacked.size());
+        const cv::Size near = view.stacks.front().raw.size();
+        inspection.wantStacks(StackPictures::whole_area);
+        QVERIFY(waitFor([&] { return inspection.view()->wish.stacks == StackPictures::whole_area; }));
+        QVERIFY(inspection.view()->stacks.front().raw.rows > near.height);
     }
 
     void aVideoThatIsGoneIsSaidNotShown() {
@@ -223,7 +227,7 @@ class InspectionTest : public QObject {
         const auto session = sessionWithRun(options, 59);
         QVERIFY(session);
         Inspection inspection(*session);
-        inspection.wantStacks(true);
+        inspection.wantStacks(StackPictures::surroundings);
         session->goToFrame(58);
         QTest::qWait(30);
     }

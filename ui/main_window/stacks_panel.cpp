@@ -11,11 +11,6 @@
 
 namespace eyrie::ui {
 
-namespace {
-constexpr double kShownLengths = 2.5;  ///< of a standard vehicle, along the motion
-constexpr double kShownWidths = 1.25;  ///< of its length, across the motion
-}  // namespace
-
 StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidget* parent)
     : QWidget(parent), session_(session), inspection_(inspection) {
     summary_ = new QLabel(this);
@@ -44,7 +39,7 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
     connect(&inspection_, &Inspection::working, this, [this](int left) {
         if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
     });
-    connect(whole_area_, &QCheckBox::toggled, this, &StacksPanel::showCards);
+    connect(whole_area_, &QCheckBox::toggled, this, &StacksPanel::want);
     connect(empty_, &EmptyState::actionTriggered, this, &StacksPanel::stackingRunRequested);
     connect(grid_, &ChipGrid::cardClicked, this, [this](int id) {
         grid_->setMarkedCard(id);
@@ -57,8 +52,13 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
 
 void StacksPanel::setLookedAt(bool looked_at) {
     looked_at_ = looked_at;
-    inspection_.wantStacks(looked_at);
+    want();
     refresh();
+}
+
+void StacksPanel::want() {
+    if (!looked_at_) return inspection_.wantStacks(StackPictures::none);
+    inspection_.wantStacks(whole_area_->isChecked() ? StackPictures::whole_area : StackPictures::surroundings);
 }
 
 QString StacksPanel::explanation() const {
@@ -103,6 +103,7 @@ void StacksPanel::refresh() {
 
 void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {
     if (!looked_at_ || view->wish.frame != session_.viewFrame().index || stackingOff()) return;
+    if (view->wish.stacks == StackPictures::none) return;  // asked for by others
     view_ = view;
     const StackingOptions& options = view->options.stacking;
     const auto used = std::count_if(view->stacks.begin(), view->stacks.end(),
@@ -121,15 +122,8 @@ void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {
         return;
     }
     whole_area_->show();
-    showCards();
+    grid_->setCards(stackChips(*view));
     pages_->setCurrentWidget(grid_);
-}
-
-void StacksPanel::showCards() {
-    if (!view_) return;
-    const double length = session_.scale().px(view_->options.stacking.vehicle_length_m);
-    const cv::Size part(std::max(16, cvRound(length * kShownWidths)), std::max(32, cvRound(length * kShownLengths)));
-    grid_->setCards(stackChips(*view_, whole_area_->isChecked() ? std::nullopt : std::optional(part)));
 }
 
 }  // namespace eyrie::ui

@@ -38,7 +38,7 @@ class StacksPanel : public QWidget {
  private:
     void refresh();
     void showView(const std::shared_ptr<const ReplayView>& view);
-    void showCards();
+    void want();
     bool stackingOff() const;
 
     ProjectSession& session_;

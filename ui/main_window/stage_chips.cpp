@@ -4,6 +4,7 @@
 #include <QLocale>
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <string_view>
 
 #include "view/image_convert.h"
@@ -203,11 +204,6 @@ ChipCard card(Chip chip) {
     return made;
 }
 
-cv::Mat middleOf(const cv::Mat& picture, cv::Size size) {
-    const cv::Rect part((picture.cols - size.width) / 2, (picture.rows - size.height) / 2, size.width, size.height);
-    return picture(part & cv::Rect({0, 0}, picture.size()));
-}
-
 QString referenceTitle(MotionMethod method) {
     return method == MotionMethod::median_background ? tr("Background") : tr("Earlier frame");
 }
@@ -286,19 +282,18 @@ std::vector<ChipCard> differenceChips(const ReplayView& view) {
     return cards;
 }
 
-std::vector<ChipCard> stackChips(const ReplayView& view, std::optional<cv::Size> part) {
-    const auto shown = [&part](const cv::Mat& picture) { return part ? middleOf(picture, *part) : picture; };
+std::vector<ChipCard> stackChips(const ReplayView& view) {
     std::vector<ChipCard> cards;
     for (const StackView& stack : view.stacks) {
         ChipCard made;
         made.id = stack.id;
         made.colour = stackColour(stack.id);
         made.heading = tr("Stack %1").arg(stack.id);
-        made.chips.push_back(greyChip(tr("Raw chip"), shown(stack.raw)));
+        made.chips.push_back(greyChip(tr("Raw chip"), stack.raw));
         made.chips.back().note =
             stack.related.size() == 1 ? tr("1 vector") : tr("%1 vectors").arg(stack.related.size());
         const bool used = stack.height >= view.options.stacking.min_height;
-        made.chips.push_back(greyChip(tr("Stacked image"), shown(stack.stacked)));
+        made.chips.push_back(greyChip(tr("Stacked image"), stack.stacked));
         made.chips.back().note = used ? tr("height %1").arg(stack.height)
                                       : tr("height %1 of %2").arg(stack.height).arg(view.options.stacking.min_height);
         cards.push_back(std::move(made));

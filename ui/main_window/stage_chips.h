@@ -1,7 +1,6 @@
 #pragma once
 
 #include <opencv2/core/types.hpp>
-#include <optional>
 #include <vector>
 
 #include "panels/chip_grid.h"
@@ -19,9 +18,8 @@ std::vector<ChipCard> stageChips(const ReplayView& view, std::size_t trace);
 /// Difference images and background of the whole frame; nothing where clusters come from motion vectors.
 std::vector<ChipCard> differenceChips(const ReplayView& view);
 
-/// Every stack of the frame: raw chip beside stacked image, under number, colour and height. `part`: only this much of
-/// the middle, where the vehicle is, px.
-std::vector<ChipCard> stackChips(const ReplayView& view, std::optional<cv::Size> part = std::nullopt);
+/// Every stack of the frame: raw chip beside stacked image, under number, colour and height.
+std::vector<ChipCard> stackChips(const ReplayView& view);
 
 /// The stacks as they are drawn over the video.
 std::vector<StackMark> stackMarks(const ReplayView& view);

@@ -39,8 +39,8 @@ void Inspection::wantStages(bool wanted) {
     if (std::exchange(stages_wanted_, wanted) != wanted) request();
 }
 
-void Inspection::wantStacks(bool wanted) {
-    if (std::exchange(stacks_wanted_, wanted) != wanted) request();
+void Inspection::wantStacks(StackPictures pictures) {
+    if (std::exchange(stacks_wanted_, pictures) != pictures) request();
 }
 
 void Inspection::wantStackOverlay(bool wanted) {
@@ -125,13 +125,13 @@ void Inspection::remember(const FrameResult& result, int cluster) {
 
 void Inspection::request() {
     const ViewFrame& frame = session_.viewFrame();
-    const bool wanted = stages_wanted_ || stacks_wanted_ || overlay_wanted_;
+    const bool wanted = stages_wanted_ || stacks_wanted_ != StackPictures::none || overlay_wanted_;
     // A run at work needs the processor for itself, and its newest frames are gone before they could be replayed.
     if (!wanted || !frame.result || session_.following()) {
         loader_.cancel();
         return;
     }
-    loader_.request({frame.index, stages_wanted_ && cluster_ ? *cluster_ : -1, stages_wanted_ && general_wanted_});
+    loader_.request({frame.index, stages_wanted_ && cluster_ ? *cluster_ : -1, stages_wanted_ && general_wanted_, stacks_wanted_});
 }
 
 }  // namespace eyrie::ui

@@ -23,7 +23,7 @@ class Inspection : public QObject {
     /// Whether the steps of the chosen cluster, or the stacks of the frame, in a list or over the video, are being
     /// looked at.
     void wantStages(bool wanted);
-    void wantStacks(bool wanted);
+    void wantStacks(StackPictures pictures);
     void wantStackOverlay(bool wanted);
     /// Also the views of fig. 5.1.
     void wantGeneralSegmentation(bool wanted);
@@ -62,7 +62,7 @@ class Inspection : public QObject {
     ProjectSession& session_;
     ReplayLoader loader_;
     bool stages_wanted_ = false;
-    bool stacks_wanted_ = false;
+    StackPictures stacks_wanted_ = StackPictures::none;
     bool overlay_wanted_ = false;
     bool general_wanted_ = false;
     bool chosen_ = false;            ///< a cluster was chosen by itself, not by a track

@@ -65,7 +65,7 @@ class ReplayLoader::Worker {
         view->exact = frame.exact;
         view->frame = frame.frame;
         view->result = frame.result;
-        view->stacks = frame.stacks;
+        view->stacks = replay_->stacks(wish.stacks);
         view->differences = frame.differences;
         view->traces = replay_->trace(wish.cluster);
         if (wish.general_segmentation && !view->traces.empty())

@@ -17,6 +17,7 @@ struct ReplayWish {
     FrameIndex frame = 0;
     int cluster = -1;                   ///< whose steps are wanted; −1: none
     bool general_segmentation = false;  ///< also the views of fig. 5.1
+    StackPictures stacks = StackPictures::none;
 };
 
 /// What general segmentation makes of a motion ROI (fig. 5.1): the ROI with the borders drawn in, CV_8UC3.
