@@ -328,8 +328,7 @@ std::vector<StackView> ImageStacker::views(const Frame& frame, StackPictures pic
     std::vector<const Entry*> shown;
     for (const auto& entry : entries_) {
         if (entry.stack.height() == 0) continue;
-        views.push_back(
-            {entry.master.id(), entry.master.pose(), entry.stack.height(), entry.master.related(), {}, {}});
+        views.push_back({entry.master.id(), entry.master.pose(), entry.stack.height(), entry.master.related(), {}, {}});
         shown.push_back(&entry);
     }
     const cv::Rect part = shownPart(pictures);

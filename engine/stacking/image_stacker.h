@@ -40,8 +40,8 @@ struct StackingOptions {
     static StackingOptions thesis();
 };
 
-/// How much of the stacks' pictures is made for looking at them. Whole areas of many stacks take a second and more where
-/// the GSD is fine.
+/// How much of the stacks' pictures is made for looking at them. Whole areas of many stacks take a second and more
+/// where the GSD is fine.
 enum class StackPictures {
     none,          ///< pose, height and vectors only
     surroundings,  ///< the middle: 2.5 vehicle lengths along the motion, 1.25 across

@@ -9,9 +9,9 @@ namespace eyrie {
 /// Grey value of pixels outside the video image: the middle of the range (Teutsch §5.3.3).
 inline constexpr int kOutsideGrey = 127;
 
-/// One layer of an image stack: the upright view of one object in one frame (Teutsch §5.3). The stack area is many times
-/// larger than what searches look at, so pixels are cut out of the frame in tiles when they are first asked for. What
-/// a tile holds does not depend on when it was asked for.
+/// One layer of an image stack: the upright view of one object in one frame (Teutsch §5.3). The stack area is many
+/// times larger than what searches look at, so pixels are cut out of the frame in tiles when they are first asked for.
+/// What a tile holds does not depend on when it was asked for.
 class StackLayer {
  public:
     /// Side of a tile, px; tiles of the last column and row may be smaller.

@@ -21,7 +21,8 @@ cv::Mat smoothPicture() {
     cv::Mat picture(300, 400, CV_8UC1);
     for (int y = 0; y < picture.rows; ++y) {
         for (int x = 0; x < picture.cols; ++x)
-            picture.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(128 + 80 * std::sin(x / 20.0) * std::cos(y / 15.0));
+            picture.at<std::uint8_t>(y, x) =
+                cv::saturate_cast<std::uint8_t>(128 + 80 * std::sin(x / 20.0) * std::cos(y / 15.0));
     }
     return picture;
 }

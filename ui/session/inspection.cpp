@@ -131,7 +131,8 @@ void Inspection::request() {
         loader_.cancel();
         return;
     }
-    loader_.request({frame.index, stages_wanted_ && cluster_ ? *cluster_ : -1, stages_wanted_ && general_wanted_, stacks_wanted_});
+    loader_.request(
+        {frame.index, stages_wanted_ && cluster_ ? *cluster_ : -1, stages_wanted_ && general_wanted_, stacks_wanted_});
 }
 
 }  // namespace eyrie::ui
