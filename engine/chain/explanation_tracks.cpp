@@ -74,6 +74,20 @@ const TrackState* unfinishedAt(const PlaceEvidence& evidence) {
     return best;
 }
 
+/// The state at the place that was left out when the run's tracks were finished.
+const DroppedState* droppedAt(const PlaceEvidence& evidence) {
+    const DroppedState* best = nullptr;
+    double best_overlap = -1;
+    for (const DroppedState& state : evidence.result.dropped) {
+        if (state.why == TrackDrop::unconfirmed || !atPlace(state.box, evidence.area)) continue;
+        const double shared = overlap(state.box, evidence.area);
+        if (shared <= best_overlap) continue;
+        best = &state;
+        best_overlap = shared;
+    }
+    return best;
+}
+
 }  // namespace
 
 void tellTracks(Story& story, const std::vector<int>& detections) {
@@ -84,6 +98,12 @@ void tellTracks(Story& story, const std::vector<int>& detections) {
         story.pass("tracks", "track " + std::to_string(stored->id) + ": " + nameOf(stored->status) + ", " +
                                  nameOf(stored->origin) + ", detected in " + std::to_string(stored->hits) + " of " +
                                  std::to_string(stored->age + 1) + " frames");
+        return;
+    }
+    if (const DroppedState* dropped = droppedAt(evidence)) {
+        story.fail("tracks", "left out when the run's tracks were finished: " + textOf(*dropped),
+                   parameterOf(dropped->why));
+        story.decide("Left out when the run's tracks were finished: " + textOf(*dropped), parameterOf(dropped->why));
         return;
     }
     if (!evidence.tracking) {

@@ -43,10 +43,12 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     RunStore store(project);
     std::vector<TrackFrame> finished;
     const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
-    for (auto& [frame, track_state] : finishTracks(std::move(states_), motions_, finishing_, scale_, vectors_at)) {
+    std::vector<TimedDrop> dropped;
+    for (auto& [frame, track_state] :
+         finishTracks(std::move(states_), motions_, finishing_, scale_, vectors_at, &dropped)) {
         finished.push_back({frame, track_state});
     }
-    store.replaceTrackStates(writer_.runId(), finished);
+    store.replaceTrackStates(writer_.runId(), finished, dropped);
     return store.run(writer_.runId()).value();
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/detection.h"
+#include "core/dropped_state.h"
 #include "core/motion_cluster.h"
 #include "core/motion_vector.h"
 #include "core/track_state.h"
@@ -38,6 +39,7 @@ struct FrameResult {
     std::vector<OrientedBox> rois;      ///< extended clusters that a detector searched
     std::vector<Detection> detections;  ///< kept and rejected ones; see Detection::rejection
     std::vector<TrackState> tracks;     ///< every living track, tentative ones too; ascending id
+    std::vector<DroppedState> dropped;  ///< of stored, finished runs: what was left out of the tracks here
     StageTimes stage_ms{};
 };
 

@@ -78,6 +78,9 @@ BoxFacts factsAt(const OrientedBox& box, const FrameResult& result, const ChainO
         facts.rejection = rejected.rejection;
         facts.rejected_vectors = static_cast<int>(rejected.vectors.size());
     }
+    for (std::size_t i = 0; i < result.dropped.size(); ++i)
+        keepBest(facts.dropped, i, overlap(place, shown(result.dropped[i].box)));
+    if (facts.dropped.index >= 0) facts.drop = result.dropped[static_cast<std::size_t>(facts.dropped.index)];
     for (std::size_t i = 0; i < result.tracks.size(); ++i) {
         const TrackState& track = result.tracks[i];
         const double shared = overlap(place, shown(track.box));

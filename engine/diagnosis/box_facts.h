@@ -33,6 +33,8 @@ struct BoxFacts {
     NearBox rejected;           ///< the rejected one
     Rejection rejection = Rejection::none;  ///< why
     int rejected_vectors = 0;               ///< motion vectors in it
+    NearBox dropped;                        ///< the state left out when tracks were finished
+    DroppedState drop;                      ///< that state
     NearBox tentative;                      ///< the track that was never confirmed so far
     NearBox confirmed;                      ///< the confirmed or coasting one
 };

@@ -89,6 +89,11 @@ CauseHere rejectedAs(const BoxFacts& facts) {
 CauseHere stageThatLost(const BoxFacts& facts, const MistakeEvidence& evidence) {
     const double needed = evidence.min_overlap;
     if (facts.tentative.overlap >= needed) return {MistakeCause::tentative, ""};
+    if (facts.dropped.overlap >= needed) {
+        const bool unconfirmed = facts.drop.why == TrackDrop::unconfirmed;
+        return {unconfirmed ? MistakeCause::tentative : MistakeCause::track_dropped,
+                textOf(facts.drop) + " (" + parameterOf(facts.drop.why) + ")"};
+    }
     if (facts.kept.overlap >= needed)
         return {MistakeCause::not_associated, "a detection overlaps it by " + number(facts.kept.overlap, 2)};
     if (facts.rejected.overlap >= needed) return rejectedAs(facts);
@@ -254,6 +259,7 @@ const char* nameOf(MistakeCause cause) {
                                                           "removed by size",
                                                           "not associated",
                                                           "track not confirmed",
+                                                          "track left out",
                                                           "box off",
                                                           "merged",
                                                           "split",
@@ -305,6 +311,8 @@ const char* explanationOf(MistakeCause cause) {
             return "It was detected, but belongs to no track of the result (tracking.*).";
         case MistakeCause::tentative:
             return "It was followed, but the track was not confirmed (tracking.*).";
+        case MistakeCause::track_dropped:
+            return "It was followed, but the track was left out when the tracks were finished (finishing.*).";
         case MistakeCause::box_off:
             return "A box is there, but overlaps by less than T_ov.";
         case MistakeCause::merged:

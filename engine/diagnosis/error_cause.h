@@ -25,6 +25,7 @@ enum class MistakeCause {
     removed_size,        ///< detected, but too small or too large
     not_associated,      ///< detected, but in no track
     tentative,           ///< followed, but the track is not confirmed
+    track_dropped,       ///< followed, but left out when the tracks were finished
     box_off,             ///< found, but the box overlaps less than T_ov
     merged,              ///< taken for one with a neighbour
     split,               ///< found in parts

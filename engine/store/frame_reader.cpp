@@ -105,6 +105,20 @@ std::vector<Detection> readDetections(SQLite::Database& database, int run_id, Fr
         });
 }
 
+std::vector<DroppedState> readDropped(SQLite::Database& database, int run_id, FrameIndex frame) {
+    return readItems<DroppedState>(database,
+                                   "SELECT track_id, x, y, length, width, heading_rad, reason, beside FROM "
+                                   "dropped_state WHERE run_id = ? AND frame = ? ORDER BY track_id",
+                                   run_id, frame, [](RowReader& row) {
+                                       DroppedState dropped;
+                                       dropped.id = row.integer();
+                                       dropped.box = row.box();
+                                       dropped.why = row.word(stored::kTrackDrops);
+                                       dropped.beside = row.integer();
+                                       return dropped;
+                                   });
+}
+
 }  // namespace
 
 std::optional<FrameResult> RunStore::frameResult(int run_id, FrameIndex frame) const {
@@ -128,6 +142,7 @@ std::optional<FrameResult> RunStore::frameResult(int run_id, FrameIndex frame) c
                                                std::string("SELECT ") + kTrackStateColumns +
                                                    " FROM track_state WHERE run_id = ? AND frame = ? ORDER BY track_id",
                                                run_id, frame, readTrackState);
+        result->dropped = readDropped(database, run_id, frame);
         return result;
     });
 }

@@ -144,16 +144,31 @@ std::vector<FrameSummary> RunStore::frameSummaries(int run_id) const {
     });
 }
 
-void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& states) {
+void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
+                                  const std::vector<std::pair<FrameIndex, DroppedState>>& dropped) {
     guarded(project_.path(), "replacing the tracks" + ofRun(run_id), [&] {
         SQLite::Database& database = project_.database();
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-        for (const char* command : {"DELETE FROM track_state WHERE run_id = ?", "DELETE FROM track WHERE run_id = ?"}) {
+        for (const char* command : {"DELETE FROM track_state WHERE run_id = ?", "DELETE FROM track WHERE run_id = ?",
+                                    "DELETE FROM dropped_state WHERE run_id = ?"}) {
             SQLite::Statement statement(database, command);
             RowWriter(statement).integer(run_id).run();
         }
         TrackRows rows(database);
         for (const TrackFrame& state : states) rows.insert(run_id, state.frame, state.state);
+        SQLite::Statement left_out(database,
+                                   "INSERT OR REPLACE INTO dropped_state (run_id, frame, track_id, x, y, length, "
+                                   "width, heading_rad, reason, beside) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        for (const auto& [frame, state] : dropped) {
+            RowWriter(left_out)
+                .integer(run_id)
+                .integer(frame)
+                .integer(state.id)
+                .box(state.box)
+                .word(stored::kTrackDrops, state.why)
+                .integer(state.beside)
+                .run();
+        }
         SQLite::Statement counts(database,
                                  "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE "
                                  "track_state.run_id = frame.run_id AND track_state.frame = frame.frame AND "

@@ -102,8 +102,10 @@ class RunStore {
     BoxesByFrame trackBoxes(int run_id) const;
     BoxesByFrame detectionBoxes(int run_id) const;
 
-    /// Replaces all track states of a run in one transaction (used once, when the tracks of a run are finished).
-    void replaceTrackStates(int run_id, const std::vector<TrackFrame>& states);
+    /// Replaces all track states of a run, and what was left out of them, in one transaction (used once, when the
+    /// tracks of a run are finished).
+    void replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
+                            const std::vector<std::pair<FrameIndex, DroppedState>>& dropped = {});
     void rename(int run_id, const std::string& name);
     void remove(int run_id);
 

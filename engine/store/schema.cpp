@@ -244,8 +244,23 @@ CREATE TABLE preset_value (
 )sql");
 }
 
-constexpr std::array<Migration, 5> kMigrations{addRuns, addLabels, addComparisonsAndCompleteBoxes, addSweeps,
-                                               addPresets};
+// What was left out when the tracks of a run were finished, and why.
+void addDroppedStates(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE dropped_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    reason TEXT NOT NULL,
+    beside INTEGER NOT NULL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+)sql");
+}
+
+constexpr std::array<Migration, 6> kMigrations{addRuns,   addLabels,  addComparisonsAndCompleteBoxes,
+                                               addSweeps, addPresets, addDroppedStates};
 
 }  // namespace
 

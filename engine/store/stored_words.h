@@ -6,6 +6,7 @@
 #include "core/annotation.h"
 #include "core/corner.h"
 #include "core/detection.h"
+#include "core/dropped_state.h"
 #include "core/frame_result.h"
 #include "core/track_state.h"
 #include "store/run_store.h"
@@ -35,6 +36,11 @@ inline constexpr std::array<Word<Rejection>, 4> kRejections{{{Rejection::none, "
 inline constexpr std::array<Word<TrackStatus>, 3> kTrackStatuses{{{TrackStatus::tentative, "tentative"},
                                                                   {TrackStatus::confirmed, "confirmed"},
                                                                   {TrackStatus::coasting, "coasting"}}};
+inline constexpr std::array<Word<TrackDrop>, 5> kTrackDrops{{{TrackDrop::unconfirmed, "unconfirmed"},
+                                                             {TrackDrop::too_small, "too small"},
+                                                             {TrackDrop::shares_place, "shares place"},
+                                                             {TrackDrop::shadow, "shadow"},
+                                                             {TrackDrop::hardly_detected, "hardly detected"}}};
 inline constexpr std::array<Word<StateOrigin>, 3> kStateOrigins{{{StateOrigin::detected, "detected"},
                                                                  {StateOrigin::reconstructed, "reconstructed"},
                                                                  {StateOrigin::predicted, "predicted"}}};

@@ -158,10 +158,15 @@ VectorsAt vectorsIn(const VectorsByFrame& kept) {
 
 std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::vector<FrameMotionSummary>& motion,
                                      const FinishingOptions& options, const SceneScale& scale,
-                                     const VectorsAt& vectors_at) {
+                                     const VectorsAt& vectors_at, std::vector<TimedDrop>* dropped) {
     const GroundMotion ground(motion);
+    DropList drops(dropped);
     std::vector<TrackPath> paths = groupedById(std::move(states));
-    std::erase_if(paths, [](const TrackPath& path) { return !everConfirmed(path); });
+    std::erase_if(paths, [&](const TrackPath& path) {
+        if (everConfirmed(path)) return false;
+        drops.add(path, TrackDrop::unconfirmed);
+        return true;
+    });
     for (TrackPath& path : paths) {
         if (!options.keep_tentative) {
             std::erase_if(path.states, [](const TimedState& s) { return s.second.status == TrackStatus::tentative; });
@@ -171,15 +176,15 @@ std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);
     if (options.join_parts && scale.gsd_known) joinParts(paths, scale);
-    dropTooSmall(paths, options, scale);
-    dropSharers(paths, options.max_sharing, scale);
+    dropTooSmall(paths, options, scale, drops);
+    dropSharers(paths, options.max_sharing, scale, drops);
     for (TrackPath& path : paths) {
         if (options.constant_size) steadySize(path, ground, framesOf(options.size_window_s / 2, scale));
         if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));
     }
-    if (options.drop_shadows) dropShadows(paths, scale);
+    if (options.drop_shadows) dropShadows(paths, scale, drops);
     traceBack(paths, ground, vectors_at, framesOf(options.trace_back_s, scale));
-    dropHardlyDetected(paths, options.min_detected, scale);
+    dropHardlyDetected(paths, options.min_detected, scale, drops);
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/corner.h"
+#include "core/dropped_state.h"
 #include "core/ids.h"
 #include "core/motion_vector.h"
 #include "core/parameter.h"
@@ -53,6 +54,9 @@ struct FinishingOptions {
 /// A state of a track and the frame it belongs to.
 using TimedState = std::pair<FrameIndex, TrackState>;
 
+/// A state that was left out and the frame it belongs to.
+using TimedDrop = std::pair<FrameIndex, DroppedState>;
+
 /// The motion vectors of a frame of the run, by ascending id; none for frames it does not have.
 using VectorsAt = std::function<std::vector<MotionVector>(FrameIndex)>;
 
@@ -65,10 +69,11 @@ VectorsAt vectorsIn(const VectorsByFrame& kept);
 /// size on the ground and a smooth path; extends tracks back to where their
 /// motion vectors began or the vehicle stood. States come in any
 /// order and leave ordered by frame, then id, one per frame and id. `motion` may lack frames; nothing is carried across
-/// those. Without `vectors_at` no track is traced back. Clean tracks come out as they went in, so finishing twice is
-/// finishing once.
+/// those. Without `vectors_at` no track is traced back. What is left out although the tracker followed it goes to
+/// `dropped`, if given; predicted ends that are trimmed and fragments that are joined do not count. Clean tracks come
+/// out as they went in, so finishing twice is finishing once.
 std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::vector<FrameMotionSummary>& motion,
                                      const FinishingOptions& options, const SceneScale& scale,
-                                     const VectorsAt& vectors_at = {});
+                                     const VectorsAt& vectors_at = {}, std::vector<TimedDrop>* dropped = nullptr);
 
 }  // namespace eyrie

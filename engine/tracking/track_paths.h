@@ -21,6 +21,21 @@ struct TrackPath {
     }
 };
 
+/// Collects what is left out; `into` may be null.
+class DropList {
+ public:
+    explicit DropList(std::vector<TimedDrop>* into) : into_(into) {}
+    void add(const TimedState& state, TrackId track, TrackDrop why, TrackId beside = 0) {
+        if (into_) into_->push_back({state.first, {track, state.second.box, why, beside}});
+    }
+    void add(const TrackPath& path, TrackDrop why, TrackId beside = 0) {
+        for (const TimedState& state : path.states) add(state, path.id, why, beside);
+    }
+
+ private:
+    std::vector<TimedDrop>* into_;
+};
+
 /// Joins the fragments of one vehicle: where a track ends and another starts soon after at the predicted place with
 /// similar velocity and size, the later one continues the earlier one. Gaps are filled by interpolation.
 std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundMotion& ground,
@@ -39,20 +54,21 @@ void steadySize(TrackPath& path, const GroundMotion& ground, int half_window);
 void smoothPath(TrackPath& path, const GroundMotion& ground, int half_window);
 
 /// Drops tracks whose boxes stayed smaller than any vehicle. Nothing is dropped where the GSD is unknown.
-void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale);
+void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale,
+                  DropList& dropped);
 
 /// Two vehicles cannot be in one place: of two tracks that share more than `max_sharing` of the smaller one's area on
 /// average (of the union where the larger box is wider than any vehicle), the one that was detected less often gives
 /// way where they meet, or wholly when little of it is left.
-void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale);
+void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale, DropList& dropped);
 
 /// Drops tracks that drive beside a vehicle as if fixed to it, touch it and were detected less than half as often: they
 /// are its shadow or its side.
-void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale);
+void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped);
 
 /// Drops tracks that were guessed rather than seen: detected in less than `min_share` of their frames, not counting
 /// predicted ones, and in less than 0.4 s altogether.
-void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale);
+void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale, DropList& dropped);
 
 /// Follows tracks back in time by the motion vectors in their boxes, by at most `frames`: where a vehicle starts slowly
 /// or hardly stands out, single vectors show it long before there are enough for a detection.

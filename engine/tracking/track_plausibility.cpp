@@ -76,33 +76,48 @@ bool areFixed(const Sharing& sharing, const SceneScale& scale) {
 }
 
 /// Removes the states of `weaker` that lie on `stronger`.
-void giveWay(TrackPath& weaker, const TrackPath& stronger, double allowed) {
+void giveWay(TrackPath& weaker, const TrackPath& stronger, double allowed, DropList& dropped) {
     std::map<FrameIndex, OrientedBox> taken;
     for (const auto& [frame, state] : stronger.states) taken[frame] = state.box;
     std::erase_if(weaker.states, [&](const TimedState& state) {
         const auto there = taken.find(state.first);
-        return there != taken.end() && containment(there->second, state.second.box) > allowed;
+        const bool lies_on_it = there != taken.end() && containment(there->second, state.second.box) > allowed;
+        if (lies_on_it) dropped.add(state, weaker.id, TrackDrop::shares_place, stronger.id);
+        return lies_on_it;
     });
+}
+
+void dropWhole(TrackPath& weaker, const TrackPath& stronger, DropList& dropped) {
+    dropped.add(weaker, TrackDrop::shares_place, stronger.id);
+    weaker.states.clear();
 }
 
 }  // namespace
 
-void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale) {
+void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale,
+                  DropList& dropped) {
     if (!scale.gsd_known) return;
     const double length = scale.px(options.min_length_m);
     const double width = scale.px(options.min_width_m);
-    std::erase_if(paths, [&](const TrackPath& path) { return tooSmall(path, length, width); });
-}
-
-void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale) {
     std::erase_if(paths, [&](const TrackPath& path) {
-        const int detected = path.statesOf(StateOrigin::detected);
-        const int supposed = path.statesOf(StateOrigin::reconstructed);
-        return detected < kSureSeconds * scale.frame_rate_hz && detected < min_share * (detected + supposed);
+        if (!tooSmall(path, length, width)) return false;
+        dropped.add(path, TrackDrop::too_small);
+        return true;
     });
 }
 
-void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale) {
+void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale, DropList& dropped) {
+    std::erase_if(paths, [&](const TrackPath& path) {
+        const int detected = path.statesOf(StateOrigin::detected);
+        const int supposed = path.statesOf(StateOrigin::reconstructed);
+        if (detected >= kSureSeconds * scale.frame_rate_hz || detected >= min_share * (detected + supposed))
+            return false;
+        dropped.add(path, TrackDrop::hardly_detected);
+        return true;
+    });
+}
+
+void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale, DropList& dropped) {
     if (!(max_sharing < 1)) return;
     const double widest = scale.px(kWidestVehicle) + kBoxMargin;
     std::vector<std::size_t> order(paths.size());
@@ -126,13 +141,13 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
             if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
             const bool fixed = sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scale);
             if (fixed && sharing.share > kFixedShare * max_sharing) {
-                weaker.states.clear();
+                dropWhole(weaker, stronger, dropped);
                 continue;
             }
             if (sharing.share <= max_sharing) continue;
             const std::size_t before = weaker.states.size();
-            giveWay(weaker, stronger, max_sharing / 2);
-            if (2 * weaker.states.size() < before) weaker.states.clear();
+            giveWay(weaker, stronger, max_sharing / 2, dropped);
+            if (2 * weaker.states.size() < before) dropWhole(weaker, stronger, dropped);
         }
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });

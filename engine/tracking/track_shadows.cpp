@@ -55,14 +55,16 @@ bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneSc
 
 }  // namespace
 
-void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale) {
+void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped) {
     std::vector<char> is_shadow(paths.size(), 0);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const double detected = paths[i].statesOf(StateOrigin::detected);
-        is_shadow[i] = std::any_of(paths.begin(), paths.end(), [&](const TrackPath& vehicle) {
-            return detected < kDetected * vehicle.statesOf(StateOrigin::detected) &&
-                   isShadowOf(paths[i], vehicle, scale);
+        const auto vehicle = std::find_if(paths.begin(), paths.end(), [&](const TrackPath& other) {
+            return detected < kDetected * other.statesOf(StateOrigin::detected) && isShadowOf(paths[i], other, scale);
         });
+        if (vehicle == paths.end()) continue;
+        is_shadow[i] = 1;
+        dropped.add(paths[i], TrackDrop::shadow, vehicle->id);
     }
     std::size_t at = 0;
     std::erase_if(paths, [&](const TrackPath&) { return is_shadow[at++] != 0; });

@@ -364,8 +364,20 @@ TEST(Explanation, everyParameterNamedIsOneThatExists) {
                              "tracking.suppress_duplicates",
                              "tracking.split_merge",
                              "finishing.trim_predicted",
-                             "finishing.max_sharing"})
+                             "finishing.max_sharing",
+                             "finishing.drop_shadows",
+                             "finishing.min_detected",
+                             "finishing.min_length"})
         EXPECT_TRUE(exists(name)) << name;
+}
+
+TEST(Explanation, trackLeftOutWhenTracksWereFinished) {
+    PlaceEvidence evidence = detectedPlace();
+    evidence.result.dropped = {{7, {{100, 100}, 18, 7, 0}, TrackDrop::hardly_detected, 0}};
+    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    EXPECT_FALSE(told.found);
+    EXPECT_EQ(told.parameter, "finishing.min_detected");
+    EXPECT_THAT(told.sentence, HasSubstr("track 7 was guessed rather than detected"));
 }
 
 TEST(Explanation, numbersArePlain) {

@@ -182,6 +182,16 @@ TEST_F(Causes, aMissThatTrackingMade) {
     EXPECT_EQ(missedCar().cause, MistakeCause::tentative);
 }
 
+TEST_F(Causes, aMissThatFinishingMade) {
+    addDetection(stored[20], box);
+    stored.frames[20].dropped.push_back({5, box, TrackDrop::shadow, 2});
+    EXPECT_EQ(missedCar().cause, MistakeCause::track_dropped);
+    EXPECT_EQ(missedCar().text,
+              "track 5 drives beside track 2 as if fixed to it, as its shadow or side would (finishing.drop_shadows)");
+    stored.frames[20].dropped.front().why = TrackDrop::unconfirmed;
+    EXPECT_EQ(missedCar().cause, MistakeCause::tentative);
+}
+
 TEST_F(Causes, aMissByABoxThatIsTooFarOff) {
     stored[0];
     // Shifted by 17 of 20 px: (20 − 17) / (20 + 17) = 0.08.

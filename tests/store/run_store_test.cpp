@@ -236,6 +236,30 @@ TEST_F(RunStoreTest, ReplacedTracksShowEverywhere) {
     EXPECT_EQ(summaries[2].tracks, 0);
 }
 
+TEST_F(RunStoreTest, WhatFinishingLeftOutIsReadWithItsFrame) {
+    ProjectFile project = ProjectFile::create(path_);
+    ResultWriter writer(path_, sampleRun(), {});
+    for (const FrameResult& frame : twoTracks()) writer.write(frame);
+    RunStore store(project);
+    EXPECT_TRUE(store.frameResult(writer.runId(), 5)->dropped.empty());
+    const DroppedState shadow{7, {{50, 60}, 18, 7, 0.5}, TrackDrop::shadow, 1};
+    const DroppedState small{8, {{10, 20}, 4, 2, 0}, TrackDrop::too_small, 0};
+    store.replaceTrackStates(writer.runId(), {}, {{5, small}, {5, shadow}, {6, small}});
+    const auto dropped = store.frameResult(writer.runId(), 5)->dropped;
+    ASSERT_EQ(dropped.size(), 2U);
+    EXPECT_EQ(dropped[0].id, 7);
+    EXPECT_EQ(dropped[0].why, TrackDrop::shadow);
+    EXPECT_EQ(dropped[0].beside, 1);
+    EXPECT_EQ(dropped[0].box.centre, cv::Point2d(50, 60));
+    EXPECT_EQ(dropped[0].box.heading, 0.5);
+    EXPECT_EQ(store.frameResult(writer.runId(), 6)->dropped.size(), 1U);
+    store.replaceTrackStates(writer.runId(), {});
+    EXPECT_TRUE(store.frameResult(writer.runId(), 5)->dropped.empty());
+    store.replaceTrackStates(writer.runId(), {}, {{5, small}});
+    store.remove(writer.runId());
+    EXPECT_TRUE(store.runs().empty());
+}
+
 TEST_F(RunStoreTest, ARemovedRunTakesEverythingOfItAndNothingElse) {
     const int first = test::writeSampleProject(path_, 4);
     const int second = test::writeSampleProject(path_, 3);

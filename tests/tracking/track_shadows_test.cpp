@@ -30,7 +30,7 @@ class Road {
         }
     }
 
-    std::set<TrackId> finished(const FinishingOptions& options = {}) const {
+    std::set<TrackId> finished(const FinishingOptions& options = {}, std::vector<TimedDrop>* dropped = nullptr) const {
         std::vector<FrameMotionSummary> motion;
         for (int frame = 0; frame < kFrames; ++frame) {
             FrameMotionSummary summary;
@@ -42,7 +42,8 @@ class Road {
             motion.push_back(summary);
         }
         std::set<TrackId> ids;
-        for (const auto& [frame, state] : finishTracks(states_, motion, options, kScale)) ids.insert(state.id);
+        for (const auto& [frame, state] : finishTracks(states_, motion, options, kScale, {}, dropped))
+            ids.insert(state.id);
         return ids;
     }
 
@@ -100,6 +101,29 @@ TEST(DropHardlyDetected, ATrackGuessedRatherThanSeenGoes) {
     FinishingOptions options;
     options.min_detected = 0.3;
     EXPECT_EQ(road.finished(options), (std::set<TrackId>{1, 2}));
+}
+
+TEST(DroppedTracks, AreToldWithTheirReason) {
+    Road road;
+    road.add(1, {0, 0}, kCar, kSpeed, 0, 59, 1);
+    road.add(2, {3, 5.8}, kShadow, kSpeed, 10, 50, 3, StateOrigin::predicted);
+    road.add(3, {0, 60}, kCar, kSpeed, 10, 34, 3);
+    road.add(4, {0, -60}, {4, 2}, kSpeed, 0, 59, 1);
+    road.add(5, {2, 1}, kCar, kSpeed, 20, 40, 1);
+    std::vector<TimedDrop> dropped;
+    EXPECT_EQ(road.finished({}, &dropped), std::set<TrackId>{1});
+    std::map<TrackId, std::vector<TimedDrop>> by_track;
+    for (const TimedDrop& drop : dropped) by_track[drop.second.id].push_back(drop);
+    ASSERT_EQ(by_track.size(), 4U);
+    EXPECT_EQ(by_track[2].front().second.why, TrackDrop::shadow);
+    EXPECT_EQ(by_track[2].front().second.beside, 1);
+    EXPECT_EQ(by_track[2].size(), 40U) << "the frame predicted at its end is trimmed";
+    EXPECT_EQ(by_track[3].front().second.why, TrackDrop::hardly_detected);
+    EXPECT_EQ(by_track[4].front().second.why, TrackDrop::too_small);
+    EXPECT_EQ(by_track[5].front().second.why, TrackDrop::shares_place);
+    EXPECT_EQ(by_track[5].front().second.beside, 1);
+    EXPECT_EQ(by_track[5].front().first, 20);
+    EXPECT_EQ(textOf(by_track[5].front().second), "track 5 lies on track 1, which was detected more often");
 }
 
 TEST(DropHardlyDetected, PredictedFramesDoNotCountAgainstATrack) {
