@@ -165,9 +165,14 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, Mode mode) {
             makeDurable(*database);
             schema::migrate(*database, schema::migrations());
         } else if (schema::numberOf(*database) < schema::currentNumber()) {
-            throw Error(ErrorKind::project, "the project " + absolute.string() +
-                                                " is of an older version and must be brought up to date; open it once "
-                                                "where it can be written");
+            if (!mayWrite(absolute)) {
+                throw Error(ErrorKind::project, "the project " + absolute.string() +
+                                                    " is of an older version and must be brought up to date; open it "
+                                                    "once where it can be written");
+            }
+            database.reset();
+            open(absolute, Mode::read_write);  // brings it up to date
+            return open(absolute, mode);
         }
         // Reads the whole schema, which tells a damaged one now and not in the middle of the work.
         if (!database->tableExists("run")) throw damagedProject(absolute, "it has no table of runs");

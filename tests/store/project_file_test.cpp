@@ -117,6 +117,15 @@ TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
     EXPECT_NO_THROW(test::readEverything(path_));
 }
 
+TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
+    test::writeSampleProject(path_, 2);
+    makeDatabase({"DROP TABLE dropped_state", "PRAGMA user_version = 5"});
+    ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);
+    test::expectSame(*RunStore(project).frameResult(1, 1), test::sampleFrame(1));
+    EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
+    expectError(ErrorKind::output, "cannot be written", [&] { RunStore(project).rename(1, "other"); });
+}
+
 TEST_F(ProjectFileTest, AProjectWithoutItsTablesIsDamaged) {
     makeDatabase({"CREATE TABLE x (y)", "PRAGMA application_id = " + std::to_string(schema::kApplicationId),
                   "PRAGMA user_version = " + std::to_string(schema::currentNumber())});
