@@ -39,7 +39,10 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
     connect(&inspection_, &Inspection::working, this, [this](int left) {
         if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
     });
-    connect(whole_area_, &QCheckBox::toggled, this, &StacksPanel::want);
+    connect(whole_area_, &QCheckBox::toggled, this, [this] {
+        summary_->setText(tr("The stacks are being cut anew …"));
+        want();
+    });
     connect(empty_, &EmptyState::actionTriggered, this, &StacksPanel::stackingRunRequested);
     connect(grid_, &ChipGrid::cardClicked, this, [this](int id) {
         grid_->setMarkedCard(id);
