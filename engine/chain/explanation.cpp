@@ -269,17 +269,8 @@ bool tellCorners(Story& story) {
 }
 
 const TrackState* storedTrackAt(const PlaceEvidence& evidence) {
-    const TrackState* best = nullptr;
-    double best_overlap = -1;
-    for (const TrackState& track : evidence.result.tracks) {
-        if (track.status == TrackStatus::tentative || !atPlace(track.box, evidence.area)) continue;
-        const double shared = overlap(track.box, evidence.area);
-        if (shared > best_overlap) {
-            best = &track;
-            best_overlap = shared;
-        }
-    }
-    return best;
+    return bestAt(evidence.result.tracks, evidence.area,
+                  [](const TrackState& track) { return track.status != TrackStatus::tentative; });
 }
 
 }  // namespace explaining

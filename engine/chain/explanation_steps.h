@@ -49,4 +49,19 @@ const TrackState* storedTrackAt(const PlaceEvidence& evidence);
 /// Whether a box means this place: it holds its middle, or they overlap by a fifth.
 bool atPlace(const OrientedBox& box, const OrientedBox& area);
 
+/// Of the states with a box at the place for which `counts` holds, the one that overlaps it most; null: none.
+template <typename State, typename Counts>
+const State* bestAt(const std::vector<State>& states, const OrientedBox& area, Counts counts) {
+    const State* best = nullptr;
+    double best_overlap = -1;
+    for (const State& state : states) {
+        if (!counts(state) || !atPlace(state.box, area)) continue;
+        const double shared = overlap(state.box, area);
+        if (shared <= best_overlap) continue;
+        best = &state;
+        best_overlap = shared;
+    }
+    return best;
+}
+
 }  // namespace eyrie::explaining

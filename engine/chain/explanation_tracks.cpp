@@ -61,31 +61,13 @@ void tellRows(Story& story, const TrackingTrace& trace, const std::vector<int>& 
 
 /// The state of the tracker's own track at the place.
 const TrackState* unfinishedAt(const PlaceEvidence& evidence) {
-    const TrackState* best = nullptr;
-    double best_overlap = -1;
-    for (const TrackState& state : evidence.unfinished) {
-        if (!atPlace(state.box, evidence.area)) continue;
-        const double shared = overlap(state.box, evidence.area);
-        if (shared > best_overlap) {
-            best = &state;
-            best_overlap = shared;
-        }
-    }
-    return best;
+    return bestAt(evidence.unfinished, evidence.area, [](const TrackState&) { return true; });
 }
 
 /// The state at the place that was left out when the run's tracks were finished.
 const DroppedState* droppedAt(const PlaceEvidence& evidence) {
-    const DroppedState* best = nullptr;
-    double best_overlap = -1;
-    for (const DroppedState& state : evidence.result.dropped) {
-        if (state.why == TrackDrop::unconfirmed || !atPlace(state.box, evidence.area)) continue;
-        const double shared = overlap(state.box, evidence.area);
-        if (shared <= best_overlap) continue;
-        best = &state;
-        best_overlap = shared;
-    }
-    return best;
+    return bestAt(evidence.result.dropped, evidence.area,
+                  [](const DroppedState& state) { return state.why != TrackDrop::unconfirmed; });
 }
 
 }  // namespace

@@ -254,7 +254,13 @@ void ImageStacker::update(const Frame& frame, const FrameMotion& motion, const s
         startFromClusters(placed, clusters);
     }
     std::erase_if(entries_, [](const Entry& entry) { return entry.master.related().empty(); });
-    for (auto& entry : entries_) entry.stack.add(layerOf(frame, entry.master.pose()));
+    // Accumulation cuts whole areas at once; the circular arrangements cut nothing here.
+    cv::parallel_for_(cv::Range(0, static_cast<int>(entries_.size())), [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            Entry& entry = entries_[static_cast<std::size_t>(i)];
+            entry.stack.add(layerOf(frame, entry.master.pose()));
+        }
+    });
     remembered_.clear();
 }
 

@@ -17,7 +17,7 @@ class ProjectFile {
 
     /// Makes a new project. Throws Error(output) when the file exists or its folder cannot be written.
     static ProjectFile create(const std::filesystem::path& path);
-    /// Opens an existing project and migrates it if it is older. Throws Error(project) when it is
+    /// Opens an existing project and migrates it, in either mode, if it is older. Throws Error(project) when it is
     /// missing, cannot be read, is no project, is damaged, or was written by a newer version.
     static ProjectFile open(const std::filesystem::path& path, Mode mode = Mode::read_write);
     static ProjectFile openOrCreate(const std::filesystem::path& path);

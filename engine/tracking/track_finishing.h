@@ -65,9 +65,9 @@ using VectorsByFrame = std::unordered_map<FrameIndex, std::vector<MotionVector>>
 VectorsAt vectorsIn(const VectorsByFrame& kept);
 
 /// Turns all states of a finished run into its result. Keeps the tracks that were ever confirmed, with their tentative
-/// beginning; trims predicted ends; joins the fragments of one vehicle under the older id; gives every track a steady
-/// size on the ground and a smooth path; extends tracks back to where their
-/// motion vectors began or the vehicle stood. States come in any
+/// beginning; trims predicted ends; joins the fragments of one vehicle under the older id; drops what is no vehicle of
+/// its own; gives every track a steady size on the ground and a smooth path; extends tracks back to where their motion
+/// vectors began or the vehicle stood. States come in any
 /// order and leave ordered by frame, then id, one per frame and id. `motion` may lack frames; nothing is carried across
 /// those. Without `vectors_at` no track is traced back. What is left out although the tracker followed it goes to
 /// `dropped`, if given; predicted ends that are trimmed and fragments that are joined do not count. Clean tracks come

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "tracking/frame_summaries.h"
 #include "tracking/track_finishing.h"
 
 namespace eyrie {
@@ -29,14 +30,7 @@ struct Starter {
         std::vector<TimedState> states = others;
         std::vector<FrameMotionSummary> motion;
         for (int frame = 0; frame < kFrames; ++frame) {
-            FrameMotionSummary summary;
-            summary.frame = frame;
-            summary.image_size = {640, 360};
-            summary.registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
-            summary.registration.current_from_previous.from_frame = std::max(0, frame - 1);
-            summary.registration.current_from_previous.to_frame = frame;
-            if (frame > 0) summary.registration.current_from_previous.matrix(0, 2) = -0.3;
-            motion.push_back(summary);
+            motion.push_back(testing::summaryOfFrame(frame, -0.3));
             if (frame < kFound) continue;
             TrackState state;
             state.id = 1;

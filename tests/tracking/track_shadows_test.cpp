@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "tracking/frame_summaries.h"
 #include "tracking/track_finishing.h"
 
 namespace eyrie {
@@ -32,15 +33,7 @@ class Road {
 
     std::set<TrackId> finished(const FinishingOptions& options = {}, std::vector<TimedDrop>* dropped = nullptr) const {
         std::vector<FrameMotionSummary> motion;
-        for (int frame = 0; frame < kFrames; ++frame) {
-            FrameMotionSummary summary;
-            summary.frame = frame;
-            summary.image_size = {640, 360};
-            summary.registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
-            summary.registration.current_from_previous.from_frame = std::max(0, frame - 1);
-            summary.registration.current_from_previous.to_frame = frame;
-            motion.push_back(summary);
-        }
+        for (int frame = 0; frame < kFrames; ++frame) motion.push_back(testing::summaryOfFrame(frame));
         std::set<TrackId> ids;
         for (const auto& [frame, state] : finishTracks(states_, motion, options, kScale, {}, dropped))
             ids.insert(state.id);

@@ -15,9 +15,9 @@ namespace eyrie::ui {
 /// What is to be looked at in one frame.
 struct ReplayWish {
     FrameIndex frame = 0;
-    int cluster = -1;                   ///< whose steps are wanted; −1: none
-    bool general_segmentation = false;  ///< also the views of fig. 5.1
-    StackPictures stacks = StackPictures::none;
+    int cluster = -1;                            ///< whose steps are wanted; −1: none
+    bool general_segmentation = false;           ///< also the views of fig. 5.1
+    StackPictures stacks = StackPictures::none;  ///< how much of every stack
 };
 
 /// What general segmentation makes of a motion ROI (fig. 5.1): the ROI with the borders drawn in, CV_8UC3.
