@@ -8,6 +8,7 @@
 #include "store/project_file.h"
 #include "store/run_store.h"
 #include "support/moving_scene.h"
+#include "support/places.h"
 #include "support/process.h"
 #include "support/shared_data.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string program = std::string(EYRIE_BIN_DIR) + "/eyrie-cli";
+const std::string program = test::programPath("eyrie-cli");
 
 test::ProcessResult cli(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), program);

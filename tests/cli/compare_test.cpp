@@ -10,6 +10,7 @@
 #include "store/project_file.h"
 #include "store/run_store.h"
 #include "support/moving_scene.h"
+#include "support/places.h"
 #include "support/process.h"
 
 namespace eyrie {
@@ -37,7 +38,7 @@ class Compare : public testing::Test {
     }
     std::string at(const std::string& name) const { return (folder / name).string(); }
     test::ProcessResult compare(std::vector<std::string> more) const {
-        std::vector<std::string> arguments{std::string(EYRIE_BIN_DIR) + "/eyrie-cli",
+        std::vector<std::string> arguments{test::programPath("eyrie-cli"),
                                            "compare",
                                            "--sequence",
                                            at("clip"),
@@ -113,7 +114,7 @@ TEST_F(Compare, SaysWhatIsWrong) {
 }
 
 TEST_F(Compare, BenchHasARowForEveryStageAndMethod) {
-    const auto result = test::runProcess({std::string(EYRIE_BIN_DIR) + "/eyrie-cli", "bench", "--input", at("clip"),
+    const auto result = test::runProcess({test::programPath("eyrie-cli"), "bench", "--input", at("clip"),
                                           "--gsd", "0.2", "--frames", "10", "--corners", "600", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     const auto json = nlohmann::json::parse(result.output);

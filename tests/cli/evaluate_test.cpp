@@ -7,6 +7,7 @@
 #include "store/project_file.h"
 #include "store/result_writer.h"
 #include "store/run_store.h"
+#include "support/places.h"
 #include "support/process.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
@@ -25,7 +26,7 @@ class Evaluate : public testing::Test {
         return at(name);
     }
     static test::ProcessResult evaluate(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), {std::string(EYRIE_BIN_DIR) + "/eyrie-cli", "evaluate"});
+        arguments.insert(arguments.begin(), {test::programPath("eyrie-cli"), "evaluate"});
         return test::runProcess(arguments);
     }
     /// Two cars for four frames; the second one stands and is ignored.
@@ -145,7 +146,7 @@ TEST_F(Evaluate, theLabelsOfTheProjectAreTheTruthWhereNoneIsNamed) {
           "frame,id,x,y,length,width,heading\n0,1,50,40,20,10,0\n1,1,54,40,20,10,0\n2,1,58,40,20,10,0\n"
           "3,1,62,40,20,10,0\n");
     const auto labels =
-        test::runProcess({std::string(EYRIE_BIN_DIR) + "/eyrie-cli", "import", at("labels.csv"), "--project", path});
+        test::runProcess({test::programPath("eyrie-cli"), "import", at("labels.csv"), "--project", path});
     ASSERT_EQ(labels.exit_code, 0) << labels.errors;
     const auto table = evaluate({"--project", path});
     EXPECT_EQ(table.exit_code, 0) << table.errors;
@@ -160,7 +161,7 @@ TEST_F(Evaluate, theLabelsOfTheProjectAreTheTruthWhereNoneIsNamed) {
 }
 
 TEST_F(Evaluate, theTruthMayHaveAnyFormatThatImportReads) {
-    const std::string cli = std::string(EYRIE_BIN_DIR) + "/eyrie-cli";
+    const std::string cli = test::programPath("eyrie-cli");
     write("plain.csv",
           "frame,id,x,y,length,width,heading,class\n0,1,50,40,20,10,0,car\n1,1,54,40,20,10,0,car\n"
           "2,1,58,40,20,10,0,car\n");

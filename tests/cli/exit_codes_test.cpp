@@ -5,6 +5,7 @@
 
 #include "store/project_file.h"
 #include "store/result_writer.h"
+#include "support/places.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
 
@@ -44,7 +45,7 @@ class ExitCodes : public testing::Test {
         for (std::string& word : arguments) {
             if (word.starts_with('@')) word = (folder_ / word.substr(1)).string();
         }
-        arguments.insert(arguments.begin(), std::string(EYRIE_BIN_DIR) + "/eyrie-cli");
+        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
         return test::runProcess(arguments);
     }
     void expect(const std::vector<Call>& calls) const {

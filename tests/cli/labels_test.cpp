@@ -8,6 +8,7 @@
 #include "store/project_file.h"
 #include "store/result_writer.h"
 #include "store/run_store.h"
+#include "support/places.h"
 #include "support/process.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
@@ -32,7 +33,7 @@ class LabelCommands : public testing::Test {
         return text.str();
     }
     static test::ProcessResult cli(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), std::string(EYRIE_BIN_DIR) + "/eyrie-cli");
+        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
         return test::runProcess(arguments);
     }
     static double xOf(int frame) { return 40 + 3.0 * frame - 0.25 * frame; }

@@ -11,6 +11,7 @@
 #include "store/project_file.h"
 #include "store/sweep_store.h"
 #include "support/moving_scene.h"
+#include "support/places.h"
 #include "support/process.h"
 
 namespace eyrie {
@@ -52,7 +53,7 @@ class Sweep : public testing::Test {
     std::string at(const std::string& name) const { return (folder / name).string(); }
     static std::string in(const std::string& name) { return (clip() / name).string(); }
     static test::ProcessResult cli(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), std::string(EYRIE_BIN_DIR) + "/eyrie-cli");
+        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
         return test::runProcess(arguments);
     }
     static std::vector<std::string> command(const std::vector<std::string>& more) {
@@ -218,7 +219,7 @@ TEST_F(Sweep, RefusesBadInputBeforeItBegins) {
 TEST_F(Sweep, KeepsWhatIsDoneWhenKilledAndDoesOnlyTheRest) {
     const std::vector<std::string> axis{"--parameter", "gradient.quantile=0.02:0.008:0.9", "--out", at("k.eyrie")};
     std::vector<std::string> arguments = command(axis);
-    arguments.insert(arguments.begin(), std::string(EYRIE_BIN_DIR) + "/eyrie-cli");
+    arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
     const auto pointsDone = [&]() -> int {
         try {
             ProjectFile project = ProjectFile::open(at("k.eyrie"), ProjectFile::Mode::read_only);
@@ -253,7 +254,7 @@ TEST_F(Sweep, OnlyOneProgramWorksOnASweep) {
     const std::vector<std::string> axis{"--parameter", "gradient.quantile=0.02:0.008:0.9", "--out", at("l.eyrie"),
                                         "--resume"};
     std::vector<std::string> arguments = command(axis);
-    arguments.insert(arguments.begin(), std::string(EYRIE_BIN_DIR) + "/eyrie-cli");
+    arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
     test::Process working(arguments);
     const auto locked = [&] { return std::filesystem::exists(at("l.eyrie.sweep-1")); };
     while (!locked()) usleep(10000);
@@ -286,7 +287,7 @@ TEST_F(Sweep, SeveralRunsOfAProjectAreSweptTogether) {
 }
 
 TEST_F(Sweep, AFullDiskLeavesWhatIsDone) {
-    std::string line = "trap '' XFSZ; ulimit -f 500; exec '" + std::string(EYRIE_BIN_DIR) + "/eyrie-cli'";
+    std::string line = "trap '' XFSZ; ulimit -f 500; exec '" + test::programPath("eyrie-cli") + "'";
     for (const std::string& argument :
          command({"--parameter", "gradient.quantile=0.02:0.01:0.9", "--out", at("f.eyrie")}))
         line += " '" + argument + "'";

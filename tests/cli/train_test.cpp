@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "learning/drawn_windows.h"
+#include "support/places.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
 
@@ -16,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 test::ProcessResult cli(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), std::string(EYRIE_BIN_DIR) + "/eyrie-cli");
+    arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
     return test::runProcess(arguments);
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
+
 namespace eyrie {
 namespace {
 
@@ -36,7 +38,7 @@ std::vector<Include> includesBelow(const fs::path& top) {
     return found;
 }
 
-const fs::path source_dir = EYRIE_SOURCE_DIR;
+const fs::path source_dir = eyrie::test::sourceFolder();
 
 /// Which engine rooms each engine room may include besides itself (the plan of the house).
 const std::map<std::string, std::set<std::string>> allowed = {

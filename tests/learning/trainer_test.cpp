@@ -7,6 +7,7 @@
 #include "evaluation/roc.h"
 #include "learning/drawn_windows.h"
 #include "learning/window_scanner.h"
+#include "support/places.h"
 #include "support/shared_data.h"
 
 namespace eyrie {
@@ -145,7 +146,7 @@ TEST(Trainer, optionsAreDeclared) {
 
 TEST(ShippedModel, tellsVehiclesOfACameraItHasNeverSeen) {
     EYRIE_NEED_SHARED_DATA("patches/cats_madison");
-    const VehicleModel model = loadModel(std::filesystem::path(EYRIE_SOURCE_DIR) /
+    const VehicleModel model = loadModel(test::sourceFolder() /
                                          "resources/classifiers/vehicle_chnftrs_adaboost.eyriemodel");
     EXPECT_TRUE(WindowScanner(model).fast());
     EXPECT_EQ(model.record.data.find("cats_madison"), std::string::npos);

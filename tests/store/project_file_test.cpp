@@ -12,6 +12,7 @@
 #include "store/result_writer.h"
 #include "store/samples.h"
 #include "store/schema.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie {
@@ -196,7 +197,7 @@ TEST_F(ProjectFileTest, AStepThatFailsLeavesTheFileBeforeIt) {
 }
 
 TEST_F(ProjectFileTest, AProjectOfSchemaOneOpensToday) {
-    std::ifstream file(std::filesystem::path(EYRIE_SOURCE_DIR) / "tests/data/schema_1.sql");
+    std::ifstream file(test::sourceFolder() / "tests/data/schema_1.sql");
     ASSERT_TRUE(file.good());
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     makeDatabase({text});
