@@ -11,6 +11,7 @@
 #include "cli/input.h"
 #include "io/frame_source.h"
 #include "store/annotation_store.h"
+#include "store/file_check.h"
 #include "store/run_store.h"
 #include "store/sweep_store.h"
 

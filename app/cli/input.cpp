@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <utility>
 
 #include "cli/console_progress.h"
@@ -27,15 +26,6 @@ bool readFrameNumber(const std::string& text, FrameIndex& value) {
 }
 
 }  // namespace
-
-bool isProject(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) return false;
-    if (path.extension() == ".eyrie") return true;
-    std::string beginning(15, '\0');
-    std::ifstream(path, std::ios::binary).read(beginning.data(), std::ssize(beginning));
-    return beginning == "SQLite format 3";
-}
 
 std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop) {
     const std::string prefix = "scene:";

@@ -13,9 +13,6 @@ namespace eyrie::cli {
 /// indexed. Throws Error(input | parameter).
 std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop);
 
-/// Whether a file is a project, by its name or, for a renamed one, by its first bytes.
-bool isProject(const std::filesystem::path& path);
-
 /// Throws Error(parameter) unless `gsd` is a usable number of metres per pixel.
 void checkGsd(double gsd_m_per_px);
 /// Throws Error(parameter) unless `rate` is a usable number of frames per second.

@@ -12,9 +12,11 @@ namespace {
 
 /// A project or a table where a video belongs: says what takes them.
 void refuseOtherThanVideo(const std::filesystem::path& path) {
+    // A project is told by its name: opening it here would drop the locks of its connections (store/file_check.h).
     std::string beginning(15, '\0');
-    std::ifstream(path, std::ios::binary).read(beginning.data(), std::ssize(beginning));
-    if (path.extension() == ".eyrie" || beginning == "SQLite format 3") {
+    const bool named_project = path.extension() == ".eyrie";
+    if (!named_project) std::ifstream(path, std::ios::binary).read(beginning.data(), std::ssize(beginning));
+    if (named_project || beginning == "SQLite format 3") {
         throw Error(ErrorKind::input,
                     path.string() +
                         ": is a project, not a video; open it as a project in the window, look with "

@@ -52,6 +52,7 @@ std::vector<SequenceRecord> sequencesOf(ProjectFile& project) {
             sequence.size.height = row.integer();
             sequence.frame_count = row.integer();
             sequence.frame_rate_hz = row.real();
+            checkSequence(sequence);
             sequences.push_back(std::move(sequence));
         }
         return sequences;
@@ -152,6 +153,7 @@ std::optional<AnnotationEdit> AnnotationStore::redo() {
 }
 
 void AnnotationStore::commit(const AnnotationEdit& edit, Step step) {
+    project_.checkInPlace();
     applyEdit(set_, edit);
     for (const auto& change : edit.objects) {
         if (change.after) next_object_ = std::max(next_object_, change.after->id + 1);

@@ -1,9 +1,12 @@
 #include "store/file_check.h"
 
+#include <sqlite3.h>
+
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
@@ -15,6 +18,39 @@ namespace {
 // The layout of the first 100 bytes is documented by SQLite ("Database File Format", §1.3) and frozen.
 constexpr std::size_t kHeaderBytes = 100;
 constexpr char kMagic[] = "SQLite format 3";  // with its terminating zero: 16 bytes
+
+struct Beginning {
+    std::array<char, kHeaderBytes> bytes{};
+    std::uint64_t file_size = 0;
+
+    bool isDatabase() const {
+        return file_size >= sizeof kMagic && std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
+    }
+};
+
+/// Nothing when the file cannot be read.
+std::optional<Beginning> readBeginning(const std::filesystem::path& path) {
+    if (sqlite3_initialize() != SQLITE_OK) return std::nullopt;
+    sqlite3_vfs* files = sqlite3_vfs_find(nullptr);
+    const auto memory =
+        std::make_unique<std::uint64_t[]>(static_cast<std::size_t>(files->szOsFile) / sizeof(std::uint64_t) + 1);
+    auto* file = reinterpret_cast<sqlite3_file*>(memory.get());
+    const std::unique_ptr<const char, void (*)(const char*)> name(
+        sqlite3_create_filename(path.c_str(), "", "", 0, nullptr), sqlite3_free_filename);
+    if (!name ||
+        files->xOpen(files, name.get(), file, SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB, nullptr) != SQLITE_OK)
+        return std::nullopt;
+    Beginning beginning;
+    sqlite3_int64 size = 0;
+    // What lies behind the end of the file reads as zeros.
+    const int read = file->pMethods->xRead(file, beginning.bytes.data(), kHeaderBytes, 0);
+    const bool good =
+        (read == SQLITE_OK || read == SQLITE_IOERR_SHORT_READ) && file->pMethods->xFileSize(file, &size) == SQLITE_OK;
+    file->pMethods->xClose(file);
+    if (!good) return std::nullopt;
+    beginning.file_size = static_cast<std::uint64_t>(size);
+    return beginning;
+}
 
 std::uint32_t bigEndian(const char* at, int bytes) {
     std::uint32_t value = 0;
@@ -30,6 +66,15 @@ bool hasLog(const std::filesystem::path& project) {
     return !missing && size > 0;
 }
 
+bool isProject(const std::filesystem::path& path) {
+    std::error_code failed;
+    // Opening a pipe would wait for its writer.
+    if (!std::filesystem::is_regular_file(path, failed)) return false;
+    if (path.extension() == ".eyrie") return true;
+    const auto beginning = readBeginning(path);
+    return beginning && beginning->isDatabase();
+}
+
 void checkFile(const std::filesystem::path& path) {
     std::error_code failed;
     const auto status = std::filesystem::status(path, failed);
@@ -40,31 +85,26 @@ void checkFile(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(status)) {
         throw Error(ErrorKind::project, path.string() + " is not a file; name the project file itself (*.eyrie)");
     }
-    std::ifstream file(path, std::ios::binary);
-    std::array<char, kHeaderBytes> header{};
-    const auto size = std::filesystem::file_size(path, failed);
-    if (!file || failed) {
+    const auto beginning = readBeginning(path);
+    if (!beginning) {
         throw Error(ErrorKind::project, "the project " + path.string() + " cannot be read; check its permissions");
     }
-    if (size == 0)
+    if (beginning->file_size == 0)
         throw Error(ErrorKind::project, path.string() + " is empty, not a project; delete it or choose another file");
-    file.read(header.data(), header.size());
-    if (file.gcount() < static_cast<std::streamsize>(sizeof kMagic) ||
-        std::memcmp(header.data(), kMagic, sizeof kMagic) != 0) {
+    if (!beginning->isDatabase()) {
         throw Error(ErrorKind::project,
                     path.string() + " is not an Eyrie project, or its beginning is damaged; choose another file");
     }
-    if (file.gcount() < static_cast<std::streamsize>(header.size())) {
-        throw damagedProject(path, "it ends within its header");
-    }
-    const std::uint32_t stored_page_size = bigEndian(header.data() + 16, 2);
+    if (beginning->file_size < kHeaderBytes) throw damagedProject(path, "it ends within its header");
+    const char* header = beginning->bytes.data();
+    const std::uint32_t stored_page_size = bigEndian(header + 16, 2);
     const std::uint64_t page_size = stored_page_size == 1 ? 65536 : stored_page_size;
-    const std::uint64_t pages = bigEndian(header.data() + 28, 4);
-    const bool size_is_valid = bigEndian(header.data() + 24, 4) == bigEndian(header.data() + 92, 4);
+    const std::uint64_t pages = bigEndian(header + 28, 4);
+    const bool size_is_valid = bigEndian(header + 24, 4) == bigEndian(header + 92, 4);
     // Pages that still wait in the log make a short file normal.
-    if (size_is_valid && !hasLog(path) && size < pages * page_size) {
-        throw damagedProject(
-            path, "it is cut off: " + std::to_string(size) + " of " + std::to_string(pages * page_size) + " bytes");
+    if (size_is_valid && !hasLog(path) && beginning->file_size < pages * page_size) {
+        throw damagedProject(path, "it is cut off: " + std::to_string(beginning->file_size) + " of " +
+                                       std::to_string(pages * page_size) + " bytes");
     }
 }
 

@@ -1,12 +1,12 @@
 #include "store/file_lock.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <functional>
 #include <system_error>
 #include <utility>
 
@@ -16,6 +16,7 @@ namespace eyrie {
 namespace {
 
 constexpr int kTries = 20;
+constexpr std::size_t kLongestName = 255;  // bytes, on every file system in use
 
 std::string hostName() {
     std::array<char, 256> name{};
@@ -23,11 +24,20 @@ std::string hostName() {
     return name.data();
 }
 
+/// The whole file, for writing. Locks of this kind belong to the open file and not to the process, so that two windows
+/// of one process exclude each other, and work over network drives.
+struct flock wholeFile(short type) {
+    struct flock range {};
+    range.l_type = type;
+    range.l_whence = SEEK_SET;
+    return range;
+}
+
 /// Who holds the lock, as the file says.
-std::string holderOf(int descriptor) {
+std::string wordsIn(int descriptor) {
     std::array<char, 512> text{};
     const ssize_t size = pread(descriptor, text.data(), text.size() - 1, 0);
-    if (size <= 0) return "another window";
+    if (size <= 0) return "another program";
     return std::string(text.data(), static_cast<std::size_t>(size));
 }
 
@@ -49,8 +59,12 @@ std::filesystem::path lockFileBeside(const std::filesystem::path& guarded, const
     std::error_code failed;
     std::filesystem::path path = std::filesystem::weakly_canonical(guarded, failed);
     if (failed) path = guarded;
-    path += ending;
-    return path;
+    std::string name = path.filename().string() + ending;
+    if (name.size() > kLongestName) {
+        const std::string number = std::to_string(std::hash<std::string>()(name));
+        name = name.substr(0, kLongestName - number.size() - ending.size()) + number + ending;
+    }
+    return path.replace_filename(name);
 }
 
 FileLock::FileLock(std::filesystem::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
@@ -60,12 +74,13 @@ FileLock::Attempt FileLock::tryTake(const std::filesystem::path& file) {
         const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (descriptor < 0)
             return {Outcome::impossible, nullptr, file.string() + " cannot be written (" + inWords(errno) + ")"};
-        if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+        struct flock range = wholeFile(F_WRLCK);
+        if (fcntl(descriptor, F_OFD_SETLK, &range) != 0) {
             const int error = errno;
+            const bool held = error == EAGAIN || error == EACCES;
             Attempt attempt;
-            attempt.outcome = error == EWOULDBLOCK ? Outcome::held : Outcome::impossible;
-            attempt.words = error == EWOULDBLOCK ? holderOf(descriptor)
-                                                 : file.string() + " cannot be locked (" + inWords(error) + ")";
+            attempt.outcome = held ? Outcome::held : Outcome::impossible;
+            attempt.words = held ? wordsIn(descriptor) : file.string() + " cannot be locked (" + inWords(error) + ")";
             close(descriptor);
             return attempt;
         }
@@ -82,6 +97,16 @@ FileLock::Attempt FileLock::tryTake(const std::filesystem::path& file) {
         return {Outcome::taken, std::unique_ptr<FileLock>(new FileLock(file, descriptor)), {}};
     }
     return {Outcome::impossible, nullptr, file.string() + " comes and goes; try again"};
+}
+
+std::optional<std::string> FileLock::holderOf(const std::filesystem::path& file) {
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) return std::nullopt;
+    struct flock range = wholeFile(F_RDLCK);
+    std::optional<std::string> holder;
+    if (fcntl(descriptor, F_OFD_GETLK, &range) == 0 && range.l_type != F_UNLCK) holder = wordsIn(descriptor);
+    close(descriptor);
+    return holder;
 }
 
 FileLock::~FileLock() {

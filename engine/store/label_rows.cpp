@@ -4,6 +4,7 @@
 
 #include "store/packed_labels.h"
 #include "store/rows.h"
+#include "store/sequence_rows.h"
 
 namespace eyrie {
 namespace {
@@ -26,6 +27,8 @@ void readObjects(SQLite::Database& database, int sequence_id, AnnotationSet& set
             object.keyframes = RowReader::unpacked(unpackKeyframes(row.bytes()), "keyframes");
             if (object.id < 1) throw MalformedRow{"a number below 1"};
             if (object.last_frame < object.keyframes.front().frame) throw MalformedRow{"it ends before it begins"};
+            if (object.last_frame > kLastFrame || object.keyframes.back().frame > kLastFrame)
+                throw MalformedRow{"frames beyond every video"};
         } catch (const MalformedRow& malformed) {
             throw MalformedRow{"object " + std::to_string(object.id) + ": " + malformed.what};
         }

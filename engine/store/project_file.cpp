@@ -4,12 +4,17 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "core/error.h"
 #include "store/database_error.h"
 #include "store/file_check.h"
+#include "store/file_lock.h"
+#include "store/new_file.h"
 #include "store/schema.h"
+#include "store/sequence_rows.h"
 
 namespace eyrie {
 namespace {
@@ -19,6 +24,7 @@ using Path = std::filesystem::path;
 constexpr int kBusyTimeoutMs = 5000;
 // A frame's arrays are 100 kB and more; small pages would chain dozens of them.
 constexpr int kPageSize = 8192;
+constexpr int kLongestValue = 1 << 28;  // bytes of one text or array; a frame's arrays have some hundred thousand
 
 /// `path` as URI that SQLite opens without locks and without its log, for folders that cannot be written.
 std::string immutableUri(const Path& path) {
@@ -89,20 +95,72 @@ void makeDurable(SQLite::Database& database) {
     database.exec("PRAGMA journal_size_limit = 67108864");
 }
 
-/// Writes an empty project of the newest schema.
-void build(const Path& path) {
-    SQLite::Database database(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs);
+/// What the file holds must not act: no triggers, no views, no functions from its own definitions.
+void distrust(SQLite::Database& database) {
+    sqlite3* handle = database.getHandle();
+    sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+    sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+    sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, kLongestValue);
+    database.exec("PRAGMA cell_size_check = ON");
+}
+
+/// The bytes of an empty project of the newest schema that keeps a log.
+std::string emptyProject() {
+    SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     database.exec("PRAGMA page_size = " + std::to_string(kPageSize));
     database.exec("PRAGMA application_id = " + std::to_string(schema::kApplicationId));
     schema::migrate(database, schema::migrations());
-    makeDurable(database);
+    sqlite3_int64 size = 0;
+    const std::unique_ptr<unsigned char, void (*)(void*)> bytes(
+        sqlite3_serialize(database.getHandle(), "main", &size, 0), sqlite3_free);
+    if (!bytes) throw SQLite::Exception(database.getHandle());
+    std::string file(reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size));
+    // "Database File Format", §1.3.3: versions 2 of both formats stand for a write-ahead log.
+    file.at(18) = 2;
+    file.at(19) = 2;
+    return file;
 }
 
-void removeWithCompanions(const Path& path) {
+/// A log that lies where a new project is to be belongs to one that was deleted or moved away. SQLite would take it for
+/// the new one's. A log with contents is kept under another name: it may hold the only copy of somebody's work.
+void clearCompanions(const Path& path) {
     std::error_code ignored;
-    for (const char* ending : {"", "-journal", "-wal", "-shm"}) {
-        std::filesystem::remove(path.string() + ending, ignored);
+    if (hasLog(path)) {
+        const Path kept = lockFileBeside(path, "-wal.left-" + nowUtc());
+        std::filesystem::rename(path.string() + "-wal", kept, ignored);
     }
+    for (const char* ending : {"-journal", "-wal", "-shm"}) std::filesystem::remove(path.string() + ending, ignored);
+}
+
+/// Held while a project is made, so that nobody's log is taken for a left one.
+std::unique_ptr<FileLock> lockMaking(const Path& path) {
+    const Path file = lockFileBeside(path, ".making");
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(kBusyTimeoutMs);
+    for (;;) {
+        FileLock::Attempt attempt = FileLock::tryTake(file);
+        // Where nothing can be locked the file itself is still made without replacing one.
+        if (attempt.outcome != FileLock::Outcome::held) return std::move(attempt.lock);
+        if (std::chrono::steady_clock::now() > patience) {
+            throw Error(ErrorKind::project,
+                        attempt.words + " is making the project " + path.string() + " at this moment; try again");
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+}
+
+/// Answers whether it was made; false when it is there.
+bool make(const Path& path) {
+    std::error_code failed;
+    if (!std::filesystem::is_directory(path.parent_path(), failed)) {
+        throw Error(ErrorKind::output, "the folder " + path.parent_path().string() + " for the project " +
+                                           path.filename().string() + " does not exist; make it first");
+    }
+    const std::unique_ptr<FileLock> making = lockMaking(path);
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, failed))) return false;
+    clearCompanions(path);
+    return guarded(path, "making it", [&] { return makeNewFile(path, emptyProject()); });
 }
 
 }  // namespace
@@ -116,27 +174,8 @@ ProjectFile::~ProjectFile() = default;
 ProjectFile ProjectFile::create(const std::filesystem::path& path) {
     std::error_code failed;
     const Path absolute = std::filesystem::absolute(path, failed);
-    if (std::filesystem::exists(absolute, failed)) {
+    if (std::filesystem::exists(std::filesystem::symlink_status(absolute, failed)) || !make(absolute)) {
         throw Error(ErrorKind::output, absolute.string() + " exists already; open it, or choose another name");
-    }
-    if (!std::filesystem::is_directory(absolute.parent_path(), failed)) {
-        throw Error(ErrorKind::output, "the folder " + absolute.parent_path().string() + " for the project " +
-                                           absolute.filename().string() + " does not exist; make it first");
-    }
-    // Built aside and renamed, so that a project is there whole or not at all.
-    const Path aside = absolute.string() + ".new-" + std::to_string(getpid());
-    removeWithCompanions(aside);
-    try {
-        build(aside);
-        std::filesystem::rename(aside, absolute);
-    } catch (const SQLite::Exception& exception) {
-        removeWithCompanions(aside);
-        throw Error(ErrorKind::output, "the project " + absolute.string() + " cannot be made (" + exception.what() +
-                                           "); check that its folder may be written and that the disk has space");
-    } catch (const std::filesystem::filesystem_error& error) {
-        removeWithCompanions(aside);
-        throw Error(ErrorKind::output, "the project " + absolute.string() + " cannot be made (" +
-                                           error.code().message() + "); check that its folder may be written");
     }
     return open(absolute);
 }
@@ -152,9 +191,8 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, Mode mode) {
         } else {
             database = std::make_unique<SQLite::Database>(absolute.string(), SQLite::OPEN_READWRITE, kBusyTimeoutMs);
         }
+        distrust(*database);
         database->exec("PRAGMA foreign_keys = ON");
-        database->exec("PRAGMA trusted_schema = OFF");
-        database->exec("PRAGMA cell_size_check = ON");
         refuseForeign(absolute, *database);
         if (mode == Mode::read_write) {
             // SQLite opens a write-protected file for reading without a word.
@@ -174,15 +212,26 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, Mode mode) {
             open(absolute, Mode::read_write);  // brings it up to date
             return open(absolute, mode);
         }
-        // Reads the whole schema, which tells a damaged one now and not in the middle of the work.
-        if (!database->tableExists("run")) throw damagedProject(absolute, "it has no table of runs");
+        // Tells a damaged schema now and not in the middle of the work.
+        schema::checkTables(*database);
         return ProjectFile(absolute, mode, std::move(database));
     });
 }
 
 ProjectFile ProjectFile::openOrCreate(const std::filesystem::path& path) {
     std::error_code failed;
-    return std::filesystem::exists(path, failed) ? open(path) : create(path);
+    const Path absolute = std::filesystem::absolute(path, failed);
+    if (!std::filesystem::exists(absolute, failed)) make(absolute);  // or another program just did
+    return open(absolute);
+}
+
+void ProjectFile::checkInPlace() const {
+    int moved = 0;
+    if (sqlite3_file_control(database_->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved) != SQLITE_OK || !moved)
+        return;
+    throw Error(ErrorKind::project, "the project " + path_.string() +
+                                        " was deleted, moved or replaced while it was open; nothing more can be stored "
+                                        "in it. Put it back in its place, or save a copy of what is open");
 }
 
 }  // namespace eyrie

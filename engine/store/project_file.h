@@ -15,11 +15,14 @@ class ProjectFile {
  public:
     enum class Mode { read_write, read_only };
 
-    /// Makes a new project. Throws Error(output) when the file exists or its folder cannot be written.
+    /// Makes a new project; never replaces a file, also not one that another program makes at this moment. A log that a
+    /// deleted project left there is put aside. Throws Error(output) when the file exists or its folder cannot be
+    /// written.
     static ProjectFile create(const std::filesystem::path& path);
     /// Opens an existing project and migrates it, in either mode, if it is older. Throws Error(project) when it is
     /// missing, cannot be read, is no project, is damaged, or was written by a newer version.
     static ProjectFile open(const std::filesystem::path& path, Mode mode = Mode::read_write);
+    /// Opens a project or makes it. Two programs that do so at once share one project.
     static ProjectFile openOrCreate(const std::filesystem::path& path);
 
     ProjectFile(ProjectFile&&) noexcept;
@@ -30,6 +33,8 @@ class ProjectFile {
     /// As it was opened; what is read-only stays as it is, whoever could write it.
     Mode mode() const { return mode_; }
     SQLite::Database& database() { return *database_; }
+    /// Throws Error(project) when the file was deleted, moved or replaced meanwhile: what is written would be lost.
+    void checkInPlace() const;
 
  private:
     ProjectFile(std::filesystem::path path, Mode mode, std::unique_ptr<SQLite::Database> database);

@@ -4,6 +4,7 @@
 
 #include "store/frame_rows.h"
 #include "store/rows.h"
+#include "store/run_lock.h"
 #include "store/sequence_rows.h"
 
 namespace eyrie {
@@ -49,6 +50,7 @@ struct ResultWriter::Implementation {
 
     ProjectFile project;
     FrameRows rows;
+    std::unique_ptr<FileLock> lock;
     int run_id = 0;
 };
 
@@ -56,11 +58,17 @@ ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
                            const std::vector<std::pair<std::string, std::string>>& parameters)
     : implementation_(std::make_unique<Implementation>(project)) {
     SQLite::Database& database = implementation_->project.database();
+    const std::filesystem::path& path = implementation_->project.path();
+    for (const RunRecord& earlier : RunStore(implementation_->project).runs()) {
+        if (earlier.state == RunState::running) clearRunLock(path, earlier.id);
+    }
     guarded(implementation_->project.path(), "adding a run", [&] {
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         run.sequence.id = storeSequence(database, run.sequence);
         if (run.started_utc.empty()) run.started_utc = nowUtc();
         implementation_->run_id = storeRun(database, run);
+        // Taken before others can see the run. Where nothing can be locked the run is written all the same.
+        implementation_->lock = FileLock::tryTake(runLockFile(path, implementation_->run_id)).lock;
         storeParameters(database, implementation_->run_id, parameters);
         transaction.commit();
     });
@@ -74,6 +82,7 @@ int ResultWriter::runId() const {
 
 void ResultWriter::write(const FrameResult& result) {
     const std::string doing = "storing frame " + std::to_string(result.motion.frame);
+    implementation_->project.checkInPlace();
     guarded(implementation_->project.path(), doing, [&] {
         SQLite::Transaction transaction(implementation_->project.database(), SQLite::TransactionBehavior::IMMEDIATE);
         implementation_->rows.insert(implementation_->run_id, result);
@@ -82,6 +91,7 @@ void ResultWriter::write(const FrameResult& result) {
 }
 
 void ResultWriter::finish(RunState state, const std::string& message) {
+    implementation_->project.checkInPlace();
     guarded(implementation_->project.path(), "recording how the run ended", [&] {
         SQLite::Statement statement(implementation_->project.database(),
                                     "UPDATE run SET state = ?, message = ? WHERE id = ?");

@@ -9,6 +9,15 @@ double RowReader::real() {
     return column.isNull() ? std::numeric_limits<double>::quiet_NaN() : column.getDouble();
 }
 
+std::string RowReader::text() {
+    constexpr int kLongest = 1 << 16;
+    const SQLite::Column column = statement_.getColumn(next_++);
+    if (column.getBytes() > kLongest) {
+        throw MalformedRow{"a text of " + std::to_string(column.getBytes()) + " characters"};
+    }
+    return column.getString();
+}
+
 OrientedBox RowReader::box() {
     OrientedBox box;
     box.centre = point();

@@ -79,7 +79,10 @@ class RowReader {
         return {x, y};
     }
     OrientedBox box();
-    std::string text() { return statement_.getColumn(next_++).getString(); }
+    /// A name, a path, a note: what people read. Throws MalformedRow when it is longer than any of them.
+    std::string text();
+    /// A document of ours.
+    std::string longText() { return statement_.getColumn(next_++).getString(); }
     ByteView bytes() {
         const SQLite::Column column = statement_.getColumn(next_++);
         // The blob's address must be asked for before its size.

@@ -3,9 +3,12 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "store/frame_rows.h"
 #include "store/rows.h"
+#include "store/run_lock.h"
+#include "store/sequence_rows.h"
 
 namespace eyrie {
 namespace {
@@ -14,7 +17,17 @@ std::string ofRun(int run_id) {
     return " of run " + std::to_string(run_id);
 }
 
-RunRecord readRun(SQLite::Statement& statement) {
+/// What the rest of Eyrie divides by and counts up to.
+void check(const RunRecord& run) {
+    const auto refuse = [&](const char* what) { throw MalformedRow{"run " + std::to_string(run.id) + " has " + what}; };
+    if (!(run.scale.gsd_m_per_px > 0 && std::isfinite(run.scale.gsd_m_per_px))) refuse("a scale that is not above 0");
+    if (!(run.scale.frame_rate_hz > 0 && std::isfinite(run.scale.frame_rate_hz)))
+        refuse("a frame rate that is not above 0");
+    if (run.first_frame < 0 || run.last_frame > kLastFrame) refuse("frames outside every video");
+    checkSequence(run.sequence);
+}
+
+RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& project) {
     RowReader row(statement);
     RunRecord run;
     run.id = row.integer();
@@ -36,20 +49,30 @@ RunRecord readRun(SQLite::Statement& statement) {
     run.sequence.frame_count = row.integer();
     run.sequence.frame_rate_hz = row.real();
     run.frames_done = row.integer();
+    check(run);
+    if (run.state == RunState::running) {
+        const auto writer = FileLock::holderOf(runLockFile(project, run.id));
+        run.live = writer.has_value();
+        run.writer = writer.value_or("");
+    }
     return run;
 }
 
+enum class Shown { yes, removed };
+
 /// Reads all runs, or the one with `run_id` if it is above 0.
-std::vector<RunRecord> readRuns(SQLite::Database& database, int run_id) {
+std::vector<RunRecord> readRuns(ProjectFile& project, int run_id, Shown shown = Shown::yes) {
     SQLite::Statement statement(
-        database,
+        project.database(),
         "SELECT run.id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, run.frame_rate_hz, "
         "first_frame, last_frame, state, message, sequence.id, path, width, height, frame_count, "
         "sequence.frame_rate_hz, (SELECT count(*) FROM frame WHERE frame.run_id = run.id) "
-        "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE ?1 = 0 OR run.id = ?1 ORDER BY run.id");
+        "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE ?1 IN (0, run.id) AND (removed_utc <> '') = ?2 "
+        "ORDER BY run.id");
     statement.bind(1, run_id);
+    statement.bind(2, shown == Shown::removed ? 1 : 0);
     std::vector<RunRecord> runs;
-    while (statement.executeStep()) runs.push_back(readRun(statement));
+    while (statement.executeStep()) runs.push_back(readRun(statement, project.path()));
     return runs;
 }
 
@@ -89,13 +112,13 @@ FrameSummary summaryOf(const FrameResult& result) {
 }
 
 std::vector<RunRecord> RunStore::runs() const {
-    return guarded(project_.path(), "listing the runs", [&] { return readRuns(project_.database(), 0); });
+    return guarded(project_.path(), "listing the runs", [&] { return readRuns(project_, 0); });
 }
 
 std::optional<RunRecord> RunStore::run(int run_id) const {
     if (run_id <= 0) return std::nullopt;
     return guarded(project_.path(), "reading run " + std::to_string(run_id), [&]() -> std::optional<RunRecord> {
-        auto found = readRuns(project_.database(), run_id);
+        auto found = readRuns(project_, run_id);
         if (found.empty()) return std::nullopt;
         return std::move(found.front());
     });
@@ -187,11 +210,33 @@ void RunStore::rename(int run_id, const std::string& name) {
 }
 
 void RunStore::remove(int run_id) {
+    const auto present = run(run_id);
+    if (present && present->live) {
+        throw Error(ErrorKind::project, "run " + std::to_string(run_id) + " of " + project_.path().string() +
+                                            " is being written by " + present->writer + "; stop it there first");
+    }
+    markRemoved(run_id, nowUtc());
+}
+
+void RunStore::restore(int run_id) {
+    markRemoved(run_id, "");
+}
+
+void RunStore::markRemoved(int run_id, const std::string& when_utc) {
     guarded(project_.path(), "removing run " + std::to_string(run_id), [&] {
-        SQLite::Statement statement(project_.database(), "DELETE FROM run WHERE id = ?");
-        RowWriter(statement).integer(run_id).run();
+        SQLite::Statement statement(project_.database(), "UPDATE run SET removed_utc = ? WHERE id = ?");
+        RowWriter(statement).text(when_utc).integer(run_id).run();
         refuseUnchanged(run_id);
     });
+}
+
+std::vector<RunRecord> RunStore::removedRuns() const {
+    return guarded(project_.path(), "listing the removed runs", [&] { return readRuns(project_, 0, Shown::removed); });
+}
+
+void RunStore::purgeRemoved() {
+    guarded(project_.path(), "deleting removed runs",
+            [&] { project_.database().exec("DELETE FROM run WHERE removed_utc <> ''"); });
 }
 
 void RunStore::refuseUnchanged(int run_id) const {

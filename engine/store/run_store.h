@@ -36,7 +36,9 @@ struct RunRecord {
     FrameIndex first_frame = 0;  ///< planned range, inclusive
     FrameIndex last_frame = 0;
     int frames_done = 0;                 ///< whole frames in the file
-    RunState state = RunState::running;  ///< a killed run is found as `running` and shown as stopped
+    RunState state = RunState::running;  ///< as stored; a killed run is found as `running` and is not `live`
+    bool live = false;                   ///< some program writes it at this moment
+    std::string writer;                  ///< who, if live: "process 4711 on oak (since 2026-11-21T08:00:00Z)"
     std::string message;                 ///< why it failed
 };
 
@@ -107,10 +109,17 @@ class RunStore {
     void replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
                             const std::vector<std::pair<FrameIndex, DroppedState>>& dropped = {});
     void rename(int run_id, const std::string& name);
+    /// Takes a run out of all lists; it can be brought back until it is purged. Throws Error(project) naming the
+    /// program that writes the run at this moment.
     void remove(int run_id);
+    void restore(int run_id);
+    std::vector<RunRecord> removedRuns() const;  ///< oldest first
+    /// Deletes what was removed, for good.
+    void purgeRemoved();
 
  private:
     void refuseUnchanged(int run_id) const;
+    void markRemoved(int run_id, const std::string& when_utc);
     ProjectFile& project_;
 };
 

@@ -2,8 +2,13 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <algorithm>
 #include <array>
+#include <map>
 #include <string>
+#include <vector>
+
+#include "store/database_error.h"
 
 namespace eyrie::schema {
 namespace {
@@ -259,8 +264,13 @@ CREATE TABLE dropped_state (
 )sql");
 }
 
-constexpr std::array<Migration, 6> kMigrations{addRuns,   addLabels,  addComparisonsAndCompleteBoxes,
-                                               addSweeps, addPresets, addDroppedStates};
+// When a run was removed by a person who can still change her mind; empty: it was not.
+void addRemovalOfRuns(SQLite::Database& database) {
+    database.exec("ALTER TABLE run ADD COLUMN removed_utc TEXT NOT NULL DEFAULT ''");
+}
+
+constexpr std::array kMigrations{
+    addRuns, addLabels, addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates, addRemovalOfRuns};
 
 }  // namespace
 
@@ -286,6 +296,41 @@ void migrate(SQLite::Database& database, std::span<const Migration> steps) {
         steps[static_cast<std::size_t>(number)](database);
         database.exec("PRAGMA user_version = " + std::to_string(number + 1));
         transaction.commit();
+    }
+}
+
+namespace {
+
+using Columns = std::map<std::string, std::vector<std::string>>;  // by table
+
+Columns columnsOf(SQLite::Database& database) {
+    Columns columns;
+    SQLite::Statement statement(database,
+                                "SELECT master.name, info.name FROM sqlite_master AS master, "
+                                "pragma_table_info(master.name) AS info WHERE master.type = 'table'");
+    while (statement.executeStep())
+        columns[statement.getColumn(0).getString()].push_back(statement.getColumn(1).getString());
+    return columns;
+}
+
+Columns columnsOfNewest() {
+    SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    migrate(database, migrations());
+    return columnsOf(database);
+}
+
+}  // namespace
+
+void checkTables(SQLite::Database& database) {
+    static const Columns expected = columnsOfNewest();
+    const Columns present = columnsOf(database);
+    for (const auto& [table, columns] : expected) {
+        const auto found = present.find(table);
+        if (found == present.end()) throw MalformedRow{"it has no table " + table};
+        for (const std::string& column : columns) {
+            if (std::find(found->second.begin(), found->second.end(), column) == found->second.end())
+                throw MalformedRow{"its table " + table + " has no column " + column};
+        }
     }
 }
 

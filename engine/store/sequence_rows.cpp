@@ -3,7 +3,10 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
+
+#include "store/database_error.h"
 
 namespace eyrie {
 
@@ -14,6 +17,18 @@ std::string nowUtc() {
     char text[32];
     std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
     return text;
+}
+
+void checkSequence(const SequenceRecord& sequence) {
+    const auto refuse = [&](const char* what) {
+        throw MalformedRow{"video " + std::to_string(sequence.id) + " has " + what};
+    };
+    constexpr int kLargestSide = 1 << 16;
+    const cv::Size size = sequence.size;
+    if (size.width < 1 || size.height < 1 || size.width > kLargestSide || size.height > kLargestSide)
+        refuse("an impossible size");
+    if (sequence.frame_count < 0 || sequence.frame_count > kLastFrame + 1) refuse("an impossible number of frames");
+    if (!(sequence.frame_rate_hz > 0 && std::isfinite(sequence.frame_rate_hz))) refuse("an impossible frame rate");
 }
 
 int storeSequence(SQLite::Database& database, const SequenceRecord& sequence) {

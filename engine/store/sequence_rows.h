@@ -13,6 +13,12 @@ namespace eyrie {
 /// Now, ISO 8601.
 std::string nowUtc();
 
+/// No video is longer: a day at 230 frames a second.
+inline constexpr FrameIndex kLastFrame = 20'000'000;
+
+/// Throws MalformedRow for a video that cannot be.
+void checkSequence(const SequenceRecord& sequence);
+
 /// The row of a video, new or reused; a reused row takes over what is known of the video now. Answers its id. Throws
 /// SQLite::Exception.
 int storeSequence(SQLite::Database& database, const SequenceRecord& sequence);

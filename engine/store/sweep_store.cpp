@@ -24,7 +24,7 @@ std::vector<SweepRecord> readSweeps(SQLite::Database& database, int id) {
         sweep.name = row.text();
         sweep.point_count = row.integer();
         sweep.points_done = row.integer();
-        sweep.plan = row.text();
+        sweep.plan = row.longText();
         sweeps.push_back(std::move(sweep));
     }
     return sweeps;
@@ -60,6 +60,7 @@ int SweepStore::add(const std::string& name, int point_count, const std::string&
 }
 
 bool SweepStore::addPoint(int sweep, const SweepPointRecord& point) {
+    project_.checkInPlace();
     return guarded(project_.path(), "storing point " + std::to_string(point.position) + ofSweep(sweep), [&] {
         SQLite::Statement statement(project_.database(),
                                     "INSERT INTO sweep_point (sweep_id, position, seconds, figures) "
@@ -81,7 +82,7 @@ std::vector<SweepPointRecord> SweepStore::points(int sweep) const {
             SweepPointRecord point;
             point.position = row.integer();
             point.seconds = row.real();
-            point.figures = row.text();
+            point.figures = row.longText();
             points.push_back(std::move(point));
         }
         return points;

@@ -1,7 +1,5 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -10,6 +8,7 @@
 #include "core/error.h"
 #include "store/result_writer.h"
 #include "store/samples.h"
+#include "support/child.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie {
@@ -75,29 +74,13 @@ TEST(DamagedProject, ATruncatedFileIsRefused) {
     EXPECT_THROW(ProjectFile::open(path), Error);
 }
 
-/// Runs `work` in a process of its own and answers its exit code, or −1 when a signal ended it.
-int inChild(const std::function<int()>& work) {
-    const pid_t child = fork();
-    if (child == 0) {
-        int code = 99;
-        try {
-            code = work();
-        } catch (...) {
-        }
-        _exit(code);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 TEST(FullDisk, IsAnErrorAndWhatWasStoredStays) {
     const test::TemporaryFolder folder;
     const auto path = folder / "clip.eyrie";
     ProjectFile::create(path);
     const test::SampleSize large{20000, 3000, 20, 20, 20, {768, 576}};
     // A limit on the size of files stands for the full disk. Exit code: frames written before the error.
-    const int written = inChild([&] {
+    const int written = test::inChild([&] {
         std::signal(SIGXFSZ, SIG_IGN);
         ResultWriter writer(path, test::sampleRun(), {});
         const rlimit limit{3'000'000, 3'000'000};

@@ -4,9 +4,6 @@
 #include <QRegularExpression>
 #include <QStandardPaths>
 #include <QString>
-#include <array>
-#include <fstream>
-#include <string_view>
 
 namespace eyrie::ui {
 
@@ -23,14 +20,6 @@ fs::path defaultProjectPath(const std::string& media_name, const std::string& me
     name = name.left(60);
     if (name.isEmpty()) name = QStringLiteral("video");
     return data / "eyrie" / "projects" / (name.toStdString() + "-" + hash.toStdString() + ".eyrie");
-}
-
-bool looksLikeProject(const fs::path& path) {
-    if (path.extension() == ".eyrie") return true;
-    std::ifstream file(path, std::ios::binary);
-    std::array<char, 15> head{};
-    file.read(head.data(), head.size());
-    return file && std::string_view(head.data(), head.size()) == "SQLite format 3";
 }
 
 }  // namespace eyrie::ui

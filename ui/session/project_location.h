@@ -10,7 +10,4 @@ namespace eyrie::ui {
 /// project again.
 std::filesystem::path defaultProjectPath(const std::string& media_name, const std::string& media_identity);
 
-/// Whether a file is an Eyrie project, by its extension or its first bytes.
-bool looksLikeProject(const std::filesystem::path& path);
-
 }  // namespace eyrie::ui

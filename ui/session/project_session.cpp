@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "session/project_location.h"
+#include "store/file_check.h"
 
 namespace eyrie::ui {
 
@@ -51,7 +52,7 @@ ProjectSession::~ProjectSession() = default;
 // ---- opening --------------------------------------------------------------------------------------------------------
 
 void ProjectSession::open(const fs::path& path) {
-    if (looksLikeProject(path))
+    if (isProject(path))
         openProject(path);
     else
         openMedia(videoMedia(path));
