@@ -39,7 +39,7 @@ Json factsOf(RunStore& store, const RunRecord& run) {
     const SequenceRecord& sequence = run.sequence;
     Json facts{{"id", run.id},
                {"name", run.name},
-               {"state", nameOf(run.state)},
+               {"state", nameOf(stateNow(run))},
                {"message", run.message},
                {"started", run.started_utc},
                {"engine_version", run.engine_version},

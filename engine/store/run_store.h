@@ -42,6 +42,11 @@ struct RunRecord {
     std::string message;                 ///< why it failed
 };
 
+/// How a run stands: as stored, but a killed one is stopped.
+inline RunState stateNow(const RunRecord& run) {
+    return run.state == RunState::running && !run.live ? RunState::stopped : run.state;
+}
+
 /// One frame of a run, for the timeline.
 struct FrameSummary {
     FrameIndex frame = 0;
