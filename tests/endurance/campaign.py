@@ -67,19 +67,22 @@ class Campaign:
     def __init__(self, options):
         self.options = options
         self.folder = Path(tempfile.mkdtemp(prefix="eyrie-campaign-"))
-        self.world = World(options.binaries, self.folder, options.frames)
-        self.stopped = threading.Event()
+        self.world = World(options.binaries, options.fuzzers, self.folder, options.frames)
+        self.stopped = self.world.stopped
         self.tallies = []
         self.kept = 0
+        self._screen = threading.Lock()
+
+    def _say(self, text):
+        with self._screen:
+            print(text, flush=True)
 
     def work(self):
         signal.signal(signal.SIGINT, lambda *_: self.stopped.set())
         signal.signal(signal.SIGTERM, lambda *_: self.stopped.set())
         options = self.options
         chosen = [part for part in PARTS + WHEN_NAMED if part.name in options.part] or PARTS
-        print(f"seed {options.seed}, {options.minutes:g} minutes, {options.jobs} cases side by side, {self.folder}")
-        self.world.fuzzers = options.fuzzers
-        self.world.minutes = options.minutes
+        self._say(f"seed {options.seed}, {options.minutes:g} minutes, {options.jobs} cases side by side, {self.folder}")
         self.world.prepare()
         self.tallies = [Tally(part(self.world), options.seed) for part in chosen]
         beside = [tally for tally in self.tallies if tally.part.alone]
@@ -101,9 +104,14 @@ class Campaign:
             part.prepare()
         except Skipped as reason:
             tally.skipped = str(reason)
-            print(tally.line(), flush=True)
+            self._say(tally.line())
             return
-        numbers = iter([self.options.only] if self.options.only is not None else range(part.goal))
+        except Exception as failed:  # the other parts go on
+            text = str(failed) if isinstance(failed, Failure) else traceback.format_exc()
+            self._say(f"FAILED {part.name}, before the first case: {text}")
+            tally.count(0, None, text)
+            return
+        numbers = iter(self.options.only or range(part.goal))
         lock = threading.Lock()
         last = [time.monotonic()]
 
@@ -120,12 +128,12 @@ class Campaign:
                 with lock:
                     if time.monotonic() - last[0] > 20:
                         last[0] = time.monotonic()
-                        print(tally.line(), flush=True)
+                        self._say(tally.line())
 
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             for future in [pool.submit(worker) for _ in range(jobs)]:
                 future.result()
-        print(tally.line(), flush=True)
+        self._say(tally.line())
 
     def _case(self, tally, number, end):
         part = tally.part
@@ -140,7 +148,7 @@ class Campaign:
         except Exception:  # a defect of the campaign must not end it, nor be overlooked
             failure = "the campaign itself failed:\n" + traceback.format_exc()
         if failure:
-            print(f"FAILED {part.name} {number}: {failure}\n    kept in {folder}", flush=True)
+            self._say(f"FAILED {part.name} {number}: {failure}\n    kept in {folder}")
             self.kept += 1
         else:
             shutil.rmtree(folder, ignore_errors=True)
@@ -161,13 +169,13 @@ def arguments():
     parser.add_argument("minutes", nargs="?", type=float, default=10.0, help="how long to try (10)")
     parser.add_argument("--seed", type=int, default=None, help="chooses everything that is random (default: random)")
     parser.add_argument("--part", action="append", default=[], choices=[part.name for part in PARTS + WHEN_NAMED], help="only this part; again for more")
-    parser.add_argument("--only", type=int, help="only the case with this number, with --part")
+    parser.add_argument("--only", type=int, nargs="+", default=[], help="only the cases with these numbers, with --part")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="cases side by side (one for each core)")
     parser.add_argument("--frames", type=int, default=26, help="length of the clip (26)")
     parser.add_argument("--binaries", required=True, help=argparse.SUPPRESS)
     parser.add_argument("--fuzzers", default="", help=argparse.SUPPRESS)
     options = parser.parse_args()
-    if options.only is not None and len(options.part) != 1:
+    if options.only and len(options.part) != 1:
         parser.error("--only needs one --part")
     if options.seed is None:
         options.seed = dice.SystemRandom().randrange(1, 1_000_000)

@@ -18,12 +18,15 @@ class FullDisk(Part):
     goal = 40 * len(WRITERS)
     weight = 1.5
 
+    def prepare(self):
+        self._mount = can_mount()
+
     def case(self, number, random, folder):
         name = WRITERS[number % len(WRITERS)]
         exists = name not in MAKERS or random.random() < 0.6
         # Nothing at all, a page or two, or anything up to enough.
         free = random.choice((0, 4096, 8192, int(4096 * 2 ** random.uniform(0, 10)), random.randrange(2_000_000)))
-        disk = SmallDisk(folder)
+        disk = SmallDisk(folder, self._mount)
         try:
             return self._on(disk, name, exists, free, random, folder)
         finally:
@@ -61,4 +64,4 @@ class FullDisk(Part):
         return "refused" if result.code else "enough room"
 
     def rest(self):
-        return "a small tmpfs" if can_mount() else "file sizes limited instead: no right to mount"
+        return "on a small tmpfs" if getattr(self, "_mount", False) else "file sizes limited: no right to mount"

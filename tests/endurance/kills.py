@@ -21,7 +21,6 @@ class Kills(Part):
 
     def __init__(self, world):
         super().__init__(world)
-        self._killed = 0
         self._lock = threading.Lock()
         self._usual = {}  # seconds that a victim takes here and now
 
@@ -74,10 +73,8 @@ class Kills(Part):
             return self._usual.setdefault(name, result.seconds)
 
     def _note(self, name, result):
-        with self._lock:
-            if result.killed:
-                self._killed += 1
-            else:  # the machine may be busier or idler than before
+        if not result.killed:  # the machine may be busier or idler than before
+            with self._lock:
                 self._usual[name] = (self._usual[name] + result.seconds) / 2
 
     @staticmethod
@@ -89,6 +86,3 @@ class Kills(Part):
         ]
         if left:
             raise Failure(f"left lying about beside {project.name}: {', '.join(sorted(left))}")
-
-    def rest(self):
-        return f"{self._killed} killed"

@@ -4,18 +4,19 @@ files."""
 import os
 import shutil
 import subprocess
+import tempfile
 from pathlib import Path
 
 SIZE_MB = 48
 
 
 class SmallDisk:
-    def __init__(self, folder):
+    def __init__(self, folder, mount):
         self.path = Path(folder) / "disk"
         self.path.mkdir()
         self.mounted = False
         self._limit = None
-        if can_mount():
+        if mount:
             options = ["-o", f"size={SIZE_MB}m", "tmpfs"]
             subprocess.run(["mount", "-t", "tmpfs", *options, self.path], check=True, capture_output=True)
             self.mounted = True
@@ -51,16 +52,12 @@ class SmallDisk:
 
 
 def can_mount():
-    return os.geteuid() == 0 and shutil.which("mount") is not None and _tried()
-
-
-def _tried(answer=[]):
-    if not answer:
-        folder = Path("/tmp") / f"eyrie-mount-{os.getpid()}"
-        folder.mkdir()
-        done = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", folder], capture_output=True)
-        if done.returncode == 0:
-            subprocess.run(["umount", folder], check=False)
-        folder.rmdir()
-        answer.append(done.returncode == 0)
-    return answer[0]
+    """Whether a tmpfs can be mounted here: tried, since being root is not enough in a container."""
+    if os.geteuid() != 0 or shutil.which("mount") is None:
+        return False
+    folder = Path(tempfile.mkdtemp(prefix="eyrie-mount-"))
+    done = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", folder], capture_output=True, check=False)
+    if done.returncode == 0:
+        subprocess.run(["umount", folder], check=False)
+    folder.rmdir()
+    return done.returncode == 0

@@ -27,14 +27,17 @@ class Soak(Part):
         window = Program(line, folder, "window", self.world.environment(folder / "home"))
         samples = []
         begin = time.monotonic()
-        while window.running() and time.monotonic() - begin < seconds + 90:
+        while window.running() and time.monotonic() - begin < seconds + 90 and not self.world.stopped.is_set():
             sample = status_of(window.pid)
             if sample:
                 samples.append((time.monotonic() - begin, *sample))
             time.sleep(min(1.0, seconds / 40))
-        result = window.wait(limit=5)
+        stopped = self.world.stopped.is_set()
+        result = window.wait(kill_after=0 if stopped else None, limit=10)
         judge(result, {0})
         rounds = result.out.count("done round")
+        if len(samples) < 4:
+            return None
         self._judge(samples[len(samples) // 2 :], samples[: len(samples) // 2], rounds)
         return None
 

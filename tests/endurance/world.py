@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import threading
 from pathlib import Path
 
 from programs import run
@@ -11,7 +12,11 @@ SWEEP_SETTINGS = ["--gsd", "0.2", "--set", "detection.method=gradient"]
 
 
 class World:
-    def __init__(self, binaries, folder, frames=26):
+    """`stopped` is set when a person ends the campaign."""
+
+    def __init__(self, binaries, fuzzers, folder, frames):
+        self.stopped = threading.Event()
+        self.fuzzers = fuzzers
         self.frames = frames
         self.cli = Path(binaries) / "eyrie-cli"
         self.driver = Path(binaries) / "window_driver"
