@@ -18,6 +18,7 @@ class Action:
     """A command on a project, or the window. `mark` names all that it adds, so that it is found again."""
 
     terminal = False  # shows its progress only on one
+    attempt = ""  # told from others in the names of its outputs, which nothing replaces
 
     def __init__(self, world, folder, project, exists, mark, random):
         self.world, self.folder, self.project, self.exists, self.mark = world, Path(folder), project, exists, mark
@@ -39,8 +40,12 @@ class Action:
         return {}
 
     def again(self):
-        """The words that do the same after it was killed or stopped."""
-        return self.line()
+        """The same once more, with outputs of its own."""
+        following = type(self)(
+            self.world, self.folder, self.project, Path(self.project).exists(), self.mark, self.random
+        )
+        following.attempt = "-again"
+        return following
 
     def check_output(self, result):
         """Raises Failure when a file that it wrote is there and not whole."""
@@ -57,7 +62,7 @@ class Action:
         return text.endswith("\n") and len({line.count(",") for line in lines if '"' not in line}) == 1
 
     def out(self, ending):
-        self.output = self.folder / f"{self.mark}{ending}"
+        self.output = self.folder / f"{self.mark}{self.attempt}{ending}"
         return self.output
 
 
@@ -196,7 +201,7 @@ class Train(Action):
 
 class Render(Action):
     def words(self):
-        return ["render", "demo", "--frames", "2", "--quiet", "--out", self.folder / "rendered"]
+        return ["render", "demo", "--frames", "2", "--quiet", "--out", self.folder / f"rendered{self.attempt}"]
 
 
 class Window(Action):

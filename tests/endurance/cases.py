@@ -39,7 +39,7 @@ def random_of(seed, part, number):
     return random.Random(f"{seed}/{part}/{number}")
 
 
-def judge(result, allowed, named=""):
+def judge(result, allowed):
     """Raises Failure where a program crashed, hung, ended with a code outside `allowed`, or refused without a word."""
     if result.hung:
         raise Failure(f"hung: {result}")
@@ -49,5 +49,5 @@ def judge(result, allowed, named=""):
         raise Failure(f"crashed with signal {-result.code}: {result}")
     if result.code not in allowed:
         raise Failure(f"exit code {result.code}, expected one of {sorted(allowed)}: {result}")
-    if result.code != 0 and named and named not in result.err + result.out:
-        raise Failure(f"the message does not name {named}: {result}")
+    if result.code != 0 and not result.told():
+        raise Failure(f"refused without a word: {result}")

@@ -75,11 +75,13 @@ class Damage(Part):
         return pictures, damage_file(harmed, random, first=64 if random.random() < 0.7 else None)
 
     def _judge(self, result, command, harmed, what):
-        name = harmed.name
         try:
-            judge(result, {0, 2, 3, 4, 5} if command != "window" else {0, 3}, name)
+            judge(result, {0, 2, 3, 4, 5} if command != "window" else {0, 3})
         except Failure as failure:
             raise Failure(f"{what}: {failure}") from failure
+        # A project may name another file as its video.
+        if result.code != 0 and harmed.name not in result.err + result.out and "/" not in result.err + result.out:
+            raise Failure(f"{what}: the message names no file: {result}")
         if result.memory_mb > MOST_MEMORY_MB:
             raise Failure(f"{what}: {result.memory_mb:.0f} MB of memory: {result}")
         if result.seconds > MOST_SECONDS:

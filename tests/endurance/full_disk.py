@@ -55,7 +55,7 @@ class FullDisk(Part):
         one.check_output(result)
 
         disk.release()
-        following = action(name, self.world, disk.path, project, project.exists(), "A", random)
+        following = one.again()
         again = Program(following.line(), folder, "again", environment, following.terminal).wait()
         judge(again, {0})
         held = facts(project, folder)

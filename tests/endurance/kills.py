@@ -46,15 +46,16 @@ class Kills(Part):
         victim.check_output(result)
         if project.exists():
             judge(run([self.world.cli, "info", project], folder, "info", environment=environment), {0})
-        self._again(name, victim, project, folder, environment, random)
+        self._again(victim, project, folder, environment)
         held = facts(project, folder)
         compare(before, held, "was there before")
         self._nothing_left(folder, project)
         return "killed" if result.killed else "ended before"
 
-    def _again(self, name, victim, project, folder, environment, random):
+    @staticmethod
+    def _again(victim, project, folder, environment):
         """The next command, which is the same, works."""
-        following = action(name, self.world, folder, project, project.exists(), "A", random)
+        following = victim.again()
         result = Program(following.line(), folder, "again", environment, following.terminal).wait()
         judge(result, {0})
         compare(following.claims(result), facts(project, folder), "the next command told to be done")
