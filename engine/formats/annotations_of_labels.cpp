@@ -75,12 +75,13 @@ std::map<int, IgnoreRegion> regionsOf(const LabelBoxes& boxes) {
     FrameIndex before = -2;
     for (const auto& [frame, records] : boxes) {
         std::vector<std::pair<OrientedBox, int>> still_open;
+        const bool follows = before + 1 == frame;
         for (const LabelBox& record : records) {
             if (record.id || !record.ignore) continue;
             const OrientedBox& box = record.box;
             const auto same = std::find_if(open.begin(), open.end(), [&](const auto& entry) {
                 const OrientedBox& other = entry.first;
-                return before + 1 == frame && other.centre == box.centre && other.length == box.length &&
+                return follows && other.centre == box.centre && other.length == box.length &&
                        other.width == box.width && other.heading == box.heading;
             });
             if (same != open.end()) {

@@ -1,8 +1,10 @@
 #include "io/index_cache.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <iterator>
 #include <sstream>
@@ -126,6 +128,18 @@ std::string pack(const Identity& identity, const VideoIndex& index) {
     return std::move(packer).sealed();
 }
 
+/// Whether what is read with it stays within it, as with every index that was built.
+bool isSound(const VideoIndex& index) {
+    if (index.tick_numerator <= 0 || index.tick_denominator <= 0 || index.quarter_turns < 0 ||
+        index.quarter_turns > 3 || index.shown.empty() || index.shown.size() != index.shown_ticks.size())
+        return false;
+    for (const std::int32_t packet : index.shown) {
+        if (packet < 0 || static_cast<std::size_t>(packet) >= index.packets.size()) return false;
+    }
+    return std::adjacent_find(index.shown_ticks.begin(), index.shown_ticks.end(), std::greater_equal<>()) ==
+           index.shown_ticks.end();
+}
+
 std::optional<VideoIndex> unpack(const std::string& bytes, const Identity& identity) {
     const std::size_t seal = sizeof(std::uint64_t);
     if (bytes.size() < 2 * seal) return std::nullopt;
@@ -161,6 +175,7 @@ std::optional<VideoIndex> unpack(const std::string& bytes, const Identity& ident
     }
     index.shown = unpacker.numbers<std::int32_t>();
     index.shown_ticks = unpacker.numbers<std::int64_t>();
+    if (!isSound(index)) return std::nullopt;
     return index;
 }
 

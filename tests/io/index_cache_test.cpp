@@ -71,6 +71,24 @@ TEST_F(IndexCacheTest, ARecordOfAnotherVideoIsNotBelieved) {
     EXPECT_EQ(openSource(other, options_)->info().frame_count, 10);
 }
 
+TEST_F(IndexCacheTest, ARecordWhoseFramesAreNowhereIsNotBelieved) {
+    const IndexCache cache(options_.index_folder);
+    VideoIndex index;
+    index.packets.resize(2);
+    index.shown = {0, 1};
+    index.shown_ticks = {0, 1};
+    cache.save(video_, index);
+    EXPECT_TRUE(cache.load(video_).has_value());
+    for (const std::int32_t packet : {-1, 2, INT32_MAX}) {
+        index.shown[1] = packet;
+        cache.save(video_, index);
+        EXPECT_FALSE(cache.load(video_).has_value()) << packet;
+    }
+    index.shown = {0};
+    cache.save(video_, index);
+    EXPECT_FALSE(cache.load(video_).has_value()) << "fewer frames than times";
+}
+
 TEST_F(IndexCacheTest, AFolderThatCannotBeWrittenOnlyMeansNoCache) {
     test::writeBytes(folder_ / "file", "in the way");
     options_.index_folder = folder_ / "file" / "index";

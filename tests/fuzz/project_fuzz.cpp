@@ -1,0 +1,62 @@
+#include <fstream>
+#include <iterator>
+
+#include "fuzz/input_file.h"
+#include "store/annotation_store.h"
+#include "store/project_file.h"
+#include "store/run_store.h"
+#include "store/sweep_store.h"
+
+/// project_fuzz --project=FILE: bytes as changes of that project, each of six: place (3 bytes, little-endian), how many
+/// bytes from there (1), and what they become (2); then all of it is read.
+namespace {
+
+struct Reader {
+    eyrie::fuzz::MemoryFolder folder;
+    std::filesystem::path file = folder / "fuzzed.eyrie";
+    std::string whole;
+
+    static Reader& only() {
+        static Reader reader;
+        return reader;
+    }
+};
+
+void readEverything(const std::filesystem::path& path) {
+    eyrie::ProjectFile project = eyrie::ProjectFile::open(path, eyrie::ProjectFile::Mode::read_only);
+    const eyrie::RunStore store(project);
+    for (const eyrie::RunRecord& run : store.runs()) {
+        store.parameters(run.id);
+        for (const eyrie::FrameSummary& summary : store.frameSummaries(run.id))
+            store.frameResult(run.id, summary.frame);
+        for (const eyrie::TrackSummary& track : store.tracks(run.id)) store.trackStates(run.id, track.id);
+        store.trackBoxes(run.id);
+        store.detectionBoxes(run.id);
+    }
+    eyrie::SweepStore(project).sweeps();
+    eyrie::AnnotationStore(project, 1).annotations();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+    std::ifstream file(eyrie::fuzz::option(*argc, *argv, "project", ""), std::ios::binary);
+    Reader::only().whole.assign(std::istreambuf_iterator<char>(file), {});
+    if (!Reader::only().whole.empty()) return 0;
+    std::fputs("project_fuzz: --project=FILE names no project\n", stderr);
+    std::exit(2);
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const Reader& reader = Reader::only();
+    std::string bytes = reader.whole;
+    for (; size >= 6; data += 6, size -= 6) {
+        const std::size_t at = (data[0] | data[1] << 8 | data[2] << 16) % bytes.size();
+        const std::size_t count = std::min<std::size_t>(1 + data[3], bytes.size() - at);
+        for (std::size_t i = 0; i < count; ++i) bytes[at + i] = static_cast<char>(data[4] + i * data[5]);
+    }
+    for (const char* ending : {"-wal", "-shm", "-journal"}) std::filesystem::remove(reader.file.string() + ending);
+    eyrie::fuzz::writeBytes(reader.file, bytes.data(), bytes.size());
+    eyrie::fuzz::expectAnswer([&] { readEverything(reader.file); });
+    return 0;
+}
