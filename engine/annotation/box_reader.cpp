@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "annotation/carried_boxes.h"
 #include "annotation/keyframe_path.h"
 #include "core/angle.h"
 #include "core/upright.h"
@@ -29,11 +30,15 @@ bool staysUpright(const std::vector<Keyframe>& keyframes, std::size_t here) {
 /// Keyframes as knots in the image of a reference frame, over the ground or as they are.
 class KnotMaker {
  public:
-    KnotMaker(FrameIndex reference, const CameraMotion* camera) : reference_(reference), camera_(camera) {}
+    KnotMaker(FrameIndex reference, const CameraMotion* camera, CarriedBoxes* known)
+        : reference_(reference), camera_(camera), known_(known) {}
 
     std::optional<Knot> make(const Keyframe& keyframe) const {
         std::optional<OrientedBox> box = keyframe.box;
-        if (camera_ != nullptr) box = carriedBox(keyframe.box, keyframe.frame, reference_, *camera_);
+        if (camera_ != nullptr) {
+            box = known_ != nullptr ? known_->carried(keyframe.box, keyframe.frame, reference_)
+                                    : carriedBox(keyframe.box, keyframe.frame, reference_, *camera_);
+        }
         if (!box) return std::nullopt;
         return Knot{static_cast<double>(keyframe.frame - reference_),
                     box->centre,
@@ -49,6 +54,7 @@ class KnotMaker {
  private:
     FrameIndex reference_;
     const CameraMotion* camera_;
+    CarriedBoxes* known_;
 };
 
 /// The path around a keyframe, and which of its knots that is. An object that was outside the image has no path there.
@@ -95,20 +101,19 @@ struct PathBox {
 /// The way of an object from one keyframe to the next, over the ground with a camera, in the image without.
 class WayFrom {
  public:
-    WayFrom(const LabelledObject& object, std::size_t here, const CameraMotion* camera, PathShape shape)
+    WayFrom(const LabelledObject& object, std::size_t here, const CameraMotion* camera, CarriedBoxes* known,
+            PathShape shape)
         : camera_(camera), reference_(object.keyframes[here].frame) {
         const Keyframes& keyframes = object.keyframes;
-        const KnotMaker maker(reference_, camera);
+        const KnotMaker maker(reference_, camera, known);
         local_ = pathAround(object, here, 1, maker, shape);
         if (!local_) return;
         cut_off_ = here + 1 < keyframes.size() && !hasNext(*local_);
         // Where it stands, headings come from the movement before and after, so look one keyframe further.
-        stands_ = !hasNext(*local_) || !local_->path.moving(local_->here);
-        if (stands_ && keyframes.size() > 1) local_ = pathAround(object, here, 2, maker, shape);
+        const bool stands = !hasNext(*local_) || !local_->path.moving(local_->here);
+        if (stands && keyframes.size() > 1) local_ = pathAround(object, here, 2, maker, shape);
         if (staysUpright(keyframes, here)) upright_heading_ = keyframes[here].box.heading;
     }
-
-    bool moves() const { return local_ && !stands_; }
 
     /// Nothing where frames are not connected over the ground.
     std::optional<PathBox> at(FrameIndex frame) {
@@ -148,7 +153,6 @@ class WayFrom {
     FrameIndex reference_;
     std::optional<LocalPath> local_;
     bool cut_off_ = false;  ///< the next keyframe cannot be reached
-    bool stands_ = true;
     std::optional<double> upright_heading_;
     std::optional<PathPiece> piece_;
 };
@@ -162,32 +166,19 @@ struct BoxReader::Piece {
     std::optional<WayFrom> in_image;
 
     WayFrom& onGround(const BoxReader& reader) {
-        if (!on_ground) on_ground.emplace(reader.object_, here, &reader.camera_, reader.shape_);
+        if (!on_ground) on_ground.emplace(reader.object_, here, &reader.camera_, reader.known_, reader.shape_);
         return *on_ground;
     }
     WayFrom& inImage(const BoxReader& reader) {
-        if (!in_image) in_image.emplace(reader.object_, here, nullptr, reader.shape_);
+        if (!in_image) in_image.emplace(reader.object_, here, nullptr, nullptr, reader.shape_);
         return *in_image;
     }
 };
 
-BoxReader::BoxReader(const LabelledObject& object, const CameraMotion& camera, PathShape shape)
-    : object_(object), camera_(camera), shape_(shape), piece_(std::make_unique<Piece>()) {}
+BoxReader::BoxReader(const LabelledObject& object, const CameraMotion& camera, PathShape shape, CarriedBoxes* known)
+    : object_(object), camera_(camera), shape_(shape), known_(known), piece_(std::make_unique<Piece>()) {}
 
 BoxReader::~BoxReader() = default;
-
-void BoxReader::goTo(std::size_t here) {
-    if (piece_->here != here) *piece_ = Piece{here, {}, {}};
-}
-
-bool BoxReader::movesFrom(std::size_t keyframe) {
-    const Keyframes& keyframes = object_.keyframes;
-    if (keyframe + 1 >= keyframes.size()) return false;
-    goTo(keyframe);
-    if (camera_.empty()) return piece_->inImage(*this).moves();
-    return camera_.connects(keyframes[keyframe].frame, keyframes[keyframe + 1].frame) &&
-           piece_->onGround(*this).moves();
-}
 
 LabelledBox BoxReader::at(FrameIndex frame) {
     LabelledBox result;
@@ -209,7 +200,7 @@ LabelledBox BoxReader::at(FrameIndex frame) {
         result.box = before.box;
         return result;
     }
-    goTo(here);
+    if (piece_->here != here) *piece_ = Piece{here, {}, {}};
     const FrameIndex until = exact || passed == keyframes.size() ? frame : keyframes[passed].frame;
     std::optional<PathBox> box;
     if (camera_.connects(before.frame, until)) {

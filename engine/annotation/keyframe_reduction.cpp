@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "annotation/carried_boxes.h"
 #include "annotation/dense_boxes.h"
 #include "annotation/keyframe_thinning.h"
 
@@ -26,6 +27,7 @@ class Reducer {
         : object_(std::move(object)),
           boxes_(boxes, options),
           camera_(camera),
+          carried_(camera, boxes.size()),
           options_(options),
           set_headings_(set_headings),
           excess_(boxes.size()),
@@ -67,7 +69,7 @@ class Reducer {
     std::size_t keyframeCount() const { return object_.keyframes.size(); }
 
  private:
-    BoxReader shown() const { return {object_, camera_, options_.shape}; }
+    BoxReader shown() const { return {object_, camera_, options_.shape, &carried_}; }
 
     double excessOf(std::size_t i) const {
         BoxReader reader = shown();
@@ -88,16 +90,9 @@ class Reducer {
         return {first, last};
     }
 
-    /// The same without the outermost pieces where the object moves there, which need not be looked at again.
-    std::pair<std::size_t, std::size_t> changedBy(std::size_t keyframe) const {
-        const auto& keyframes = object_.keyframes;
-        auto [first, last] = reachOf(keyframe);
-        BoxReader reader = shown();
-        if (keyframe >= kReach && reader.movesFrom(keyframe - kReach))
-            first = boxes_.from(keyframes[keyframe - kReach + 1].frame);
-        if (keyframe + kReach < keyframes.size() && reader.movesFrom(keyframe + kReach - 1))
-            last = boxes_.from(keyframes[keyframe + kReach - 1].frame);
-        return {first, last};
+    void measureAround(std::size_t keyframe) {
+        const auto [first, last] = reachOf(keyframe);
+        measure(first, last);
     }
 
     /// A keyframe for a dense box, or its heading set if it has one already. Answers whether that changed anything.
@@ -108,8 +103,7 @@ class Reducer {
         if (place != keyframes.end() && place->frame == box.frame) {
             if (place->heading_set) return false;
             setHeading(*place, box);
-            const auto [first, last] = changedBy(static_cast<std::size_t>(place - keyframes.begin()));
-            measure(first, last);
+            measureAround(static_cast<std::size_t>(place - keyframes.begin()));
             return true;
         }
         Keyframe keyframe = place == keyframes.begin() ? keyframes.front() : *(place - 1);
@@ -119,16 +113,13 @@ class Reducer {
         place = keyframes.insert(place, keyframe);
         const auto here = static_cast<std::size_t>(place - keyframes.begin());
         // The path has changed, and with it the headings that follow it.
-        bool neighbours_turned = false;
         for (std::size_t i = here > 0 ? here - 1 : 0; i <= here + 1 && i < keyframes.size(); ++i) {
             const std::size_t dense = boxes_.from(keyframes[i].frame);
             if (dense < boxes_.size() && boxes_[dense].frame == keyframes[i].frame && excessOf(dense) > 1) {
                 setHeading(keyframes[i], boxes_[dense]);
-                neighbours_turned = neighbours_turned || i != here;
             }
         }
-        const auto [first, last] = neighbours_turned ? reachOf(here) : changedBy(here);
-        measure(first, last);
+        measureAround(here);
         return true;
     }
 
@@ -140,7 +131,7 @@ class Reducer {
     bool tryWithout(std::size_t i) {
         auto& keyframes = object_.keyframes;
         const Keyframe kept = keyframes[i];
-        const auto [first, last] = changedBy(i);
+        const auto [first, last] = reachOf(i);
         // Between its neighbours it is missed most.
         const std::size_t low = boxes_.from(keyframes[i - 1].frame);
         const std::size_t high = i + 1 < keyframes.size() ? boxes_.from(keyframes[i + 1].frame) : last;
@@ -196,8 +187,7 @@ class Reducer {
             }
         }
         keyframes[i] = best;
-        const auto [first_changed, last_changed] = changedBy(i);
-        measure(first_changed, last_changed);
+        measure(first, last);
     }
 
     /// Boxes between its neighbours that a keyframe could be at instead.
@@ -222,6 +212,7 @@ class Reducer {
     LabelledObject object_;
     DenseBoxes boxes_;
     const CameraMotion& camera_;
+    mutable CarriedBoxes carried_;
     const ReductionOptions& options_;
     bool set_headings_;
     Deviations excess_;
