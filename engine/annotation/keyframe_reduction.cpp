@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "annotation/carried_boxes.h"
+#include "annotation/dense_boxes.h"
 #include "annotation/keyframe_thinning.h"
 
 namespace eyrie {
@@ -23,23 +25,27 @@ class Reducer {
     Reducer(LabelledObject object, const std::vector<FrameBox>& boxes, const CameraMotion& camera,
             const ReductionOptions& options, bool set_headings)
         : object_(std::move(object)),
-          boxes_(boxes),
+          boxes_(boxes, options),
           camera_(camera),
+          carried_(camera, boxes.size()),
           options_(options),
           set_headings_(set_headings),
-          excess_(boxes.size()) {
+          excess_(boxes.size()),
+          given_up_(boxes.size(), 0),
+          suspect_(boxes.size()) {
         measure(0, boxes_.size());
     }
 
     /// Adds keyframes where it is worst until all is within the tolerance.
     void insertUntilGood() {
         for (;;) {
-            const std::size_t worst = worstBox();
+            const std::size_t worst = excess_.worst();
             if (excess_[worst] <= 1) return;
             if (!improve(boxes_[worst])) {
                 // The interpolation cannot be told any better here.
-                given_up_.push_back(worst);
-                excess_[worst] = 0;
+                given_up_[worst] = 1;
+                all_within_ = false;
+                excess_.set(worst, 0);
             }
         }
     }
@@ -59,40 +65,33 @@ class Reducer {
 
     const LabelledObject& object() const { return object_; }
     /// Nothing had to be given up.
-    bool allWithin() const { return given_up_.empty(); }
+    bool allWithin() const { return all_within_; }
     std::size_t keyframeCount() const { return object_.keyframes.size(); }
 
  private:
-    double excessOf(std::size_t i) const { return deviationOf(object_, boxes_[i], camera_, options_); }
+    BoxReader shown() const { return {object_, camera_, options_.shape, &carried_}; }
+
+    double excessOf(std::size_t i) const {
+        BoxReader reader = shown();
+        return boxes_.deviation(i, reader);
+    }
 
     void measure(std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) excess_[i] = excessOf(i);
-        for (const std::size_t i : given_up_) excess_[i] = 0;
-    }
-
-    std::size_t worstBox() const {
-        return static_cast<std::size_t>(std::max_element(excess_.begin(), excess_.end()) - excess_.begin());
-    }
-
-    std::size_t boxFrom(FrameIndex frame) const {
-        return static_cast<std::size_t>(
-            std::lower_bound(boxes_.begin(), boxes_.end(), frame,
-                             [](const FrameBox& box, FrameIndex f) { return box.frame < f; }) -
-            boxes_.begin());
+        BoxReader reader = shown();
+        for (std::size_t i = first; i < last; ++i) excess_.set(i, given_up_[i] ? 0 : boxes_.deviation(i, reader));
     }
 
     /// The dense boxes that keyframe i can reach: three pieces to either side.
     std::pair<std::size_t, std::size_t> reachOf(std::size_t keyframe) const {
-        constexpr std::size_t kReach = 3;
         const auto& keyframes = object_.keyframes;
-        const std::size_t first = keyframe > kReach ? boxFrom(keyframes[keyframe - kReach].frame) : 0;
+        const std::size_t first = keyframe > kReach ? boxes_.from(keyframes[keyframe - kReach].frame) : 0;
         const std::size_t last =
-            keyframe + kReach < keyframes.size() ? boxFrom(keyframes[keyframe + kReach].frame) : boxes_.size();
+            keyframe + kReach < keyframes.size() ? boxes_.from(keyframes[keyframe + kReach].frame) : boxes_.size();
         return {first, last};
     }
 
     void measureAround(std::size_t keyframe) {
-        const auto [first, last] = reachOf(std::min(keyframe, object_.keyframes.size() - 1));
+        const auto [first, last] = reachOf(keyframe);
         measure(first, last);
     }
 
@@ -115,7 +114,7 @@ class Reducer {
         const auto here = static_cast<std::size_t>(place - keyframes.begin());
         // The path has changed, and with it the headings that follow it.
         for (std::size_t i = here > 0 ? here - 1 : 0; i <= here + 1 && i < keyframes.size(); ++i) {
-            const std::size_t dense = boxFrom(keyframes[i].frame);
+            const std::size_t dense = boxes_.from(keyframes[i].frame);
             if (dense < boxes_.size() && boxes_[dense].frame == keyframes[i].frame && excessOf(dense) > 1) {
                 setHeading(keyframes[i], boxes_[dense]);
             }
@@ -133,46 +132,54 @@ class Reducer {
         auto& keyframes = object_.keyframes;
         const Keyframe kept = keyframes[i];
         const auto [first, last] = reachOf(i);
+        // Between its neighbours it is missed most.
+        const std::size_t low = boxes_.from(keyframes[i - 1].frame);
+        const std::size_t high = i + 1 < keyframes.size() ? boxes_.from(keyframes[i + 1].frame) : last;
         keyframes.erase(keyframes.begin() + static_cast<std::ptrdiff_t>(i));
-        for (std::size_t k = first; k < last; ++k) {
-            if (excess_[k] <= 1 && !isGivenUp(k) && excessOf(k) > 1) {
-                keyframes.insert(keyframes.begin() + static_cast<std::ptrdiff_t>(i), kept);
-                return false;
-            }
+        if (!staysGood(low, high) || !staysGood(first, low) || !staysGood(high, last)) {
+            keyframes.insert(keyframes.begin() + static_cast<std::ptrdiff_t>(i), kept);
+            return false;
         }
         measure(first, last);
         return true;
     }
 
-    bool isGivenUp(std::size_t box) const {
-        return std::find(given_up_.begin(), given_up_.end(), box) != given_up_.end();
+    /// Whether boxes that were within the tolerance are still.
+    bool staysGood(std::size_t first, std::size_t last) const {
+        BoxReader reader = shown();
+        for (std::size_t k = first; k < last; ++k) {
+            if (excess_[k] <= 1 && !given_up_[k] && boxes_.deviation(k, reader) > 1) return false;
+        }
+        return true;
     }
 
-    /// The largest excess in a range; stops looking beyond `enough`.
-    double worstIn(std::size_t first, std::size_t last, double enough) const {
+    /// The largest excess in a range; any that is no less than `enough` where there is one.
+    double worstIn(std::size_t first, std::size_t last, double enough) {
+        BoxReader reader = shown();
         double worst = 0;
+        // What one place for a keyframe leaves far off, the next often does, too.
+        if (suspect_ >= first && suspect_ < last && !given_up_[suspect_]) worst = boxes_.deviation(suspect_, reader);
         for (std::size_t i = first; i < last && worst < enough; ++i) {
-            if (!isGivenUp(i)) worst = std::max(worst, excessOf(i));
+            if (given_up_[i]) continue;
+            const double excess = boxes_.deviation(i, reader);
+            if (excess > worst) {
+                worst = excess;
+                suspect_ = i;
+            }
         }
         return worst;
     }
 
     void tryShifted(std::size_t i) {
         auto& keyframes = object_.keyframes;
+        const std::vector<std::size_t> places = placesBeside(i);
+        if (places.empty()) return;
         const auto [first, last] = reachOf(i);
-        const FrameIndex low = keyframes[i - 1].frame;
-        const FrameIndex high = keyframes[i + 1].frame;
-        const FrameIndex here = keyframes[i].frame;
         Keyframe best = keyframes[i];
         double least = worstIn(first, last, std::numeric_limits<double>::max());
-        constexpr int kPlaces = 8;
-        for (int k = -kPlaces; k <= kPlaces; ++k) {
-            const std::size_t there = boxFrom(here + (k < 0 ? here - low : high - here) * k / (2 * kPlaces));
-            if (there >= boxes_.size()) continue;
-            const FrameBox& box = boxes_[there];
-            if (box.frame <= low || box.frame >= high || box.frame == here) continue;
-            keyframes[i].frame = box.frame;
-            keyframes[i].box = box.box;
+        for (const std::size_t there : places) {
+            keyframes[i].frame = boxes_[there].frame;
+            keyframes[i].box = boxes_[there].box;
             const double worst = worstIn(first, last, least);
             if (worst < least - 1e-9) {
                 least = worst;
@@ -183,13 +190,35 @@ class Reducer {
         measure(first, last);
     }
 
+    /// Boxes between its neighbours that a keyframe could be at instead.
+    std::vector<std::size_t> placesBeside(std::size_t i) const {
+        const auto& keyframes = object_.keyframes;
+        const FrameIndex low = keyframes[i - 1].frame;
+        const FrameIndex high = keyframes[i + 1].frame;
+        const FrameIndex here = keyframes[i].frame;
+        std::vector<std::size_t> places;
+        constexpr int kPlaces = 8;
+        for (int k = -kPlaces; k <= kPlaces; ++k) {
+            const std::size_t there = boxes_.from(here + (k < 0 ? here - low : high - here) * k / (2 * kPlaces));
+            if (there >= boxes_.size()) continue;
+            const FrameIndex frame = boxes_[there].frame;
+            const bool tried = !places.empty() && places.back() == there;
+            if (frame > low && frame < high && frame != here && !tried) places.push_back(there);
+        }
+        return places;
+    }
+
+    static constexpr std::size_t kReach = 3;  ///< keyframes to either side up to which one has an influence
     LabelledObject object_;
-    const std::vector<FrameBox>& boxes_;
+    DenseBoxes boxes_;
     const CameraMotion& camera_;
+    mutable CarriedBoxes carried_;
     const ReductionOptions& options_;
     bool set_headings_;
-    std::vector<double> excess_;
-    std::vector<std::size_t> given_up_;
+    Deviations excess_;
+    std::vector<char> given_up_;  ///< boxes that the interpolation cannot be told any better
+    bool all_within_ = true;      ///< there is none such
+    std::size_t suspect_;         ///< box that was off most when a place was tried last
 };
 
 LabelledObject startOf(const std::vector<FrameBox>& boxes, bool set_headings) {
@@ -242,8 +271,9 @@ ReductionError reductionError(const LabelledObject& object, const std::vector<Fr
                               const CameraMotion& camera, PathShape shape) {
     ReductionError error;
     double worst = -1;
+    BoxReader shown(object, camera, shape);
     for (const FrameBox& box : boxes) {
-        const LabelledBox found = boxAt(object, box.frame, camera, shape);
+        const LabelledBox found = shown.at(box.frame);
         const double corner =
             found.exists() ? cornerDistance(found.box, box.box) : std::numeric_limits<double>::infinity();
         error.min_overlap = std::min(error.min_overlap, found.exists() ? overlap(found.box, box.box) : 0);

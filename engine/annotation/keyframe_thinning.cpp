@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "annotation/dense_boxes.h"
+
 namespace eyrie {
 namespace {
 
@@ -14,7 +16,7 @@ class Thinner {
  public:
     Thinner(LabelledObject object, const std::vector<FrameBox>& boxes, const CameraMotion& camera,
             const ReductionOptions& options)
-        : object_(std::move(object)), boxes_(boxes), camera_(camera), options_(options) {}
+        : object_(std::move(object)), boxes_(boxes, options), camera_(camera), options_(options) {}
 
     bool takeOneOut() {
         for (std::size_t i = object_.keyframes.size(); i-- > 1;) {
@@ -33,27 +35,22 @@ class Thinner {
         std::size_t step = 1;
     };
 
-    std::size_t boxFrom(FrameIndex frame) const {
-        const auto place = std::lower_bound(boxes_.begin(), boxes_.end(), frame,
-                                            [](const FrameBox& box, FrameIndex f) { return box.frame < f; });
-        return static_cast<std::size_t>(place - boxes_.begin());
-    }
-
     /// Boxes that the keyframes [low, high] can change.
     Range reachOf(std::size_t low, std::size_t high) const {
         constexpr std::size_t kReach = 3;
         const Keyframes& keyframes = object_.keyframes;
         Range range{0, boxes_.size(), 1};
-        if (low > kReach) range.first = boxFrom(keyframes[low - kReach].frame);
-        if (high + kReach < keyframes.size()) range.last = boxFrom(keyframes[high + kReach].frame);
+        if (low > kReach) range.first = boxes_.from(keyframes[low - kReach].frame);
+        if (high + kReach < keyframes.size()) range.last = boxes_.from(keyframes[high + kReach].frame);
         return range;
     }
 
     /// How much the tolerance is exceeded, over all boxes; looks no further once that is `enough`.
     double violation(const Range& range, double enough = std::numeric_limits<double>::max()) const {
         double sum = 0;
+        BoxReader shown(object_, camera_, options_.shape);
         for (std::size_t i = range.first; i < range.last && sum < enough; i += range.step) {
-            sum += std::max(0.0, std::min(deviationOf(object_, boxes_[i], camera_, options_), 1e6) - 1);
+            sum += std::max(0.0, std::min(boxes_.deviation(i, shown), 1e6) - 1);
         }
         return sum;
     }
@@ -103,7 +100,7 @@ class Thinner {
         const Keyframes& keyframes = object_.keyframes;
         const Keyframe& now = keyframes[k];
         std::vector<Keyframe> offers;
-        const std::size_t own = boxFrom(now.frame);
+        const std::size_t own = boxes_.from(now.frame);
         if (!options_.headings_set && own < boxes_.size() && boxes_[own].frame == now.frame) {
             Keyframe other = now;
             other.heading_set = !now.heading_set;
@@ -118,8 +115,8 @@ class Thinner {
         for (int step = 1; step <= kPlaces; ++step) {
             // Half, quarter … of the way to the neighbours in later rounds.
             const double share = static_cast<double>(step) / kPlaces / std::max(1, round);
-            places.insert(boxFrom(now.frame + static_cast<FrameIndex>(std::lround((high - now.frame) * share))));
-            places.insert(boxFrom(now.frame - static_cast<FrameIndex>(std::lround((now.frame - low) * share))));
+            places.insert(boxes_.from(now.frame + static_cast<FrameIndex>(std::lround((high - now.frame) * share))));
+            places.insert(boxes_.from(now.frame - static_cast<FrameIndex>(std::lround((now.frame - low) * share))));
         }
         if (own > 0) places.insert(own - 1);
         places.insert(own + 1);
@@ -135,33 +132,12 @@ class Thinner {
     }
 
     LabelledObject object_;
-    const std::vector<FrameBox>& boxes_;
+    DenseBoxes boxes_;
     const CameraMotion& camera_;
     const ReductionOptions& options_;
 };
 
-double cornerDistance(const OrientedBox& a, const OrientedBox& b) {
-    const auto p = a.corners();
-    const auto q = b.corners();
-    double worst = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) worst = std::max(worst, std::hypot(p[i].x - q[i].x, p[i].y - q[i].y));
-    return worst;
-}
-
 }  // namespace
-
-double deviationOf(const LabelledObject& object, const FrameBox& box, const CameraMotion& camera,
-                   const ReductionOptions& options) {
-    const LabelledBox found = boxAt(object, box.frame, camera, options.shape);
-    if (!found.exists()) return std::numeric_limits<double>::max();
-    double deviation = 0;
-    if (options.tolerance_px > 0) deviation = cornerDistance(found.box, box.box) / options.tolerance_px;
-    if (options.min_overlap > 0) {
-        const double missing = 1 - overlap(found.box, box.box);
-        deviation = std::max(deviation, missing / std::max(1e-9, 1 - options.min_overlap));
-    }
-    return deviation;
-}
 
 LabelledObject thinned(LabelledObject object, const std::vector<FrameBox>& boxes, const CameraMotion& camera,
                        const ReductionOptions& options) {

@@ -6,10 +6,6 @@
 
 namespace eyrie {
 
-/// How far a dense box is from an object's interpolation: 1 at the tolerance, more beyond it.
-double deviationOf(const LabelledObject& object, const FrameBox& box, const CameraMotion& camera,
-                   const ReductionOptions& options);
-
 /// Takes keyframes out of an object that keeps the tolerance, one at a time, while those beside the one taken out can
 /// be moved (and their headings set or left to the path) so that the rest does it without it. The first keyframe
 /// stays where it is.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/local_map.h"
 
 namespace eyrie {
 
@@ -15,19 +16,8 @@ cv::Point2d Homography::apply(cv::Point2d point) const {
             (m(1, 0) * point.x + m(1, 1) * point.y + m(1, 2)) / w};
 }
 
-namespace {
-
-cv::Matx22d jacobianAt(const cv::Matx33d& m, cv::Point2d p, cv::Point2d mapped) {
-    const double w = m(2, 0) * p.x + m(2, 1) * p.y + m(2, 2);
-    return {(m(0, 0) - mapped.x * m(2, 0)) / w, (m(0, 1) - mapped.x * m(2, 1)) / w, (m(1, 0) - mapped.y * m(2, 0)) / w,
-            (m(1, 1) - mapped.y * m(2, 1)) / w};
-}
-
-}  // namespace
-
 cv::Point2d Homography::applyToVector(cv::Point2d point, cv::Point2d vector) const {
-    const cv::Matx22d j = jacobianAt(matrix, point, apply(point));
-    return {j(0, 0) * vector.x + j(0, 1) * vector.y, j(1, 0) * vector.x + j(1, 1) * vector.y};
+    return LocalMap(matrix, point).vector(vector);
 }
 
 Homography Homography::inverse() const {
@@ -45,13 +35,11 @@ Homography Homography::inverse() const {
 }
 
 double Homography::scaleAt(cv::Point2d point) const {
-    const cv::Matx22d j = jacobianAt(matrix, point, apply(point));
-    return std::sqrt(std::abs(j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0)));
+    return LocalMap(matrix, point).scale();
 }
 
 double Homography::turned(cv::Point2d point, double heading) const {
-    const cv::Point2d v = applyToVector(point, {std::cos(heading), std::sin(heading)});
-    return std::atan2(v.y, v.x);
+    return LocalMap(matrix, point).turned(heading);
 }
 
 Homography operator*(const Homography& c_from_b, const Homography& b_from_a) {

@@ -49,7 +49,11 @@ cv::Point2d OrientedBox::direction() const {
 std::array<cv::Point2d, 4> OrientedBox::corners() const {
     const double l = length / 2;
     const double w = width / 2;
-    return {toImage({-l, -w}), toImage({l, -w}), toImage({l, w}), toImage({-l, w})};
+    const cv::Point2d d = direction();
+    const auto at = [&](double x, double y) {
+        return cv::Point2d(centre.x + x * d.x - y * d.y, centre.y + x * d.y + y * d.x);
+    };
+    return {at(-l, -w), at(l, -w), at(l, w), at(-l, w)};
 }
 
 cv::Point2d OrientedBox::toBox(cv::Point2d point) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <opencv2/core/utility.hpp>
+#include <utility>
 
 #include "annotation/keyframe_reduction.h"
 #include "core/upright.h"
@@ -71,6 +73,19 @@ void reduceObject(LabelledObject& object, const Track& track, const CameraMotion
         keyframe.ignore = (*found)->ignore;
         keyframe.occlusion = (*found)->occlusion;
     }
+}
+
+/// All objects, each by itself on whatever core is free.
+void reduceObjects(std::map<ObjectId, LabelledObject>& objects, const std::map<int, Track>& tracks,
+                   const CameraMotion& camera, const ReductionOptions& options) {
+    std::vector<std::pair<LabelledObject*, const Track*>> all;
+    for (auto& [id, object] : objects) all.emplace_back(&object, &tracks.at(id));
+    cv::parallel_for_({0, static_cast<int>(all.size())}, [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            const auto& [object, track] = all[static_cast<std::size_t>(i)];
+            reduceObject(*object, *track, camera, options);
+        }
+    });
 }
 
 /// What lies behind the end of the video is left out.
@@ -169,7 +184,7 @@ LabelImport planImport(const LabelFile& file, const SequenceRecord& sequence, co
         }
         ReductionOptions options;
         options.tolerance_px = tolerance_px;
-        for (auto& [id, object] : imported.annotations.objects) reduceObject(object, tracks.at(id), camera, options);
+        reduceObjects(imported.annotations.objects, tracks, camera, options);
         if (camera.empty()) {
             result.notes.emplace_back(
                 "the video was never registered, so keyframes were chosen for motion in the image");
