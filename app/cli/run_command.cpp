@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "chain/run_resume.h"
 #include "chain/scale_estimation.h"
 #include "cli/annotator.h"
 #include "cli/command.h"
@@ -11,6 +12,7 @@
 #include "cli/input.h"
 #include "cli/interrupt.h"
 #include "cli/preset_arguments.h"
+#include "cli/run_choice.h"
 #include "cli/run_report.h"
 #include "core/error.h"
 #include "io/box_csv.h"
@@ -31,6 +33,9 @@ struct Arguments {
     std::string detections_csv;
     std::string annotated;
     std::string timing;
+    bool resume = false;
+    std::optional<int> run_id;
+    bool preset_given = false;
     bool quiet = false;
 };
 
@@ -46,6 +51,14 @@ class ConsoleObserver : public ChainObserver {
     }
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override {
         if (writer_) writer_->write(annotator_.draw(frame, *result));
+    }
+    /// Draws frames that the project holds, as if they were done now.
+    void drawStored(const RunStore& store, int run_id, FrameSource& source, FrameRange frames,
+                    const std::stop_token& stop) {
+        for (FrameIndex frame = frames.first; writer_ && frame <= frames.last && !stop.stop_requested(); ++frame) {
+            const auto result = store.frameResult(run_id, frame);
+            if (result) writer_->write(annotator_.draw(source.read(frame, true), *result));
+        }
     }
     void onProgress(const RunProgress& progress) override {
         if (quiet_) return;
@@ -92,48 +105,150 @@ std::filesystem::path projectPath(const Arguments& arguments) {
     return (stem.empty() || stem == "." || stem == ".." ? "video" : stem) + ".eyrie";
 }
 
-int run(const Arguments& arguments) {
-    if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
-    if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
+/// A run that has ended, and what is to be told of it.
+struct EndedRun {
+    RunRecord record;
+    RunSummary summary;
+};
+
+EndedRun runAnew(const Arguments& arguments, FrameSource& source, const std::filesystem::path& project,
+                 const InterruptGuard& interrupt) {
     const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
     const FrameRange range{frames.first, frames.last};
     const ChainOptions options = arguments.preset.options();
-    const InterruptGuard interrupt;
-    const auto source = openInput(arguments.input, arguments.frame_rate_hz.value_or(0), interrupt.token());
-    const VideoInfo& video = source->info();
-    const std::filesystem::path project = projectPath(arguments);
-
+    const VideoInfo& video = source.info();
     checkRange(range, video);
+    if (!arguments.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
+        std::fputs("GSD unknown: looking at the traffic for the scale\n", stderr);
+    }
+    const SceneScale scale = scaleOf(source, range, options, arguments, interrupt.token());
+    RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
+    planned.name = arguments.name;
+    ConsoleObserver console(arguments, video);
+    RunRecorder recorder(project, planned, options, &console);
+    EndedRun ended;
+    ended.summary =
+        ChainRun(options, scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
+    ended.record = recorder.finish(ended.summary);
+    return ended;
+}
+
+void tellWhereItGoesOn(const ResumedRun& resumed) {
+    const int done = resumed.last_done - resumed.run.first_frame + 1;
+    const int total = resumed.run.last_frame - resumed.run.first_frame + 1;
+    const std::string which = "run " + std::to_string(resumed.run.id);
+    switch (resumed.restart) {
+        case RestartReason::none:
+            std::fprintf(stderr, "going on with %s: %d of %d frames are done\n", which.c_str(), done, total);
+            break;
+        case RestartReason::nothing_kept:
+            std::fprintf(stderr, "%s begins again at its first frame: nothing was kept to go on from\n", which.c_str());
+            break;
+        case RestartReason::damaged_state:
+            std::fprintf(stderr, "%s begins again at its first frame: what was kept to go on from is damaged\n",
+                         which.c_str());
+            break;
+    }
+}
+
+/// A finished run: there is nothing to do but the outputs.
+EndedRun asItIs(const Arguments& arguments, const RunRecord& run, FrameSource& source,
+                const std::filesystem::path& project, const InterruptGuard& interrupt) {
+    if (!arguments.quiet) std::fprintf(stderr, "run %d is finished: nothing is left to do\n", run.id);
+    EndedRun ended{run, {}};
+    ended.summary.outcome = RunOutcome::finished;
+    ended.summary.message.clear();
+    ended.summary.frames_done = ended.summary.frames_total = run.frames_done;
+    ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+    const RunStore store(file);
+    for (const FrameSummary& frame : store.frameSummaries(run.id)) {
+        if (frame.state == RegistrationState::failed) ++ended.summary.unregistered_frames;
+    }
+    ConsoleObserver console(arguments, source.info());
+    console.drawStored(store, run.id, source, {run.first_frame, run.last_frame}, interrupt.token());
+    return ended;
+}
+
+EndedRun goOn(const Arguments& arguments, const RunRecord& run, FrameSource& source,
+              const std::filesystem::path& project, const InterruptGuard& interrupt) {
+    const ResumedRun resumed = resumedRun(project, run.id, source);
+    if (!arguments.quiet) tellWhereItGoesOn(resumed);
+    ConsoleObserver console(arguments, source.info());
+    RunRecorder recorder(project, resumed, &console);
+    if (!arguments.annotated.empty()) {
+        ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+        console.drawStored(RunStore(file), run.id, source, {run.first_frame, resumed.last_done}, interrupt.token());
+    }
+    EndedRun ended;
+    ended.summary =
+        ChainRun(resumed.options, run.scale)
+            .run(source, resumed.range(), recorder, interrupt.token(), !arguments.annotated.empty(), resumed.start);
+    ended.record = recorder.finish(ended.summary);
+    return ended;
+}
+
+/// Which run --resume is about; `source` is the input, if one was given.
+ResumeChoice choiceOf(const Arguments& arguments, const FrameSource* source, const std::filesystem::path& project) {
+    if (source != nullptr && !arguments.run_id && !std::filesystem::exists(project)) return {};
+    ResumeWishes wishes;
+    if (source != nullptr) wishes.video = source->info().path.string();
+    wishes.run = arguments.run_id;
+    wishes.gsd_m_per_px = arguments.gsd_m_per_px;
+    wishes.frame_rate_hz = arguments.frame_rate_hz;
+    if (!arguments.frames.empty()) wishes.frames = parseFrames(arguments.frames);
+    if (arguments.preset_given) wishes.options = arguments.preset.options();
+    ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+    return chooseRun(RunStore(file), project.string(), wishes);
+}
+
+int run(const Arguments& arguments) {
+    if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
+    if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
+    if (!arguments.frames.empty()) parseFrames(arguments.frames);
+    arguments.preset.options();
+    if (arguments.input.empty() && !(arguments.resume && !arguments.project.empty())) {
+        throw Error(ErrorKind::parameter,
+                    "INPUT is missing: name a video, a folder of images or a scene; --resume can do with --project");
+    }
+    if (arguments.run_id && !arguments.resume) {
+        throw Error(ErrorKind::parameter, "--run names the run to go on with; add --resume, or leave it out");
+    }
+    const InterruptGuard interrupt;
+    const std::filesystem::path project = projectPath(arguments);
     for (const std::filesystem::path& file :
          {project, std::filesystem::path(arguments.tracks_csv), std::filesystem::path(arguments.detections_csv),
           std::filesystem::path(arguments.timing), std::filesystem::path(arguments.annotated)})
         checkFolderOf(file);
-    if (!arguments.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
-        std::fputs("GSD unknown: looking at the traffic for the scale\n", stderr);
+    std::unique_ptr<FrameSource> source;
+    if (!arguments.input.empty()) {
+        source = openInput(arguments.input, arguments.frame_rate_hz.value_or(0), interrupt.token());
     }
-    const SceneScale scale = scaleOf(*source, range, options, arguments, interrupt.token());
-    RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
-    planned.name = arguments.name;
-    RunSummary summary;
-    RunRecord record;
-    {
-        ConsoleObserver console(arguments, video);
-        RunRecorder recorder(project, planned, options, &console);
-        summary =
-            ChainRun(options, scale).run(*source, range, recorder, interrupt.token(), !arguments.annotated.empty());
-        record = recorder.finish(summary);
+    ResumeChoice choice;
+    if (arguments.resume) {
+        choice = choiceOf(arguments, source.get(), project);
+        if (!choice.run && !choice.why_new.empty() && !arguments.quiet) {
+            std::fprintf(stderr, "a new run is begun: %s\n", choice.why_new.c_str());
+        }
     }
+    if (!source) source = openInput(choice.run->sequence.path, choice.run->scale.frame_rate_hz, interrupt.token());
+    const auto [record, summary] = !choice.run ? runAnew(arguments, *source, project, interrupt)
+                                   : choice.run->state == RunState::finished
+                                       ? asItIs(arguments, *choice.run, *source, project, interrupt)
+                                       : goOn(arguments, *choice.run, *source, project, interrupt);
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     const RunStore store(file);
     if (!arguments.tracks_csv.empty()) writeResultCsv(arguments.tracks_csv, store.trackBoxes(record.id));
     if (!arguments.detections_csv.empty()) writeResultCsv(arguments.detections_csv, store.detectionBoxes(record.id));
     if (!arguments.timing.empty()) writeTiming(arguments.timing, summary);
-    std::fputs(summaryText(video, record, summary, store.tracks(record.id), project).c_str(), stdout);
+    std::fputs(summaryText(source->info(), record, summary, store.tracks(record.id), project).c_str(), stdout);
     if (!arguments.annotated.empty()) std::printf("Annotated video: %s\n", arguments.annotated.c_str());
     if (summary.outcome == RunOutcome::failed) {
         std::fprintf(stderr, "eyrie-cli: the run failed after %d frames: %s\n", summary.frames_done,
                      summary.message.c_str());
         return exit_input;
+    }
+    if (summary.outcome == RunOutcome::stopped && !arguments.quiet) {
+        std::fprintf(stderr, "stopped; eyrie-cli run --resume --project %s does the rest\n", project.c_str());
     }
     return summary.outcome == RunOutcome::stopped ? exit_stopped : exit_ok;
 }
@@ -144,9 +259,9 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command =
         app.add_subcommand("run", "Find and follow the moving vehicles of a video and store them in a project");
-    command
-        ->add_option("input", arguments->input, "A video file, a folder of images, or scene:NAME for a built-in scene")
-        ->required();
+    command->add_option("input", arguments->input,
+                        "A video file, a folder of images, or scene:NAME for a built-in scene; with --resume and "
+                        "--project it may be left out");
     command->add_option(
         "--project", arguments->project,
         "Project file; made when it does not exist, else a run is added (default: INPUT's name in this folder)");
@@ -154,6 +269,10 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     command->add_option("--fps", arguments->frame_rate_hz,
                         "Frames per second, when the video does not tell or is wrong");
     command->add_option("--frames", arguments->frames, "First and last frame, both included, from 0: A:B, A: or :B");
+    command->add_flag("--resume", arguments->resume,
+                      "Go on with a run that ended early; the result is that of a run that never did. With INPUT: the "
+                      "newest of that video begun with the same options, or a new one");
+    command->add_option("--run", arguments->run_id, "Number of the run to go on with (default: the newest)");
     command->add_option("--name", arguments->name, "A name for the run");
     arguments->preset.addTo(*command);
     command->add_option("--tracks", arguments->tracks_csv, "Write the tracks as CSV");
@@ -161,7 +280,10 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     command->add_option("--annotated", arguments->annotated, "Write the video with everything drawn in (mp4)");
     command->add_option("--timing", arguments->timing, "Write median times per stage as JSON");
     command->add_flag("--quiet", arguments->quiet, "No progress");
-    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+    command->callback([arguments, command, &exit_code] {
+        arguments->preset_given = command->count("--preset") + command->count("--set") > 0;
+        exit_code = run(*arguments);
+    });
 }
 
 }  // namespace eyrie::cli

@@ -22,6 +22,11 @@ class MotionHalf {
     MotionHalf(const ChainOptions& options, const SceneScale& scale);
     FrameMotion next(const Frame& frame, StageTimes& times);
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options and scale.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     Registrar registrar_;
     IndependentMotion independent_motion_;
@@ -53,6 +58,11 @@ class TrackHalf {
     /// Looks once more at what was searched for one cluster of the last frame; several where several stacks fit it.
     std::vector<SearchTrace> trace(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
                                    int index) const;
+
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options and scale.
+    template <class Archive>
+    void transfer(Archive& archive);
 
  private:
     std::vector<MotionCluster> findClusters(const Frame& frame, const FrameMotion& motion);

@@ -7,10 +7,11 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
-#include "chain/chain.h"
+#include "chain/chain_state.h"
 #include "chain/stopwatch.h"
 #include "core/error.h"
 
@@ -28,6 +29,7 @@ struct RegisteredItem {
     Frame frame;
     FrameMotion motion;
     StageTimes times{};
+    std::string motion_state;  ///< of the first half after this frame, where a state is to be kept
 };
 
 /// A short queue between the two halves. Either side can close it; the error of the first half travels with it.
@@ -36,7 +38,7 @@ class ItemQueue {
     /// False when the other side has closed the queue.
     bool push(RegisteredItem item) {
         std::unique_lock lock(mutex_);
-        changed_.wait(lock, [&] { return items_.size() < capacity || closed_; });
+        changed_.wait(lock, [&] { return items_.size() < capacity || unlimited_ || closed_; });
         if (closed_) return false;
         items_.push_back(std::move(item));
         changed_.notify_all();
@@ -61,6 +63,18 @@ class ItemQueue {
         if (error) error_ = std::move(error);
         changed_.notify_all();
     }
+    /// The consumer takes no more one by one: the producer never waits from now on.
+    void letGo() {
+        const std::scoped_lock lock(mutex_);
+        unlimited_ = true;
+        changed_.notify_all();
+    }
+    /// What is left after the producer has ended; nothing when it has failed.
+    std::optional<std::deque<RegisteredItem>> rest() {
+        const std::scoped_lock lock(mutex_);
+        if (error_) return std::nullopt;
+        return std::move(items_);
+    }
     /// The consumer is gone: nothing more is wanted.
     void abandon() {
         const std::scoped_lock lock(mutex_);
@@ -75,31 +89,100 @@ class ItemQueue {
     std::condition_variable changed_;
     std::deque<RegisteredItem> items_;
     bool closed_ = false;
+    bool unlimited_ = false;
     std::exception_ptr error_;
 };
 
-void produce(FrameSource& source, FrameIndex first, FrameIndex last, bool with_colour, MotionHalf& half,
-             ItemQueue& queue, const std::stop_token& stop) {
-    try {
-        for (FrameIndex index = first; index <= last && !stop.stop_requested(); ++index) {
-            RegisteredItem item;
-            {
-                const Stopwatch watch(item.times, Stage::read);
-                item.frame = source.read(index, with_colour);
-            }
-            item.motion = half.next(item.frame, item.times);
-            if (!queue.push(std::move(item))) return;
-        }
-        queue.close();
-    } catch (...) {
-        queue.close(std::current_exception());
+/// Says when a state is to be kept, so that keeping takes its share of the time at most.
+class StateClock {
+ public:
+    explicit StateClock(std::optional<StateKeeping> keeping) : keeping_(keeping) {
+        if (keeping_) next_s_ = keeping_->every_s / 5;  // the first one sooner: short runs are killed, too
     }
-}
+    bool due() {
+        const std::scoped_lock lock(mutex_);
+        const double now = secondsSince(start_);
+        if (!keeping_ || now < next_s_) return false;
+        last_s_ = now;
+        cost_s_ = 0;
+        next_s_ = now + keeping_->every_s;
+        return true;
+    }
+    /// Runs `work` for the state that was due last.
+    template <class Work>
+    auto timed(Work work) {
+        const auto before = Clock::now();
+        auto result = work();
+        const std::scoped_lock lock(mutex_);
+        cost_s_ += secondsSince(before);
+        next_s_ = last_s_ + std::max(keeping_->every_s, cost_s_ / keeping_->most_share);
+        return result;
+    }
+
+ private:
+    std::optional<StateKeeping> keeping_;
+    Clock::time_point start_ = Clock::now();
+    std::mutex mutex_;
+    double last_s_ = 0;
+    double next_s_ = 0;
+    double cost_s_ = 0;
+};
+
+/// Frames with their motion, from where the run was left to its end.
+class Producer {
+ public:
+    Producer(FrameSource& source, FrameRange range, bool with_colour, ChainProgress& progress, StateClock& clock,
+             ItemQueue& queue)
+        : source_(source),
+          range_(range),
+          with_colour_(with_colour),
+          progress_(progress),
+          clock_(clock),
+          queue_(queue) {}
+
+    void work(const std::stop_token& stop) {
+        try {
+            FrameIndex index = range_.first;
+            for (; !progress_.waiting.empty() && !stop.stop_requested(); ++index) {
+                RegisteredItem item = read(index);
+                WaitingMotion& known = progress_.waiting.front();
+                item.motion = std::move(known.motion);
+                item.times = known.times;
+                progress_.waiting.pop_front();
+                if (!queue_.push(std::move(item))) return;
+            }
+            for (; index <= range_.last && !stop.stop_requested(); ++index) {
+                RegisteredItem item = read(index);
+                item.motion = progress_.motion_half.next(item.frame, item.times);
+                if (clock_.due()) item.motion_state = clock_.timed([&] { return stateBytes(progress_.motion_half); });
+                if (!queue_.push(std::move(item))) return;
+            }
+            queue_.close();
+        } catch (...) {
+            queue_.close(std::current_exception());
+        }
+    }
+
+ private:
+    RegisteredItem read(FrameIndex index) {
+        RegisteredItem item;
+        const Stopwatch watch(item.times, Stage::read);
+        item.frame = source_.read(index, with_colour_);
+        return item;
+    }
+
+    FrameSource& source_;
+    FrameRange range_;
+    bool with_colour_;
+    ChainProgress& progress_;
+    StateClock& clock_;
+    ItemQueue& queue_;
+};
 
 /// Frames per second over the last seconds, and what is left.
 class ProgressMeter {
  public:
-    explicit ProgressMeter(int total) : total_(total) {}
+    ProgressMeter(int total, int done) : total_(total), done_(done) {}
     RunProgress frameDone() {
         const auto now = Clock::now();
         recent_.push_back(now);
@@ -117,7 +200,7 @@ class ProgressMeter {
 
  private:
     int total_;
-    int done_ = 0;
+    int done_;
     std::deque<Clock::time_point> recent_;
 };
 
@@ -136,46 +219,71 @@ StageTimes medianOf(const std::vector<StageTimes>& frames) {
 }  // namespace
 
 RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& observer, std::stop_token stop,
-                         bool with_colour) const {
+                         bool with_colour, RunStart from) const {
     const auto start = Clock::now();
     RunSummary summary;
     summary.message.clear();
     std::vector<StageTimes> times;
     try {
         const int count = source.info().frame_count;
-        const FrameIndex last = range.last < 0 ? count - 1 : range.last;
-        if (range.first < 0 || last >= count || range.first > last) {
-            throw Error(ErrorKind::parameter, "frames " + std::to_string(range.first) + " to " + std::to_string(last) +
-                                                  " are not in " + source.info().path.string() +
-                                                  ", which has frames 0 to " + std::to_string(count - 1));
+        if (range.last < 0) range.last = count - 1;
+        if (range.first < 0 || range.last >= count || range.first > range.last) {
+            throw Error(ErrorKind::parameter,
+                        "frames " + std::to_string(range.first) + " to " + std::to_string(range.last) + " are not in " +
+                            source.info().path.string() + ", which has frames 0 to " + std::to_string(count - 1));
         }
-        summary.frames_total = last - range.first + 1;
-        MotionHalf motion_half(options_, scale_);
-        TrackHalf track_half(options_, scale_);
+        summary.frames_total = range.last - range.first + 1;
+        summary.unregistered_frames = from.unregistered_frames;
+        const bool anew = !from.progress;
+        const auto progress = anew ? std::make_shared<ChainProgress>(options_, scale_) : std::move(from.progress);
+        if (anew) progress->last_done = range.first - 1;
+        summary.frames_done = progress->last_done - range.first + 1;
         ItemQueue queue;
-        ProgressMeter meter(summary.frames_total);
+        StateClock clock(observer.stateKeeping());
+        ProgressMeter meter(summary.frames_total, summary.frames_done);
+        Producer first_half(source, {progress->last_done + 1, range.last}, with_colour, *progress, clock, queue);
         // Frame t+1 is registered on this thread while frame t is segmented and tracked below.
-        std::jthread producer([&] { produce(source, range.first, last, with_colour, motion_half, queue, stop); });
+        std::jthread producer([&] { first_half.work(stop); });
         struct Abandon {
             ItemQueue& queue;
             ~Abandon() { queue.abandon(); }
         } abandon_on_exit{queue};
+        const auto keepState = [&](std::string motion_half) {
+            observer.onState(
+                {progress->last_done, packedState({progress->last_done, std::move(motion_half),
+                                                   stateBytes(progress->waiting), stateBytes(progress->track_half)},
+                                                  options_, scale_)});
+            return true;
+        };
         while (!stop.stop_requested()) {
             std::optional<RegisteredItem> item = queue.pop();
             if (!item) break;
-            const auto result =
-                std::make_shared<const FrameResult>(track_half.next(item->frame, std::move(item->motion), item->times));
+            const auto result = std::make_shared<const FrameResult>(
+                progress->track_half.next(item->frame, std::move(item->motion), item->times));
             if (!result->motion.registration.reliable() &&
                 result->motion.registration.state != RegistrationState::first) {
                 ++summary.unregistered_frames;
             }
             observer.onFrame(result, item->frame);
+            progress->last_done = item->frame.index;
             times.push_back(result->stage_ms);
-            const RunProgress progress = meter.frameDone();
-            summary.frames_done = progress.frames_done;
-            observer.onProgress(progress);
+            const RunProgress news = meter.frameDone();
+            summary.frames_done = news.frames_done;
+            if (!item->motion_state.empty()) clock.timed([&] { return keepState(std::move(item->motion_state)); });
+            observer.onProgress(news);
         }
         summary.outcome = summary.frames_done == summary.frames_total ? RunOutcome::finished : RunOutcome::stopped;
+        if (summary.outcome == RunOutcome::stopped && summary.frames_done > 0 && observer.stateKeeping()) {
+            // The first half is some frames ahead: these wait until the run goes on.
+            queue.letGo();
+            producer.join();
+            if (auto rest = queue.rest()) {
+                for (auto item = rest->rbegin(); item != rest->rend(); ++item) {
+                    progress->waiting.push_front({std::move(item->motion), item->times});
+                }
+                keepState(stateBytes(progress->motion_half));
+            }
+        }
     } catch (const std::exception& error) {
         summary.outcome = RunOutcome::failed;
         summary.message = error.what();

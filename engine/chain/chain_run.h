@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -20,6 +21,18 @@ struct RunProgress {
     bool estimating_scale = false;  ///< before the run proper: the frames are those of chooseScale's look
 };
 
+/// How often the state of a run is kept.
+struct StateKeeping {
+    double every_s = 5;
+    double most_share = 0.01;  ///< of the time; what takes longer to keep is kept less often
+};
+
+/// All that a run needs to go on after a frame, as bytes; see chain_state.h.
+struct ChainState {
+    FrameIndex last_done = 0;
+    std::string bytes;
+};
+
 /// Receives the results of a run, frame after frame, on the run's own thread. Must not throw anything but Error; an
 /// Error ends the run as failed.
 class ChainObserver {
@@ -27,6 +40,10 @@ class ChainObserver {
     virtual ~ChainObserver() = default;
     virtual void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) = 0;
     virtual void onProgress(const RunProgress&) {}
+    /// Whether onState() is to be called: now and then, and when the run is stopped.
+    virtual std::optional<StateKeeping> stateKeeping() const { return std::nullopt; }
+    /// Comes after onFrame() of the state's frame.
+    virtual void onState(const ChainState&) {}
 };
 
 enum class RunOutcome { finished, stopped, failed };
@@ -42,6 +59,14 @@ struct RunSummary {
     StageTimes median_ms{};  ///< median over the frames
 };
 
+struct ChainProgress;
+
+/// What a run goes on from.
+struct RunStart {
+    std::shared_ptr<ChainProgress> progress;  ///< used up by the run; null: from the first frame
+    int unregistered_frames = 0;              ///< among the frames done before
+};
+
 /// Frames to process, inclusive; last < 0: to the end.
 struct FrameRange {
     FrameIndex first = 0;
@@ -55,9 +80,10 @@ class ChainRun {
     /// The effective scale: `gsd_m_per_px` ≤ 0 means unknown.
     ChainRun(const ChainOptions& options, const SceneScale& scale) : options_(options), scale_(scale) {}
 
-    /// Never throws. `with_colour`: frames handed to the observer carry colour.
+    /// Never throws. `with_colour`: frames handed to the observer carry colour. `start`: where the same range was left
+    /// before; frames count from its beginning, times from now.
     RunSummary run(FrameSource& source, FrameRange range, ChainObserver& observer, std::stop_token stop,
-                   bool with_colour = false) const;
+                   bool with_colour = false, RunStart start = {}) const;
 
  private:
     ChainOptions options_;

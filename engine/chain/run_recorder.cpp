@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "store/project_file.h"
+#include "store/run_state_store.h"
 
 namespace eyrie {
 namespace {
@@ -23,6 +24,22 @@ RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, co
       writer_(project, std::move(run), parameterValues(options)),
       also_(also) {}
 
+RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also)
+    : project_(project),
+      finishing_(resumed.options.finishing),
+      scale_(resumed.run.scale),
+      writer_(project, resumed.run.id, resumed.last_done),
+      also_(also) {
+    ProjectFile file = ProjectFile::open(project);
+    const RunStore store(file);
+    for (const TrackFrame& state : store.trackStatesUpTo(resumed.run.id, resumed.last_done, resumed.last_done + 1)) {
+        states_.emplace_back(state.frame, state.state);
+    }
+    for (const Registration& registration : store.registrations(resumed.run.id)) {
+        motions_.push_back({registration.current_from_previous.to_frame, registration, resumed.run.sequence.size});
+    }
+}
+
 void RunRecorder::onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
     writer_.write(*result);
     for (const auto& state : result->tracks) states_.emplace_back(result->motion.frame, state);
@@ -34,11 +51,17 @@ void RunRecorder::onProgress(const RunProgress& progress) {
     if (also_) also_->onProgress(progress);
 }
 
+void RunRecorder::onState(const ChainState& state) {
+    writer_.keepState(state.last_done, state.bytes);
+}
+
 RunRecord RunRecorder::finish(const RunSummary& summary) {
     const RunState state = summary.outcome == RunOutcome::finished  ? RunState::finished
                            : summary.outcome == RunOutcome::stopped ? RunState::stopped
                                                                     : RunState::failed;
-    writer_.finish(state, summary.message);
+    // Whenever the program is killed here, the run can be gone on with: finished tracks without the others beside them
+    // are those of a finished run.
+    if (state != RunState::finished) writer_.finish(state, summary.message);
     ProjectFile project = ProjectFile::open(project_);
     RunStore store(project);
     std::vector<TrackFrame> finished;
@@ -48,7 +71,9 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
          finishTracks(std::move(states_), motions_, finishing_, scale_, vectors_at, &dropped)) {
         finished.push_back({frame, track_state});
     }
+    RunStateStore(project).keepTracks(writer_.runId());
     store.replaceTrackStates(writer_.runId(), finished, dropped);
+    if (state == RunState::finished) writer_.finish(state, summary.message);
     return store.run(writer_.runId()).value();
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "chain/chain_run.h"
+#include "chain/run_resume.h"
 #include "store/result_writer.h"
 #include "store/run_store.h"
 
@@ -18,9 +19,13 @@ class RunRecorder : public ChainObserver {
     /// planned frames. `also`, if given, sees every frame after it was stored; it must outlive the recorder.
     RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
                 ChainObserver* also = nullptr);
+    /// Goes on with a run that ended early: takes the project's run back to where `resumed` begins.
+    RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also = nullptr);
 
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override;
     void onProgress(const RunProgress& progress) override;
+    std::optional<StateKeeping> stateKeeping() const override { return StateKeeping{}; }
+    void onState(const ChainState& state) override;
 
     int runId() const { return writer_.runId(); }
     /// Finishes the tracks (see finishTracks), closes the run with the summary's outcome and returns its record.

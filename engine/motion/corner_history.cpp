@@ -63,6 +63,12 @@ int CornerHistory::steps(std::size_t i) const {
     return static_cast<int>(std::min<std::int64_t>(step_ - entries_[i].first_step, depth_));
 }
 
+int CornerHistory::longest() const {
+    int longest = 0;
+    for (std::size_t i = 0; i < entries_.size(); ++i) longest = std::max(longest, steps(i));
+    return longest;
+}
+
 cv::Point2f CornerHistory::past(std::size_t i, int n) const {
     return positions_[entries_[i].slot * ring_ + static_cast<std::size_t>(step_ - n) % ring_];
 }

@@ -23,8 +23,15 @@ class CornerHistory {
     int depth() const { return depth_; }
     /// How many pictures back corner `i` of the last `append` is known, 0 … depth.
     int steps(std::size_t i) const;
+    /// The most steps of any corner.
+    int longest() const;
     /// Its position `n` pictures back, 0 ≤ n ≤ steps(i).
     cv::Point2f past(std::size_t i, int n) const;
+
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
 
  private:
     struct Entry {

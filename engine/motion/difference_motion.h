@@ -35,6 +35,11 @@ class DifferenceMotion {
     /// Takes a frame that nobody asks about: later ones are compared with it.
     void remember(const Frame& frame, const FrameMotion& motion) { frames_.add(frame, motion.registration); }
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     DifferenceImage compare() const;
     void findClusters(const FrameMotion& motion, DifferenceResult& result) const;

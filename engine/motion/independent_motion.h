@@ -35,11 +35,19 @@ class IndependentMotion {
     void remember(const RegisteredFrame& registered, const Frame& frame);
     void reset();
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     /// The way from an earlier picture to the newest.
     struct Path {
         Homography current_from_past;
         int frames = 0;  ///< how long ago, not counting frozen ones
+
+        template <class Archive>
+        void transfer(Archive& archive);
     };
     struct Measured {
         int baseline = 0;  ///< frames; 0: too young

@@ -37,10 +37,18 @@ class RegisteredFrames {
     /// … and the way from the newest picture to it.
     Homography pathTo(int back) const { return pictures_.at(static_cast<std::size_t>(back)).newest_from_it.inverse(); }
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     struct Picture {
         cv::Mat gray;
-        Homography newest_from_it;
+        Homography newest_from_it;  ///< its `from_frame` is the picture's frame
+
+        template <class Archive>
+        void transfer(Archive& archive);
     };
     int depth_;
     std::deque<Picture> pictures_;  ///< newest first

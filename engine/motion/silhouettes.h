@@ -43,6 +43,11 @@ class Silhouettes {
     std::vector<MotionVector> infer(const std::vector<MotionVector>& vectors, const std::vector<int>& chosen,
                                     double background_speed_sigma);
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     class Past;
     /// Places (px) on the outline of the silhouette around the corners of one group; none where there is no silhouette.

@@ -70,6 +70,10 @@ class CornerSet {
     }
     void giveBack(int slot) { free_slots_.push_back(slot); }
 
+    /// Corners and patches, written or read; see core/state_archive.h. The set must be made for the same window.
+    template <class Archive>
+    void transfer(Archive& archive);
+
     std::vector<TrackedCorner> corners;
 
  private:

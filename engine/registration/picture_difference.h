@@ -20,6 +20,12 @@ class RepetitionDetector {
     bool repeats(const PictureDifference& difference);
     void reset() { usual_mean_ = -1; }
 
+    /// What it remembers, written or read; see core/state_archive.h.
+    template <class Archive>
+    void transfer(Archive& archive) {
+        archive(usual_mean_);
+    }
+
  private:
     double usual_mean_ = -1;
 };

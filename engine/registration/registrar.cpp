@@ -124,7 +124,7 @@ RegisteredFrame Registrar::next(const Frame& frame, StageTimes* times) {
 
 RegisteredFrame Registrar::firstFrame(const Frame& frame, StageTimes& times) {
     estimator_.emplace(options_.homography, frame.gray.size());
-    Anchor anchor{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0};
+    Anchor anchor{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0, frame.index};
     replenish(anchor, times);
     usual_corners_ = anchor.corners.size();
     RegisteredFrame result;
@@ -250,6 +250,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
     anchor.noise = current_noise_;
     anchor.latest_from_anchor = cv::Matx33d::eye();
     anchor.frames_ago = 0;
+    anchor.frame = frame.index;
     replenish(anchor, times);
     usual_corners_ = 0.9 * usual_corners_ + 0.1 * anchor.corners.size();
 
@@ -266,7 +267,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
 }
 
 RegisteredFrame Registrar::failedFrame(const Frame& frame, const std::string& reason, StageTimes& times) {
-    Anchor fresh{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0};
+    Anchor fresh{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0, frame.index};
     replenish(fresh, times);
     RegisteredFrame result;
     result.frame = frame.index;

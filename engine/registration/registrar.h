@@ -34,6 +34,11 @@ class Registrar {
     /// Forgets the video; the next frame is a first one. Ids go on.
     void reset();
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into a registrar
+    /// of the same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     /// A picture with its corners, onto which later ones are registered.
     struct Anchor {
@@ -42,6 +47,10 @@ class Registrar {
         double noise = 1;
         cv::Matx33d latest_from_anchor = cv::Matx33d::eye();  ///< to the newest frame handed out; a guess if not that
         int frames_ago = 0;                                   ///< how long that is after the anchor
+        FrameIndex frame = 0;                                 ///< whose picture it is
+
+        template <class Archive>
+        void transfer(Archive& archive);
     };
     /// A successful registration of the new picture onto an anchor.
     struct Match {

@@ -32,6 +32,11 @@ class ImageStack {
     cv::Mat stacked(const cv::Rect& part) const;
     cv::Mat stacked() const { return stacked({{0, 0}, size_}); }
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     std::vector<cv::Mat> tilesAt(cv::Point index) const;
     cv::Mat mergeTiles(const cv::Rect& part) const;

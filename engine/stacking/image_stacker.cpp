@@ -236,7 +236,7 @@ void ImageStacker::startFromClusters(const std::vector<Placed>& placed, const st
 }
 
 StackLayer ImageStacker::layerOf(const Frame& frame, const MasterPose& pose) const {
-    return {frame.gray, imageFromPatch(stackArea(pose, area_), area_), area_};
+    return {frame.gray, imageFromPatch(stackArea(pose, area_), area_), area_, frame.index};
 }
 
 void ImageStacker::update(const Frame& frame, const FrameMotion& motion, const std::vector<MotionCluster>& found) {

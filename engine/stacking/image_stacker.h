@@ -78,10 +78,18 @@ class ImageStacker {
     std::vector<StackView> views(const Frame& frame, StackPictures pictures) const;
     void reset();
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     struct Entry {
         MasterVector master;
         ImageStack stack;
+
+        template <class Archive>
+        void transfer(Archive& archive);
     };
     /// A motion vector with the direction its cluster lends it.
     struct Placed {

@@ -40,11 +40,19 @@ class MasterVector {
     /// False when none is left: the master vector is to be deleted (Teutsch §5.3.2).
     bool update(const std::vector<Suggestion>& present);
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     struct Related {
         CornerId id = 0;
         cv::Point2d offset;  // master position in the vector's own axes, px
         double turn = 0;     // master heading minus the vector's direction
+
+        template <class Archive>
+        void transfer(Archive& archive);
     };
     int id_;
     MasterPose pose_;

@@ -16,8 +16,8 @@ int tilesAlong(int side) {
 
 }  // namespace
 
-StackLayer::StackLayer(cv::Mat gray, const cv::Matx23d& image_from_stack, cv::Size area)
-    : gray_(std::move(gray)), image_from_stack_(image_from_stack), area_(area) {
+StackLayer::StackLayer(cv::Mat gray, const cv::Matx23d& image_from_stack, cv::Size area, FrameIndex frame)
+    : gray_(std::move(gray)), image_from_stack_(image_from_stack), area_(area), frame_(frame) {
     if (gray_.type() != CV_8UC1) throw Error(ErrorKind::internal, "a stack layer's image is not of grey values");
     tiles_.resize(static_cast<std::size_t>(tilesAlong(area_.width)) *
                   static_cast<std::size_t>(tilesAlong(area_.height)));

@@ -4,6 +4,8 @@
 #include <opencv2/core/matx.hpp>
 #include <vector>
 
+#include "core/ids.h"
+
 namespace eyrie {
 
 /// Grey value of pixels outside the video image: the middle of the range (Teutsch §5.3.3).
@@ -19,7 +21,8 @@ class StackLayer {
 
     /// `gray`: CV_8UC1 frame, shared, never written from now on. `image_from_stack` maps pixels of the stack area to
     /// image pixels.
-    StackLayer(cv::Mat gray, const cv::Matx23d& image_from_stack, cv::Size area);
+    /// `frame`: whose picture it is, for layers that are kept in a state.
+    StackLayer(cv::Mat gray, const cv::Matx23d& image_from_stack, cv::Size area, FrameIndex frame = 0);
     /// Of ready pixels, CV_8UC1.
     explicit StackLayer(const cv::Mat& pixels);
 
@@ -32,10 +35,16 @@ class StackLayer {
     /// Where tile `index` (column, row) lies in a stack area.
     static cv::Rect tileRect(cv::Point index, cv::Size area);
 
+    /// What is remembered of the picture, written or read; see core/state_archive.h. To be read into one of the
+    /// same area.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     cv::Mat gray_;
     cv::Matx23d image_from_stack_;
     cv::Size area_;
+    FrameIndex frame_;
     bool ready_ = false;          ///< `gray_` is the layer itself
     std::vector<cv::Mat> tiles_;  ///< row by row; empty: not cut so far
 };

@@ -5,6 +5,7 @@
 #include "store/frame_rows.h"
 #include "store/rows.h"
 #include "store/run_lock.h"
+#include "store/run_state_store.h"
 #include "store/sequence_rows.h"
 
 namespace eyrie {
@@ -74,6 +75,19 @@ ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
     });
 }
 
+ResultWriter::ResultWriter(const std::filesystem::path& project, int run_id, FrameIndex last)
+    : implementation_(std::make_unique<Implementation>(project)) {
+    const std::filesystem::path& path = implementation_->project.path();
+    FileLock::Attempt attempt = FileLock::tryTake(runLockFile(path, run_id));
+    if (attempt.outcome == FileLock::Outcome::held) {
+        throw Error(ErrorKind::project, "run " + std::to_string(run_id) + " of " + path.string() +
+                                            " is being written by " + attempt.words + "; let it end there first");
+    }
+    implementation_->lock = std::move(attempt.lock);
+    implementation_->run_id = run_id;
+    RunStateStore(implementation_->project).rewind(run_id, last);
+}
+
 ResultWriter::~ResultWriter() = default;
 
 int ResultWriter::runId() const {
@@ -90,12 +104,25 @@ void ResultWriter::write(const FrameResult& result) {
     });
 }
 
+void ResultWriter::keepState(FrameIndex frame, const std::string& bytes) {
+    implementation_->project.checkInPlace();
+    RunStateStore(implementation_->project).keep(implementation_->run_id, frame, bytes);
+}
+
 void ResultWriter::finish(RunState state, const std::string& message) {
     implementation_->project.checkInPlace();
     guarded(implementation_->project.path(), "recording how the run ended", [&] {
-        SQLite::Statement statement(implementation_->project.database(),
-                                    "UPDATE run SET state = ?, message = ? WHERE id = ?");
+        SQLite::Database& database = implementation_->project.database();
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        SQLite::Statement statement(database, "UPDATE run SET state = ?, message = ? WHERE id = ?");
         RowWriter(statement).word(stored::kRunStates, state).text(message).integer(implementation_->run_id).run();
+        if (state == RunState::finished) {
+            for (const char* table : {"run_state", "unfinished_track_state"}) {
+                SQLite::Statement rest(database, std::string("DELETE FROM ") + table + " WHERE run_id = ?");
+                RowWriter(rest).integer(implementation_->run_id).run();
+            }
+        }
+        transaction.commit();
     });
 }
 

@@ -19,6 +19,9 @@ class ResultWriter {
     /// `run.sequence.id`, `run.started_utc` (when empty) are filled in. Throws Error(project | output).
     ResultWriter(const std::filesystem::path& project, RunRecord run,
                  const std::vector<std::pair<std::string, std::string>>& parameters);
+    /// Goes on with a run that ended early, from the frame after `last`; see RunStateStore::rewind. Throws
+    /// Error(project | output), also when another program writes it.
+    ResultWriter(const std::filesystem::path& project, int run_id, FrameIndex last);
     /// Leaves the state `running` unless finish() was called.
     ~ResultWriter();
     ResultWriter(const ResultWriter&) = delete;
@@ -28,7 +31,9 @@ class ResultWriter {
     /// Every frame once. Throws Error(output) when the disk is full, Error(project) when the run was removed meanwhile;
     /// frames written before stay.
     void write(const FrameResult& result);
-    /// Records how the run ended.
+    /// Keeps what the chain remembers after a frame that was written, for going on with the run. The same errors.
+    void keepState(FrameIndex frame, const std::string& bytes);
+    /// Records how the run ended. What is kept for going on with it goes when it is finished.
     void finish(RunState state, const std::string& message);
 
  private:

@@ -269,8 +269,34 @@ void addRemovalOfRuns(SQLite::Database& database) {
     database.exec("ALTER TABLE run ADD COLUMN removed_utc TEXT NOT NULL DEFAULT ''");
 }
 
-constexpr std::array kMigrations{
-    addRuns, addLabels, addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates, addRemovalOfRuns};
+// What a run that ended early needs to be gone on with: the state of the chain after some frame (written by
+// engine/chain), and the tracks as they were before they were finished.
+void addRunStates(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE run_state (
+    run_id INTEGER PRIMARY KEY REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    data BLOB NOT NULL
+);
+CREATE TABLE unfinished_track_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    status TEXT NOT NULL,
+    origin TEXT NOT NULL,
+    age INTEGER NOT NULL,
+    hits INTEGER NOT NULL,
+    score REAL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+)sql");
+}
+
+constexpr std::array kMigrations{addRuns,          addLabels,   addComparisonsAndCompleteBoxes,
+                                 addSweeps,        addPresets,  addDroppedStates,
+                                 addRemovalOfRuns, addRunStates};
 
 }  // namespace
 

@@ -25,10 +25,18 @@ class AppearanceMemory {
     void forget(TrackId track) { templates_.erase(track); }
     void clear() { templates_.clear(); }
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     struct Template {
         cv::Mat chip;  ///< CV_8UC1, length × width at one chip pixel per image pixel
         OrientedBox box;
+
+        template <class Archive>
+        void transfer(Archive& archive);
     };
 
     double agreement_;

@@ -76,6 +76,11 @@ class BoxKalmanFilter {
     const State& state() const { return state_; }
     const Covariance& covariance() const { return covariance_; }
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     void keepSane();
 

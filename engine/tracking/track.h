@@ -35,6 +35,11 @@ struct Track {
     explicit Track(const BoxMeasurement& first) : filter(first) {}
     /// As the rest of the chain sees it.
     TrackState state() const;
+
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
 };
 
 }  // namespace eyrie

@@ -31,6 +31,11 @@ class Tracker {
     /// Forgets all tracks; ids start from 1 again.
     void reset();
 
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
  private:
     void coastThroughFrozen();
     void coastThroughFailed(const FrameMotion& motion);

@@ -48,17 +48,27 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const std::s
     int run_id = 0;
     try {
         const auto source = request.media.open({}, stop);
-        const SceneScale scale = chooseScale(*source, request.range, request.options, request.gsd_m_per_px, stop,
-                                             [&feed](const RunProgress& progress) { feed.onProgress(progress); });
-        RunRecord record = plannedRun(source->info(), scale, request.range, request.preset);
-        record.name = request.name;
-        record.sequence.path = request.media.identity;
-        RunRecorder recorder(request.project, record, request.options, &feed);
-        run_id = recorder.runId();
-        record.id = run_id;
-        queuedCall(this, [this, record] { emit started(record); });
-        summary = ChainRun(request.options, scale).run(*source, request.range, recorder, stop, true);
-        recorder.finish(summary);
+        if (request.resume_run > 0) {
+            const ResumedRun resumed = resumedRun(request.project, request.resume_run, *source);
+            RunRecorder recorder(request.project, resumed, &feed);
+            run_id = resumed.run.id;
+            queuedCall(this, [this, record = resumed.run] { emit started(record); });
+            summary = ChainRun(resumed.options, resumed.run.scale)
+                          .run(*source, resumed.range(), recorder, stop, true, resumed.start);
+            recorder.finish(summary);
+        } else {
+            const SceneScale scale = chooseScale(*source, request.range, request.options, request.gsd_m_per_px, stop,
+                                                 [&feed](const RunProgress& progress) { feed.onProgress(progress); });
+            RunRecord record = plannedRun(source->info(), scale, request.range, request.preset);
+            record.name = request.name;
+            record.sequence.path = request.media.identity;
+            RunRecorder recorder(request.project, record, request.options, &feed);
+            run_id = recorder.runId();
+            record.id = run_id;
+            queuedCall(this, [this, record] { emit started(record); });
+            summary = ChainRun(request.options, scale).run(*source, request.range, recorder, stop, true);
+            recorder.finish(summary);
+        }
     } catch (const std::exception& error) {
         summary.outcome = stop.stop_requested() && run_id == 0 ? RunOutcome::stopped : RunOutcome::failed;
         summary.message = error.what();

@@ -25,6 +25,7 @@ struct RunRequest {
     double gsd_m_per_px = 0;  ///< ≤ 0: not known
     FrameRange range;
     int trail_length = 40;
+    int resume_run = 0;  ///< > 0: goes on with this run of the project; options, scale, range and name are the run's
 };
 
 /// The only object of the window that starts the engine. One run at a time, on its own thread; what it finds goes into

@@ -1,0 +1,89 @@
+// What the registrar remembers between frames, as bytes and back.
+#include <cmath>
+
+#include "core/state_values.h"
+#include "registration/registrar.h"
+
+namespace eyrie {
+namespace {
+
+bool usable(cv::Point2f p) {
+    constexpr float kFar = 1e6F;  // px
+    return std::abs(p.x) < kFar && std::abs(p.y) < kFar;
+}
+
+cv::Mat headerOf(const PaddedPicture& picture) {
+    return {picture.height(), picture.width(), CV_8UC1, const_cast<std::uint8_t*>(picture.row(0)),
+            static_cast<std::size_t>(picture.stride())};
+}
+
+}  // namespace
+
+template <class Archive>
+void transfer(Archive& archive, LocalTurn& turn) {
+    archive(turn.xx, turn.xy, turn.yx, turn.yy);
+}
+
+/// All but the slot, which is only a place in memory.
+template <class Archive>
+void transfer(Archive& archive, TrackedCorner& corner) {
+    archive(corner.id, corner.position, corner.offset, corner.velocity, corner.drift, corner.turn, corner.patch_turn,
+            corner.position_variance, corner.residual, corner.age, corner.patch_age, corner.on_background,
+            corner.moves);
+    archive.require(usable(corner.position) && usable(corner.offset) && usable(corner.velocity) && corner.age >= 0,
+                    "a corner that cannot be");
+}
+
+template <class Archive>
+void CornerSet::transfer(Archive& archive) {
+    int window = window_;
+    archive(window, corners);
+    archive.require(window == window_, "corners of another window");
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        TrackedCorner& corner = corners[i];
+        archive.require(i == 0 || corners[i - 1].id < corner.id, "corners in disorder");
+        if constexpr (Archive::reading) corner.slot = takeSlot();
+        archive.numbers(patch(corner), std::size_t(patchSamples(window_)));
+        archive.numbers(surrounding(corner), std::size_t(surroundingSamples(window_)));
+    }
+}
+
+template <class Archive>
+void Registrar::Anchor::transfer(Archive& archive) {
+    if constexpr (Archive::reading) {
+        pyramid.build(archive.picture(frame, {}));
+    } else {
+        archive.picture(frame, headerOf(pyramid.level(0)));
+    }
+    corners.transfer(archive);
+    archive(noise, latest_from_anchor, frames_ago);
+}
+
+template <class Archive>
+void Registrar::transfer(Archive& archive) {
+    const auto anchor = [&](std::optional<Anchor>& one) {
+        bool there = one.has_value();
+        archive(there);
+        if constexpr (Archive::reading) {
+            one.reset();
+            if (there) one.emplace(Anchor{{}, CornerSet(tracker_.window())});
+        }
+        if (one) one->transfer(archive);
+    };
+    anchor(anchor_);
+    anchor(older_);
+    archive(repetition_, motion_, repeated_, usual_corners_, last_frame_, next_id_);
+    for (const auto* one : {&anchor_, &older_}) {
+        archive.require(!*one || (*one)->corners.size() == 0 || (*one)->corners.corners.back().id < next_id_,
+                        "a corner from the future");
+    }
+    if constexpr (Archive::reading) {
+        estimator_.reset();
+        if (anchor_) estimator_.emplace(options_.homography, anchor_->pyramid.size());
+    }
+}
+
+template void Registrar::transfer(StateWriter&);
+template void Registrar::transfer(StateReader&);
+
+}  // namespace eyrie
