@@ -10,6 +10,7 @@
 #include "cli/console_progress.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
+#include "cli/output_arguments.h"
 #include "cli/preset_arguments.h"
 #include "cli/run_report.h"
 #include "core/error.h"
@@ -31,6 +32,7 @@ struct Arguments {
     std::string detections_csv;
     std::string annotated;
     std::string timing;
+    OutputArguments outputs;
     bool quiet = false;
 };
 
@@ -46,6 +48,16 @@ class ConsoleObserver : public ChainObserver {
     }
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override {
         if (writer_) writer_->write(annotator_.draw(frame, *result));
+    }
+    /// Completes the annotated video, of a failed run as far as it came; answers whether there is one.
+    bool finishVideo(bool failed) {
+        try {
+            if (writer_) writer_->finish();
+            return writer_ != nullptr;
+        } catch (const Error&) {
+            if (!failed) throw;
+            return false;  // what made the run fail is told
+        }
     }
     void onProgress(const RunProgress& progress) override {
         if (quiet_) return;
@@ -77,14 +89,6 @@ void checkRange(FrameRange range, const VideoInfo& video) {
     throw Error(ErrorKind::parameter, "--frames: " + video.path.string() + " has frames 0 to " + std::to_string(end));
 }
 
-void checkFolderOf(const std::filesystem::path& file) {
-    std::error_code failed;
-    const std::filesystem::path folder = std::filesystem::absolute(file, failed).parent_path();
-    if (file.empty() || std::filesystem::is_directory(folder, failed)) return;
-    throw Error(ErrorKind::output,
-                "the folder " + folder.string() + " for " + file.string() + " does not exist; make it first");
-}
-
 std::filesystem::path projectPath(const Arguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
     const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
@@ -98,16 +102,17 @@ int run(const Arguments& arguments) {
     const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
     const FrameRange range{frames.first, frames.last};
     const ChainOptions options = arguments.preset.options();
+    const std::filesystem::path project = projectPath(arguments);
+    arguments.outputs.check({growingProject(project),
+                             {arguments.tracks_csv, FileKind::text},
+                             {arguments.detections_csv, FileKind::text},
+                             {arguments.annotated, FileKind::video},
+                             {arguments.timing, FileKind::json}},
+                            {arguments.input, arguments.preset.preset});
     const InterruptGuard interrupt;
     const auto source = openInput(arguments.input, arguments.frame_rate_hz.value_or(0), interrupt.token());
     const VideoInfo& video = source->info();
-    const std::filesystem::path project = projectPath(arguments);
-
     checkRange(range, video);
-    for (const std::filesystem::path& file :
-         {project, std::filesystem::path(arguments.tracks_csv), std::filesystem::path(arguments.detections_csv),
-          std::filesystem::path(arguments.timing), std::filesystem::path(arguments.annotated)})
-        checkFolderOf(file);
     if (!arguments.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
         std::fputs("GSD unknown: looking at the traffic for the scale\n", stderr);
     }
@@ -116,12 +121,14 @@ int run(const Arguments& arguments) {
     planned.name = arguments.name;
     RunSummary summary;
     RunRecord record;
+    bool has_video = false;
     {
         ConsoleObserver console(arguments, video);
         RunRecorder recorder(project, planned, options, &console);
         summary =
             ChainRun(options, scale).run(*source, range, recorder, interrupt.token(), !arguments.annotated.empty());
         record = recorder.finish(summary);
+        has_video = console.finishVideo(summary.outcome == RunOutcome::failed);
     }
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     const RunStore store(file);
@@ -129,11 +136,11 @@ int run(const Arguments& arguments) {
     if (!arguments.detections_csv.empty()) writeResultCsv(arguments.detections_csv, store.detectionBoxes(record.id));
     if (!arguments.timing.empty()) writeTiming(arguments.timing, summary);
     std::fputs(summaryText(video, record, summary, store.tracks(record.id), project).c_str(), stdout);
-    if (!arguments.annotated.empty()) std::printf("Annotated video: %s\n", arguments.annotated.c_str());
+    if (has_video) std::printf("Annotated video: %s\n", arguments.annotated.c_str());
     if (summary.outcome == RunOutcome::failed) {
         std::fprintf(stderr, "eyrie-cli: the run failed after %d frames: %s\n", summary.frames_done,
                      summary.message.c_str());
-        return exit_input;
+        return exitCodeOf(summary.error);
     }
     return summary.outcome == RunOutcome::stopped ? exit_stopped : exit_ok;
 }
@@ -160,6 +167,7 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     command->add_option("--detections", arguments->detections_csv, "Write the detections as CSV");
     command->add_option("--annotated", arguments->annotated, "Write the video with everything drawn in (mp4)");
     command->add_option("--timing", arguments->timing, "Write median times per stage as JSON");
+    arguments->outputs.addTo(*command);
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -141,6 +142,11 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
     RunSummary summary;
     summary.message.clear();
     std::vector<StageTimes> times;
+    const auto fail = [&summary](ErrorKind kind, const std::string& why) {
+        summary.outcome = RunOutcome::failed;
+        summary.message = why;
+        summary.error = kind;
+    };
     try {
         const int count = source.info().frame_count;
         const FrameIndex last = range.last < 0 ? count - 1 : range.last;
@@ -176,9 +182,14 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
             observer.onProgress(progress);
         }
         summary.outcome = summary.frames_done == summary.frames_total ? RunOutcome::finished : RunOutcome::stopped;
+    } catch (const Error& error) {
+        fail(error.kind(), error.what());
+    } catch (const std::bad_alloc&) {
+        fail(ErrorKind::input, source.info().path.string() +
+                                   ": the memory of this machine does not suffice; close other programs or use fewer "
+                                   "frames");
     } catch (const std::exception& error) {
-        summary.outcome = RunOutcome::failed;
-        summary.message = error.what();
+        fail(ErrorKind::internal, error.what());
     }
     summary.seconds = secondsSince(start);
     summary.median_ms = medianOf(times);
