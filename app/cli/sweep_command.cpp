@@ -125,10 +125,12 @@ void checkOutputs(const Arguments& arguments) {
     std::vector<std::filesystem::path> inputs(sources.sequences.begin(), sources.sequences.end());
     inputs.insert(inputs.end(), sources.ground_truths.begin(), sources.ground_truths.end());
     inputs.insert(inputs.end(), {sources.project, arguments.preset.preset});
-    arguments.outputs.check({growingProject(arguments.out.empty() ? sources.project : arguments.out),
-                             {arguments.csv, FileKind::text},
-                             {arguments.save_preset, FileKind::json}},
-                            inputs);
+    OutputArguments outputs = arguments.outputs;
+    outputs.force = outputs.force || arguments.resume;  // the same command again replaces what it wrote
+    outputs.check({growingProject(arguments.out.empty() ? sources.project : arguments.out),
+                   {arguments.csv, FileKind::text},
+                   {arguments.save_preset, FileKind::json}},
+                  inputs);
 }
 
 int sweep(const Arguments& arguments) {
