@@ -247,7 +247,7 @@ void printJson(const std::vector<Column>& columns, const std::vector<Sample>& ba
                                             {"longest_ms", moved.longest_ms},
                                             {"with_tracks_ms", moved.final_ms}});
     }
-    std::puts(json.dump(2).c_str());
+    std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
 void bench(const Arguments& arguments) {

@@ -5,6 +5,7 @@
 
 #include "cli/classification_report.h"
 #include "cli/command.h"
+#include "cli/output_arguments.h"
 
 namespace eyrie::cli {
 namespace {
@@ -13,10 +14,12 @@ struct Arguments {
     std::string model;
     std::string patches;
     std::string roc;
+    OutputArguments outputs;
     bool json = false;
 };
 
 int run(const Arguments& arguments) {
+    arguments.outputs.check({{arguments.roc, FileKind::text}}, {arguments.model, arguments.patches});
     const VehicleModel model = loadModel(arguments.model);
     const SampleSet samples = readPatchSheets(arguments.patches);
     const ClassificationResult result = classify(model, samples);
@@ -55,6 +58,7 @@ void addClassifyCommand(CLI::App& app, int& exit_code) {
     command->add_option("--model", arguments->model, "A model that eyrie-cli train wrote")->required();
     command->add_option("--patches", arguments->patches, "Folder with pos.png, neg.png and patches.csv")->required();
     command->add_option("--roc", arguments->roc, "Also write the ROC curve to this CSV file");
+    arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -10,6 +10,7 @@
 #include "cli/classification_table.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/output_arguments.h"
 #include "cli/sample_sources.h"
 #include "core/error.h"
 #include "learning/seeded_random.h"
@@ -33,6 +34,7 @@ struct Arguments {
     int test_others = 20000;
     int seed = 1;
     std::string out;
+    OutputArguments outputs;
     bool json = false;
     bool quiet = false;
 };
@@ -100,15 +102,40 @@ TrainingOptions plainOptions(const Arguments& arguments) {
     return options;
 }
 
+fs::path curveFile(const Arguments& arguments, DescriptorKind descriptor, ClassifierKind classifier,
+                   const std::string& trained_on, const std::string& tested_on) {
+    return fs::path(arguments.out) / (std::string(nameOf(descriptor)) + "_" + nameOf(classifier) + "_" + trained_on +
+                                      "_on_" + tested_on + ".csv");
+}
+
+/// The folder for the curves, if any is wanted; nothing in it is replaced unasked.
+void prepareFolder(const Arguments& arguments, const std::vector<DescriptorKind>& descriptors,
+                   const std::vector<ClassifierKind>& classifiers, const SetsBySource& sets,
+                   const std::set<std::string>& train_on) {
+    if (arguments.out.empty()) return;
+    std::vector<OutputFile> files;
+    for (const DescriptorKind descriptor : descriptors) {
+        for (const ClassifierKind classifier : classifiers) {
+            for (const std::string& source : train_on) {
+                for (const auto& [other, set] : sets) {
+                    if (other == source) continue;
+                    files.push_back(
+                        {curveFile(arguments, descriptor, classifier, source, other), FileKind::text, false, true});
+                }
+            }
+        }
+    }
+    const auto folders = sampleFolders(arguments.samples);
+    arguments.outputs.check(files, {folders.begin(), folders.end()});
+    std::error_code error;
+    fs::create_directories(arguments.out, error);
+    if (error) throw Error(ErrorKind::output, arguments.out + ": the folder cannot be made: " + error.message());
+}
+
 int run(const Arguments& arguments) {
     const auto descriptors = chosen(arguments.descriptors, allDescriptors(), descriptorFromName);
     const auto classifiers = chosen(arguments.classifiers, allClassifiers(), classifierFromName);
     TrainingOptions options = plainOptions(arguments);
-    if (!arguments.out.empty()) {
-        std::error_code error;
-        fs::create_directories(arguments.out, error);
-        if (error) throw Error(ErrorKind::output, arguments.out + ": the folder cannot be made: " + error.message());
-    }
     const InterruptGuard interrupt;
     const SetsBySource sets = readSets(arguments, interrupt.token());
     std::set<std::string> train_on(arguments.train_on.begin(), arguments.train_on.end());
@@ -118,6 +145,7 @@ int run(const Arguments& arguments) {
     if (train_on.empty()) {
         for (const auto& [name, set] : sets) train_on.insert(name);
     }
+    prepareFolder(arguments, descriptors, classifiers, sets, train_on);
     TrainingWatch watch;
     watch.stop = interrupt.token();
     ClassificationTable table(descriptors, classifiers);
@@ -136,9 +164,8 @@ int run(const Arguments& arguments) {
                     const auto result =
                         classify(*model, drawn(set, static_cast<int>(set.size()), arguments.test_others, true, seed));
                     table.add(descriptor, classifier, source, other, result);
-                    const std::string name = std::string(nameOf(descriptor)) + "_" + nameOf(classifier) + "_" + source +
-                                             "_on_" + other + ".csv";
-                    if (!arguments.out.empty()) writeRocCsv(fs::path(arguments.out) / name, result.curve);
+                    if (!arguments.out.empty())
+                        writeRocCsv(curveFile(arguments, descriptor, classifier, source, other), result.curve);
                     if (!arguments.quiet) {
                         std::fprintf(stderr, "%s + %s trained on %s, tested on %s: AUC %.4f\n", nameOf(descriptor),
                                      nameOf(classifier), source.c_str(), other.c_str(), result.area());
@@ -175,6 +202,7 @@ void addClassifyTestCommand(CLI::App& app, int& exit_code) {
     command->add_option("--seed", arguments->seed, "Chooses everything drawn at random")
         ->check(CLI::Range(0, 1000000000));
     command->add_option("--out", arguments->out, "Folder for the ROC curves, a CSV file each");
+    arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/error.h"
+
 namespace CLI {
 class App;
 }
@@ -18,6 +20,9 @@ enum ExitCode {
     exit_project = 5,
     exit_stopped = 130
 };
+
+/// The exit code for an error of this kind.
+int exitCodeOf(ErrorKind kind);
 
 void addRunCommand(CLI::App& app, int& exit_code);
 void addEvaluateCommand(CLI::App& app, int& exit_code);

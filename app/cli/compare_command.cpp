@@ -11,6 +11,7 @@
 #include "cli/evaluation_files.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
+#include "cli/output_arguments.h"
 #include "cli/preset_arguments.h"
 #include "core/error.h"
 #include "detection/model_location.h"
@@ -35,6 +36,7 @@ struct Arguments {
     PresetArguments preset;
     std::string project;
     std::string csv;
+    OutputArguments outputs;
     bool json = false;
     bool quiet = false;
 };
@@ -172,6 +174,8 @@ int compare(const Arguments& arguments) {
     if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
     if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
     const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
+    arguments.outputs.check({growingProject(arguments.project), {arguments.csv, FileKind::text}},
+                            {arguments.sequence, arguments.ground_truth, arguments.preset.preset});
     ComparisonReport report;
     report.options = arguments.options;
     const std::vector<Planned> planned = plan(arguments, report.remarks);
@@ -279,6 +283,7 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     command->add_option("--project", arguments->project,
                         "Store every method as a run of this project, and the figures beside them");
     command->add_option("--csv", arguments->csv, "Write the figures as CSV, too");
+    arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, &exit_code] { exit_code = compare(*arguments); });

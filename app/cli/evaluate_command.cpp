@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/evaluation_files.h"
 #include "cli/evaluation_report.h"
+#include "cli/output_arguments.h"
 #include "cli/project_labels.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
@@ -32,6 +33,7 @@ struct Arguments {
     std::string convention = "thesis";
     double mot_origin = MotOptions().first_pixel_edge;
     std::string errors;
+    OutputArguments outputs;
     bool json = false;
 };
 
@@ -149,6 +151,8 @@ BoxFile readTruth(const Arguments& arguments, const Result& result, const MotOpt
 }
 
 void evaluateAndPrint(const Arguments& arguments) {
+    arguments.outputs.check({{arguments.errors, FileKind::text}},
+                            {arguments.ground_truth, arguments.result, arguments.project, arguments.homographies});
     const MotOptions mot{arguments.mot_origin};
     EvaluationReport report;
     report.options = arguments.options;
@@ -224,6 +228,7 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
                         "Write every miss, false alarm, switch, fragment, split and merge at the first T_ov to this "
                         "CSV file, with probable causes where a run is measured: the most frequent cause of a stretch, "
                         "detail and box of the middle frame that shows it");
+    arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] {
         if (arguments->result.empty() == arguments->project.empty()) {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "formats/label_formats.h"
+#include "io/folder.h"
 
 namespace eyrie::cli {
 namespace {
@@ -91,11 +92,12 @@ BoxFile readResultBoxes(const std::filesystem::path& file, const MotOptions& opt
 }
 
 MotSequence describedBeside(const std::filesystem::path& file) {
-    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    std::error_code failed;
+    const std::filesystem::path folder = std::filesystem::absolute(file, failed).parent_path();
     MotSequence found;
     for (const auto& place : {folder, folder.parent_path()}) {
         for (const char* name : {"seqinfo.ini", "meta.json", "scene.json"}) {
-            if (!std::filesystem::is_regular_file(place / name)) continue;
+            if (!isFile(place / name)) continue;
             const bool ini = std::filesystem::path(name).extension() == ".ini";
             const MotSequence described = ini ? readMotSequence(place / name) : readJsonDescription(place / name);
             if (!found.image_size) found.image_size = described.image_size;

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/evaluation_files.h"
 #include "cli/label_arguments.h"
+#include "cli/output_arguments.h"
 #include "cli/project_labels.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
@@ -25,6 +26,7 @@ struct Arguments {
     std::string format;
     std::string out;
     ExportOptions options;
+    OutputArguments outputs;
     bool clip = false;
     bool keep = false;
 };
@@ -67,7 +69,11 @@ void exportLabels(const Arguments& arguments) {
     ExportOptions options = arguments.options;
     if (arguments.clip) options.clip = true;
     if (arguments.keep) options.clip = false;
+    // The names of some files follow from what is exported, which is read quickly; nothing is written before.
     const LabelFile labels = gathered(arguments, options);
+    std::vector<std::filesystem::path> inputs(labels.further_files.begin(), labels.further_files.end());
+    inputs.insert(inputs.end(), {arguments.project, arguments.from});
+    arguments.outputs.check(outputFiles(arguments.out, arguments.format, options), inputs);
     std::fputs(reportText(writeLabels(labels, arguments.out, arguments.format, options)).c_str(), stdout);
     for (const std::string& note : labels.notes) std::printf("  note        %s\n", note.c_str());
 }
@@ -107,6 +113,7 @@ void addExportCommand(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command->add_option("--split", arguments->options.split, "TrackEval: name of the split")->capture_default_str();
     command->add_option("--tracker", arguments->options.tracker, "TrackEval: write a tracker's result of this name");
+    arguments->outputs.addTo(*command);
     command->callback([arguments, &exit_code] {
         if (arguments->from.empty() == arguments->project.empty()) {
             throw Error(ErrorKind::parameter, "export needs what to write: --project P.eyrie or --from FILE");

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/input.h"
 #include "cli/label_arguments.h"
+#include "cli/output_arguments.h"
 #include "cli/project_labels.h"
 #include "core/error.h"
 #include "exchange/label_import.h"
@@ -22,6 +23,7 @@ struct Arguments {
     std::string video;
     std::optional<int> sequence;
     std::string out;
+    OutputArguments outputs;
     double tolerance_px = 0.45;  // less than half: whole pixels come back as they were
     bool show = false;
     bool add_doubles = false;
@@ -66,9 +68,14 @@ SequenceRecord sequenceFor(ProjectFile& project, const Arguments& arguments) {
     return sequence;
 }
 
+bool isThere(const std::string& project) {
+    std::error_code failed;
+    return std::filesystem::exists(project, failed);
+}
+
 /// A project can be made here only where its video is named.
 void refuseAbsent(const Arguments& arguments) {
-    if (!arguments.video.empty() || std::filesystem::exists(arguments.project)) return;
+    if (!arguments.video.empty() || isThere(arguments.project)) return;
     throw Error(ErrorKind::project, "there is no project " + arguments.project +
                                         "; check the name, or make it here by naming the video of the labels "
                                         "(--video CLIP)");
@@ -84,20 +91,23 @@ void importLabels(const Arguments& arguments) {
     const LabelReport report = reportOn(labels);
     std::fputs(reportText(arguments.file, labels, report).c_str(), stdout);
     if (arguments.show) {
-        if (arguments.project.empty() || (!arguments.video.empty() && !std::filesystem::exists(arguments.project)))
-            return;
+        if (arguments.project.empty() || (!arguments.video.empty() && !isThere(arguments.project))) return;
         refuseAbsent(arguments);
         ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
         if (arguments.video.empty())
             printNotes(doubtsAbout(labels, project, chosenSequence(project, arguments.sequence)));
         return;
     }
+    std::vector<std::filesystem::path> inputs(labels.further_files.begin(), labels.further_files.end());
+    inputs.insert(inputs.end(), {arguments.file, arguments.video});
     if (arguments.project.empty()) {
+        arguments.outputs.check(outputFiles(arguments.out, "native"), inputs);
         const ExportReport written = writeLabels(labels, arguments.out, "native");
         std::fputs(reportText(written).c_str(), stdout);
         return;
     }
     refuseAbsent(arguments);
+    arguments.outputs.check({growingProject(arguments.project)}, inputs);
     ProjectFile project =
         arguments.video.empty() ? ProjectFile::open(arguments.project) : ProjectFile::openOrCreate(arguments.project);
     const SequenceRecord sequence = sequenceFor(project, arguments);
@@ -142,6 +152,7 @@ void addImportCommand(CLI::App& app, int& exit_code) {
                    "Take objects that the project has already with the same boxes all the same")
         ->needs(project);
     command->add_option("--out", arguments->out, "Write our ground truth CSV instead")->excludes(project);
+    arguments->outputs.addTo(*command);
     command->add_flag("--show", arguments->show, "Only show what is in the file");
     command->callback([arguments, &exit_code] {
         if (arguments->project.empty() && arguments->out.empty() && !arguments->show) {

@@ -9,11 +9,14 @@
 namespace eyrie::cli {
 namespace {
 
+/// A signal that whoever started us wants ignored (nohup) stays so.
 sigset_t stopSignals() {
     sigset_t set;
     sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction present {};
+        if (sigaction(signal, nullptr, &present) == 0 && present.sa_handler != SIG_IGN) sigaddset(&set, signal);
+    }
     return set;
 }
 
@@ -27,8 +30,10 @@ InterruptGuard::InterruptGuard() {
         const sigset_t waited = stopSignals();
         while (!done.stop_requested()) {
             const timespec interval{0, 100'000'000};
-            if (sigtimedwait(&waited, nullptr, &interval) < 0) continue;
-            if (!stop_.request_stop()) std::_Exit(130);
+            const int signal = sigtimedwait(&waited, nullptr, &interval);
+            if (signal < 0) continue;
+            // A closed terminal may tell so twice; only a person who presses Ctrl-C again means it.
+            if (!stop_.request_stop() && signal != SIGHUP) std::_Exit(130);
         }
     });
 }

@@ -5,7 +5,8 @@
 
 namespace eyrie::cli {
 
-/// While it lives, Ctrl-C (SIGINT) and SIGTERM request a stop instead of ending the process; a second Ctrl-C ends it.
+/// While it lives, Ctrl-C (SIGINT), SIGTERM and a closed terminal (SIGHUP) request a stop instead of ending the
+/// process; a second Ctrl-C ends it.
 /// At most one at a time.
 class InterruptGuard {
  public:

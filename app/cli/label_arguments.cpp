@@ -1,6 +1,7 @@
 #include "cli/label_arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/evaluation_files.h"
 #include "core/error.h"
@@ -52,6 +53,16 @@ ImportOptions importOptionsOf(const LabelArguments& arguments) {
     options.sequence = arguments.sequence;
     if (!arguments.size.empty()) options.image_size = parseSize(arguments.size);
     return options;
+}
+
+std::vector<OutputFile> outputFiles(const std::string& path, const std::string& format, const ExportOptions& options) {
+    const auto& formats = labelFormats();
+    const bool folder = std::any_of(formats.begin(), formats.end(),
+                                    [&](const LabelFormatInfo& info) { return info.name == format && info.folder; });
+    std::vector<OutputFile> files;
+    for (const ExportFile& file : filesToWrite(path, format, options))
+        files.push_back({file.path, file.kind, file.grows, folder});
+    return files;
 }
 
 std::string formatNames(bool to_write) {

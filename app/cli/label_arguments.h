@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/label_formats.h"
+#include "io/output_files.h"
 
 namespace CLI {
 class App;
@@ -33,6 +34,10 @@ ImportOptions importOptionsOf(const LabelArguments& arguments);
 
 /// The names of all formats that can be read, or written, with commas.
 std::string formatNames(bool to_write);
+
+/// The files of an export, for the check of outputs. Throws Error(parameter) for an unknown format.
+std::vector<OutputFile> outputFiles(const std::string& path, const std::string& format,
+                                    const ExportOptions& options = {});
 
 /// What a file holds, for people.
 std::string reportText(const std::string& file, const LabelFile& labels, const LabelReport& report);

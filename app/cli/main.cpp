@@ -1,34 +1,40 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <string>
 
 #include "chain/run_recorder.h"
 #include "cli/command.h"
+#include "cli/standard_streams.h"
 #include "cli/usage_error.h"
 #include "core/error.h"
+#include "core/text.h"
+
+namespace eyrie::cli {
+
+int exitCodeOf(ErrorKind kind) {
+    switch (kind) {
+        case ErrorKind::parameter:
+            return exit_usage;
+        case ErrorKind::input:
+            return exit_input;
+        case ErrorKind::output:
+            return exit_output;
+        case ErrorKind::project:
+            return exit_project;
+        case ErrorKind::internal:
+            break;
+    }
+    return exit_internal;
+}
+
+}  // namespace eyrie::cli
 
 namespace {
 
-int exitCodeOf(eyrie::ErrorKind kind) {
-    switch (kind) {
-        case eyrie::ErrorKind::parameter:
-            return eyrie::cli::exit_usage;
-        case eyrie::ErrorKind::input:
-            return eyrie::cli::exit_input;
-        case eyrie::ErrorKind::output:
-            return eyrie::cli::exit_output;
-        case eyrie::ErrorKind::project:
-            return eyrie::cli::exit_project;
-        case eyrie::ErrorKind::internal:
-            break;
-    }
-    return eyrie::cli::exit_internal;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
+int commandOf(int argc, char** argv) {
     CLI::App app("Eyrie finds, outlines and follows every small moving vehicle in video from a moving aircraft.",
                  "eyrie-cli");
     app.set_version_flag("--version", eyrie::engineVersion());
@@ -67,9 +73,26 @@ int main(int argc, char** argv) {
         return asked ? eyrie::cli::exit_ok : eyrie::cli::exit_usage;
     } catch (const eyrie::Error& error) {
         std::fprintf(stderr, "eyrie-cli: %s\n", error.what());
-        return exitCodeOf(error.kind());
+        return eyrie::cli::exitCodeOf(error.kind());
+    } catch (const std::filesystem::filesystem_error& error) {
+        std::fprintf(stderr, "eyrie-cli: %s: %s\n", eyrie::displayText(error.path1()).c_str(),
+                     error.code().message().c_str());
+        return eyrie::cli::exit_input;
+    } catch (const std::bad_alloc&) {
+        std::fputs("eyrie-cli: the memory of this machine does not suffice; close other programs or use fewer frames\n",
+                   stderr);
+        return eyrie::cli::exit_input;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "eyrie-cli: unexpected: %s\n", error.what());
         return eyrie::cli::exit_internal;
     }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    eyrie::cli::prepareStreams();
+    const int exit_code = commandOf(argc, argv);
+    const bool printed = eyrie::cli::finishOutput();
+    return exit_code == eyrie::cli::exit_ok && !printed ? eyrie::cli::exit_output : exit_code;
 }

@@ -18,7 +18,8 @@ void PresetArguments::addTo(CLI::App& command) {
 ChainOptions PresetArguments::options() const {
     const auto built_in = builtInPresets();
     const bool is_built_in = std::find(built_in.begin(), built_in.end(), preset) != built_in.end();
-    if (!is_built_in && !std::filesystem::exists(preset)) {
+    std::error_code failed;
+    if (!is_built_in && !std::filesystem::exists(preset, failed)) {
         throw Error(ErrorKind::parameter,
                     "there is no preset or preset file \"" + preset + "\"; built in are: default, thesis");
     }

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -12,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/console_progress.h"
 #include "cli/interrupt.h"
+#include "cli/output_arguments.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/box_csv.h"
@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::string scene;
     std::string folder;
+    OutputArguments outputs;
     std::uint32_t seed = 0;
     std::optional<int> frames;
     double lost = 0;
@@ -42,22 +43,39 @@ std::string frameName(FrameIndex frame) {
     return name;
 }
 
-/// Makes the folder for the frames and removes frames of an earlier, longer rendering, which would not fit the truth.
-fs::path prepareFolder(const fs::path& folder, int frame_count) {
-    std::error_code error;
-    const fs::path frames = folder / "frames";
-    fs::create_directories(frames, error);
-    if (error || !fs::is_directory(frames)) {
-        throw Error(ErrorKind::output, frames.string() + ": the folder cannot be made (" +
-                                           (error ? error.message() : "something else has this name") +
-                                           "); choose another with --out");
-    }
+/// Frames of an earlier, longer rendering, which would not fit the truth.
+std::vector<fs::path> staleFrames(const fs::path& frames, int frame_count) {
     std::vector<fs::path> stale;
-    for (const auto& entry : fs::directory_iterator(frames, error)) {
-        const std::string stem = entry.path().stem().string();
-        const bool ours = entry.path().extension() == ".png" && stem.size() == 6 &&
-                          stem.find_first_not_of("0123456789") == std::string::npos;
-        if (ours && std::stoi(stem) >= frame_count) stale.push_back(entry.path());
+    std::error_code error;
+    for (fs::directory_iterator entry(frames, error), end; !error && entry != end; entry.increment(error)) {
+        const fs::path& path = entry->path();
+        const std::string stem = path.stem().string();
+        const bool ours =
+            path.extension() == ".png" && stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos;
+        if (ours && std::stoi(stem) >= frame_count) stale.push_back(path);
+    }
+    return stale;
+}
+
+/// Makes the folder for the frames; what lies in it is replaced or removed only when that is agreed to.
+fs::path prepareFolder(const Arguments& arguments, int frame_count) {
+    std::error_code error;
+    const fs::path folder = arguments.folder;
+    const fs::path frames = folder / "frames";
+    const std::vector<fs::path> stale = staleFrames(frames, frame_count);
+    std::vector<OutputFile> files;
+    const auto add = [&](const fs::path& path, FileKind kind) { files.push_back({path, kind, false, true}); };
+    for (int frame = 0; frame < frame_count; ++frame) add(frames / frameName(frame), FileKind::image);
+    for (const fs::path& path : stale) add(path, FileKind::image);
+    add(folder / "ground_truth.csv", FileKind::text);
+    add(folder / "homography.csv", FileKind::text);
+    add(folder / "scene.json", FileKind::json);
+    if (arguments.video) add(folder / "video.mp4", FileKind::video);
+    arguments.outputs.check(files, {});
+    fs::create_directories(frames, error);
+    if (error) {
+        throw Error(ErrorKind::output, frames.string() + ": the folder cannot be made (" + error.message() +
+                                           "); choose another with --out");
     }
     for (const fs::path& path : stale) fs::remove(path, error);
     return frames;
@@ -68,13 +86,7 @@ void writePicture(const fs::path& path, const cv::Mat& picture) {
     if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 2})) {
         throw Error(ErrorKind::internal, path.string() + ": the picture could not be encoded as PNG");
     }
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) {
-        throw Error(ErrorKind::output,
-                    path.string() + ": cannot be written; is the folder writable and the disk not full?");
-    }
+    writeFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, Durability::left_to_system);
 }
 
 void writeDescription(const fs::path& path, const SceneDescription& scene, int frames) {
@@ -117,7 +129,7 @@ int run(const Arguments& arguments) {
     if (arguments.lost > 0) loseFrames(description, arguments.lost);
 
     const fs::path folder = arguments.folder;
-    const fs::path frames_folder = prepareFolder(folder, count);
+    const fs::path frames_folder = prepareFolder(arguments, count);
     const InterruptGuard interrupt;
     const SceneRenderer renderer(std::move(description));
     const SceneDescription& scene = renderer.scene();
@@ -170,8 +182,8 @@ void addRenderCommand(CLI::App& app, int& exit_code) {
     command->add_option("scene", arguments->scene, "One of " + sceneList())->required();
     command
         ->add_option("--out", arguments->folder,
-                     "Folder for frames/, ground_truth.csv, homography.csv and scene.json; files of an earlier "
-                     "rendering there are replaced")
+                     "Folder for frames/, ground_truth.csv, homography.csv and scene.json; with --force "
+                     "files of an earlier rendering there are replaced")
         ->required();
     command->add_option("--seed", arguments->seed, "Another scene of the same kind (default: the scene's own)");
     command->add_option("--frames", arguments->frames, "Only the first N frames");
@@ -179,6 +191,7 @@ void addRenderCommand(CLI::App& app, int& exit_code) {
     command->add_flag("--upright", arguments->upright,
                       "Ground truth with upright boxes, as the original of egtest01 has");
     command->add_flag("--video", arguments->video, "Also write video.mp4");
+    arguments->outputs.addTo(*command);
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/input.h"
+#include "cli/output_arguments.h"
 #include "cli/project_labels.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
@@ -23,6 +24,7 @@ struct Arguments {
     std::optional<double> border;
     std::size_t chips = ReportOptions().chips;
     std::string out;
+    OutputArguments outputs;
 };
 
 std::string nowUtcText() {
@@ -35,6 +37,7 @@ std::string nowUtcText() {
 }
 
 void makeReport(const Arguments& arguments) {
+    arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, arguments.ground_truth});
     EvaluationRequest request = arguments.request;
     request.project = arguments.project;
     request.truth_file = arguments.ground_truth;
@@ -89,6 +92,7 @@ void addReportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--border", arguments->border,
                         "Leave out results that come this close to the image's edge, px");
     command->add_option("--chips", arguments->chips, "Errors with a picture, at most")->capture_default_str();
+    arguments->outputs.addTo(*command);
     command->callback([arguments, &exit_code] {
         makeReport(*arguments);
         exit_code = exit_ok;

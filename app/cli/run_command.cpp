@@ -11,6 +11,7 @@
 #include "cli/console_progress.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
+#include "cli/output_arguments.h"
 #include "cli/preset_arguments.h"
 #include "cli/run_choice.h"
 #include "cli/run_report.h"
@@ -36,6 +37,7 @@ struct Arguments {
     bool resume = false;
     std::optional<int> run_id;
     bool preset_given = false;
+    OutputArguments outputs;
     bool quiet = false;
 };
 
@@ -58,6 +60,16 @@ class ConsoleObserver : public ChainObserver {
         for (FrameIndex frame = frames.first; writer_ && frame <= frames.last && !stop.stop_requested(); ++frame) {
             const auto result = store.frameResult(run_id, frame);
             if (result) writer_->write(annotator_.draw(source.read(frame, true), *result));
+        }
+    }
+    /// Completes the annotated video, of a failed run as far as it came; answers whether there is one.
+    bool finishVideo(bool failed) {
+        try {
+            if (writer_) writer_->finish();
+            return writer_ != nullptr;
+        } catch (const Error&) {
+            if (!failed) throw;
+            return false;  // what made the run fail is told
         }
     }
     void onProgress(const RunProgress& progress) override {
@@ -90,14 +102,6 @@ void checkRange(FrameRange range, const VideoInfo& video) {
     throw Error(ErrorKind::parameter, "--frames: " + video.path.string() + " has frames 0 to " + std::to_string(end));
 }
 
-void checkFolderOf(const std::filesystem::path& file) {
-    std::error_code failed;
-    const std::filesystem::path folder = std::filesystem::absolute(file, failed).parent_path();
-    if (file.empty() || std::filesystem::is_directory(folder, failed)) return;
-    throw Error(ErrorKind::output,
-                "the folder " + folder.string() + " for " + file.string() + " does not exist; make it first");
-}
-
 std::filesystem::path projectPath(const Arguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
     const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
@@ -109,6 +113,7 @@ std::filesystem::path projectPath(const Arguments& arguments) {
 struct EndedRun {
     RunRecord record;
     RunSummary summary;
+    bool has_video = false;  ///< the annotated video was written
 };
 
 EndedRun runAnew(const Arguments& arguments, FrameSource& source, const std::filesystem::path& project,
@@ -130,6 +135,7 @@ EndedRun runAnew(const Arguments& arguments, FrameSource& source, const std::fil
     ended.summary =
         ChainRun(options, scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
     ended.record = recorder.finish(ended.summary);
+    ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
 }
 
@@ -155,7 +161,8 @@ void tellWhereItGoesOn(const ResumedRun& resumed) {
 EndedRun asItIs(const Arguments& arguments, const RunRecord& run, FrameSource& source,
                 const std::filesystem::path& project, const InterruptGuard& interrupt) {
     if (!arguments.quiet) std::fprintf(stderr, "run %d is finished: nothing is left to do\n", run.id);
-    EndedRun ended{run, {}};
+    EndedRun ended;
+    ended.record = run;
     ended.summary.outcome = RunOutcome::finished;
     ended.summary.message.clear();
     ended.summary.frames_done = ended.summary.frames_total = run.frames_done;
@@ -166,6 +173,7 @@ EndedRun asItIs(const Arguments& arguments, const RunRecord& run, FrameSource& s
     }
     ConsoleObserver console(arguments, source.info());
     console.drawStored(store, run.id, source, {run.first_frame, run.last_frame}, interrupt.token());
+    ended.has_video = console.finishVideo(false);
     return ended;
 }
 
@@ -184,6 +192,7 @@ EndedRun goOn(const Arguments& arguments, const RunRecord& run, FrameSource& sou
         ChainRun(resumed.options, run.scale)
             .run(source, resumed.range(), recorder, interrupt.token(), !arguments.annotated.empty(), resumed.start);
     ended.record = recorder.finish(ended.summary);
+    ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
 }
 
@@ -215,10 +224,6 @@ int run(const Arguments& arguments) {
     }
     const InterruptGuard interrupt;
     const std::filesystem::path project = projectPath(arguments);
-    for (const std::filesystem::path& file :
-         {project, std::filesystem::path(arguments.tracks_csv), std::filesystem::path(arguments.detections_csv),
-          std::filesystem::path(arguments.timing), std::filesystem::path(arguments.annotated)})
-        checkFolderOf(file);
     std::unique_ptr<FrameSource> source;
     if (!arguments.input.empty()) {
         source = openInput(arguments.input, arguments.frame_rate_hz.value_or(0), interrupt.token());
@@ -231,21 +236,27 @@ int run(const Arguments& arguments) {
         }
     }
     if (!source) source = openInput(choice.run->sequence.path, choice.run->scale.frame_rate_hz, interrupt.token());
-    const auto [record, summary] = !choice.run ? runAnew(arguments, *source, project, interrupt)
-                                   : choice.run->state == RunState::finished
-                                       ? asItIs(arguments, *choice.run, *source, project, interrupt)
-                                       : goOn(arguments, *choice.run, *source, project, interrupt);
+    arguments.outputs.check({growingProject(project),
+                             {arguments.tracks_csv, FileKind::text},
+                             {arguments.detections_csv, FileKind::text},
+                             {arguments.annotated, FileKind::video},
+                             {arguments.timing, FileKind::json}},
+                            {source->info().path, arguments.preset.preset});
+    const auto [record, summary, has_video] = !choice.run ? runAnew(arguments, *source, project, interrupt)
+                                              : choice.run->state == RunState::finished
+                                                  ? asItIs(arguments, *choice.run, *source, project, interrupt)
+                                                  : goOn(arguments, *choice.run, *source, project, interrupt);
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     const RunStore store(file);
     if (!arguments.tracks_csv.empty()) writeResultCsv(arguments.tracks_csv, store.trackBoxes(record.id));
     if (!arguments.detections_csv.empty()) writeResultCsv(arguments.detections_csv, store.detectionBoxes(record.id));
     if (!arguments.timing.empty()) writeTiming(arguments.timing, summary);
     std::fputs(summaryText(source->info(), record, summary, store.tracks(record.id), project).c_str(), stdout);
-    if (!arguments.annotated.empty()) std::printf("Annotated video: %s\n", arguments.annotated.c_str());
+    if (has_video) std::printf("Annotated video: %s\n", arguments.annotated.c_str());
     if (summary.outcome == RunOutcome::failed) {
         std::fprintf(stderr, "eyrie-cli: the run failed after %d frames: %s\n", summary.frames_done,
                      summary.message.c_str());
-        return exit_input;
+        return exitCodeOf(summary.error);
     }
     if (summary.outcome == RunOutcome::stopped && !arguments.quiet) {
         std::fprintf(stderr, "stopped; eyrie-cli run --resume --project %s does the rest\n", project.c_str());
@@ -279,6 +290,7 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     command->add_option("--detections", arguments->detections_csv, "Write the detections as CSV");
     command->add_option("--annotated", arguments->annotated, "Write the video with everything drawn in (mp4)");
     command->add_option("--timing", arguments->timing, "Write median times per stage as JSON");
+    arguments->outputs.addTo(*command);
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, command, &exit_code] {
         arguments->preset_given = command->count("--preset") + command->count("--set") > 0;

@@ -1,12 +1,11 @@
 #include "cli/run_report.h"
 
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "chain/scale_estimation.h"
 #include "cli/console_progress.h"
-#include "core/error.h"
+#include "io/atomic_file.h"
 
 namespace eyrie::cli {
 namespace {
@@ -87,12 +86,7 @@ void writeTiming(const std::filesystem::path& path, const RunSummary& summary) {
     for (int i = 0; i < kStageCount; ++i) {
         json["median_ms"][eyrie::nameOf(static_cast<Stage>(i))] = summary.median_ms[static_cast<std::size_t>(i)];
     }
-    std::ofstream file(path);
-    file << json.dump(2) << '\n';
-    if (!file.flush()) {
-        throw Error(ErrorKind::output,
-                    path.string() + " cannot be written; choose a folder you may write to with space left");
-    }
+    writeFileAtomically(path, json.dump(2) + "\n");
 }
 
 }  // namespace eyrie::cli

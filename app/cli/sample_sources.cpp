@@ -82,18 +82,24 @@ class StepProgress {
 
 }  // namespace
 
-SampleSet readSampleFolders(const std::vector<std::string>& folders) {
-    SampleSet samples;
-    for (const std::string& list : folders) {
+std::vector<std::string> sampleFolders(const std::vector<std::string>& lists) {
+    std::vector<std::string> folders;
+    for (const std::string& list : lists) {
         std::size_t begin = 0;
         while (begin <= list.size()) {
             const std::size_t end = std::min(list.find(',', begin), list.size());
-            const std::string folder = list.substr(begin, end - begin);
+            if (end > begin) folders.push_back(list.substr(begin, end - begin));
             begin = end + 1;
-            if (folder.empty()) continue;
-            SampleSet read = readPatchSheets(folder);
-            std::move(read.begin(), read.end(), std::back_inserter(samples));
         }
+    }
+    return folders;
+}
+
+SampleSet readSampleFolders(const std::vector<std::string>& folders) {
+    SampleSet samples;
+    for (const std::string& folder : sampleFolders(folders)) {
+        SampleSet read = readPatchSheets(folder);
+        std::move(read.begin(), read.end(), std::back_inserter(samples));
     }
     return samples;
 }

@@ -9,6 +9,9 @@
 
 namespace eyrie::cli {
 
+/// The single folders of a list: an entry may hold several, divided by commas.
+std::vector<std::string> sampleFolders(const std::vector<std::string>& lists);
+
 /// Folders of patch sheets, one after the other; an entry may list several, divided by commas. Throws Error(input).
 SampleSet readSampleFolders(const std::vector<std::string>& folders);
 

@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/console_progress.h"
 #include "cli/interrupt.h"
+#include "cli/output_arguments.h"
 #include "cli/preset_arguments.h"
 #include "cli/sweep_inputs.h"
 #include "core/error.h"
@@ -36,6 +37,7 @@ struct Arguments {
     std::string of;
     std::string csv;
     std::string save_preset;
+    OutputArguments outputs;
     bool json = false;
     bool quiet = false;
 };
@@ -118,6 +120,19 @@ void savePreset(const std::string& file, const SweepTable& table, const SweepCri
     writePreset(file, {"best of " + table.plan.describe(best->position), parameterValues(options)});
 }
 
+void checkOutputs(const Arguments& arguments) {
+    const SweepSources& sources = arguments.sources;
+    std::vector<std::filesystem::path> inputs(sources.sequences.begin(), sources.sequences.end());
+    inputs.insert(inputs.end(), sources.ground_truths.begin(), sources.ground_truths.end());
+    inputs.insert(inputs.end(), {sources.project, arguments.preset.preset});
+    OutputArguments outputs = arguments.outputs;
+    outputs.force = outputs.force || arguments.resume;  // the same command again replaces what it wrote
+    outputs.check({growingProject(arguments.out.empty() ? sources.project : arguments.out),
+                   {arguments.csv, FileKind::text},
+                   {arguments.save_preset, FileKind::json}},
+                  inputs);
+}
+
 int sweep(const Arguments& arguments) {
     if (arguments.sources.sequences.empty() == arguments.sources.project.empty()) {
         throw Error(ErrorKind::parameter,
@@ -128,6 +143,7 @@ int sweep(const Arguments& arguments) {
                     "--out: name the file that the points are written to, e.g. --out sweep.eyrie");
     measureText(arguments.criterion);
     refuseTooMany(arguments.axes, arguments.yes);
+    checkOutputs(arguments);
     std::vector<StoredRun> runs;
     if (!arguments.sources.project.empty()) {
         ProjectFile project = ProjectFile::open(arguments.sources.project, ProjectFile::Mode::read_only);
@@ -217,6 +233,7 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
         ->check(CLI::IsMember({"detections", "tracks"}));
     command->add_option("--csv", arguments->csv, "Write all figures as CSV");
     command->add_option("--save-preset", arguments->save_preset, "Write the parameters of the best point as a preset");
+    arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, command, &exit_code] {
@@ -231,6 +248,7 @@ void addMergeCommand(CLI::App& app, int& exit_code) {
         std::string out;
         std::string criterion = "f_score";
         std::string csv;
+        OutputArguments outputs;
         bool add = false;
         bool json = false;
     };
@@ -242,11 +260,12 @@ void addMergeCommand(CLI::App& app, int& exit_code) {
     command->add_option("--best", arguments->criterion, "The measure that decides which point is best")
         ->capture_default_str();
     command->add_option("--csv", arguments->csv, "Write all figures as CSV");
+    arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] {
-        const bool exists = std::filesystem::exists(arguments->out);
+        std::error_code ignored;
+        const bool exists = std::filesystem::exists(arguments->out, ignored);
         const bool is_part = std::any_of(arguments->files.begin(), arguments->files.end(), [&](const auto& file) {
-            std::error_code ignored;
             return std::filesystem::equivalent(file, arguments->out, ignored);
         });
         if (exists && !is_part && !arguments->add) {
@@ -254,6 +273,8 @@ void addMergeCommand(CLI::App& app, int& exit_code) {
                                                   ": exists already; choose another name, or say --add to put the "
                                                   "sweep into that project");
         }
+        arguments->outputs.check({growingProject(arguments->out), {arguments->csv, FileKind::text}},
+                                 {arguments->files.begin(), arguments->files.end()});
         const SweepTable table = mergeSweeps({arguments->files.begin(), arguments->files.end()}, arguments->out);
         SweepCriterion criterion = usualCriterion(table.plan);
         criterion.key = measureText(arguments->criterion).key;

@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/console_progress.h"
 #include "cli/interrupt.h"
+#include "cli/output_arguments.h"
 #include "cli/sample_sources.h"
 #include "core/error.h"
 #include "learning/background_mining.h"
@@ -33,6 +34,7 @@ struct Arguments {
     std::string trees;
     std::vector<std::string> settings;
     std::string note;
+    OutputArguments outputs;
     bool quiet = false;
 };
 
@@ -65,12 +67,12 @@ std::string nowUtc() {
     return text;
 }
 
-void requireWritable(const std::filesystem::path& path) {
-    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored) || !std::filesystem::is_directory(folder, ignored)) {
-        throw Error(ErrorKind::output, path.string() + ": cannot be written; give a file in a folder that exists");
-    }
+std::vector<std::filesystem::path> inputsOf(const Arguments& arguments) {
+    std::vector<std::filesystem::path> inputs(arguments.inputs.begin(), arguments.inputs.end());
+    inputs.insert(inputs.end(), arguments.ground_truths.begin(), arguments.ground_truths.end());
+    const auto folders = sampleFolders(arguments.samples);
+    inputs.insert(inputs.end(), folders.begin(), folders.end());
+    return inputs;
 }
 
 /// Shows each phase on its own line of progress.
@@ -120,7 +122,7 @@ int run(const Arguments& arguments) {
     if (arguments.inputs.size() != arguments.ground_truths.size()) {
         throw Error(ErrorKind::parameter, "--images and --ground-truth: each needs the other, in the same order");
     }
-    requireWritable(arguments.out);
+    arguments.outputs.check({{arguments.out, FileKind::model}}, inputsOf(arguments));
     const InterruptGuard interrupt;
     SampleSet samples = readSampleFolders(arguments.samples);
     const std::vector<LabelledImage> images = labelledImages(arguments, options, interrupt.token());
@@ -156,12 +158,13 @@ int run(const Arguments& arguments) {
         return exit_stopped;
     }
     saveModel(*model, arguments.out);
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(arguments.out, unknown);
     std::printf(
         "%s + %s, %d features, trained on %d windows of vehicles (with mirrored and varied ones) and %d others: "
         "%s, %.0f kB\n",
         nameOf(options.descriptor), nameOf(options.classifier), model->descriptor->dimension(), model->record.vehicles,
-        model->record.others, arguments.out.c_str(),
-        static_cast<double>(std::filesystem::file_size(arguments.out)) / 1000);
+        model->record.others, arguments.out.c_str(), unknown ? 0.0 : static_cast<double>(size) / 1000);
     return exit_ok;
 }
 
@@ -197,6 +200,7 @@ void addTrainCommand(CLI::App& app, int& exit_code) {
     command->add_option("--trees", arguments->trees, "Trees of AdaBoost and Random Forest (default 1000)");
     command->add_option("--set", arguments->settings, "NAME=VALUE of a training parameter, e.g. training.folds=5");
     command->add_option("--note", arguments->note, "Text kept in the model: where the samples come from, their terms");
+    arguments->outputs.addTo(*command);
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "gui/ending_signals.h"
 #include "main_window/main_window.h"
 #include "main_window/screenshot.h"
 #include "main_window/theme.h"
@@ -31,7 +32,14 @@ double positive(const QCommandLineParser& parser, const QCommandLineOption& opti
     return value;
 }
 
-StartOptions readOptions(const QCoreApplication& application) {
+/// The word of the command line that Qt shows as `shown`: names of files need not be UTF-8, and text of Qt is.
+std::string asGiven(const QString& shown, int argc, char** argv) {
+    for (int i = 1; i < argc; ++i)
+        if (QString::fromLocal8Bit(argv[i]) == shown) return argv[i];
+    return shown.toStdString();
+}
+
+StartOptions readOptions(const QCoreApplication& application, int argc, char** argv) {
     QCommandLineParser parser;
     parser.setApplicationDescription(
         QStringLiteral("Finds, outlines and follows the small moving vehicles in aerial video.\n"
@@ -63,7 +71,7 @@ StartOptions readOptions(const QCoreApplication& application) {
     StartOptions options;
     const QStringList inputs = parser.positionalArguments();
     if (inputs.size() > 1) refuse(QStringLiteral("expected one video or project, got %1").arg(inputs.size()));
-    if (!inputs.isEmpty()) options.input = inputs.front().toStdString();
+    if (!inputs.isEmpty()) options.input = asGiven(inputs.front(), argc, argv);
     options.gsd_m_per_px = positive(parser, gsd);
     options.frame_rate_hz = positive(parser, rate);
     options.demo = parser.isSet(demo) || (inputs.isEmpty() && !parser.isSet(empty));
@@ -110,20 +118,28 @@ int main(int argc, char** argv) {
     if (asksForText(argc, argv)) {
         QCoreApplication application(argc, argv);
         nameProgram();
-        readOptions(application);
+        readOptions(application, argc, argv);
         return 0;
     }
     needDisplay(argc, argv);
     QApplication::setHighDpiScaleFactorRoundingPolicy(Qt::HighDpiScaleFactorRoundingPolicy::PassThrough);
+    eyrie::EndingSignals ending;
     QApplication application(argc, argv);
     nameProgram();
     QApplication::setDesktopFileName(QStringLiteral("eyrie"));
-    const StartOptions options = readOptions(application);
+    const StartOptions options = readOptions(application, argc, argv);
     eyrie::ui::Theme theme(application);
     theme.choose(options.theme);
     eyrie::ui::MainWindow window;
     window.show();
     if (!options.screenshot.empty()) eyrie::ui::takeScreenshot(window, options.screenshot, options.after_frames);
+    // A stopped run asks no question, which nobody may be there to answer; its whole frames are kept.
+    QObject::connect(&ending, &eyrie::EndingSignals::asked, &window, [&window] {
+        window.session().stopRun();
+        window.close();
+        QCoreApplication::exit(0);
+    });
+    ending.watch();
     window.start(options);
     return QApplication::exec();
 }

@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <string>
 #include <thread>
@@ -224,6 +225,11 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
     RunSummary summary;
     summary.message.clear();
     std::vector<StageTimes> times;
+    const auto fail = [&summary](ErrorKind kind, const std::string& why) {
+        summary.outcome = RunOutcome::failed;
+        summary.message = why;
+        summary.error = kind;
+    };
     try {
         const int count = source.info().frame_count;
         if (range.last < 0) range.last = count - 1;
@@ -284,9 +290,14 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
                 keepState(stateBytes(progress->motion_half));
             }
         }
+    } catch (const Error& error) {
+        fail(error.kind(), error.what());
+    } catch (const std::bad_alloc&) {
+        fail(ErrorKind::input, source.info().path.string() +
+                                   ": the memory of this machine does not suffice; close other programs or use fewer "
+                                   "frames");
     } catch (const std::exception& error) {
-        summary.outcome = RunOutcome::failed;
-        summary.message = error.what();
+        fail(ErrorKind::internal, error.what());
     }
     summary.seconds = secondsSince(start);
     summary.median_ms = medianOf(times);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "chain/chain_options.h"
+#include "core/error.h"
 #include "core/frame.h"
 #include "core/frame_result.h"
 #include "io/frame_source.h"
@@ -52,6 +53,7 @@ enum class RunOutcome { finished, stopped, failed };
 struct RunSummary {
     RunOutcome outcome = RunOutcome::failed;
     std::string message = "the run was never started";  ///< why it failed; empty when finished
+    ErrorKind error = ErrorKind::internal;              ///< who has to act when it failed
     int frames_done = 0;
     int frames_total = 0;
     int unregistered_frames = 0;

@@ -3,10 +3,46 @@
 #include <algorithm>
 
 namespace eyrie {
+namespace {
+
+/// Bytes of the character at the beginning; 0 when they are not UTF-8 (also overlong forms and surrogates).
+std::size_t lengthOfCharacter(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned first = byte(0);
+    if (first < 0x80) return 1;
+    const std::size_t length = first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3 : 4;
+    if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xC0) != 0x80) return 0;
+    const unsigned second = byte(1);
+    const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
+                     (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
+    return bad ? 0 : length;
+}
+
+}  // namespace
+
+std::string validUtf8(std::string_view text) {
+    std::string valid;
+    while (!text.empty()) {
+        const std::size_t length = lengthOfCharacter(text);
+        if (length == 0) {
+            valid += "\xEF\xBF\xBD";
+        } else {
+            valid += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return valid;
+}
+
+std::string displayText(const std::filesystem::path& path) {
+    return validUtf8(path.native());
+}
 
 std::string markupEscaped(std::string_view text) {
     std::string safe;
-    for (const char c : text) {
+    for (const char c : validUtf8(text)) {
         switch (c) {
             case '&':
                 safe += "&amp;";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,7 +9,14 @@
 /// Small works on text that several rooms need.
 namespace eyrie {
 
-/// Text made safe between tags and in attributes of XML, HTML and SVG; characters that XML forbids become "_".
+/// Text with every byte that is not UTF-8 replaced by U+FFFD, as JSON, XML and Qt need it.
+std::string validUtf8(std::string_view text);
+
+/// A file's name for people and for files: names may hold any bytes, what is shown or exchanged must be UTF-8.
+std::string displayText(const std::filesystem::path& path);
+
+/// Text made safe between tags and in attributes of XML, HTML and SVG; characters that XML forbids become "_",
+/// bytes that are not UTF-8 U+FFFD.
 std::string markupEscaped(std::string_view text);
 
 /// How many letters must be added, removed, replaced or swapped with their neighbour to make one text of the other.

@@ -70,7 +70,8 @@ LabelBox boxOf(const TextLine& line, const FieldsOfBox& fields, double first_pix
         const int id = line.integer(at(Column::id), "id");
         if (id >= 0) record.id = id;
     }
-    if (fields.has(Column::class_name)) record.object_class = line.word(at(Column::class_name), "class");
+    if (fields.has(Column::class_name))
+        record.object_class = withoutFormulaGuard(line.word(at(Column::class_name), "class"));
     if (fields.has(Column::class_number)) {
         record.object_class = kNumberedClass + std::to_string(line.integer(at(Column::class_number), "class number"));
     }
@@ -135,7 +136,8 @@ class TableReader {
     }
     FrameIndex frameOf(const TextLine& line, const FieldsOfBox& fields) {
         FrameIndex frame = 0;
-        const std::string image = fields.has(Column::image) ? line.word(fields.field(Column::image), "image") : "";
+        const std::string image =
+            fields.has(Column::image) ? withoutFormulaGuard(line.word(fields.field(Column::image), "image")) : "";
         if (fields.has(Column::frame)) {
             frame = line.frame(fields.field(Column::frame), first_frame_);
         } else {
@@ -245,7 +247,7 @@ class TableWriter {
     }
     std::string word(const std::string& name) const {
         if (columns_.separator == ',') return csvField(name);
-        std::string kept = name;
+        std::string kept = formulaGuarded(name);
         std::replace(kept.begin(), kept.end(), columns_.separator, '_');
         return kept.empty() ? "_" : kept;
     }

@@ -27,6 +27,8 @@ struct LabelFormat {
     LabelFile (*read)(const std::filesystem::path&, const ImportOptions&) = nullptr;
     void (*write)(const LabelFile&, const std::filesystem::path&, const ExportOptions&, ExportReport&) = nullptr;
     bool (*fits)(const FileHead&) = nullptr;
+    /// The files of an export, where they are not just the one that was named.
+    std::vector<ExportFile> (*files)(const std::filesystem::path&, const ExportOptions&) = nullptr;
 };
 
 /// All formats; the order is the order of sniffing.

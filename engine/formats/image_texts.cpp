@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/image_sequence.h"
 #include "io/number_text.h"
 
@@ -16,10 +17,8 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> textsIn(const fs::path& folder) {
     std::vector<fs::path> texts;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const fs::path& file = entry.path();
-        if (entry.is_regular_file() && file.extension() == ".txt" && file.filename() != "classes.txt")
-            texts.push_back(file);
+    for (const fs::path& file : entriesOf(folder)) {
+        if (file.extension() == ".txt" && file.filename() != "classes.txt" && isFile(file)) texts.push_back(file);
     }
     std::sort(texts.begin(), texts.end(),
               [](const fs::path& a, const fs::path& b) { return naturalOrder(a.filename(), b.filename()); });
@@ -28,11 +27,11 @@ std::vector<fs::path> textsIn(const fs::path& folder) {
 
 /// The folder with the texts: this one, `labels_name` in it, or the only folder in that.
 fs::path textFolder(const fs::path& path, const char* labels_name) {
-    fs::path folder = fs::is_directory(path / labels_name) ? path / labels_name : path;
+    fs::path folder = isFolder(path / labels_name) ? path / labels_name : path;
     if (!textsIn(folder).empty()) return folder;
     std::vector<fs::path> inner;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.is_directory() && !textsIn(entry.path()).empty()) inner.push_back(entry.path());
+    for (const fs::path& entry : entriesOf(folder)) {
+        if (isFolder(entry) && !textsIn(entry).empty()) inner.push_back(entry);
     }
     return inner.size() == 1 ? inner.front() : folder;
 }
@@ -47,8 +46,8 @@ std::optional<int> numberAtEnd(const std::string& stem) {
 
 std::map<std::string, FrameIndex> framesOfImages(const fs::path& folder, LabelFile& labels) {
     std::vector<fs::path> images;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.is_regular_file() && ImageSequence::isImageFile(entry.path())) images.push_back(entry.path());
+    for (const fs::path& file : entriesOf(folder)) {
+        if (ImageSequence::isImageFile(file) && isFile(file)) images.push_back(file);
     }
     std::sort(images.begin(), images.end(),
               [](const fs::path& a, const fs::path& b) { return naturalOrder(a.filename(), b.filename()); });
@@ -83,7 +82,7 @@ std::optional<fs::path> firstImageText(const fs::path& folder, const char* label
 }
 
 std::vector<ImageText> findImageTexts(const fs::path& path, const char* labels_name, LabelFile& labels) {
-    if (!fs::is_directory(path)) {
+    if (!isFolder(path)) {
         labels.notes.push_back("a text of one image became frame 0");
         return {{path, 0}};
     }
@@ -134,12 +133,7 @@ void makeTextFolder(const fs::path& folder) {
 }
 
 void writePlainFile(const fs::path& file, const std::string& text) {
-    std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-    stream << text;
-    stream.close();
-    if (!stream) {
-        throw Error(ErrorKind::output, file.string() + ": cannot be written; check the folder and the space left");
-    }
+    writeFileAtomically(file, text, Durability::left_to_system);
 }
 
 std::string imageStem(const LabelFile& labels, FrameIndex frame) {

@@ -1,25 +1,46 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "formats/format_functions.h"
 
 namespace eyrie {
 namespace {
 
-/// Gives ids above all others to boxes that have none, or one that another box of the frame has.
-int numberBoxes(LabelBoxes& boxes) {
-    int next = 1;
-    for (const auto& [frame, records] : boxes) {
-        for (const LabelBox& record : records) next = std::max(next, record.id.value_or(0) + 1);
+/// Numbers above all that are in use, or, above the largest there is, the lowest that are free.
+class FreeNumbers {
+ public:
+    explicit FreeNumbers(const LabelBoxes& boxes) {
+        for (const auto& [frame, records] : boxes) {
+            for (const LabelBox& record : records)
+                if (record.id) used_.insert(*record.id);
+        }
+        highest_ = used_.empty() ? 0 : std::max(0, *used_.rbegin());
     }
+    int next() {
+        if (highest_ < std::numeric_limits<int>::max()) return ++highest_;
+        while (used_.count(lowest_) > 0) ++lowest_;
+        return lowest_++;
+    }
+
+ private:
+    std::set<int> used_;
+    int highest_ = 0;
+    int lowest_ = 1;
+};
+
+/// Gives ids of their own to boxes that have none, or one that another box of the frame has.
+int numberBoxes(LabelBoxes& boxes) {
+    FreeNumbers free_numbers(boxes);
     int numbered = 0;
     for (auto& [frame, records] : boxes) {
         std::set<int> taken;
         for (LabelBox& record : records) {
             if (record.id && taken.insert(*record.id).second) continue;
-            record.id = next++;
+            record.id = free_numbers.next();
             ++numbered;
         }
     }
@@ -76,6 +97,18 @@ void reportLosses(const LabelFile& labels, const Carries& carries, ExportReport&
     report.add(LossKind::velocity, velocities, "lost their velocity");
 }
 
+const LabelFormat& formatToWrite(const std::string& format) {
+    const auto& table = formatTable();
+    const auto known =
+        std::find_if(table.begin(), table.end(), [&](const LabelFormat& entry) { return entry.info.name == format; });
+    if (known != table.end() && known->write) return *known;
+    std::string names;
+    for (const LabelFormat& entry : table) {
+        if (entry.write) names += (names.empty() ? "" : ", ") + entry.info.name;
+    }
+    throw Error(ErrorKind::parameter, "format \"" + format + "\" cannot be written; there are " + names);
+}
+
 }  // namespace
 
 void ExportReport::add(LossKind kind, int count, const std::string& remark_after_number) {
@@ -89,18 +122,19 @@ int ExportReport::lost(LossKind kind) const {
     return count;
 }
 
+std::vector<ExportFile> filesToWrite(const std::filesystem::path& path, const std::string& format,
+                                     const ExportOptions& options) {
+    const LabelFormat& known = formatToWrite(format);
+    if (known.files) return known.files(path, options);
+    if (known.info.folder) return {};
+    const std::string extension = known.info.extensions.empty() ? "" : known.info.extensions.front();
+    const FileKind kind = extension == "json" ? FileKind::json : extension == "xml" ? FileKind::xml : FileKind::text;
+    return {{path, kind}};
+}
+
 ExportReport writeLabels(const LabelFile& labels, const std::filesystem::path& path, const std::string& format,
                          const ExportOptions& options) {
-    const auto& table = formatTable();
-    const auto known =
-        std::find_if(table.begin(), table.end(), [&](const LabelFormat& entry) { return entry.info.name == format; });
-    if (known == table.end() || !known->write) {
-        std::string names;
-        for (const LabelFormat& entry : table) {
-            if (entry.write) names += (names.empty() ? "" : ", ") + entry.info.name;
-        }
-        throw Error(ErrorKind::parameter, "format \"" + format + "\" cannot be written; there are " + names);
-    }
+    const LabelFormat& known = formatToWrite(format);
     ExportReport report;
     report.format = format;
     LabelFile prepared = labels;
@@ -108,16 +142,18 @@ ExportReport writeLabels(const LabelFile& labels, const std::filesystem::path& p
     if (options.frame_count) prepared.frame_count = options.frame_count;
     if (options.frame_rate_hz) prepared.frame_rate_hz = options.frame_rate_hz;
     std::erase_if(prepared.boxes, [](const auto& entry) { return entry.second.empty(); });
-    const Carries& carries = known->info.carries;
+    const Carries& carries = known.info.carries;
     reportLosses(prepared, carries, report);
-    if (known->needs_id) {
+    if (known.needs_id) {
         report.add(LossKind::id, numberBoxes(prepared.boxes), "had no id of their own in a frame and got one");
     }
     if (options.clip.value_or(false) && !carries.rotation) {
         const cv::Size size = neededSize(prepared.image_size, path, "cutting boxes at the border");
         report.add(LossKind::clipped, clipBoxes(prepared.boxes, size), "were cut at the image's border");
     }
-    known->write(prepared, path, options, report);
+    ExportOptions valid = options;
+    valid.sequence = validUtf8(options.sequence);  // names of files may be anything
+    known.write(prepared, path, valid, report);
     return report;
 }
 

@@ -7,6 +7,8 @@
 
 #include "core/error.h"
 #include "formats/format_functions.h"
+#include "io/atomic_file.h"
+#include "io/folder.h"
 
 namespace eyrie {
 namespace {
@@ -23,12 +25,9 @@ const LabelFormat& formatNamed(const std::string& name) {
 FileHead headOf(const std::filesystem::path& path) {
     FileHead head;
     head.path = path;
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) {
-        throw Error(ErrorKind::input, path.string() + ": there is no such file or folder");
-    }
-    head.folder = std::filesystem::is_directory(path, ignored);
+    head.folder = isFolder(path);
     if (head.folder) return head;
+    checkReadableFile(path);
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw Error(ErrorKind::input, path.string() + ": cannot be read; check its permissions");
     head.text.resize(1 << 16);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/label_file.h"
+#include "io/file_kind.h"
 
 /// Import and export of labels in every format that peers use; columns and conventions of each are told beside its
 /// functions. Reading ends with labels or an Error(input) that names file and place, whatever the bytes are.
@@ -90,6 +91,19 @@ std::string sniffLabelFormat(const std::filesystem::path& path);
 /// "file:place: …" for anything malformed and Error(parameter) for an unknown format or a missing option.
 LabelFile readLabels(const std::filesystem::path& path, const std::string& format = "auto",
                      const ImportOptions& options = {});
+
+/// A file that an export writes.
+struct ExportFile {
+    std::filesystem::path path;
+    FileKind kind = FileKind::text;
+    bool grows = false;  ///< lines are added to what is there
+};
+
+/// Every file that writeLabels may write that can exist already, for io/output_files.h to judge before it does. Texts
+/// of single images are not among them: folders that hold such are refused. Throws Error(parameter) for an unknown
+/// format.
+std::vector<ExportFile> filesToWrite(const std::filesystem::path& path, const std::string& format,
+                                     const ExportOptions& options = {});
 
 /// Writes labels and says what the format could not carry. Existing folders of labels are refused, existing files
 /// replaced whole. Throws Error(output), and Error(parameter) for an unknown format or a missing option.

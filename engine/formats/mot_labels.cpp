@@ -2,6 +2,7 @@
 #include "formats/format_functions.h"
 #include "formats/mot_tree.h"
 #include "io/box_csv.h"
+#include "io/folder.h"
 
 namespace eyrie {
 namespace {
@@ -14,14 +15,14 @@ MotOptions pixelsOf(const std::optional<double>& first_pixel_edge) {
 
 /// The text of a sequence's folder, or the file itself.
 std::filesystem::path textIn(const std::filesystem::path& path) {
-    return std::filesystem::is_directory(path) ? path / "gt" / "gt.txt" : path;
+    return isFolder(path) ? path / "gt" / "gt.txt" : path;
 }
 
 LabelFile withSequence(LabelFile labels, const std::filesystem::path& file) {
     labels.first_frame_number = 1;
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     for (const auto& place : {folder, folder.parent_path()}) {
-        if (!std::filesystem::is_regular_file(place / "seqinfo.ini")) continue;
+        if (!isFile(place / "seqinfo.ini")) continue;
         const MotSequence sequence = readMotSequence(place / "seqinfo.ini");
         labels.image_size = sequence.image_size;
         labels.frame_count = sequence.frame_count;
@@ -75,10 +76,14 @@ std::size_t columnsOf(const FileHead& head) {
 
 }  // namespace
 
+std::filesystem::path orientedSidecar(const std::filesystem::path& path) {
+    std::filesystem::path sidecar = path;
+    return sidecar.replace_extension(".oriented.csv");
+}
+
 void writeOrientedSidecar(const LabelFile& labels, const std::filesystem::path& path, ExportReport& report) {
     if (report.lost(LossKind::rotation) == 0) return;
-    std::filesystem::path sidecar = path;
-    sidecar.replace_extension(".oriented.csv");
+    const std::filesystem::path sidecar = orientedSidecar(path);
     writeGroundTruthCsv(sidecar, plainBoxes(labels.boxes));
     report.files.push_back(sidecar);
     report.notes.push_back("the exact boxes are in " + sidecar.string());
@@ -91,8 +96,11 @@ LabelFormat motFormat() {
     format.needs_id = true;
     format.read = readTruth;
     format.write = writeTruth;
+    format.files = [](const std::filesystem::path& path, const ExportOptions&) {
+        return std::vector<ExportFile>{{path}, {orientedSidecar(path)}};
+    };
     format.fits = [](const FileHead& head) {
-        if (head.folder) return std::filesystem::is_regular_file(head.path / "gt" / "gt.txt");
+        if (head.folder) return isFile(head.path / "gt" / "gt.txt");
         return columnsOf(head) == 8 || columnsOf(head) == 9;
     };
     return format;

@@ -1,10 +1,10 @@
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 #include "core/error.h"
 #include "formats/mot_classes.h"
 #include "formats/motchallenge.h"
+#include "io/atomic_file.h"
 
 namespace eyrie {
 namespace {
@@ -28,19 +28,11 @@ std::string boxColumns(const BoxRecord& record, const MotOptions& options, MotLo
 /// Writes the lines that `columns` makes of the boxes; the file appears whole or not at all.
 template <class Boxes, class Columns>
 void writeLines(const std::filesystem::path& file, const Boxes& boxes, const Columns& columns) {
-    std::filesystem::path unfinished = file;
-    unfinished += ".part";
-    std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
+    std::string text;
     for (const auto& [frame, records] : boxes) {
-        for (const auto& record : records) stream << frame + 1 << ',' << columns(record) << '\n';
+        for (const auto& record : records) text += std::to_string(frame + 1) + ',' + columns(record) + '\n';
     }
-    stream.close();
-    std::error_code error;
-    if (stream) std::filesystem::rename(unfinished, file, error);
-    if (stream && !error) return;
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw Error(ErrorKind::output, file.string() + ": cannot be written; check the folder and the space left");
+    writeFileAtomically(file, text);
 }
 
 }  // namespace

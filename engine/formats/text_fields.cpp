@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 
 namespace eyrie {
 namespace {
@@ -140,13 +141,7 @@ void TextLine::fail(std::size_t field, const std::string& message) const {
 }
 
 std::vector<std::string> readTextLines(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
-        throw Error(ErrorKind::input, file.string() + ": there is no such file");
-    }
-    if (std::filesystem::is_directory(file, ignored)) {
-        throw Error(ErrorKind::input, file.string() + ": is a folder; name the text file in it");
-    }
+    checkReadableFile(file);
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw Error(ErrorKind::input, file.string() + ": cannot be read; check its permissions");
     std::vector<std::string> lines;

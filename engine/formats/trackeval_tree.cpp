@@ -5,6 +5,7 @@
 #include "formats/format_functions.h"
 #include "formats/mot_tree.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/number_text.h"
 
 /// The tree that TrackEval runs on as it is:
@@ -45,7 +46,7 @@ bool numberDensely(LabelBoxes& boxes) {
 
 void listSequence(const fs::path& seqmap, const std::string& sequence, ExportReport& report) {
     std::vector<std::string> lines{"name"};
-    if (fs::exists(seqmap)) lines = readTextLines(seqmap);
+    if (isFile(seqmap)) lines = readTextLines(seqmap);
     std::erase_if(lines, [](const std::string& line) { return line.find_first_not_of(" \t\r") == std::string::npos; });
     if (lines.empty()) lines.emplace_back("name");  // TrackEval passes over the first line and breaks on blank ones
     if (std::find(lines.begin(), lines.end(), sequence) == lines.end()) lines.push_back(sequence);
@@ -66,32 +67,51 @@ std::string seqinfo(const LabelFile& labels, const std::string& sequence) {
     return text + "imExt=.png\n";
 }
 
+/// Places in the tree that an export with these options writes.
+struct TreePlaces {
+    TreePlaces(const fs::path& root, const ExportOptions& options) {
+        const std::string sequence = pathWord(options.sequence);
+        const std::string benchmark = pathWord(options.benchmark) + '-' + pathWord(options.split);
+        const fs::path all = root / "gt" / "mot_challenge";
+        truth = all / benchmark / sequence / "gt" / "gt.txt";
+        seqinfo = all / benchmark / sequence / "seqinfo.ini";
+        seqmap = all / "seqmaps" / (benchmark + ".txt");
+        result =
+            root / "trackers" / "mot_challenge" / benchmark / pathWord(options.tracker) / "data" / (sequence + ".txt");
+    }
+    fs::path truth, seqinfo, seqmap;
+    fs::path result;  ///< of a tracker
+};
+
+std::vector<ExportFile> filesOf(const fs::path& root, const ExportOptions& options) {
+    const TreePlaces places(root, options);
+    if (!options.tracker.empty()) return {{places.result}};
+    return {{places.truth}, {orientedSidecar(places.truth)}, {places.seqinfo}, {places.seqmap, FileKind::text, true}};
+}
+
 void writeTree(const LabelFile& labels, const fs::path& root, const ExportOptions& options, ExportReport& report) {
-    const std::string sequence = pathWord(options.sequence);
-    const std::string benchmark = pathWord(options.benchmark) + '-' + pathWord(options.split);
+    const TreePlaces places(root, options);
     LabelFile dense = labels;
     if (numberDensely(dense.boxes))
         report.notes.push_back("ids were renumbered from 1 without gaps, as TrackEval needs");
     if (!options.tracker.empty()) {
-        const fs::path folder = root / "trackers" / "mot_challenge" / benchmark / pathWord(options.tracker) / "data";
-        makeFolder(folder);
-        writeMotResult(folder / (sequence + ".txt"), plainBoxes(dense.boxes));
-        report.files.push_back(folder / (sequence + ".txt"));
+        makeFolder(places.result.parent_path());
+        writeMotResult(places.result, plainBoxes(dense.boxes));
+        report.files.push_back(places.result);
     } else {
-        const fs::path truth = root / "gt" / "mot_challenge";
-        makeFolder(truth / benchmark / sequence / "gt");
-        makeFolder(truth / "seqmaps");
+        makeFolder(places.truth.parent_path());
+        makeFolder(places.seqmap.parent_path());
         MotWriteOptions write;
         write.every_class_one = true;
         write.ignored_distract = true;
-        const fs::path file = truth / benchmark / sequence / "gt" / "gt.txt";
-        const MotLosses losses = writeMotTruth(file, dense.boxes, write);
-        report.add(LossKind::class_name, losses.classes, "became class 1, the only one that TrackEval scores (ignored ones 8)");
-        report.files.push_back(file);
-        writeOrientedSidecar(labels, file, report);
-        writeFileAtomically(truth / benchmark / sequence / "seqinfo.ini", seqinfo(labels, sequence));
-        report.files.push_back(truth / benchmark / sequence / "seqinfo.ini");
-        listSequence(truth / "seqmaps" / (benchmark + ".txt"), sequence, report);
+        const MotLosses losses = writeMotTruth(places.truth, dense.boxes, write);
+        report.add(LossKind::class_name, losses.classes,
+                   "became class 1, the only one that TrackEval scores (ignored ones 8)");
+        report.files.push_back(places.truth);
+        writeOrientedSidecar(labels, places.truth, report);
+        writeFileAtomically(places.seqinfo, seqinfo(labels, pathWord(options.sequence)));
+        report.files.push_back(places.seqinfo);
+        listSequence(places.seqmap, pathWord(options.sequence), report);
     }
     report.notes.push_back("run_mot_challenge.py --GT_FOLDER " + (root / "gt/mot_challenge").string() +
                            " --TRACKERS_FOLDER " + (root / "trackers/mot_challenge").string() + " --BENCHMARK " +
@@ -101,11 +121,11 @@ void writeTree(const LabelFile& labels, const fs::path& root, const ExportOption
 std::vector<fs::path> sequencesOf(const fs::path& root) {
     std::vector<fs::path> found;
     for (const fs::path& top : {root / "gt" / "mot_challenge", root / "data" / "gt" / "mot_challenge"}) {
-        if (!fs::is_directory(top)) continue;
-        for (const auto& benchmark : fs::directory_iterator(top)) {
-            if (!benchmark.is_directory()) continue;
-            for (const auto& sequence : fs::directory_iterator(benchmark)) {
-                if (fs::is_regular_file(sequence.path() / "gt" / "gt.txt")) found.push_back(sequence.path());
+        if (!isFolder(top)) continue;
+        for (const fs::path& benchmark : entriesOf(top)) {
+            if (!isFolder(benchmark)) continue;
+            for (const fs::path& sequence : entriesOf(benchmark)) {
+                if (isFile(sequence / "gt" / "gt.txt")) found.push_back(sequence);
             }
         }
     }
@@ -145,6 +165,7 @@ LabelFormat trackEvalFormat() {
     format.needs_id = true;
     format.read = readTree;
     format.write = writeTree;
+    format.files = filesOf;
     format.fits = [](const FileHead& head) { return head.folder && !sequencesOf(head.path).empty(); };
     return format;
 }

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "formats/format_functions.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 
 /// UAVDT: three texts per sequence, whole pixels from 0, frames from 1.
 ///   <name>_gt.txt         frame,id,left,top,width,height,score,in view (1),-1; without what is partly out of view
@@ -90,7 +91,7 @@ LabelFile readUavdt(const fs::path& path, const ImportOptions&) {
     const fs::path folder = path.parent_path();
     const auto beside = [&](const char* ending) {
         const fs::path file = folder / (*stem + ending);
-        const bool there = file != path && fs::is_regular_file(file);
+        const bool there = file != path && isFile(file);
         if (there) labels.further_files.push_back(file);
         return there ? file : fs::path();
     };
@@ -116,6 +117,14 @@ std::string beginning(FrameIndex frame, int id, const OrientedBox& box, int& rou
            std::to_string(top) + ',' + std::to_string(right - left) + ',' + std::to_string(bottom - top) + ',';
 }
 
+fs::path textOf(const fs::path& path, const char* ending) {
+    return path.parent_path() / (stemOf(path).value_or(path.stem().string()) + ending);
+}
+
+std::vector<ExportFile> filesOf(const fs::path& path, const ExportOptions&) {
+    return {{textOf(path, kPlain)}, {textOf(path, kWhole)}, {textOf(path, kIgnore)}};
+}
+
 void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptions&, ExportReport& report) {
     std::string plain, whole, areas;
     int rounded = 0, strange = 0, fully = 0, classes_of_areas = 0;
@@ -138,9 +147,8 @@ void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptio
             whole += begin + "1," + occlusion + ',' + std::to_string(category == 0 ? 1 : category) + '\n';
         }
     }
-    const std::string stem = stemOf(path).value_or(path.stem().string());
     for (const auto& [ending, text] : {std::pair{kPlain, plain}, {kWhole, whole}, {kIgnore, areas}}) {
-        const fs::path file = path.parent_path() / (stem + ending);
+        const fs::path file = textOf(path, ending);
         writeFileAtomically(file, text);
         report.files.push_back(file);
     }
@@ -159,6 +167,7 @@ LabelFormat uavdtFormat() {
     format.needs_id = true;
     format.read = readUavdt;
     format.write = writeUavdt;
+    format.files = filesOf;
     format.fits = [](const FileHead& head) {
         return !head.folder && stemOf(head.path) && !head.lines.empty() &&
                leadingNumbers(head.lines.front(), ',').size() == 9;

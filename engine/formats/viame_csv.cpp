@@ -68,7 +68,7 @@ LabelBox boxOf(const TextLine& line, int& passed_over) {
             takeAttribute(line, field, record, passed_over);
             continue;
         }
-        const std::string name = line.word(field, "class");
+        const std::string name = withoutFormulaGuard(line.word(field, "class"));
         const double score = line.number(++field, "score of the class");
         if (score <= surest) continue;
         surest = score;
@@ -101,7 +101,7 @@ LabelFile readViame(const std::filesystem::path& path, const ImportOptions&) {
         }
         const TextLine line(path, number, text);
         LabelBox record = boxOf(line, passed_over);
-        if (!line.text(1).empty()) labels.image_names[record.frame] = line.word(1, "image");
+        if (!line.text(1).empty()) labels.image_names[record.frame] = withoutFormulaGuard(line.word(1, "image"));
         if (!record.object_class.empty()) last_class[*record.id] = record.object_class;
         labels.boxes[record.frame].push_back(std::move(record));
     }

@@ -21,7 +21,7 @@ LabelFile readVivid(const std::filesystem::path& path, const ImportOptions&) {
         }
         if (line.size() != 7) line.fail(0, std::to_string(line.size()) + " columns, expected the 7 of VIVID truth");
         LabelBox record;
-        const std::string text = line.word(0, "text");
+        const std::string text = withoutFormulaGuard(line.word(0, "text"));
         record.frame = line.frame(1, 0);
         record.id = line.identity(2);
         const double width = line.pixels(5, "width");

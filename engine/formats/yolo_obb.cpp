@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "formats/image_texts.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/frame_source.h"
 #include "io/number_text.h"
 
@@ -81,7 +82,7 @@ DataYaml readYaml(const fs::path& file) {
 std::optional<fs::path> yamlFor(const fs::path& path) {
     fs::path folder = fs::absolute(path).lexically_normal();
     for (int up = 0; up < 4 && !folder.empty(); ++up, folder = folder.parent_path()) {
-        if (fs::is_regular_file(folder / "data.yaml")) return folder / "data.yaml";
+        if (isFile(folder / "data.yaml")) return folder / "data.yaml";
     }
     return std::nullopt;
 }
@@ -225,6 +226,9 @@ LabelFormat yoloObbFormat() {
     format.info.carries = {.rotation = true, .object_class = true};
     format.read = readYolo;
     format.write = writeYolo;
+    format.files = [](const fs::path& path, const ExportOptions&) {
+        return std::vector<ExportFile>{{path / "data.yaml"}};
+    };
     format.fits = looksLike;
     return format;
 }

@@ -3,26 +3,42 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <climits>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace eyrie {
 
 namespace {
 
 [[noreturn]] void failToWrite(const std::filesystem::path& path, int reason) {
-    throw Error(ErrorKind::output, path.string() + ": cannot be written (" + std::strerror(reason) +
+    throw Error(ErrorKind::output, displayText(path) + ": cannot be written (" + std::strerror(reason) +
                                        "); choose a folder that may be written and has room");
 }
 
-std::filesystem::path temporaryBeside(const std::filesystem::path& path) {
-    static std::atomic<int> count{0};
-    return path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".part";
+/// The descriptor that /dev/stdout and the like stand for. Opening them anew would write over what was printed to a
+/// file, or replace the device itself.
+int ownDescriptor(const std::filesystem::path& path) {
+    const std::string name = path.lexically_normal().string();
+    if (name == "/dev/stdout") return STDOUT_FILENO;
+    if (name == "/dev/stderr") return STDERR_FILENO;
+    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+        if (!name.starts_with(folder)) continue;
+        int descriptor = -1;
+        const char* end = name.data() + name.size();
+        const auto read = std::from_chars(name.data() + folder.size(), end, descriptor);
+        if (read.ec == std::errc() && read.ptr == end) return descriptor;
+    }
+    return -1;
 }
 
 bool writeAll(int file, std::string_view bytes) {
@@ -35,43 +51,85 @@ bool writeAll(int file, std::string_view bytes) {
     return true;
 }
 
+/// Writes into a device, a pipe or an own descriptor.
+void writeInPlace(const std::filesystem::path& path, std::string_view bytes) {
+    const int own = ownDescriptor(path);
+    if (own >= 0) std::fflush(nullptr);  // what was printed before comes before
+    const int file = own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 3) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) failToWrite(path, errno);
+    const bool written = writeAll(file, bytes);
+    const int reason = errno;
+    if (::close(file) != 0 && written) failToWrite(path, errno);
+    if (!written) failToWrite(path, reason);
+}
+
 }  // namespace
 
-void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
+bool isOwnStream(const std::filesystem::path& path) {
+    return ownDescriptor(path) >= 0;
+}
+
+std::filesystem::path throughLinks(const std::filesystem::path& path) {
+    std::error_code failed;
+    if (!std::filesystem::is_symlink(path, failed)) return path;
+    const std::filesystem::path target = std::filesystem::canonical(path, failed);
+    return failed ? path : target;
+}
+
+std::filesystem::path temporaryBeside(const std::filesystem::path& path) {
+    static std::atomic<int> count{0};
+    char ending[48];
+    const int length = std::snprintf(ending, sizeof ending, ".%ld-%d.part", static_cast<long>(::getpid()), ++count);
+    std::string name = path.filename().string();
+    name.resize(std::min<std::size_t>(name.size(), NAME_MAX - static_cast<std::size_t>(length)));
+    return path.parent_path() / (name + ending);
+}
+
+void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes, Durability durability) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) failToWrite(path, EISDIR);
-    // Devices and pipes (/dev/stdout) cannot be replaced, only written to.
-    const bool in_place = std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
-    const std::filesystem::path target = in_place ? path : temporaryBeside(path);
-    const int flags = in_place ? O_WRONLY | O_CLOEXEC : O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
-    const int file = ::open(target.c_str(), flags, 0666);
+    const bool stream = std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
+    if (stream || isOwnStream(path)) return writeInPlace(path, bytes);
+    const std::filesystem::path target = throughLinks(path);
+    const std::filesystem::path aside = temporaryBeside(target);
+    const int file = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file < 0) failToWrite(path, errno);
     bool written = writeAll(file, bytes);
-    if (written && !in_place) written = ::fsync(file) == 0;
+    if (written && durability == Durability::synchronised) written = ::fsync(file) == 0;
     int reason = errno;
     if (::close(file) != 0 && written) {
         written = false;
         reason = errno;
     }
-    if (written && !in_place && ::rename(target.c_str(), path.c_str()) != 0) {
+    if (written && ::rename(aside.c_str(), target.c_str()) != 0) {
         written = false;
         reason = errno;
     }
     if (written) return;
-    if (!in_place) ::unlink(target.c_str());
+    ::unlink(aside.c_str());
     failToWrite(path, reason);
 }
 
+void checkReadableFile(const std::filesystem::path& path) {
+    std::error_code failed;
+    const auto status = std::filesystem::status(path, failed);
+    const std::string name = displayText(path);
+    if (failed && failed != std::errc::no_such_file_or_directory)
+        throw Error(ErrorKind::input, name + ": cannot be read (" + failed.message() + ")");
+    if (!std::filesystem::exists(status)) throw Error(ErrorKind::input, name + ": there is no such file");
+    if (std::filesystem::is_directory(status)) throw Error(ErrorKind::input, name + ": is a folder, expected a file");
+    if (!std::filesystem::is_regular_file(status))
+        throw Error(ErrorKind::input, name + ": is a pipe or a device; save what comes from it to a file first");
+    if (::access(path.c_str(), R_OK) != 0)
+        throw Error(ErrorKind::input, name + ": cannot be read (" + std::strerror(errno) + "); check its permissions");
+}
+
 std::string readWholeFile(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored))
-        throw Error(ErrorKind::input, path.string() + ": there is no such file");
-    if (std::filesystem::is_directory(path, ignored))
-        throw Error(ErrorKind::input, path.string() + ": is a folder, expected a file");
+    checkReadableFile(path);
     std::ifstream file(path, std::ios::binary);
     std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     if (!file.good() && !file.eof())
-        throw Error(ErrorKind::input, path.string() + ": cannot be read; check its permissions");
+        throw Error(ErrorKind::input, displayText(path) + ": cannot be read; check its permissions");
     return bytes;
 }
 

@@ -6,11 +6,31 @@
 
 namespace eyrie {
 
-/// Replaces a file in one step: readers see the old bytes or the new ones, never a part. Throws Error(output) naming
-/// the file and the reason; the old file is untouched then.
-void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+/// Whether a written file must survive a power cut (waits for the disk), or may be left to the system: one of many
+/// small files that are made anew together.
+enum class Durability { synchronised, left_to_system };
 
-/// All bytes of a file. Throws Error(input) when it is missing, a folder or cannot be read.
+/// Replaces a file in one step: readers see the old bytes or the new ones, never a part. A link stays one, its target
+/// is replaced. Devices and pipes are written to as they are; /dev/stdout and the like go where the process writes, in
+/// turn with what it prints. Throws Error(output) naming the file and the reason; the old file is untouched then.
+void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes,
+                         Durability durability = Durability::synchronised);
+
+/// Whether a name stands for a stream that this process has open: /dev/stdout, /dev/fd/3 and the like.
+bool isOwnStream(const std::filesystem::path& path);
+
+/// A new name beside `path` for what will take its place when it is complete; short enough where the name of `path` is
+/// as long as names may be.
+std::filesystem::path temporaryBeside(const std::filesystem::path& path);
+
+/// Where a rename must lead so that a link stays a link: its target, or the path itself.
+std::filesystem::path throughLinks(const std::filesystem::path& path);
+
+/// Throws Error(input) when a file is missing, a folder, a pipe or device (which would be waited for), or may not be
+/// read.
+void checkReadableFile(const std::filesystem::path& path);
+
+/// All bytes of a file. Throws Error(input) as checkReadableFile does.
 std::string readWholeFile(const std::filesystem::path& path);
 
 }  // namespace eyrie

@@ -1,8 +1,11 @@
 #include "io/box_csv.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/angle.h"
+#include "core/error.h"
+#include "core/text.h"
 #include "io/atomic_file.h"
 #include "io/csv_reader.h"
 #include "io/number_text.h"
@@ -75,6 +78,10 @@ BoxesByFrame readBoxCsv(const std::filesystem::path& path) {
             named[id].emplace_back(record.frame, in_frame.size());
         }
         in_frame.push_back(std::move(record));
+    }
+    if (!named.empty() && highest_id > std::numeric_limits<int>::max() - static_cast<int>(named.size())) {
+        throw Error(ErrorKind::input, displayText(path) + ": id " + std::to_string(highest_id) +
+                                          " leaves no number for the areas with names; use smaller ids");
     }
     for (const auto& [name, places] : named) {
         ++highest_id;

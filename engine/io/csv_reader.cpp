@@ -5,6 +5,17 @@
 #include "io/number_text.h"
 
 namespace eyrie {
+namespace {
+
+/// What spreadsheets would run, or what has become like it by a guard.
+bool isFormula(const std::string& text) {
+    const std::size_t first = text.find_first_not_of('\'');
+    if (first == std::string::npos || std::string_view("=+-@\t\r").find(text[first]) == std::string_view::npos)
+        return false;
+    return first > 0 || !parseReal(text);
+}
+
+}  // namespace
 
 CsvReader::CsvReader(const std::filesystem::path& path, const std::vector<std::string>& required)
     : path_(path), bytes_(readWholeFile(path)) {
@@ -74,7 +85,7 @@ bool CsvReader::next() {
 
 std::string CsvReader::text(const std::string& column) const {
     const auto found = columns_.find(column);
-    return found == columns_.end() ? std::string() : std::string(trimmed(fields_[found->second]));
+    return found == columns_.end() ? std::string() : withoutFormulaGuard(std::string(trimmed(fields_[found->second])));
 }
 
 double CsvReader::real(const std::string& column, std::optional<double> fallback) const {
@@ -102,7 +113,16 @@ void CsvReader::refuseLine(const std::string& reason) const {
     throw Error(ErrorKind::input, path_.string() + ":" + std::to_string(line_) + ": " + reason);
 }
 
-std::string csvField(const std::string& text) {
+std::string formulaGuarded(const std::string& text) {
+    return isFormula(text) ? "'" + text : text;
+}
+
+std::string withoutFormulaGuard(const std::string& text) {
+    return text.starts_with('\'') && isFormula(text.substr(1)) ? text.substr(1) : text;
+}
+
+std::string csvField(const std::string& raw) {
+    const std::string text = formulaGuarded(raw);
     if (text.find_first_of(",\"\n\r") == std::string::npos && trimmed(text) == text) return text;
     std::string quoted = "\"";
     for (const char c : text) {

@@ -21,7 +21,7 @@ class CsvReader {
     bool next();
     bool has(const std::string& column) const { return columns_.contains(column); }
 
-    /// The field of this row; empty when there is no such column.
+    /// The field of this row without the guard against formulas; empty when there is no such column.
     std::string text(const std::string& column) const;
     /// The field as a number, or `fallback` when there is no such column or the field is empty. Without `fallback` an
     /// empty field is an error, as is anything but a finite number.
@@ -45,7 +45,13 @@ class CsvReader {
     std::size_t column_count_ = 0;
 };
 
-/// The text as one field: quoted where commas, quotes or line ends ask for it.
+/// The text as one field: quoted where commas, quotes or line ends ask for it, and guarded.
 std::string csvField(const std::string& text);
+
+/// Spreadsheets run text that begins with =, +, -, @, a tab or a carriage return. Such gets an apostrophe before it,
+/// which they take for the mark of a text; numbers stay as they are. A text that begins with apostrophes and then such
+/// a character gets one more, so that every text comes back from `withoutFormulaGuard`.
+std::string formulaGuarded(const std::string& text);
+std::string withoutFormulaGuard(const std::string& text);
 
 }  // namespace eyrie

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 
 namespace eyrie {
 
@@ -64,13 +65,8 @@ std::string sizeText(cv::Size size) {
 
 std::vector<std::filesystem::path> imagesIn(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
-    try {
-        for (const auto& entry : std::filesystem::directory_iterator(folder))
-            if (entry.is_regular_file() && ImageSequence::isImageFile(entry.path())) files.push_back(entry.path());
-    } catch (const std::filesystem::filesystem_error& error) {
-        throw Error(ErrorKind::input, folder.string() + ": the folder cannot be read (" + error.code().message() +
-                                          "); check its permissions");
-    }
+    for (const std::filesystem::path& file : entriesOf(folder))
+        if (ImageSequence::isImageFile(file) && isFile(file)) files.push_back(file);
     if (files.empty())
         throw Error(ErrorKind::input,
                     folder.string() + ": the folder holds no images; expected png, jpg, tif, pgm or bmp files");
@@ -145,8 +141,7 @@ bool ImageSequence::isImageFile(const std::filesystem::path& path) {
 ImageSequence::ImageSequence(const std::filesystem::path& path, const SourceOptions& options) {
     info_.path = std::filesystem::absolute(path).lexically_normal();
     if (!info_.path.has_filename()) info_.path = info_.path.parent_path();
-    files_ = std::filesystem::is_directory(info_.path) ? imagesIn(info_.path)
-                                                       : std::vector<std::filesystem::path>{info_.path};
+    files_ = isFolder(info_.path) ? imagesIn(info_.path) : std::vector<std::filesystem::path>{info_.path};
     const cv::Mat first = decode(files_.front());
     if (first.depth() == CV_16U) std::tie(black_, white_) = rangeOf(first);
     info_.size = first.size();

@@ -1,11 +1,11 @@
 #include "io/video_writer.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
+#include "core/text.h"
+#include "io/atomic_file.h"
 #include "io/libav.h"
 
 namespace eyrie {
@@ -41,7 +41,8 @@ AVPixelFormat pixelFormatFor(const AVCodec& encoder) {
 
 struct VideoWriter::Implementation {
     std::filesystem::path path;
-    std::filesystem::path part;  ///< where it is written until it is complete
+    std::filesystem::path part;  ///< where it is written until it is complete; a device or pipe itself
+    bool in_place = false;
     cv::Size size;
     VideoWriterOptions options;
     std::unique_ptr<AVFormatContext, CloseOutput> muxer;
@@ -56,11 +57,11 @@ struct VideoWriter::Implementation {
     ~Implementation() {
         muxer.reset();
         std::error_code ignored;
-        if (!finished) std::filesystem::remove(part, ignored);
+        if (!finished && !in_place && !part.empty()) std::filesystem::remove(part, ignored);
     }
 
     [[noreturn]] void fail(const std::string& what, int reason = 0) const {
-        throw Error(ErrorKind::output, path.string() + ": " + what +
+        throw Error(ErrorKind::output, displayText(path) + ": " + what +
                                            (reason < 0 ? " (" + libav::errorText(reason) + ")" : std::string()) +
                                            "; choose another place or format");
     }
@@ -69,12 +70,16 @@ struct VideoWriter::Implementation {
         av_log_set_level(AV_LOG_QUIET);
         std::error_code ignored;
         if (std::filesystem::is_directory(path, ignored)) fail("is a folder");
-        part = path.parent_path() /
-               (path.stem().string() + ".part" + std::to_string(::getpid()) + path.extension().string());
+        in_place = isOwnStream(path) ||
+                   (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored));
+        part = in_place ? path : temporaryBeside(throughLinks(path));
         AVFormatContext* raw = nullptr;
         const std::string url = "file:" + part.string();
-        if (const int made = avformat_alloc_output_context2(&raw, nullptr, nullptr, url.c_str()); made < 0)
-            fail("no video format has this extension; use .mp4", made);
+        // The temporary name has not the extension that tells the format.
+        const AVOutputFormat* format = av_guess_format(nullptr, path.filename().c_str(), nullptr);
+        const int made = format == nullptr ? AVERROR_MUXER_NOT_FOUND
+                                           : avformat_alloc_output_context2(&raw, format, nullptr, url.c_str());
+        if (made < 0) fail("no video format has this extension; use .mp4", made);
         muxer.reset(raw);
         openEncoder();
         AVStream* stream = avformat_new_stream(muxer.get(), nullptr);
@@ -173,7 +178,7 @@ struct VideoWriter::Implementation {
         if (written >= 0) written = avio_closep(&muxer->pb);
         if (written < 0) fail("the video cannot be completed; the disk may be full", written);
         std::error_code failure;
-        std::filesystem::rename(part, path, failure);
+        if (!in_place) std::filesystem::rename(part, throughLinks(path), failure);
         if (failure) fail("cannot be replaced: " + failure.message());
         finished = true;
     }

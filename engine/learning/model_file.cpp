@@ -2,6 +2,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
 #include "learning/byte_stream.h"
 #include "learning/channel_features.h"
 #include "learning/vehicle_model.h"
@@ -114,27 +115,7 @@ VehicleModel modelFromBytes(std::string_view bytes, const std::string& name) {
 }
 
 void saveModel(const VehicleModel& model, const fs::path& path) {
-    const std::string bytes = modelBytes(model);
-    const fs::path beside = path.string() + ".part";
-    {
-        std::ofstream file(beside, std::ios::binary | std::ios::trunc);
-        file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        file.flush();
-        if (!file) {
-            std::error_code ignored;
-            fs::remove(beside, ignored);
-            throw Error(ErrorKind::output, path.string() +
-                                               ": the model cannot be written; check the folder, its "
-                                               "permissions and the space on the disk");
-        }
-    }
-    std::error_code error;
-    fs::rename(beside, path, error);
-    if (error) {
-        std::error_code ignored;
-        fs::remove(beside, ignored);
-        throw Error(ErrorKind::output, path.string() + ": the model cannot be written: " + error.message());
-    }
+    writeFileAtomically(path, modelBytes(model));
 }
 
 VehicleModel loadModel(const fs::path& path) {

@@ -42,8 +42,8 @@ Error databaseError(const std::filesystem::path& path, const std::string& doing,
             return Error(ErrorKind::output,
                          "the project " + file + " cannot be written (" + why + "); check the file's permissions");
         case SQLITE_CANTOPEN:
-            return Error(ErrorKind::input, "the project " + file + " cannot be opened (" + why +
-                                               "); check that file and folder may be read and written");
+            return Error(ErrorKind::project, "the project " + file + " cannot be opened (" + why +
+                                                 "); check that file and folder may be read and written");
         case SQLITE_IOERR:
             if (!isFailureToRead(exception.getExtendedErrorCode())) {
                 return Error(ErrorKind::output, "the disk refuses to write " + file + " (" + why +
@@ -51,7 +51,8 @@ Error databaseError(const std::filesystem::path& path, const std::string& doing,
             }
             break;
         case SQLITE_NOMEM:
-            return Error(ErrorKind::internal, "out of memory with the project " + file + " (" + why + ")");
+            return Error(ErrorKind::project, "the memory of this machine does not suffice for the project " + file +
+                                                 " (" + why + "); close other programs");
         case SQLITE_CONSTRAINT:
             if (exception.getExtendedErrorCode() == SQLITE_CONSTRAINT_FOREIGNKEY) {
                 return Error(ErrorKind::project, "the run was removed from the project " + file +

@@ -76,7 +76,7 @@ class Digest {
 }  // namespace
 
 std::string textOf(const SweepPlan& plan) {
-    return jsonOf(plan).dump();
+    return jsonOf(plan).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 SweepPlan planFrom(const std::string& text, const std::string& where) {

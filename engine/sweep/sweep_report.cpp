@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/text.h"
+#include "io/csv_reader.h"
 #include "io/number_text.h"
 
 namespace eyrie {
@@ -82,16 +84,6 @@ std::string gridText(const SweepTable& table, const SweepCriterion& criterion) {
     return text;
 }
 
-std::string csvField(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + '"';
-}
-
 }  // namespace
 
 std::string bestText(const SweepTable& table, const SweepCriterion& criterion) {
@@ -135,7 +127,7 @@ std::string csvText(const SweepTable& table) {
     for (const auto& [position, figures] : table.points) {
         for (const SweepFigures& one : figures) {
             for (const std::string& value : table.plan.valuesOf(position)) text += csvField(value) + ",";
-            text += csvField(table.plan.clips.at(static_cast<std::size_t>(one.clip)).sequence);
+            text += csvField(displayText(table.plan.clips.at(static_cast<std::size_t>(one.clip)).sequence));
             text += one.tracks ? ",tracks," : ",detections,";
             text += shortestText(one.overlap);
             for (const MeasureText& measure : sweepMeasures()) {
@@ -188,7 +180,7 @@ std::string jsonText(const SweepTable& table, const SweepCriterion& criterion) {
             json["precision_recall"].push_back(std::move(entry));
         }
     }
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace eyrie

@@ -12,6 +12,17 @@ TEST(Text, IsMadeSafeForMarkup) {
     EXPECT_EQ(markupEscaped("Ü–"), "Ü–");
 }
 
+TEST(Text, BytesThatAreNotUtf8AreReplacedOneByOne) {
+    const std::string replacement = "\xEF\xBF\xBD";
+    EXPECT_EQ(validUtf8("na\xC3\xAFve \xF0\x9F\x9A\x97"), "na\xC3\xAFve \xF0\x9F\x9A\x97");
+    EXPECT_EQ(validUtf8("clip\xFF.mp4"), "clip" + replacement + ".mp4");
+    EXPECT_EQ(validUtf8("\xC3"), replacement) << "cut off";
+    EXPECT_EQ(validUtf8("\xC0\xAF"), replacement + replacement) << "an overlong form";
+    EXPECT_EQ(validUtf8("\xED\xA0\x80"), replacement + replacement + replacement) << "half of a surrogate pair";
+    EXPECT_EQ(displayText(std::filesystem::path("a\xE9/b")), "a" + replacement + "/b");
+    EXPECT_EQ(markupEscaped("a\xE9<"), "a" + replacement + "&lt;");
+}
+
 TEST(Text, DistanceCountsSwapsOnce) {
     EXPECT_EQ(editDistance("run", "run"), 0u);
     EXPECT_EQ(editDistance("rnu", "run"), 1u);

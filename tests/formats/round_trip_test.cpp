@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "formats/frame_offset.h"
 #include "formats/sample_labels.h"
@@ -313,6 +314,52 @@ TEST_F(RoundTripLosses, RealUavdtIsReadWithClassesAndIgnoredAreas) {
     EXPECT_GT(report.boxes_of_class.at("car"), 1000);
     EXPECT_GT(report.ignored, 100);
     EXPECT_EQ(labels.boxes.at(0)[0].box.centre, cv::Point2d(251, 274.5));
+}
+
+TEST(Export, TheHighestIdLeavesNumbersForBoxesWithoutOne) {
+    const test::TemporaryFolder folder;
+    LabelFile labels;
+    for (const std::optional<int> id : std::vector<std::optional<int>>{2147483647, std::nullopt, 1, std::nullopt}) {
+        LabelBox box;
+        box.id = id;
+        box.box = {{20.0 + 30 * static_cast<double>(labels.boxes[0].size()), 20}, 20, 10, 0};
+        labels.boxes[0].push_back(box);
+    }
+    writeLabels(labels, folder / "x.txt", "mot");
+    std::set<int> ids;
+    for (const LabelBox& box : readLabels(folder / "x.txt", "mot").boxes.at(0)) ids.insert(box.id.value());
+    EXPECT_EQ(ids, (std::set<int>{1, 2, 3, 2147483647}));
+}
+
+TEST(Export, NamesThatAreNotUtf8GiveWholeFiles) {
+    const test::TemporaryFolder folder;
+    ExportOptions options;
+    options.sequence = "clip\xFF";
+    for (const LabelFormatInfo& info : labelFormats()) {
+        if (!info.writes || info.name == "columns") continue;
+        const auto target = folder / info.name;
+        writeLabels(test::sampleLabels(), target, info.name, options);
+        EXPECT_NO_THROW(readLabels(target.filename() == "uavdt" ? folder / "uavdt_gt.txt" : target, info.name))
+            << info.name;
+    }
+}
+
+TEST(Export, EveryFileThatIsWrittenIsToldBefore) {
+    for (const LabelFormatInfo& info : labelFormats()) {
+        if (!info.writes || info.name == "columns") continue;
+        const test::TemporaryFolder folder;
+        const auto target = folder / "target";
+        const auto told = filesToWrite(target, info.name);
+        writeLabels(test::sampleLabels(), target, info.name);
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
+            if (!entry.is_regular_file() ||
+                (info.folder && entry.path().parent_path().filename() != "target" && info.name != "trackeval"))
+                continue;
+            const bool named = std::any_of(told.begin(), told.end(),
+                                           [&](const ExportFile& file) { return file.path == entry.path(); });
+            EXPECT_TRUE(named) << info.name << " wrote " << entry.path();
+        }
+    }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "io/atomic_file.h"
 #include "io/numbered_video.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
@@ -90,6 +91,22 @@ TEST_F(BoxCsv, TheTextIsAsDocumented) {
     writeGroundTruthCsv(folder_ / "g.csv", boxes);
     EXPECT_EQ(test::bytesOf(folder_ / "g.csv"),
               "frame,id,x,y,length,width,heading,class,ignore\n4,,12.3456,-7.25,20.5,9.125,270,car,0\n");
+}
+
+TEST_F(BoxCsv, NoNameIsAFormulaAndEveryNameComesBack) {
+    BoxesByFrame boxes;
+    const std::vector<std::string> names{"=1+1", "+car", "-car", "@SUM(A1)", "'=1", "''-x", "'car", "'", "-5", "car"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        boxes[0].push_back(record(0, static_cast<int>(i), 0));
+        boxes[0].back().object_class = names[i];
+    }
+    writeGroundTruthCsv(folder_ / "names.csv", boxes);
+    const BoxesByFrame back = readBoxCsv(folder_ / "names.csv");
+    for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(back.at(0)[i].object_class, names[i]);
+    const std::string text = readWholeFile(folder_ / "names.csv");
+    EXPECT_THAT(text, HasSubstr(",'=1+1,"));
+    EXPECT_THAT(text, HasSubstr(",-5,")) << "a number stays one";
+    EXPECT_THAT(text, HasSubstr(",12.3456,-7.25,"));
 }
 
 TEST_F(BoxCsv, HeadingsStayBelow360Degrees) {

@@ -338,7 +338,7 @@ void EvaluationDocks::writeReport(const QString& path) {
         emit notice(tr("A report is being written. Wait until it is done."));
         return;
     }
-    report_->write(path.toStdString(), evaluation_->evaluation(), session_.media());
+    report_->write(path.toStdString(), evaluation_->evaluation(), session_.media(), session_.project());
 }
 
 void EvaluationDocks::wireReport() {

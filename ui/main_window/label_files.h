@@ -100,6 +100,7 @@ class LabelExportDialog : public QDialog {
     QCheckBox* clip_;
     QPlainTextEdit* text_;
     QPushButton* export_;
+    QString agreed_;     ///< the target that somebody agreed to replace
     TaskThread thread_;  ///< last: stops before the rest goes
 };
 

@@ -10,8 +10,10 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <exception>
+#include <utility>
 
 #include "exchange/project_labels.h"
+#include "io/output_files.h"
 #include "main_window/label_files.h"
 #include "main_window/label_files_text.h"
 #include "session/queued_call.h"
@@ -84,7 +86,9 @@ void LabelExportDialog::browse() {
     if (!format->folder && !format->extensions.empty())
         suggestion += QLatin1Char('.') + QString::fromStdString(format->extensions.front()).remove(QLatin1Char('.'));
     const QString path = QFileDialog::getSaveFileName(this, tr("Export labels"), suggestion, tr("All files (*)"));
-    if (!path.isEmpty()) target_->setText(path);
+    if (path.isEmpty()) return;
+    target_->setText(path);
+    agreed_ = path;  // the file dialog asks
 }
 
 void LabelExportDialog::setFormat(const QString& name) {
@@ -107,14 +111,31 @@ void LabelExportDialog::startExport() {
     if (clip_->isChecked()) options.clip = true;
     options.sequence = std::filesystem::path(labels_.sequence().path).stem().string();
     if (options.sequence.empty()) options.sequence = "sequence";
+    const QString target = target_->text().trimmed();
+    const bool agreed = std::exchange(agreed_, {}) == target;
     export_->setEnabled(false);
     text_->setPlainText(tr("Writing …"));
     thread_.post([this, set = labels_.annotations(), sequence = labels_.sequence(), camera = labels_.sharedCamera(),
-                  path = std::filesystem::path(target_->text().trimmed().toStdString()),
+                  path = std::filesystem::path(target.toStdString()), project = labels_.projectPath(), target, agreed,
                   format = format_->currentData().toString().toStdString(), options](const std::stop_token&) {
         QString text;
         bool fine = false;
         try {
+            std::vector<OutputFile> files;
+            for (const ExportFile& file : filesToWrite(path, format, options))
+                files.push_back({file.path, file.kind, file.grows, true});
+            const auto replaced = filesToReplace(files, {project, sequence.path});
+            if (!replaced.empty() && !agreed) {
+                queuedCall(this, [this, target, names = QString::fromStdString(shortList(replaced))] {
+                    agreed_ = target;
+                    export_->setEnabled(true);
+                    text_->setPlainText(tr("%1 would be replaced. Name another file, or press Export again to replace "
+                                           "what is there.")
+                                            .arg(names));
+                    emit finishedExport(false);
+                });
+                return;
+            }
             const ExportReport report = writeLabels(labelsOf(set, sequence, *camera), path, format, options);
             text = tr("Wrote %1 boxes.\n").arg(report.boxes);
             for (const auto& file : report.files) text += QString::fromStdString(file.string()) + QLatin1Char('\n');

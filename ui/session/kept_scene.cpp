@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "scene/scene_preset.h"
 #include "scene/scene_renderer.h"
 
@@ -46,7 +47,7 @@ void keepFile(const fs::path& file, const std::string& bytes) {
 }
 
 std::optional<KeptScene::Facts> readFacts(const fs::path& file) {
-    if (!fs::exists(file)) return std::nullopt;
+    if (!isFile(file)) return std::nullopt;
     std::istringstream text(readWholeFile(file));
     KeptScene::Facts facts;
     text >> facts.size.width >> facts.size.height >> facts.frame_count >> facts.frame_rate_hz >> facts.gsd_m_per_px;
@@ -109,7 +110,7 @@ KeptScene::Facts KeptScene::facts() {
 Frame KeptScene::frame(FrameIndex index) {
     const fs::path file = fileOf(index);
     Frame frame;
-    if (fs::exists(file)) frame.colour = cv::imread(file.string(), cv::IMREAD_COLOR);
+    if (isFile(file)) frame.colour = cv::imread(file.string(), cv::IMREAD_COLOR);
     if (frame.colour.empty()) {
         frame = renderer().render(index).frame;
         std::vector<uchar> png;

@@ -46,6 +46,8 @@ class LabelSession : public QObject {
     const CameraMotion& camera() const { return *camera_; }
     std::shared_ptr<const CameraMotion> sharedCamera() const { return camera_; }
     const SequenceRecord& sequence() const { return sequence_; }
+    /// The project that holds the labels open, or on their way.
+    const std::filesystem::path& projectPath() const { return project_path_; }
     /// For import, which needs new ids. Null while nothing is open.
     AnnotationStore* store() { return store_.get(); }
     ObjectId newObjectId() { return store_->newObjectId(); }

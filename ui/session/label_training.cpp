@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "detection/model_location.h"
 #include "exchange/project_labels.h"
+#include "io/output_files.h"
 #include "learning/background_mining.h"
 #include "learning/labelled_frames.h"
 #include "session/media.h"
@@ -80,10 +81,10 @@ QString countsOf(const SampleSet& samples) {
     return QObject::tr("%1 vehicles, %2 others").arg(countOf(samples, true)).arg(countOf(samples, false));
 }
 
-/// Which model of another kind the wish would overwrite, for people; empty when none.
+/// Which model of another kind the wish would overwrite, for people; empty when none. Throws Error(output) where
+/// something else than a model would be overwritten.
 QString whatIsReplaced(const TrainingWish& wish) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(wish.file, ignored)) return {};
+    if (filesToReplace({{wish.file, FileKind::model}}, wish.projects).empty()) return {};
     try {
         const VehicleModel old = loadModel(wish.file);
         const DescriptorKind descriptor = old.descriptor->kind();
@@ -97,7 +98,7 @@ QString whatIsReplaced(const TrainingWish& wish) {
                  QString::fromUtf8(nameOf(wish.options.classifier)));
     } catch (const Error&) {
         return QObject::tr(
-                   "%1 is no model of Eyrie and would be replaced by one. Name another file, or press Train "
+                   "%1 is a model that cannot be read and would be replaced. Name another file, or press Train "
                    "again to replace it.")
             .arg(QString::fromStdString(wish.file.string()));
     }
@@ -158,8 +159,8 @@ void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) 
         queuedCall(this, [this, phase, share] { emit progress(phase, share); });
     };
     try {
-        const QString replaced = wish.replace ? QString() : whatIsReplaced(wish);
-        if (!replaced.isEmpty()) return end([this, replaced] { emit replacementNeeded(replaced); });
+        const QString replaced = whatIsReplaced(wish);
+        if (!replaced.isEmpty() && !wish.replace) return end([this, replaced] { emit replacementNeeded(replaced); });
         auto sequences = readProjects(wish, say, stop);
         if (stop.stop_requested()) return end([this] { emit stopped(); });
         if (sequences.empty())

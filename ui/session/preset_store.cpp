@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "io/output_files.h"
 #include "io/preset_file.h"
 #include "store/project_presets.h"
 
@@ -138,6 +139,7 @@ std::string PresetStore::importFile(const fs::path& file) const {
 }
 
 void PresetStore::exportFile(const std::string& name, const fs::path& file) const {
+    filesToReplace({{file, FileKind::json}}, {project_});  // the dialog has asked about a preset that is there
     writePreset(file, {file.stem().string(), parameterValues(load(name))});
 }
 

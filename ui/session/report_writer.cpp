@@ -17,6 +17,8 @@
 #include <exception>
 
 #include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/output_files.h"
 #include "session/queued_call.h"
 
 namespace eyrie::ui {
@@ -93,7 +95,8 @@ namespace {
 
 void writePdf(const std::filesystem::path& path, const EvaluationReportFile& report) {
     const QString name = QString::fromStdString(path.string());
-    const QString part = name + QStringLiteral(".part");  // readers see a whole file or none
+    // Readers see a whole file or none.
+    const QString part = QString::fromStdString(temporaryBeside(path).string());
     QFile file(part);
     if (!file.open(QIODevice::WriteOnly)) refuse(name, file.errorString());
     {
@@ -165,14 +168,18 @@ void writePdfReport(const std::filesystem::path& path, const EvaluationReportFil
 }
 
 void ReportWriter::write(const std::filesystem::path& path, std::shared_ptr<const RunEvaluation> evaluation,
-                         std::optional<Media> media) {
+                         std::optional<Media> media, const std::filesystem::path& project) {
     if (working_ || !evaluation) return;
     working_ = true;
     request_ = std::stop_source();
-    thread_.post([this, path, evaluation = std::move(evaluation), media = std::move(media),
+    thread_.post([this, path, project, evaluation = std::move(evaluation), media = std::move(media),
                   stop = request_.get_token()](const std::stop_token&) {
         QString failure;
         try {
+            const bool pdf = QFileInfo(QString::fromStdString(path.string()))
+                                 .suffix()
+                                 .compare(QStringLiteral("pdf"), Qt::CaseInsensitive) == 0;
+            filesToReplace({{path, pdf ? FileKind::pdf : FileKind::html}}, {project, evaluation->run.sequence.path});
             std::unique_ptr<FrameSource> pixels;
             try {
                 if (media) pixels = media->open({}, stop);
@@ -184,9 +191,7 @@ void ReportWriter::write(const std::filesystem::path& path, std::shared_ptr<cons
             const auto tell = [this](double share) { queuedCall(this, [this, share] { emit progress(share); }); };
             const EvaluationReportFile report = makeEvaluationReport(*evaluation, pixels.get(), options, tell, stop);
             if (stop.stop_requested()) return;
-            if (QFileInfo(QString::fromStdString(path.string()))
-                    .suffix()
-                    .compare(QStringLiteral("pdf"), Qt::CaseInsensitive) == 0)
+            if (pdf)
                 writePdfReport(path, report);
             else
                 writeHtmlReport(path, report);

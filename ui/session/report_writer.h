@@ -21,9 +21,10 @@ class ReportWriter : public QObject {
     explicit ReportWriter(QObject* parent = nullptr) : QObject(parent) {}
     ~ReportWriter() override { request_.request_stop(); }
 
-    /// `media`: the video, for chips; without it there are none. Answers with written() or failed(); one at a time.
+    /// `media`: the video, for chips; without it there are none. `project` holds the run and is not overwritten, as
+    /// nothing else is but another report. Answers with written() or failed(); one at a time.
     void write(const std::filesystem::path& path, std::shared_ptr<const RunEvaluation> evaluation,
-               std::optional<Media> media);
+               std::optional<Media> media, const std::filesystem::path& project = {});
     bool working() const { return working_; }
 
  signals:
