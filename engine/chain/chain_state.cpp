@@ -1,5 +1,6 @@
 #include "chain/chain_state.h"
 
+#include <map>
 #include <utility>
 
 #include "chain/run_recorder.h"
@@ -106,9 +107,12 @@ bool isStateFor(std::string_view bytes, const ChainOptions& options, const Scene
 std::unique_ptr<ChainProgress> unpackedState(std::string_view bytes, const ChainOptions& options,
                                              const SceneScale& scale, FrameSource& source) {
     const VideoInfo& video = source.info();
+    std::map<FrameIndex, cv::Mat> read;  // by both halves
     const PictureSource pictures = [&](FrameIndex frame) {
         if (frame < 0 || frame >= video.frame_count) throw DamagedState{"a picture that the video does not have"};
-        return source.read(frame, false).gray;
+        cv::Mat& gray = read[frame];
+        if (gray.empty()) gray = source.read(frame, false).gray;
+        return gray;
     };
     try {
         const auto [parts, fits] = unpacked(bytes, options, scale);

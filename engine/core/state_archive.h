@@ -224,6 +224,8 @@ class StateReader : public StateTransfer<StateReader> {
     void end() const;
 
  private:
+    void readPictures();
+
     std::string_view bytes_;
     PictureSource source_;
     std::map<FrameIndex, std::uint64_t> known_;

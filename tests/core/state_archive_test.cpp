@@ -97,6 +97,22 @@ TEST(StateArchive, NeverTakesMemoryForWhatIsNotThere) {
     }
 }
 
+TEST(StateArchive, AsksForPicturesInTheOrderOfTheVideo) {
+    const cv::Mat gray(4, 9, CV_8UC1, cv::Scalar(7));
+    StateWriter writer;
+    for (FrameIndex frame : {9, 3, 8}) writer.picture(frame, gray);
+    const std::string bytes = writer.bytes();
+    std::vector<FrameIndex> asked;
+    StateReader reader(bytes, [&](FrameIndex frame) {
+        asked.push_back(frame);
+        return gray;
+    });
+    FrameIndex frame = 0;
+    for (int i = 0; i < 3; ++i) reader.picture(frame, {});
+    reader.end();
+    EXPECT_EQ(asked, (std::vector<FrameIndex>{3, 8, 9}));
+}
+
 TEST(StateArchive, NamesPicturesAndKnowsThemAgain) {
     cv::Mat gray(4, 9, CV_8UC1, cv::Scalar(7));
     StateWriter writer;

@@ -1,0 +1,109 @@
+#include "store/run_state_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "store/result_writer.h"
+#include "store/samples.h"
+#include "support/run_rows.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using testing::HasSubstr;
+
+/// A project with a run of the sample's frames, ended in a state.
+class RunStates : public testing::Test {
+ protected:
+    int write(int frames, RunState state) const {
+        ProjectFile::openOrCreate(path);
+        ResultWriter writer(path, test::sampleRun(), {});
+        for (int frame = 0; frame < frames; ++frame) writer.write(test::sampleFrame(frame));
+        writer.finish(state, state == RunState::failed ? "no space left" : "");
+        return writer.runId();
+    }
+    const test::TemporaryFolder folder;
+    const std::filesystem::path path = folder / "clip.eyrie";
+};
+
+/// Without the sums over tracks, which may differ in their last bits.
+std::vector<std::string> rowsOf(const std::filesystem::path& path, int run) {
+    std::vector<std::string> rows = test::rowsOf(path, run);
+    std::erase_if(rows, [](const std::string& row) { return row.starts_with("track:"); });
+    return rows;
+}
+
+}  // namespace
+
+TEST_F(RunStates, KeepTheNewestAlone) {
+    const int run = write(3, RunState::stopped);
+    ProjectFile project = ProjectFile::open(path);
+    RunStateStore states(project);
+    EXPECT_FALSE(states.newest(run));
+    const std::string bytes("a\0b", 3);
+    states.keep(run, 1, "older");
+    states.keep(run, 2, bytes);
+    ASSERT_TRUE(states.newest(run));
+    EXPECT_EQ(states.newest(run)->frame, 2);
+    EXPECT_EQ(states.newest(run)->bytes, bytes);
+}
+
+TEST_F(RunStates, GoingBackLeavesTheRunAsItWasThen) {
+    const int longer = write(9, RunState::failed);
+    const int shorter = write(5, RunState::running);
+    { ResultWriter writer(path, longer, 4); }
+    EXPECT_EQ(rowsOf(path, longer), rowsOf(path, shorter));
+    ProjectFile project = ProjectFile::open(path);
+    const auto run = RunStore(project).run(longer);
+    EXPECT_EQ(run->state, RunState::running);
+    EXPECT_EQ(run->message, "");
+}
+
+TEST_F(RunStates, GoingBackUndoesFinishedTracks) {
+    const int run = write(5, RunState::stopped);
+    const auto before = rowsOf(path, run);
+    ProjectFile project = ProjectFile::open(path);
+    RunStateStore(project).keepTracks(run);
+    RunStore(project).replaceTrackStates(run, {}, {{2, {}}});
+    EXPECT_NE(rowsOf(path, run), before);
+    { ResultWriter writer(path, run, 4); }
+    EXPECT_EQ(rowsOf(path, run), before);
+    { ResultWriter writer(path, run, -1); }
+    EXPECT_TRUE(test::rowsOf(path, run).empty()) << "to before the first frame";
+}
+
+TEST_F(RunStates, AFinishedRunNeedsNothing) {
+    const int run = write(3, RunState::stopped);
+    ResultWriter writer(path, run, 2);
+    writer.keepState(2, "state");
+    ProjectFile project = ProjectFile::open(path);
+    RunStateStore(project).keepTracks(run);
+    writer.finish(RunState::finished, "");
+    EXPECT_FALSE(RunStateStore(project).newest(run));
+    EXPECT_THAT(rowsOf(path, run), testing::Not(testing::Contains(HasSubstr("unfinished_track_state"))));
+}
+
+TEST_F(RunStates, RefuseARunThatIsNotAsItWasFound) {
+    const int finished = write(3, RunState::finished);
+    const int stopped = write(3, RunState::stopped);
+    const auto refusal = [&](int run, FrameIndex last) -> std::string {
+        try {
+            const ResultWriter writer(path, run, last);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::project);
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(refusal(finished, 2), HasSubstr("meanwhile"));
+    EXPECT_THAT(refusal(stopped, 5), HasSubstr("meanwhile")) << "frames are missing";
+    EXPECT_THAT(refusal(77, 2), HasSubstr("run 77"));
+    const ResultWriter writer(path, stopped, 2);
+    EXPECT_THAT(refusal(stopped, 2), HasSubstr("is being written by process"));
+    ProjectFile project = ProjectFile::open(path);
+    EXPECT_TRUE(RunStore(project).run(stopped)->live);
+}
+
+}  // namespace eyrie
