@@ -236,12 +236,14 @@ int run(const Arguments& arguments) {
         }
     }
     if (!source) source = openInput(choice.run->sequence.path, choice.run->scale.frame_rate_hz, interrupt.token());
-    arguments.outputs.check({growingProject(project),
-                             {arguments.tracks_csv, FileKind::text},
-                             {arguments.detections_csv, FileKind::text},
-                             {arguments.annotated, FileKind::video},
-                             {arguments.timing, FileKind::json}},
-                            {source->info().path, arguments.preset.preset});
+    OutputArguments outputs = arguments.outputs;
+    outputs.force = outputs.force || arguments.resume;  // what the same command wrote when it was stopped
+    outputs.check({growingProject(project),
+                   {arguments.tracks_csv, FileKind::text},
+                   {arguments.detections_csv, FileKind::text},
+                   {arguments.annotated, FileKind::video},
+                   {arguments.timing, FileKind::json}},
+                  {source->info().path, arguments.preset.preset});
     const auto [record, summary, has_video] = !choice.run ? runAnew(arguments, *source, project, interrupt)
                                               : choice.run->state == RunState::finished
                                                   ? asItIs(arguments, *choice.run, *source, project, interrupt)
