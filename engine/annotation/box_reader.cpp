@@ -176,7 +176,7 @@ struct BoxReader::Piece {
 };
 
 BoxReader::BoxReader(const LabelledObject& object, const CameraMotion& camera, PathShape shape, CarriedBoxes* known)
-    : object_(object), camera_(camera), shape_(shape), known_(known), piece_(std::make_unique<Piece>()) {}
+    : object_(object), camera_(camera), shape_(shape), known_(known) {}
 
 BoxReader::~BoxReader() = default;
 
@@ -200,6 +200,7 @@ LabelledBox BoxReader::at(FrameIndex frame) {
         result.box = before.box;
         return result;
     }
+    if (!piece_) piece_ = std::make_unique<Piece>();
     if (piece_->here != here) *piece_ = Piece{here, {}, {}};
     const FrameIndex until = exact || passed == keyframes.size() ? frame : keyframes[passed].frame;
     std::optional<PathBox> box;
