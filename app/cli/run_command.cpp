@@ -17,6 +17,7 @@
 #include "cli/run_report.h"
 #include "core/error.h"
 #include "io/box_csv.h"
+#include "io/folder.h"
 #include "io/video_writer.h"
 
 namespace eyrie::cli {
@@ -198,7 +199,7 @@ EndedRun goOn(const Arguments& arguments, const RunRecord& run, FrameSource& sou
 
 /// Which run --resume is about; `source` is the input, if one was given.
 ResumeChoice choiceOf(const Arguments& arguments, const FrameSource* source, const std::filesystem::path& project) {
-    if (source != nullptr && !arguments.run_id && !std::filesystem::exists(project)) return {};
+    if (source != nullptr && !arguments.run_id && !isFile(project)) return {};
     ResumeWishes wishes;
     if (source != nullptr) wishes.video = source->info().path.string();
     wishes.run = arguments.run_id;
@@ -208,6 +209,19 @@ ResumeChoice choiceOf(const Arguments& arguments, const FrameSource* source, con
     if (arguments.preset_given) wishes.options = arguments.preset.options();
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     return chooseRun(RunStore(file), project.string(), wishes);
+}
+
+/// Before a long video is indexed, not after a long run.
+void checkOutputs(const Arguments& arguments, const std::filesystem::path& project,
+                  const std::filesystem::path& video) {
+    OutputArguments outputs = arguments.outputs;
+    outputs.force = outputs.force || arguments.resume;  // the same command again replaces what it wrote
+    outputs.check({growingProject(project),
+                   {arguments.tracks_csv, FileKind::text},
+                   {arguments.detections_csv, FileKind::text},
+                   {arguments.annotated, FileKind::video},
+                   {arguments.timing, FileKind::json}},
+                  {video, arguments.preset.preset});
 }
 
 int run(const Arguments& arguments) {
@@ -226,6 +240,7 @@ int run(const Arguments& arguments) {
     const std::filesystem::path project = projectPath(arguments);
     std::unique_ptr<FrameSource> source;
     if (!arguments.input.empty()) {
+        checkOutputs(arguments, project, arguments.input);
         source = openInput(arguments.input, arguments.frame_rate_hz.value_or(0), interrupt.token());
     }
     ResumeChoice choice;
@@ -235,15 +250,10 @@ int run(const Arguments& arguments) {
             std::fprintf(stderr, "a new run is begun: %s\n", choice.why_new.c_str());
         }
     }
-    if (!source) source = openInput(choice.run->sequence.path, choice.run->scale.frame_rate_hz, interrupt.token());
-    OutputArguments outputs = arguments.outputs;
-    outputs.force = outputs.force || arguments.resume;  // what the same command wrote when it was stopped
-    outputs.check({growingProject(project),
-                   {arguments.tracks_csv, FileKind::text},
-                   {arguments.detections_csv, FileKind::text},
-                   {arguments.annotated, FileKind::video},
-                   {arguments.timing, FileKind::json}},
-                  {source->info().path, arguments.preset.preset});
+    if (!source) {
+        checkOutputs(arguments, project, choice.run->sequence.path);
+        source = openInput(choice.run->sequence.path, choice.run->scale.frame_rate_hz, interrupt.token());
+    }
     const auto [record, summary, has_video] = !choice.run ? runAnew(arguments, *source, project, interrupt)
                                               : choice.run->state == RunState::finished
                                                   ? asItIs(arguments, *choice.run, *source, project, interrupt)
