@@ -9,6 +9,7 @@
 #include "cli/annotator.h"
 #include "cli/command.h"
 #include "cli/console_progress.h"
+#include "cli/earlier_state.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
 #include "cli/output_arguments.h"
@@ -242,6 +243,7 @@ int run(const Arguments& arguments) {
                              {arguments.annotated, FileKind::video},
                              {arguments.timing, FileKind::json}},
                             {source->info().path, arguments.preset.preset});
+    keepEarlierState(project);
     const auto [record, summary, has_video] = !choice.run ? runAnew(arguments, *source, project, interrupt)
                                               : choice.run->state == RunState::finished
                                                   ? asItIs(arguments, *choice.run, *source, project, interrupt)

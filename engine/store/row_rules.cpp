@@ -91,6 +91,11 @@ std::vector<RowRule> rowRules() {
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
              isOneOf("origin", stored::kStateOrigins),
          "state of a track is impossible"},
+        {"unfinished_track_state",
+         frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
+             isOneOf("origin", stored::kStateOrigins),
+         "state of a track is impossible"},
+        {"run_state", frame, "state of a run is impossible"},
         {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),
          "a state left out of a track is impossible"},
         {"labelled_object",
