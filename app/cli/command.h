@@ -39,5 +39,8 @@ void addClassifyTestCommand(CLI::App& app, int& exit_code);
 void addImportCommand(CLI::App& app, int& exit_code);
 void addReportCommand(CLI::App& app, int& exit_code);
 void addExportCommand(CLI::App& app, int& exit_code);
+void addCheckCommand(CLI::App& app, int& exit_code);
+void addBackupsCommand(CLI::App& app, int& exit_code);
+void addRestoreCommand(CLI::App& app, int& exit_code);
 
 }  // namespace eyrie::cli

@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/comparison_report.h"
 #include "cli/console_progress.h"
+#include "cli/earlier_state.h"
 #include "cli/evaluation_files.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
@@ -193,6 +194,7 @@ int compare(const Arguments& arguments) {
     for (const Planned& method : planned) methods.push_back(method.variant);
     std::optional<Recorders> recorders;
     if (!arguments.project.empty()) {
+        keepEarlierState(arguments.project);
         recorders.emplace(arguments.project, planned, plannedRun(video, scale, range, arguments.preset.preset));
     }
     ConsoleProgress console("frames");

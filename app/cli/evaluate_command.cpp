@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/earlier_state.h"
 #include "cli/evaluation_files.h"
 #include "cli/evaluation_report.h"
 #include "cli/output_arguments.h"
@@ -65,7 +66,7 @@ Result readResult(const Arguments& arguments, const MotOptions& mot) {
         result.name = arguments.result;
         return result;
     }
-    ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+    ProjectFile project = openForReading(arguments.project);
     const RunStore store(project);
     result.run = chosenRun(store, arguments.project, arguments.run);
     const int id = result.run->id;
@@ -127,7 +128,7 @@ void writeErrors(const Arguments& arguments, const BoxesByFrame& truth, const Re
     std::optional<ProjectFile> project;
     std::optional<RunStore> store;
     if (result.run) {
-        project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+        project = openForReading(arguments.project);
         store.emplace(*project);
         source = diagnosisSource(*store, *result.run);
     }
@@ -144,7 +145,7 @@ BoxFile readTruth(const Arguments& arguments, const Result& result, const MotOpt
         if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
         return truth;
     }
-    ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+    ProjectFile project = openForReading(arguments.project);
     needLabels(project, *result.run);
     truth.boxes = labelTruth(project, *result.run);
     return truth;

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/earlier_state.h"
 #include "cli/evaluation_files.h"
 #include "cli/label_arguments.h"
 #include "cli/output_arguments.h"
@@ -44,7 +45,7 @@ LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
         if (!labels.frame_count) labels.frame_count = described.frame_count;
         if (!labels.frame_rate_hz) labels.frame_rate_hz = described.frame_rate_hz;
     } else {
-        ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+        ProjectFile project = openForReading(arguments.project);
         if (arguments.labels) {
             const SequenceRecord sequence = chosenSequence(project, arguments.sequence);
             source = sequence.path;

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/earlier_state.h"
 #include "cli/input.h"
 #include "cli/label_arguments.h"
 #include "cli/output_arguments.h"
@@ -108,6 +109,7 @@ void importLabels(const Arguments& arguments) {
     }
     refuseAbsent(arguments);
     arguments.outputs.check({growingProject(arguments.project)}, inputs);
+    keepEarlierState(arguments.project);
     ProjectFile project =
         arguments.video.empty() ? ProjectFile::open(arguments.project) : ProjectFile::openOrCreate(arguments.project);
     const SequenceRecord sequence = sequenceFor(project, arguments);

@@ -8,6 +8,7 @@
 
 #include "chain/scale_estimation.h"
 #include "cli/command.h"
+#include "cli/earlier_state.h"
 #include "cli/input.h"
 #include "io/frame_source.h"
 #include "store/annotation_store.h"
@@ -107,7 +108,7 @@ void printProject(const Json& facts) {
 }
 
 Json projectFacts(const std::filesystem::path& path) {
-    ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+    ProjectFile project = openForReading(path);
     RunStore store(project);
     Json facts{{"file", std::filesystem::absolute(path).string()}, {"kind", "project"}, {"runs", Json::array()}};
     for (const RunRecord& run : store.runs()) facts["runs"].push_back(factsOf(store, run));

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "cli/earlier_state.h"
 #include "core/error.h"
-#include "store/project_file.h"
 
 namespace eyrie::cli {
 namespace {
@@ -36,7 +36,7 @@ void OutputArguments::check(const std::vector<OutputFile>& outputs,
     for (const OutputFile& output : outputs) {
         std::error_code failed;
         if (output.kind == FileKind::project && output.grows && std::filesystem::is_regular_file(output.path, failed))
-            ProjectFile::open(output.path, ProjectFile::Mode::read_only);
+            openForReading(output.path);
     }
     if (replaced.empty() || force) return;
     const std::string files = shortList(replaced);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/earlier_state.h"
 #include "cli/input.h"
 #include "cli/output_arguments.h"
 #include "cli/project_labels.h"
@@ -42,7 +43,7 @@ void makeReport(const Arguments& arguments) {
     request.project = arguments.project;
     request.truth_file = arguments.ground_truth;
     {
-        ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+        ProjectFile project = openForReading(arguments.project);
         const RunStore store(project);
         const RunRecord run = chosenRun(store, arguments.project, arguments.run);
         if (arguments.against) chosenRun(store, arguments.project, arguments.against, "--against");

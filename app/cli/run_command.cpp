@@ -9,6 +9,7 @@
 #include "cli/annotator.h"
 #include "cli/command.h"
 #include "cli/console_progress.h"
+#include "cli/earlier_state.h"
 #include "cli/input.h"
 #include "cli/interrupt.h"
 #include "cli/output_arguments.h"
@@ -254,6 +255,7 @@ int run(const Arguments& arguments) {
         checkOutputs(arguments, project, choice.run->sequence.path);
         source = openInput(choice.run->sequence.path, choice.run->scale.frame_rate_hz, interrupt.token());
     }
+    keepEarlierState(project);
     const auto [record, summary, has_video] = !choice.run ? runAnew(arguments, *source, project, interrupt)
                                               : choice.run->state == RunState::finished
                                                   ? asItIs(arguments, *choice.run, *source, project, interrupt)

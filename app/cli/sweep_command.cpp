@@ -7,6 +7,7 @@
 #include "chain/run_recorder.h"
 #include "cli/command.h"
 #include "cli/console_progress.h"
+#include "cli/earlier_state.h"
 #include "cli/interrupt.h"
 #include "cli/output_arguments.h"
 #include "cli/preset_arguments.h"
@@ -165,7 +166,9 @@ int sweep(const Arguments& arguments) {
                                         : openStoredRuns(arguments.sources, std::move(runs), base);
     plan.clips = opened.clips;
     check(plan);
-    ProjectFile project = ProjectFile::openOrCreate(arguments.out.empty() ? arguments.sources.project : arguments.out);
+    const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;
+    keepEarlierState(out);
+    ProjectFile project = ProjectFile::openOrCreate(out);
     const int id = beginSweep(project, plan, arguments.name, arguments.resume || !arguments.shard.empty());
     const bool whole = runMissing(arguments, plan, opened.inputs, chosenPositions(plan, arguments.shard), project, id,
                                   interrupt.token());
@@ -275,6 +278,7 @@ void addMergeCommand(CLI::App& app, int& exit_code) {
         }
         arguments->outputs.check({growingProject(arguments->out), {arguments->csv, FileKind::text}},
                                  {arguments->files.begin(), arguments->files.end()});
+        keepEarlierState(arguments->out);
         const SweepTable table = mergeSweeps({arguments->files.begin(), arguments->files.end()}, arguments->out);
         SweepCriterion criterion = usualCriterion(table.plan);
         criterion.key = measureText(arguments->criterion).key;

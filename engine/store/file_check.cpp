@@ -1,16 +1,14 @@
 #include "store/file_check.h"
 
-#include <sqlite3.h>
-
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "core/error.h"
 #include "store/database_error.h"
+#include "store/raw_file.h"
 
 namespace eyrie {
 namespace {
@@ -20,7 +18,7 @@ constexpr std::size_t kHeaderBytes = 100;
 constexpr char kMagic[] = "SQLite format 3";  // with its terminating zero: 16 bytes
 
 struct Beginning {
-    std::array<char, kHeaderBytes> bytes{};
+    std::array<unsigned char, kHeaderBytes> bytes{};
     std::uint64_t file_size = 0;
 
     bool isDatabase() const {
@@ -30,31 +28,16 @@ struct Beginning {
 
 /// Nothing when the file cannot be read.
 std::optional<Beginning> readBeginning(const std::filesystem::path& path) {
-    if (sqlite3_initialize() != SQLITE_OK) return std::nullopt;
-    sqlite3_vfs* files = sqlite3_vfs_find(nullptr);
-    const auto memory =
-        std::make_unique<std::uint64_t[]>(static_cast<std::size_t>(files->szOsFile) / sizeof(std::uint64_t) + 1);
-    auto* file = reinterpret_cast<sqlite3_file*>(memory.get());
-    const std::unique_ptr<const char, void (*)(const char*)> name(
-        sqlite3_create_filename(path.c_str(), "", "", 0, nullptr), sqlite3_free_filename);
-    if (!name ||
-        files->xOpen(files, name.get(), file, SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB, nullptr) != SQLITE_OK)
-        return std::nullopt;
+    const auto file = RawFile::open(path);
     Beginning beginning;
-    sqlite3_int64 size = 0;
-    // What lies behind the end of the file reads as zeros.
-    const int read = file->pMethods->xRead(file, beginning.bytes.data(), kHeaderBytes, 0);
-    const bool good =
-        (read == SQLITE_OK || read == SQLITE_IOERR_SHORT_READ) && file->pMethods->xFileSize(file, &size) == SQLITE_OK;
-    file->pMethods->xClose(file);
-    if (!good) return std::nullopt;
-    beginning.file_size = static_cast<std::uint64_t>(size);
+    if (!file || !file->read(0, beginning.bytes)) return std::nullopt;
+    beginning.file_size = file->size();
     return beginning;
 }
 
-std::uint32_t bigEndian(const char* at, int bytes) {
+std::uint32_t bigEndian(const unsigned char* at, int bytes) {
     std::uint32_t value = 0;
-    for (int i = 0; i < bytes; ++i) value = value << 8 | static_cast<unsigned char>(at[i]);
+    for (int i = 0; i < bytes; ++i) value = value << 8 | at[i];
     return value;
 }
 
@@ -96,13 +79,14 @@ void checkFile(const std::filesystem::path& path) {
                     path.string() + " is not an Eyrie project, or its beginning is damaged; choose another file");
     }
     if (beginning->file_size < kHeaderBytes) throw damagedProject(path, "it ends within its header");
-    const char* header = beginning->bytes.data();
+    const unsigned char* header = beginning->bytes.data();
     const std::uint32_t stored_page_size = bigEndian(header + 16, 2);
     const std::uint64_t page_size = stored_page_size == 1 ? 65536 : stored_page_size;
     const std::uint64_t pages = bigEndian(header + 28, 4);
     const bool size_is_valid = bigEndian(header + 24, 4) == bigEndian(header + 92, 4);
-    // Pages that still wait in the log make a short file normal.
-    if (size_is_valid && !hasLog(path) && beginning->file_size < pages * page_size) {
+    // Pages that still wait in the log, or go back where they were, make a short file normal.
+    if (size_is_valid && !hasLog(path) && !std::filesystem::exists(path.string() + "-journal", failed) &&
+        beginning->file_size < pages * page_size) {
         throw damagedProject(path, "it is cut off: " + std::to_string(beginning->file_size) + " of " +
                                        std::to_string(pages * page_size) + " bytes");
     }

@@ -4,17 +4,17 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <string>
-#include <thread>
 
 #include "core/error.h"
+#include "store/backup_name.h"
 #include "store/database_error.h"
+#include "store/database_uri.h"
 #include "store/file_check.h"
-#include "store/file_lock.h"
 #include "store/new_file.h"
+#include "store/new_place.h"
+#include "store/project_backup.h"
 #include "store/schema.h"
-#include "store/sequence_rows.h"
 
 namespace eyrie {
 namespace {
@@ -25,22 +25,6 @@ constexpr int kBusyTimeoutMs = 5000;
 // A frame's arrays are 100 kB and more; small pages would chain dozens of them.
 constexpr int kPageSize = 8192;
 constexpr int kLongestValue = 1 << 28;  // bytes of one text or array; a frame's arrays have some hundred thousand
-
-/// `path` as URI that SQLite opens without locks and without its log, for folders that cannot be written.
-std::string immutableUri(const Path& path) {
-    std::string uri = "file:";
-    for (const char c : path.string()) {
-        if (c == '%' || c == '?' || c == '#') {
-            constexpr char kHex[] = "0123456789abcdef";
-            uri += '%';
-            uri += kHex[static_cast<unsigned char>(c) >> 4];
-            uri += kHex[static_cast<unsigned char>(c) & 15];
-        } else {
-            uri += c;
-        }
-    }
-    return uri + "?immutable=1";
-}
 
 std::unique_ptr<SQLite::Database> openReadOnly(const Path& path) {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
@@ -55,7 +39,7 @@ std::unique_ptr<SQLite::Database> openReadOnly(const Path& path) {
 }
 
 bool mayWrite(const Path& path) {
-    return access(path.c_str(), W_OK) == 0 && access(path.parent_path().c_str(), W_OK) == 0;
+    return !isBackup(path) && access(path.c_str(), W_OK) == 0 && access(path.parent_path().c_str(), W_OK) == 0;
 }
 
 /// A connection for reading that tidies up: SQLite's companions of a log-keeping database go with the last connection
@@ -123,33 +107,6 @@ std::string emptyProject() {
     return file;
 }
 
-/// A log that lies where a new project is to be belongs to one that was deleted or moved away. SQLite would take it for
-/// the new one's. A log with contents is kept under another name: it may hold the only copy of somebody's work.
-void clearCompanions(const Path& path) {
-    std::error_code ignored;
-    if (hasLog(path)) {
-        const Path kept = lockFileBeside(path, "-wal.left-" + nowUtc());
-        std::filesystem::rename(path.string() + "-wal", kept, ignored);
-    }
-    for (const char* ending : {"-journal", "-wal", "-shm"}) std::filesystem::remove(path.string() + ending, ignored);
-}
-
-/// Held while a project is made, so that nobody's log is taken for a left one.
-std::unique_ptr<FileLock> lockMaking(const Path& path) {
-    const Path file = lockFileBeside(path, ".making");
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(kBusyTimeoutMs);
-    for (;;) {
-        FileLock::Attempt attempt = FileLock::tryTake(file);
-        // Where nothing can be locked the file itself is still made without replacing one.
-        if (attempt.outcome != FileLock::Outcome::held) return std::move(attempt.lock);
-        if (std::chrono::steady_clock::now() > patience) {
-            throw Error(ErrorKind::project,
-                        attempt.words + " is making the project " + path.string() + " at this moment; try again");
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-}
-
 /// Answers whether it was made; false when it is there.
 bool make(const Path& path) {
     std::error_code failed;
@@ -157,9 +114,8 @@ bool make(const Path& path) {
         throw Error(ErrorKind::output, "the folder " + path.parent_path().string() + " for the project " +
                                            path.filename().string() + " does not exist; make it first");
     }
-    const std::unique_ptr<FileLock> making = lockMaking(path);
-    if (std::filesystem::exists(std::filesystem::symlink_status(path, failed))) return false;
-    clearCompanions(path);
+    const NewPlace place(path);
+    if (!place.isFree()) return false;
     return guarded(path, "making it", [&] { return makeNewFile(path, emptyProject()); });
 }
 
@@ -186,6 +142,11 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, Mode mode) {
     checkFile(absolute);
     return guarded(absolute, "opening", [&] {
         std::unique_ptr<SQLite::Database> database;
+        std::string notice;
+        if (mode == Mode::read_write && isBackup(absolute)) {
+            throw Error(ErrorKind::output,
+                        absolute.string() + " is a kept earlier state of a project; restore it with eyrie-cli restore");
+        }
         if (mode == Mode::read_only) {
             database = openForReading(absolute);
         } else {
@@ -201,7 +162,12 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, Mode mode) {
                             "the project " + absolute.string() + " is write-protected; change that or copy it");
             }
             makeDurable(*database);
-            schema::migrate(*database, schema::migrations());
+            if (schema::numberOf(*database) < schema::currentNumber()) {
+                // Migrating is a transaction, so that a copy that cannot be made is told but keeps nobody out.
+                const MigrationBackup kept = backUpBeforeMigrating(absolute);
+                notice = kept.result.notice;
+                schema::migrate(*database, schema::migrations());
+            }
         } else if (schema::numberOf(*database) < schema::currentNumber()) {
             if (!mayWrite(absolute)) {
                 throw Error(ErrorKind::project, "the project " + absolute.string() +
@@ -209,12 +175,16 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, Mode mode) {
                                                     "once where it can be written");
             }
             database.reset();
-            open(absolute, Mode::read_write);  // brings it up to date
-            return open(absolute, mode);
+            const std::string told = open(absolute, Mode::read_write).notice();  // brings it up to date
+            ProjectFile project = open(absolute, mode);
+            project.notice_ = told;
+            return project;
         }
         // Tells a damaged schema now and not in the middle of the work.
         schema::checkTables(*database);
-        return ProjectFile(absolute, mode, std::move(database));
+        ProjectFile project(absolute, mode, std::move(database));
+        project.notice_ = notice;
+        return project;
     });
 }
 

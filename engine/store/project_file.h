@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace SQLite {
 class Database;
@@ -19,7 +20,8 @@ class ProjectFile {
     /// deleted project left there is put aside. Throws Error(output) when the file exists or its folder cannot be
     /// written.
     static ProjectFile create(const std::filesystem::path& path);
-    /// Opens an existing project and migrates it, in either mode, if it is older. Throws Error(project) when it is
+    /// Opens an existing project and migrates it, in either mode, if it is older, keeping a copy of it before
+    /// (project_backup.h). Throws Error(project) when it is
     /// missing, cannot be read, is no project, is damaged, or was written by a newer version.
     static ProjectFile open(const std::filesystem::path& path, Mode mode = Mode::read_write);
     /// Opens a project or makes it. Two programs that do so at once share one project.
@@ -32,6 +34,8 @@ class ProjectFile {
     const std::filesystem::path& path() const { return path_; }
     /// As it was opened; what is read-only stays as it is, whoever could write it.
     Mode mode() const { return mode_; }
+    /// What should be told about opening it: that no copy could be kept before it was migrated. Empty when all is well.
+    const std::string& notice() const { return notice_; }
     SQLite::Database& database() { return *database_; }
     /// Throws Error(project) when the file was deleted, moved or replaced meanwhile: what is written would be lost.
     void checkInPlace() const;
@@ -40,6 +44,7 @@ class ProjectFile {
     ProjectFile(std::filesystem::path path, Mode mode, std::unique_ptr<SQLite::Database> database);
     std::filesystem::path path_;
     Mode mode_;
+    std::string notice_;
     std::unique_ptr<SQLite::Database> database_;
 };
 

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+struct sqlite3_file;
+
+namespace eyrie {
+
+/// The bytes of a database file in whatever state it is, read through SQLite's own layer: opened any other way, closing
+/// it would drop the locks that connections of this process hold on it.
+class RawFile {
+ public:
+    /// Nothing when the file is not there or cannot be read.
+    static std::optional<RawFile> open(const std::filesystem::path& path);
+    RawFile(RawFile&& other) noexcept;
+    RawFile(const RawFile&) = delete;
+    RawFile& operator=(const RawFile&) = delete;
+    ~RawFile();
+
+    std::uint64_t size() const { return size_; }
+    /// Fills `bytes`, with zeros beyond the end of the file; false when the disk refuses.
+    bool read(std::uint64_t offset, std::span<unsigned char> bytes) const;
+
+ private:
+    RawFile(sqlite3_file* file, std::uint64_t size) : file_(file), size_(size) {}
+    sqlite3_file* file_;
+    std::uint64_t size_;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace SQLite {
+class Database;
+}
+
+/// Makes rows that were saved one by one fit together again. Foreign keys must not be enforced meanwhile. All throw
+/// SQLite::Exception. Lines are for people and say what was lost.
+namespace eyrie {
+
+/// Deletes rows that no writer wrote.
+std::vector<std::string> dropImpossibleRows(SQLite::Database& database);
+
+/// Makes rows for the runs and videos that saved rows belong to and that were lost; deletes what belongs to other
+/// things that were lost.
+std::vector<std::string> mendReferences(SQLite::Database& database);
+
+/// Sums that follow from other rows. Runs that lack frames end as failed, those that were being written as stopped.
+/// `frames_whole`: whether all frames could be read, so that only those that were never written are missing.
+std::vector<std::string> mendRuns(SQLite::Database& database, bool frames_whole);
+
+/// Steps of work that no longer fit the labels are dropped; numbers of objects are never given twice.
+std::vector<std::string> mendLabels(SQLite::Database& database);
+
+}  // namespace eyrie

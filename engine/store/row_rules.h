@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace SQLite {
+class Database;
+}
+
+namespace eyrie {
+
+/// What must hold for every row that a writer of ours wrote.
+struct RowRule {
+    std::string table;
+    std::string condition;  ///< in SQL over the columns of the table; NULL counts as true
+    std::string what;       ///< for people: what is wrong where it does not hold
+};
+
+/// All rules, tables in no order. They use functions that addRowFunctions() brings.
+std::vector<RowRule> rowRules();
+
+/// Gives a connection the functions that the rules use: whether packed bytes can be unpacked.
+void addRowFunctions(SQLite::Database& database);
+
+}  // namespace eyrie

@@ -1,0 +1,43 @@
+#include "store/full_project.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "store/annotation_store.h"
+#include "store/comparison_store.h"
+#include "store/label_samples.h"
+#include "store/project_presets.h"
+#include "store/samples.h"
+#include "store/sweep_store.h"
+
+namespace eyrie::test {
+
+void writeFullProject(const std::filesystem::path& path) {
+    writeSampleProject(path, kFullFrames, {400, 100, 6, 7, 5, {768, 576}});
+    writeSampleProject(path, 10);
+    ProjectFile project = ProjectFile::open(path);
+    AnnotationStore labels(project, 1);
+    for (int i = 0; i < kFullObjects; ++i) labels.apply(sampleEdit(labels.newObjectId()));
+    AnnotationEdit rest;
+    rest.name = "Rest";
+    rest.regions.push_back({std::nullopt, sampleRegion(labels.newRegionId())});
+    rest.reviews = TailChange<ReviewMark>{0, {}, {sampleMark(1)}};
+    labels.apply(rest);
+    labels.undo();
+    savePreset(project, {"dusk", "", {{"gradient.quantile", "0.3"}, {"motion.min_speed", "2"}}});
+    SweepStore sweeps(project);
+    const int sweep = sweeps.add("quantile", 3, R"({"axes": []})");
+    for (int i = 0; i < 3; ++i) sweeps.addPoint(sweep, {i, 1.5, R"({"f": 0.9})"});
+    addComparison(project, "/videos/street.mp4", R"({"methods": []})");
+}
+
+std::string bytesOf(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void writeBytes(const std::filesystem::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+}  // namespace eyrie::test
