@@ -18,7 +18,7 @@ template <class Enum, std::size_t count>
 std::string isOneOf(const std::string& column, const std::array<stored::Word<Enum>, count>& words) {
     std::string condition;
     for (const auto& entry : words)
-        condition += (condition.empty() ? "" : ", ") + ("'" + std::string(entry.word) + "'");
+        condition += std::string(condition.empty() ? "'" : ", '").append(entry.word).append("'");
     return column + " IN (" + condition + ")";
 }
 
