@@ -67,7 +67,7 @@ BoxesByFrame plainBoxes(const LabelBoxes& labels);
 LabelBoxes labelBoxes(const BoxesByFrame& boxes);
 
 /// Whether the box is neither upright nor upright after a quarter turn, so that an upright format loses its shape: an
-/// edge of the enclosing upright box lies more than a quarter of a pixel off.
+/// edge of the enclosing upright box lies more than 0.005 px off.
 bool isTurned(const OrientedBox& box);
 /// The box brought to the nearest quarter turn, as an upright box (heading 0).
 OrientedBox straightened(const OrientedBox& box);

@@ -46,6 +46,7 @@ struct MotWriteOptions {
     bool every_class_one = false;
     /// Writes class 8 for every ignored box: TrackEval takes results on these out when it preprocesses.
     bool ignored_distract = false;
+    int decimals = 3;  ///< of edges and sizes, at most
 };
 
 /// Writes ground truth (ignored boxes with flag 0; visibility 1, partly hidden 0.5, fully 0) through a temporary file
