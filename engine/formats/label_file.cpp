@@ -87,6 +87,7 @@ LabelReport reportOn(const LabelFile& labels) {
             ++report.boxes;
             if (record.id) ids.insert(*record.id);
             if (!record.id) ++report.without_id;
+            if (!record.id && !record.ignore) ++report.loose;
             if (isTurned(record.box)) ++report.turned;
             if (record.ignore) ++report.ignored;
             if (record.occlusion != Occlusion::none) ++report.occluded;

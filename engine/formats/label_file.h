@@ -49,6 +49,7 @@ struct LabelReport {
     int lowest_id = 0;
     int highest_id = 0;
     int without_id = 0;  ///< boxes
+    int loose = 0;       ///< of those, the ones that are not to be ignored: they belong to no object
     int turned = 0;      ///< boxes with a rotation of their own
     int ignored = 0;     ///< boxes
     int occluded = 0;    ///< boxes
