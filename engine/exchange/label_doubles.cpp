@@ -76,11 +76,12 @@ std::map<int, ObjectId> alreadyLabelled(const LabelFile& labels, const Annotatio
             if (record.id) tracks[*record.id].push_back(&record);
     }
     const Present lookup(present);
-    for (const auto& [id, boxes] : tracks) {
+    for (const auto& entry : tracks) {
+        const std::vector<const LabelBox*>& boxes = entry.second;
         const LabelledObject* same =
             lookup.find(boxes.front()->frame, boxes.back()->frame,
                         [&](const LabelledObject& object) { return showsThem(object, boxes, camera, tolerance_px); });
-        if (same != nullptr) doubles[id] = same->id;
+        if (same != nullptr) doubles[entry.first] = same->id;
     }
     return doubles;
 }
