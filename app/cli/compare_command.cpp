@@ -33,7 +33,7 @@ struct Arguments {
     std::vector<std::string> tracking{"off", "on"};
     std::vector<double> overlaps{0.1, 0.2, 0.3};
     EvaluationOptions options;
-    double mot_origin = MotOptions().first_pixel_edge;
+    std::optional<double> mot_origin;
     PresetArguments preset;
     std::string project;
     std::string csv;
@@ -183,7 +183,7 @@ int compare(const Arguments& arguments) {
     const InterruptGuard interrupt;
     const auto source = openInput(arguments.sequence, arguments.frame_rate_hz.value_or(0), interrupt.token());
     const VideoInfo& video = source->info();
-    BoxFile truth = readTruthBoxes(arguments.ground_truth, {arguments.mot_origin}, video.size);
+    BoxFile truth = readTruthBoxes(arguments.ground_truth, arguments.mot_origin, video.size);
     if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
     report.remarks.insert(report.remarks.end(), truth.remarks.begin(), truth.remarks.end());
     const FrameRange range{frames.first, frames.last < 0 ? video.frame_count - 1 : frames.last};
@@ -279,8 +279,7 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
                       "Compare enclosing upright boxes, for ground truth without headings");
     command->add_option("--border", arguments->options.border,
                         "Leave out results that come this close to the image's edge, px");
-    command->add_option("--mot-origin", arguments->mot_origin,
-                        "Where the first pixel begins in MOTChallenge text: 1 by its rules, 0 in UAVDT and VisDrone");
+    command->add_option("--mot-origin", arguments->mot_origin, motOriginHelp());
     arguments->preset.addTo(*command);
     command->add_option("--project", arguments->project,
                         "Store every method as a run of this project, and the figures beside them");

@@ -32,7 +32,7 @@ struct Arguments {
     std::string size;
     std::string homographies;
     std::string convention = "thesis";
-    double mot_origin = MotOptions().first_pixel_edge;
+    std::optional<double> mot_origin;
     std::string errors;
     OutputArguments outputs;
     bool json = false;
@@ -59,10 +59,10 @@ std::vector<Registration> registrationsOf(const RunStore& store, int run_id) {
     return registrations;
 }
 
-Result readResult(const Arguments& arguments, const MotOptions& mot) {
+Result readResult(const Arguments& arguments) {
     Result result;
     if (arguments.project.empty()) {
-        result.boxes = readResultBoxes(arguments.result, mot).boxes;
+        result.boxes = readResultBoxes(arguments.result, arguments.mot_origin).boxes;
         result.name = arguments.result;
         return result;
     }
@@ -138,10 +138,10 @@ void writeErrors(const Arguments& arguments, const BoxesByFrame& truth, const Re
 }
 
 /// The file that was named, else what people labelled in the project.
-BoxFile readTruth(const Arguments& arguments, const Result& result, const MotOptions& mot) {
+BoxFile readTruth(const Arguments& arguments, const Result& result) {
     BoxFile truth;
     if (!arguments.ground_truth.empty()) {
-        truth = readTruthBoxes(arguments.ground_truth, mot, knownImageSize(arguments, result));
+        truth = readTruthBoxes(arguments.ground_truth, arguments.mot_origin, knownImageSize(arguments, result));
         if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
         return truth;
     }
@@ -154,14 +154,13 @@ BoxFile readTruth(const Arguments& arguments, const Result& result, const MotOpt
 void evaluateAndPrint(const Arguments& arguments) {
     arguments.outputs.check({{arguments.errors, FileKind::text}},
                             {arguments.ground_truth, arguments.result, arguments.project, arguments.homographies});
-    const MotOptions mot{arguments.mot_origin};
     EvaluationReport report;
     report.options = arguments.options;
     EvaluationOptions& options = report.options;
     options.convention = arguments.convention == "trackeval" ? Convention::trackeval : Convention::thesis;
 
-    const Result result = readResult(arguments, mot);
-    BoxFile truth = readTruth(arguments, result, mot);
+    const Result result = readResult(arguments);
+    BoxFile truth = readTruth(arguments, result);
     report.remarks = truth.remarks;
     if (result.run) keepFramesOfRun(truth.boxes, *result.run, report.remarks);
     report.ground_truth =
@@ -221,10 +220,7 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
     command->add_option("--convention", arguments->convention, "Whose definitions to follow where they differ")
         ->check(CLI::IsMember({"thesis", "trackeval"}))
         ->capture_default_str();
-    command
-        ->add_option("--mot-origin", arguments->mot_origin,
-                     "Where the first pixel begins in MOTChallenge text: 1 by its rules, 0 in UAVDT and VisDrone")
-        ->capture_default_str();
+    command->add_option("--mot-origin", arguments->mot_origin, motOriginHelp());
     command->add_option("--errors", arguments->errors,
                         "Write every miss, false alarm, switch, fragment, split and merge at the first T_ov to this "
                         "CSV file, with probable causes where a run is measured: the most frequent cause of a stretch, "

@@ -29,10 +29,10 @@ bool isMot(const std::string& format) {
     return format == "mot" || format == "mot-result";
 }
 
-BoxFile readAs(const std::string& format, const std::filesystem::path& file, const MotOptions& options,
+BoxFile readAs(const std::string& format, const std::filesystem::path& file, std::optional<double> mot_origin,
                std::optional<cv::Size> image_size) {
     ImportOptions import;
-    import.first_pixel_edge = options.first_pixel_edge;
+    import.first_pixel_edge = mot_origin;
     import.image_size = image_size;
     const LabelFile labels = readLabels(file, format, import);
     BoxFile read;
@@ -73,7 +73,7 @@ MotSequence readJsonDescription(const std::filesystem::path& file) {
 
 }  // namespace
 
-BoxFile readTruthBoxes(const std::filesystem::path& file, const MotOptions& options,
+BoxFile readTruthBoxes(const std::filesystem::path& file, std::optional<double> mot_origin,
                        std::optional<cv::Size> image_size) {
     std::string format;
     try {
@@ -82,13 +82,13 @@ BoxFile readTruthBoxes(const std::filesystem::path& file, const MotOptions& opti
         if (!beginsWithNumbers(file)) throw;
         format = "mot";
     }
-    return readAs(isMot(format) ? "mot" : format, file, options, image_size);
+    return readAs(isMot(format) ? "mot" : format, file, mot_origin, image_size);
 }
 
-BoxFile readResultBoxes(const std::filesystem::path& file, const MotOptions& options,
+BoxFile readResultBoxes(const std::filesystem::path& file, std::optional<double> mot_origin,
                         std::optional<cv::Size> image_size) {
     const std::string format = beginsWithNumbers(file) ? "mot-result" : sniffLabelFormat(file);
-    return readAs(format == "mot" ? "mot-result" : format, file, options, image_size);
+    return readAs(format == "mot" ? "mot-result" : format, file, mot_origin, image_size);
 }
 
 MotSequence describedBeside(const std::filesystem::path& file) {
@@ -105,6 +105,12 @@ MotSequence describedBeside(const std::filesystem::path& file) {
         }
     }
     return found;
+}
+
+std::string motOriginHelp() {
+    return "Where the first pixel begins in MOTChallenge text (else 1, as by its rules; 0 with labels.txt beside it, "
+           "as "
+           "CVAT and datumaro write it)";
 }
 
 cv::Size parseSize(const std::string& text) {

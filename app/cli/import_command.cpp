@@ -28,6 +28,7 @@ struct Arguments {
     double tolerance_px = 0.45;  // less than half: whole pixels come back as they were
     bool show = false;
     bool add_doubles = false;
+    bool link = false;
 };
 
 /// What the project says against the labels, if anything: another size, a shift in time.
@@ -118,11 +119,13 @@ void importLabels(const Arguments& arguments) {
     if (store.readOnly()) throw Error(ErrorKind::output, store.readOnlyReason());
     const CameraMotion camera = cameraMotionOf(RunStore(project), sequence.id);
     const LabelImport done = planImport(labels, sequence, camera, store, arguments.tolerance_px,
-                                        arguments.add_doubles ? Doubles::add : Doubles::skip);
+                                        arguments.add_doubles ? Doubles::add : Doubles::skip,
+                                        arguments.link ? LooseBoxes::link : LooseBoxes::single);
     if (!done.edit.empty()) store.apply(done.edit);
     std::printf("%d objects with %d keyframes for %d boxes, and %d ignore regions, added to %s\n", done.objects,
                 done.keyframes, done.boxes, done.regions, arguments.project.c_str());
     printNotes(done.notes);
+    if (done.loose.boxes > 0 && !arguments.link) std::printf("  note        --link links them\n");
     if (done.doubles > 0) std::printf("  note        --add-doubles adds them all the same\n");
 }
 
@@ -152,6 +155,12 @@ void addImportCommand(CLI::App& app, int& exit_code) {
     command
         ->add_flag("--add-doubles", arguments->add_doubles,
                    "Take objects that the project has already with the same boxes all the same")
+        ->needs(project);
+    command
+        ->add_flag(
+            "--link", arguments->link,
+            "Link boxes without id that overlap from frame to frame to objects; without, each is an object of one "
+            "frame")
         ->needs(project);
     command->add_option("--out", arguments->out, "Write our ground truth CSV instead")->excludes(project);
     arguments->outputs.addTo(*command);

@@ -31,7 +31,8 @@ void addLabelOptions(CLI::App& command, LabelArguments& arguments, const char* f
     command.add_option("--first-frame", arguments.first_frame,
                        "Number of a video's first frame in such a table (else 0)");
     command.add_option("--pixel-origin", arguments.pixel_origin,
-                       "Where the first pixel begins in such a table (else 0) and in MOTChallenge text (else 1)");
+                       "Where the first pixel begins in such a table (else 0) and in MOTChallenge text (else 1; 0 with "
+                       "labels.txt beside it)");
     command.add_option("--size", arguments.size, "Size of the image, WIDTHxHEIGHT, for formats relative to it");
 }
 
@@ -76,7 +77,11 @@ std::string formatNames(bool to_write) {
 std::string reportText(const std::string& file, const LabelFile& labels, const LabelReport& report) {
     std::string text = file + "\n" + line("format", report.format);
     for (const auto& further : labels.further_files) text += line("read too", further.string());
-    if (report.boxes == 0) return text + line("boxes", "none");
+    if (report.boxes == 0) {
+        text += line("boxes", "none");
+        for (const std::string& note : report.notes) text += line("note", note);
+        return text;
+    }
     text += line("frames", nounOf(report.frames, "frame", "frames") + " with boxes, " +
                                std::to_string(report.first_frame) + " to " + std::to_string(report.last_frame) +
                                (report.first_frame_number == 0

@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/console_progress.h"
 #include "cli/earlier_state.h"
+#include "cli/evaluation_files.h"
 #include "cli/interrupt.h"
 #include "cli/output_arguments.h"
 #include "cli/preset_arguments.h"
@@ -222,8 +223,7 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
                       "Compare enclosing upright boxes, for ground truth without headings");
     command->add_option("--border", arguments->border,
                         "Leave out results that come this close to the image's edge, px");
-    command->add_option("--mot-origin", sources.mot_origin,
-                        "Where the first pixel begins in MOTChallenge text: 1 by its rules, 0 in UAVDT and VisDrone");
+    command->add_option("--mot-origin", sources.mot_origin, motOriginHelp());
     arguments->preset.addTo(*command);
     command->add_option("--out", arguments->out, "Project file for the points; made when it does not exist");
     command->add_option("--name", arguments->name, "A name for the sweep");

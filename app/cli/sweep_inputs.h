@@ -17,7 +17,7 @@ struct SweepSources {
     std::optional<double> frame_rate_hz;
     std::string frames;
     bool upright = false;
-    double mot_origin = 1;
+    std::optional<double> mot_origin;
     std::string project;    ///< in place of sequences
     std::vector<int> runs;  ///< of the project; none: its last
 };

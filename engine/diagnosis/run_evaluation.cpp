@@ -29,7 +29,8 @@ std::string rangeText(FrameIndex first, FrameIndex last) {
 struct Truth {
     BoxesByFrame boxes;
     std::string name;
-    bool without_headings = false;  ///< from a format that cannot turn boxes
+    bool without_headings = false;   ///< from a format that cannot turn boxes
+    std::vector<std::string> notes;  ///< of reading it, such as what was left out
 };
 
 Truth truthOfProject(ProjectFile& project, const RunRecord& run) {
@@ -45,6 +46,7 @@ Truth truthOfFile(const std::filesystem::path& file, const RunRecord& run) {
     const LabelFile labels = readLabels(file, "auto", options);
     Truth truth;
     truth.boxes = plainBoxes(labels.boxes);
+    truth.notes = labels.notes;
     truth.name = file.filename().string();
     if (truth.boxes.empty()) throw Error(ErrorKind::input, file.string() + ": holds no box. Choose another file.");
     for (const LabelFormatInfo& format : labelFormats())
@@ -174,6 +176,7 @@ std::shared_ptr<const RunEvaluation> RunEvaluator::evaluate(const EvaluationRequ
 
     Truth truth =
         request.truth_file.empty() ? truthOfProject(*kept_->project, e.run) : truthOfFile(request.truth_file, e.run);
+    e.remarks = truth.notes;
     keepFrames(truth, e.run.first_frame, e.run.first_frame + e.run.frames_done, &e.remarks);
     e.truth_name = truth.name;
     e.options = request.options;

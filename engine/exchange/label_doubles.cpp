@@ -36,6 +36,34 @@ bool showsThem(const LabelledObject& object, const std::vector<const LabelBox*>&
     return true;
 }
 
+/// Objects by the frames they live in. Those of one frame can be many, such as imported detections, and are found by
+/// it.
+class Present {
+ public:
+    explicit Present(const AnnotationSet& set) {
+        for (const auto& [id, object] : set.objects) {
+            if (firstFrameOf(object) < object.last_frame)
+                longer_.push_back(&object);
+            else
+                of_one_frame_.emplace(object.last_frame, &object);
+        }
+    }
+    /// The first object that may live in these frames and fulfils `fits`; null for none.
+    template <class Fits>
+    const LabelledObject* find(FrameIndex first, FrameIndex last, const Fits& fits) const {
+        for (const LabelledObject* object : longer_)
+            if (fits(*object)) return object;
+        const auto end = of_one_frame_.upper_bound(last);
+        for (auto entry = of_one_frame_.lower_bound(first); entry != end; ++entry)
+            if (fits(*entry->second)) return entry->second;
+        return nullptr;
+    }
+
+ private:
+    std::vector<const LabelledObject*> longer_;
+    std::multimap<FrameIndex, const LabelledObject*> of_one_frame_;
+};
+
 }  // namespace
 
 std::map<int, ObjectId> alreadyLabelled(const LabelFile& labels, const AnnotationSet& present,
@@ -47,12 +75,13 @@ std::map<int, ObjectId> alreadyLabelled(const LabelFile& labels, const Annotatio
         for (const LabelBox& record : records)
             if (record.id) tracks[*record.id].push_back(&record);
     }
-    for (const auto& [id, boxes] : tracks) {
-        for (const auto& [object_id, object] : present.objects) {
-            if (!showsThem(object, boxes, camera, tolerance_px)) continue;
-            doubles[id] = object_id;
-            break;
-        }
+    const Present lookup(present);
+    for (const auto& entry : tracks) {
+        const std::vector<const LabelBox*>& boxes = entry.second;
+        const LabelledObject* same =
+            lookup.find(boxes.front()->frame, boxes.back()->frame,
+                        [&](const LabelledObject& object) { return showsThem(object, boxes, camera, tolerance_px); });
+        if (same != nullptr) doubles[entry.first] = same->id;
     }
     return doubles;
 }

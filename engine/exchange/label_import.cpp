@@ -151,21 +151,25 @@ AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
 }  // namespace
 
 LabelImport planImport(const LabelFile& file, const SequenceRecord& sequence, const CameraMotion& camera,
-                       AnnotationStore& store, double tolerance_px, Doubles doubles) {
+                       AnnotationStore& store, double tolerance_px, Doubles doubles, LooseBoxes loose) {
     LabelFile labels = file;
     LabelImport result;
     const int behind = cutAtEnd(labels, sequence.frame_count);
     for (const auto& [frame, records] : labels.boxes) result.boxes += static_cast<int>(records.size());
 
+    result.loose = gatherLooseBoxes(labels, loose);
     ImportedLabels imported = annotationsOf(labels);
     result.notes = imported.notes;
     if (behind > 0) {
         result.notes.push_back(std::to_string(behind) + " boxes lie behind the video's last frame, " +
                                std::to_string(sequence.frame_count - 1) + ", and were left out; is the shift right?");
     }
-    if (imported.left_out > 0) {
-        result.notes.push_back(std::to_string(imported.left_out) +
-                               " boxes have no id and belong to no object; they were left out");
+    if (result.loose.boxes > 0) {
+        result.notes.push_back(std::to_string(result.loose.boxes) + " boxes have no id; " +
+                               (loose == LooseBoxes::link
+                                    ? "linked by their overlap from frame to frame they are " +
+                                          std::to_string(result.loose.objects) + " objects, to be looked through"
+                                    : "each is an object of one frame, unless they are linked"));
     }
     if (doubles == Doubles::skip) result.doubles = leaveDoublesOut(imported, labels, camera, store, tolerance_px);
     if (result.doubles > 0) {

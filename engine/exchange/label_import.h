@@ -6,6 +6,7 @@
 #include "annotation/camera_motion.h"
 #include "core/annotation_edit.h"
 #include "exchange/label_doubles.h"
+#include "exchange/loose_boxes.h"
 #include "formats/label_file.h"
 #include "store/annotation_store.h"
 
@@ -18,16 +19,19 @@ struct LabelImport {
     int boxes = 0;      ///< of the file
     int keyframes = 0;  ///< made of them
     int regions = 0;
-    int doubles = 0;  ///< objects and regions that the project has already and that were left out
+    int doubles = 0;      ///< objects and regions that the project has already and that were left out
+    LooseBoxCount loose;  ///< boxes without id, and the objects made of them
     std::vector<std::string> notes;
 };
 
 /// Labels of a file as an edit of the video's labels. Few keyframes are chosen whose interpolation over the ground
 /// stays within `tolerance_px` of every box; 0 makes every box a keyframe. Nothing that is there is touched. Ids of the
-/// file are kept in a project that never had an object; otherwise `store` hands out new ones. Boxes behind the video's
-/// last frame are left out, and boxes that belong to no object; notes say how many. So are, unless `doubles` says
+/// file are kept in a project that never had an object; otherwise `store` hands out new ones. Boxes that
+/// belong to no object become objects of their own, as `loose` says. Boxes behind the video's last frame are left out;
+/// notes say how many. So are, unless `doubles` says
 /// otherwise, objects and regions that the project has already, within a pixel: a file imported twice adds nothing.
 LabelImport planImport(const LabelFile& labels, const SequenceRecord& sequence, const CameraMotion& camera,
-                       AnnotationStore& store, double tolerance_px, Doubles doubles = Doubles::skip);
+                       AnnotationStore& store, double tolerance_px, Doubles doubles = Doubles::skip,
+                       LooseBoxes loose = LooseBoxes::single);
 
 }  // namespace eyrie

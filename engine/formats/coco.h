@@ -5,11 +5,13 @@
 /// COCO and KWCOCO: JSON with `images`, `categories` and `annotations` (bbox left, top, width, height; pixels from 0);
 /// KWCOCO adds `videos`, `images[].frame_index` from 0 and `annotations[].track_id`. A turned box has its corners in
 /// `segmentation` and its heading (radians, clockwise on screen) in `dive_detection_attributes.rotation`. iscrowd = 1
-/// is ignored. A list of results ({image_id, category_id, bbox, score}) is read too.
+/// is ignored, and so is `ignore` in DIVE's attributes. Without a bbox the polygon tells the box; where several classes
+/// are told with confidences the surest counts. A list of results ({image_id, category_id, bbox, score}) is read too.
 namespace eyrie {
 
-/// Throws Error(input) "file: annotations[3].bbox: …" for whatever is not as above, among it JSON nested deeper than
-/// labels ever are, and several videos unless options name one.
+/// Entries that are not as above are left out one by one, with a note "file: annotations[3].bbox: …". Throws
+/// Error(input) when that leaves nothing, for what is no JSON or nested deeper than labels ever are, and for several
+/// videos unless options name one.
 LabelFile readCoco(const std::filesystem::path& path, const ImportOptions& options);
 
 void writeCoco(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,

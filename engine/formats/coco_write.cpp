@@ -39,6 +39,20 @@ std::string imagesText(const LabelFile& labels, int frames, bool video) {
     return text;
 }
 
+/// What DIVE shows of a box besides its place.
+std::string diveAttributes(const LabelBox& record) {
+    std::string text;
+    const auto add = [&](const char* key, const std::string& value) {
+        text += (text.empty() ? "\"" : ", \"") + std::string(key) + "\": " + value;
+    };
+    const double turn = wrapPi(record.box.heading);
+    if (std::abs(turn) > 5e-7) add("rotation", fixedText(turn, 6));
+    if (record.occlusion == Occlusion::partly) add("occluded", "\"partly\"");
+    if (record.occlusion == Occlusion::fully) add("occluded", "\"fully\"");
+    if (record.ignore) add("ignore", "true");
+    return text.empty() ? "" : ", \"dive_detection_attributes\": {" + text + "}";
+}
+
 std::string annotationText(const LabelBox& record, int number, int category, const ExportOptions& options, bool video) {
     const OrientedBox& box = record.box;
     const OrientedBox unrotated{box.centre, box.length, box.width, 0};
@@ -55,8 +69,7 @@ std::string annotationText(const LabelBox& record, int number, int category, con
     text += "]], \"iscrowd\": " + std::string(record.ignore ? "1" : "0");
     if (video && record.id) text += ", \"track_id\": " + std::to_string(*record.id);
     if (record.score != 1) text += ", \"score\": " + fixedText(record.score, 6);
-    const double turn = wrapPi(box.heading);
-    if (std::abs(turn) > 5e-7) text += ", \"dive_detection_attributes\": {\"rotation\": " + fixedText(turn, 6) + "}";
+    text += diveAttributes(record);
     if (record.occlusion != Occlusion::none) {
         text += std::string(", \"attributes\": {\"occluded\": true, \"occlusion\": \"") +
                 (record.occlusion == Occlusion::fully ? "fully" : "partly") + "\"}";
@@ -81,7 +94,8 @@ void write(const LabelFile& labels, const std::filesystem::path& path, const Exp
     }
     for (const std::string& name : sorted) categoryOf(name);
 
-    std::string text = "{\"info\": {\"description\": " + jsonString(options.sequence) + "},\n";
+    std::string text = "{\"info\": {\"description\": " + jsonString(options.sequence) +
+                       ", \"dive_extensions\": [\"dive_detection_attributes\"]},\n";
     if (video) {
         text += "\"videos\": [{\"id\": 1, \"name\": " + jsonString(options.sequence);
         if (labels.frame_rate_hz) {

@@ -90,15 +90,45 @@ Keyframe finished(FileBox box) {
     return box.keyframe;
 }
 
+bool isPolygon(pugi::xml_node node) {
+    return std::string_view(node.name()) == "polygon" && node.attribute("points") && node.attribute("keyframe");
+}
+
+/// The edges around points="x,y;x,y;…".
+BoxEdges edgesOfPolygon(const CvatText& text, pugi::xml_node node) {
+    std::string_view rest = node.attribute("points").value();
+    double left = 0, top = 0, right = 0, bottom = 0;
+    for (bool first = true; first || !rest.empty(); first = false) {
+        const std::size_t end = std::min(rest.find(';'), rest.size());
+        const std::string_view point = rest.substr(0, end);
+        const std::size_t comma = std::min(point.find(','), point.size());
+        const auto x = parseReal(point.substr(0, comma));
+        const auto y = parseReal(point.substr(std::min(comma + 1, point.size())));
+        if (!x || !y || std::abs(*x) > kLargestCoordinate || std::abs(*y) > kLargestCoordinate)
+            text.fail(node, "points holds " + inQuotes(point) + ", which is no point");
+        left = first ? *x : std::min(left, *x);
+        right = first ? *x : std::max(right, *x);
+        top = first ? *y : std::min(top, *y);
+        bottom = first ? *y : std::max(bottom, *y);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return {left, top, right - left, bottom - top};
+}
+
+BoxEdges edgesOfBox(const CvatText& text, pugi::xml_node node) {
+    const double left = text.real(node, "xtl"), top = text.real(node, "ytl");
+    const BoxEdges edges{left, top, text.real(node, "xbr") - left, text.real(node, "ybr") - top};
+    if (edges.width < 0 || edges.height < 0) text.fail(node, "xbr or ybr lies before xtl or ytl");
+    return edges;
+}
+
 FileBox readBox(const CvatText& text, pugi::xml_node node) {
     FileBox box;
     box.keyframe.frame = text.whole(node, "frame");
     if (box.keyframe.frame < 0 || box.keyframe.frame >= kFrameLimit) text.fail(node, "the frame is beyond any video");
     box.keyframe.outside = text.whole(node, "outside", 0) != 0;
     if (text.whole(node, "occluded", 0) != 0) box.keyframe.occlusion = Occlusion::partly;
-    const double left = text.real(node, "xtl"), top = text.real(node, "ytl");
-    box.edges = {left, top, text.real(node, "xbr") - left, text.real(node, "ybr") - top};
-    if (box.edges.width < 0 || box.edges.height < 0) text.fail(node, "xbr or ybr lies before xtl or ytl");
+    box.edges = isPolygon(node) ? edgesOfPolygon(text, node) : edgesOfBox(text, node);
     box.degrees = std::fmod(text.real(node, "rotation", 0.0), 360.0);
     for (const pugi::xml_node attribute : node.children("attribute")) {
         const std::string name = attribute.attribute("name").value(), value = attribute.text().get();
@@ -179,7 +209,8 @@ class CvatReader {
         std::vector<FileBox> boxes;
         for (const pugi::xml_node node : track.children()) {
             if (node.type() != pugi::node_element) continue;
-            if (std::string_view(node.name()) != "box") {
+            polygons_ += isPolygon(node);
+            if (std::string_view(node.name()) != "box" && !isPolygon(node)) {
                 other_shapes_ += std::string_view(node.name()) != "attribute";
                 continue;
             }
@@ -269,6 +300,7 @@ class CvatReader {
         };
         say(running_on_, "track has", "tracks have", " no end and run to the end of the clip, as CVAT shows them");
         say(other_shapes_, "shape", "shapes", " other than boxes were passed over");
+        say(polygons_, "polygon", "polygons", " became the boxes around them");
         say(empty_tracks_, "track holds", "tracks hold", " no visible keyframe and were left out");
         say(renumbered_, "track", "tracks", " got a new id, as another has it already");
     }
@@ -279,7 +311,7 @@ class CvatReader {
     std::set<int> ids_;
     int next_id_ = 0;
     std::int64_t count_ = 0, elements_ = 0;
-    int running_on_ = 0, other_shapes_ = 0, empty_tracks_ = 0, renumbered_ = 0;
+    int running_on_ = 0, other_shapes_ = 0, polygons_ = 0, empty_tracks_ = 0, renumbered_ = 0;
 };
 
 }  // namespace

@@ -46,7 +46,8 @@ LabelFile readDota(const std::filesystem::path& path, const ImportOptions&) {
         }
     }
     if (departures > 0)
-        labels.notes.push_back(counted(departures, "outline is", "outlines are") + " no rectangle; one was fitted");
+        labels.notes.push_back(counted(departures, "outline is", "outlines are") +
+                               " no rectangle; the best fitting one was taken");
     if (across > 0) {
         labels.notes.push_back(counted(across, "box is", "boxes are") +
                                " wider than long: the first corner may not be the front left one");

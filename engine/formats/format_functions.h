@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.h"
 #include "formats/label_formats.h"
 #include "formats/text_fields.h"
 
@@ -37,6 +38,7 @@ const std::vector<LabelFormat>& formatTable();
 LabelFormat nativeFormat();
 LabelFormat nativeResultFormat();
 LabelFormat motFormat();
+LabelFormat motCvatFormat();
 LabelFormat motResultFormat();
 LabelFormat trackEvalFormat();
 LabelFormat cvatFormat();
@@ -78,6 +80,19 @@ int framesToWrite(const LabelFile& labels);
 
 /// The same for formats that list every image. Throws Error(parameter) when that cannot be meant.
 int imagesToWrite(const LabelFile& labels, const std::filesystem::path& path);
+
+/// Rows that a reader leaves out as they cannot be taken. For formats whose own programs are as lenient.
+class LeftOutRows {
+ public:
+    /// `reason` tells file, place and what is wrong there. Throws it on when it is no Error(input).
+    void add(const Error& reason);
+    /// Says in `labels` what was left out and why. Throws Error(input) with the first reason when no box was read.
+    void tell(LabelFile& labels) const;
+
+ private:
+    int count_ = 0;
+    std::vector<std::string> reasons_;  ///< of the first ones
+};
 
 /// A count with its noun: "1 box", "3 boxes".
 std::string counted(int count, const char* one, const char* many);

@@ -8,6 +8,7 @@ namespace eyrie {
 namespace {
 
 constexpr int kMostImages = 1'000'000;  ///< half a day of video
+constexpr std::size_t kReasonsTold = 5;
 
 }  // namespace
 
@@ -86,6 +87,19 @@ cv::Size neededSize(const std::optional<cv::Size>& size, const std::filesystem::
 int framesToWrite(const LabelFile& labels) {
     const int needed = labels.boxes.empty() ? 0 : labels.boxes.rbegin()->first + 1;
     return std::max(labels.frame_count.value_or(0), needed);
+}
+
+void LeftOutRows::add(const Error& reason) {
+    if (reason.kind() != ErrorKind::input) throw reason;
+    if (++count_ <= static_cast<int>(kReasonsTold)) reasons_.emplace_back(reason.what());
+}
+
+void LeftOutRows::tell(LabelFile& labels) const {
+    if (count_ == 0) return;
+    if (labels.boxes.empty()) throw Error(ErrorKind::input, reasons_.front());
+    for (const std::string& reason : reasons_) labels.notes.push_back("left out: " + reason);
+    const int more = count_ - static_cast<int>(reasons_.size());
+    if (more > 0) labels.notes.push_back("left out: " + counted(more, "row", "rows") + " more for such reasons");
 }
 
 std::string counted(int count, const char* one, const char* many) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
@@ -58,6 +60,36 @@ std::map<std::string, FrameIndex> framesOfImages(const fs::path& folder, LabelFi
     }
     if (!images.empty()) labels.frame_count = static_cast<int>(images.size());
     return frames;
+}
+
+using Quadrangle = std::array<cv::Point2d, 4>;
+
+/// Overlap |A ∩ B| / |A ∪ B| of a box with the hull of four corners; 0 for a hull without area.
+double overlapWithHull(const OrientedBox& box, const Quadrangle& corners) {
+    // Relative to the first corner, as OpenCV works in single precision.
+    std::vector<cv::Point2f> outline, hull, rectangle, common;
+    for (const cv::Point2d& corner : corners) outline.emplace_back(corner - corners[0]);
+    for (const cv::Point2d& corner : box.corners()) rectangle.emplace_back(corner - corners[0]);
+    cv::convexHull(outline, hull);
+    const double area = hull.size() < 3 ? 0 : cv::contourArea(hull);
+    if (!(area > 0) || !(box.area() > 0)) return 0;
+    const double shared = cv::intersectConvexConvex(hull, rectangle, common);
+    return shared / (area + box.area() - shared);
+}
+
+/// The smallest rectangle around four corners, which lies along the axis of `like` that is nearest.
+OrientedBox smallestAround(const Quadrangle& corners, const OrientedBox& like) {
+    std::vector<cv::Point2f> outline;
+    for (const cv::Point2d& corner : corners) outline.emplace_back(corner - corners[0]);
+    const double turn = radiansFromDegrees(cv::minAreaRect(outline).angle);
+    const double quarters = std::round((like.heading - turn) / (kPi / 2));
+    return boxAround(corners, wrapPi(turn + quarters * (kPi / 2)));
+}
+
+/// Of a skewed outline the rectangle that covers it best: the mean one or the smallest around it.
+OrientedBox bestRectangle(const Quadrangle& corners, const OrientedBox& mean) {
+    const OrientedBox smallest = smallestAround(corners, mean);
+    return overlapWithHull(smallest, corners) > overlapWithHull(mean, corners) ? smallest : mean;
 }
 
 }  // namespace
@@ -154,8 +186,9 @@ OrientedBox boxByFourCorners(const TextLine& line, std::size_t first, cv::Point2
         corners[i] = {x - 0.5, y - 0.5};
     }
     const CornerBox found = boxFromCorners(corners);
-    departures += found.departure > std::max(2.0, 0.1 * std::hypot(found.box.length, found.box.width));
-    return found.box;
+    if (found.departure <= std::max(2.0, 0.1 * std::hypot(found.box.length, found.box.width))) return found.box;
+    ++departures;
+    return bestRectangle(corners, found.box);
 }
 
 std::array<cv::Point2d, 4> cornersToWrite(const OrientedBox& box, std::optional<cv::Size> clip, int& cut) {

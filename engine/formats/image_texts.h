@@ -32,7 +32,8 @@ void writePlainFile(const std::filesystem::path& file, const std::string& text);
 std::string imageStem(const LabelFile& labels, FrameIndex frame);
 
 /// Reads four corners from field `first` on and makes a box of them; `departures` counts quadrangles that are no
-/// rectangle within 2 px or a tenth of their size.
+/// rectangle within 2 px or a tenth of their size; of those the best fitting of two rectangles is taken, the mean one
+/// and the smallest around them.
 OrientedBox boxByFourCorners(const TextLine& line, std::size_t first, cv::Point2d scale, int& departures);
 /// The corners front left, front right, rear right, rear left with pixels from 0; cut at the border of `clip`.
 std::array<cv::Point2d, 4> cornersToWrite(const OrientedBox& box, std::optional<cv::Size> clip, int& cut);

@@ -9,7 +9,7 @@
 namespace eyrie {
 
 bool isTurned(const OrientedBox& box) {
-    constexpr double kShift_px = 0.25;  // of an edge; less is lost in rounding
+    constexpr double kShift_px = 0.005;  // of an edge: how somebody's arithmetic rounds, and below what texts carry
     const OrientedBox enclosing = box.upright();
     const OrientedBox kept = straightened(box);
     return std::max(std::abs(enclosing.length - kept.length), std::abs(enclosing.width - kept.width)) / 2 > kShift_px;
@@ -87,6 +87,7 @@ LabelReport reportOn(const LabelFile& labels) {
             ++report.boxes;
             if (record.id) ids.insert(*record.id);
             if (!record.id) ++report.without_id;
+            if (!record.id && !record.ignore) ++report.loose;
             if (isTurned(record.box)) ++report.turned;
             if (record.ignore) ++report.ignored;
             if (record.occlusion != Occlusion::none) ++report.occluded;

@@ -49,6 +49,7 @@ struct LabelReport {
     int lowest_id = 0;
     int highest_id = 0;
     int without_id = 0;  ///< boxes
+    int loose = 0;       ///< of those, the ones that are not to be ignored: they belong to no object
     int turned = 0;      ///< boxes with a rotation of their own
     int ignored = 0;     ///< boxes
     int occluded = 0;    ///< boxes
@@ -67,7 +68,7 @@ BoxesByFrame plainBoxes(const LabelBoxes& labels);
 LabelBoxes labelBoxes(const BoxesByFrame& boxes);
 
 /// Whether the box is neither upright nor upright after a quarter turn, so that an upright format loses its shape: an
-/// edge of the enclosing upright box lies more than a quarter of a pixel off.
+/// edge of the enclosing upright box lies more than 0.005 px off.
 bool isTurned(const OrientedBox& box);
 /// The box brought to the nearest quarter turn, as an upright box (heading 0).
 OrientedBox straightened(const OrientedBox& box);

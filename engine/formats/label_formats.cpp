@@ -47,6 +47,10 @@ FileHead headOf(const std::filesystem::path& path) {
     return head;
 }
 
+/// Ids beyond leave no room for those that are added to them.
+constexpr int kLowestId = -100'000'000;
+constexpr int kHighestId = 2'000'000'000;
+
 /// Nothing that a reader let through may be beyond what can be worked with.
 void checkLabels(const LabelFile& labels, const std::filesystem::path& path) {
     for (const auto& [frame, records] : labels.boxes) {
@@ -56,6 +60,10 @@ void checkLabels(const LabelFile& labels, const std::filesystem::path& path) {
             const std::string place = path.string() + ": frame " + std::to_string(frame);
             if (frame < 0 || frame >= kFrameLimit) {
                 throw Error(ErrorKind::input, place + " is beyond any video; is the shift of frames right?");
+            }
+            if (record.id && (*record.id < kLowestId || *record.id > kHighestId)) {
+                throw Error(ErrorKind::input, place + " has the id " + std::to_string(*record.id) +
+                                                  ", which is out of range; number the objects from 1");
             }
             for (const double value : {box.centre.x, box.centre.y, box.length, box.width, box.heading}) {
                 if (std::isfinite(value) && std::abs(value) <= 2 * kLargestCoordinate) continue;
@@ -129,10 +137,13 @@ void applyOptions(LabelFile& labels, const ImportOptions& options, const std::fi
         if (there >= 0 && there < kFrameLimit) names[static_cast<FrameIndex>(there)] = std::move(name);
     }
     labels.image_names = std::move(names);
-    if (labels.frame_count) labels.frame_count = std::max(0, *labels.frame_count + options.frame_shift);
+    if (labels.frame_count) {
+        const long long frames = static_cast<long long>(*labels.frame_count) + options.frame_shift;
+        labels.frame_count = static_cast<int>(std::clamp<long long>(frames, 0, kFrameLimit));
+    }
     if (labels.image_size) {
-        labels.image_size = cv::Size(cvRound(labels.image_size->width * options.scale),
-                                     cvRound(labels.image_size->height * options.scale));
+        const auto side = [&](int length) { return cvRound(std::min(length * options.scale, kLargestCoordinate)); };
+        labels.image_size = cv::Size(side(labels.image_size->width), side(labels.image_size->height));
     }
     if (labels.gsd_m) *labels.gsd_m /= options.scale;
 }
@@ -141,9 +152,9 @@ void applyOptions(LabelFile& labels, const ImportOptions& options, const std::fi
 
 const std::vector<LabelFormat>& formatTable() {
     static const std::vector<LabelFormat> table{
-        nativeFormat(), nativeResultFormat(), cvatFormat(),    kwcocoFormat(),    cocoFormat(),   trackEvalFormat(),
-        uavdtFormat(),  visDroneFormat(),     motFormat(),     motResultFormat(), viameFormat(),  vividFormat(),
-        kw18Format(),   viratFormat(),        yoloObbFormat(), dotaFormat(),      columnsFormat()};
+        nativeFormat(), nativeResultFormat(), cvatFormat(),    kwcocoFormat(),  cocoFormat(),      trackEvalFormat(),
+        uavdtFormat(),  visDroneFormat(),     motCvatFormat(), motFormat(),     motResultFormat(), viameFormat(),
+        vividFormat(),  kw18Format(),         viratFormat(),   yoloObbFormat(), dotaFormat(),      columnsFormat()};
     return table;
 }
 

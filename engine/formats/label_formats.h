@@ -20,9 +20,10 @@ struct ImportOptions {
     std::optional<cv::Size> image_size;            ///< before scaling; for formats relative to the image (YOLO)
     /// Columns of the user's own table (format "columns"), such as "frame,id,cname,x1,y1,x2,y2".
     std::string columns;
-    std::optional<int> first_frame_number;   ///< "columns" only: number of a video's first frame, otherwise 0
-    std::optional<double> first_pixel_edge;  ///< "columns" (otherwise 0) and MOTChallenge (otherwise 1)
-    std::string sequence;                    ///< which video of a KWCOCO file with several
+    std::optional<int> first_frame_number;  ///< "columns" only: number of a video's first frame, otherwise 0
+    std::optional<double>
+        first_pixel_edge;  ///< "columns" (otherwise 0) and MOTChallenge (otherwise 1; 0 with labels.txt)
+    std::string sequence;  ///< which video of a KWCOCO file with several
 };
 
 struct ExportOptions {

@@ -19,7 +19,6 @@ std::filesystem::path textIn(const std::filesystem::path& path) {
 }
 
 LabelFile withSequence(LabelFile labels, const std::filesystem::path& file) {
-    labels.first_frame_number = 1;
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     for (const auto& place : {folder, folder.parent_path()}) {
         if (!isFile(place / "seqinfo.ini")) continue;
@@ -33,16 +32,28 @@ LabelFile withSequence(LabelFile labels, const std::filesystem::path& file) {
     return labels;
 }
 
+/// How the text is to be read, by what stands beside it.
+MotOptions optionsFor(const std::filesystem::path& file, const ImportOptions& options, LabelFile& labels) {
+    MotOptions mot = pixelsOf(options.first_pixel_edge);
+    if (const auto list = motClassListBeside(file)) {
+        mot = listedMotOptions(file, *list, options.first_pixel_edge, labels);
+    }
+    labels.first_frame_number = mot.first_frame_number;
+    return mot;
+}
+
 LabelFile readTruth(const std::filesystem::path& path, const ImportOptions& options) {
     LabelFile labels;
     const std::filesystem::path file = textIn(path);
-    labels.boxes = readMotTruthLabels(file, pixelsOf(options.first_pixel_edge));
+    const MotOptions mot = optionsFor(file, options, labels);
+    labels.boxes = readMotTruthLabels(file, mot);
     return withSequence(std::move(labels), file);
 }
 
 LabelFile readResult(const std::filesystem::path& path, const ImportOptions& options) {
     LabelFile labels;
-    labels.boxes = labelBoxes(readMotResult(path, pixelsOf(options.first_pixel_edge)));
+    const MotOptions mot = optionsFor(path, options, labels);
+    labels.boxes = labelBoxes(readMotResult(path, mot));
     return withSequence(std::move(labels), path);
 }
 
@@ -57,6 +68,10 @@ void writeTruth(const LabelFile& labels, const std::filesystem::path& path, cons
     reportClasses(writeMotTruth(path, labels.boxes, write), report);
     report.files.push_back(path);
     writeOrientedSidecar(labels, path, report);
+    if (!options.first_pixel_edge) {
+        report.notes.push_back(
+            "pixels count from 1, as the benchmark has it; CVAT and datumaro count from 0 and take format mot-cvat");
+    }
 }
 
 void writeResult(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <opencv2/core/types.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/box_record.h"
 #include "formats/label_file.h"
@@ -19,6 +21,10 @@ struct MotOptions {
     /// Where the first pixel begins in the file: 1 by the specification, 0 in UAVDT, VisDrone and most trackers'
     /// output, −0.5 where our own coordinates were written as they are.
     double first_pixel_edge = 1;
+    int first_frame_number = 1;  ///< the number that the file gives to a video's first frame
+    /// The classes that numbers from 1 mean, where a list of them stands beside the file as CVAT and datumaro write it;
+    /// an id of 0 is none then, and a visibility of 0 only says that something hides the object.
+    std::optional<std::vector<std::string>> class_list = std::nullopt;
 };
 
 /// Reads ground truth: flag 0 sets BoxRecord::ignore. Six to ten columns; a missing flag counts as 1, a missing or
@@ -29,7 +35,8 @@ BoxesByFrame readMotTruth(const std::filesystem::path& file, const MotOptions& o
 /// The same with the visibility as occlusion: 0 fully, below 1 partly.
 LabelBoxes readMotTruthLabels(const std::filesystem::path& file, const MotOptions& options = {});
 
-/// Reads tracks or detections (id −1 or lower: no id). Column 7 is the score. Throws as readMotTruth().
+/// Reads tracks or detections (id −1 or lower: no id). Column 7 is the score; column 8 is a class only with a list of
+/// classes. Throws as readMotTruth().
 BoxesByFrame readMotResult(const std::filesystem::path& file, const MotOptions& options = {});
 
 /// What a file could not carry.
@@ -46,6 +53,7 @@ struct MotWriteOptions {
     bool every_class_one = false;
     /// Writes class 8 for every ignored box: TrackEval takes results on these out when it preprocesses.
     bool ignored_distract = false;
+    int decimals = 3;  ///< of edges and sizes, at most
 };
 
 /// Writes ground truth (ignored boxes with flag 0; visibility 1, partly hidden 0.5, fully 0) through a temporary file

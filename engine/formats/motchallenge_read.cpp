@@ -27,13 +27,20 @@ LabelBox readBox(const TextLine& line, const MotOptions& options) {
                          " columns, expected 6 to 10: frame,id,left,top,width,height,…; is this MOTChallenge text?");
     }
     LabelBox record;
-    record.frame = line.frame(kFrame, 1);
+    record.frame = line.frame(kFrame, options.first_frame_number);
     const int id = line.integer(kId, "id");
-    if (id >= 0) record.id = id;
+    if (id >= (options.class_list ? 1 : 0)) record.id = id;
     record.box = boxFromEdges({line.pixels(kLeft, "left edge"), line.pixels(kTop, "top edge"),
                                line.size(kWidth, "width"), line.size(kHeight, "height")},
                               options.first_pixel_edge);
     return record;
+}
+
+std::string classOf(int number, const MotOptions& options) {
+    if (!options.class_list) return classFromMot(number);
+    if (number < 1) return {};
+    const auto place = static_cast<std::size_t>(number) - 1;
+    return place < options.class_list->size() ? (*options.class_list)[place] : "class " + std::to_string(number);
 }
 
 /// Reads all lines; `complete` fills in the columns from the seventh on.
@@ -79,12 +86,12 @@ std::string trimmed(const std::string& text) {
 }  // namespace
 
 LabelBoxes readMotTruthLabels(const std::filesystem::path& file, const MotOptions& options) {
-    return readLines(file, options, [](const TextLine& line, LabelBox& record) {
+    return readLines(file, options, [&](const TextLine& line, LabelBox& record) {
         if (line.size() > kFlag) record.ignore = line.number(kFlag, "flag (0: ignored)") == 0;
-        if (line.size() > kClass) record.object_class = classFromMot(line.integer(kClass, "class"));
+        if (line.size() > kClass) record.object_class = classOf(line.integer(kClass, "class"), options);
         if (line.size() <= kVisibility) return;
         const double visibility = line.number(kVisibility, "visibility");  // −1 where nobody said
-        if (visibility == 0) record.occlusion = Occlusion::fully;
+        if (visibility == 0) record.occlusion = options.class_list ? Occlusion::partly : Occlusion::fully;
         if (visibility > 0 && visibility < 1) record.occlusion = Occlusion::partly;
     });
 }
@@ -94,8 +101,11 @@ BoxesByFrame readMotTruth(const std::filesystem::path& file, const MotOptions& o
 }
 
 BoxesByFrame readMotResult(const std::filesystem::path& file, const MotOptions& options) {
-    return plainBoxes(readLines(file, options, [](const TextLine& line, LabelBox& record) {
+    return plainBoxes(readLines(file, options, [&](const TextLine& line, LabelBox& record) {
         if (line.size() > kFlag) record.score = line.number(kFlag, "confidence");
+        if (options.class_list && line.size() > kClass) {
+            record.object_class = classOf(line.integer(kClass, "class"), options);
+        }
     }));
 }
 

@@ -1,27 +1,18 @@
-#include <charconv>
-#include <cmath>
-
 #include "core/error.h"
 #include "formats/mot_classes.h"
 #include "formats/motchallenge.h"
 #include "io/atomic_file.h"
+#include "io/number_text.h"
 
 namespace eyrie {
 namespace {
 
-/// The shortest text that reads back identically after rounding to 1/1000 px.
-std::string pixels(double value) {
-    const double rounded = std::round(value * 1000) / 1000;
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, rounded == 0 ? 0.0 : rounded).ptr;
-    return {text, end};
-}
-
-std::string boxColumns(const BoxRecord& record, const MotOptions& options, MotLosses& losses) {
-    const BoxEdges e = edgesOf(record.box, options.first_pixel_edge);
+std::string boxColumns(const BoxRecord& record, const MotWriteOptions& options, MotLosses& losses) {
+    const BoxEdges e = edgesOf(record.box, options.pixels.first_pixel_edge);
     ++losses.boxes;
     if (isTurned(record.box)) ++losses.turned;
     if (record.velocity != cv::Point2d(0, 0)) ++losses.velocities;
+    const auto pixels = [&](double value) { return fixedText(value, options.decimals); };
     return pixels(e.left) + "," + pixels(e.top) + "," + pixels(e.width) + "," + pixels(e.height);
 }
 
@@ -56,7 +47,7 @@ MotLosses writeMotTruth(const std::filesystem::path& file, const LabelBoxes& box
         if (options.ignored_distract && record.ignore) known = {8, record.object_class == "other"};
         if (!known.exact) ++losses.classes;
         const char* visibility[] = {"1", "0.5", "0"};
-        return std::to_string(*record.id) + "," + boxColumns(record, options.pixels, losses) + "," +
+        return std::to_string(*record.id) + "," + boxColumns(record, options, losses) + "," +
                (record.ignore ? "0" : "1") + "," + std::to_string(known.number) + "," +
                visibility[static_cast<int>(record.occlusion)];
     });
@@ -67,8 +58,8 @@ MotLosses writeMotResult(const std::filesystem::path& file, const BoxesByFrame& 
     MotLosses losses;
     writeLines(file, boxes, [&](const BoxRecord& record) {
         if (!record.object_class.empty()) ++losses.classes;
-        return std::to_string(record.id.value_or(-1)) + "," + boxColumns(record, options.pixels, losses) + "," +
-               pixels(record.score) + ",-1,-1,-1";
+        return std::to_string(record.id.value_or(-1)) + "," + boxColumns(record, options, losses) + "," +
+               fixedText(record.score, 6) + ",-1,-1,-1";
     });
     return losses;
 }

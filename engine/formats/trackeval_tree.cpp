@@ -89,19 +89,64 @@ std::vector<ExportFile> filesOf(const fs::path& root, const ExportOptions& optio
     return {{places.truth}, {orientedSidecar(places.truth)}, {places.seqinfo}, {places.seqmap, FileKind::text, true}};
 }
 
+/// TrackEval compares upright boxes, so every box is enclosed, however little it is turned.
+void encloseBoxes(LabelBoxes& boxes) {
+    for (auto& [frame, records] : boxes) {
+        for (LabelBox& record : records) record.box = record.box.upright();
+    }
+}
+
+/// TrackEval ends when a result has frames behind the end of its sequence. Answers how many boxes those were.
+int cutBehindEnd(LabelBoxes& boxes, const fs::path& seqinfo) {
+    if (!isFile(seqinfo)) return 0;
+    const std::optional<int> frames = readMotSequence(seqinfo).frame_count;
+    int cut = 0;
+    for (auto entry = boxes.lower_bound(frames.value_or(kFrameLimit)); entry != boxes.end();) {
+        cut += static_cast<int>(entry->second.size());
+        entry = boxes.erase(entry);
+    }
+    return cut;
+}
+
+/// A path as one word of a command, whatever folder that is run in.
+std::string pathArgument(const fs::path& path) {
+    const std::string text = fs::absolute(path).lexically_normal().string();
+    const bool plain =
+        text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789/._-+,:@%") ==
+        std::string::npos;
+    if (plain) return text;
+    std::string quoted = "'";
+    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+/// The command whose figures are those of `evaluate`. Preprocessing would take out results that lie on ignored objects.
+std::string commandFor(const fs::path& root, const ExportOptions& options) {
+    return "run_mot_challenge.py --GT_FOLDER " + pathArgument(root / "gt/mot_challenge") + " --TRACKERS_FOLDER " +
+           pathArgument(root / "trackers/mot_challenge") + " --BENCHMARK " + pathWord(options.benchmark) +
+           " --SPLIT_TO_EVAL " + pathWord(options.split) +
+           (options.tracker.empty() ? "" : " --TRACKERS_TO_EVAL " + pathWord(options.tracker)) +
+           " --METRICS HOTA CLEAR Identity --DO_PREPROC False";
+}
+
 void writeTree(const LabelFile& labels, const fs::path& root, const ExportOptions& options, ExportReport& report) {
     const TreePlaces places(root, options);
     LabelFile dense = labels;
+    encloseBoxes(dense.boxes);
+    MotWriteOptions write;
+    write.decimals = 9;  // so that no overlap comes to lie on the other side of a threshold
     if (numberDensely(dense.boxes))
         report.notes.push_back("ids were renumbered from 1 without gaps, as TrackEval needs");
     if (!options.tracker.empty()) {
         makeFolder(places.result.parent_path());
-        writeMotResult(places.result, plainBoxes(dense.boxes));
+        report.add(
+            LossKind::other, cutBehindEnd(dense.boxes, places.seqinfo),
+            "lie behind the last frame of the sequence's ground truth and were left out, as TrackEval refuses them");
+        writeMotResult(places.result, plainBoxes(dense.boxes), write);
         report.files.push_back(places.result);
     } else {
         makeFolder(places.truth.parent_path());
         makeFolder(places.seqmap.parent_path());
-        MotWriteOptions write;
         write.every_class_one = true;
         write.ignored_distract = true;
         const MotLosses losses = writeMotTruth(places.truth, dense.boxes, write);
@@ -113,9 +158,10 @@ void writeTree(const LabelFile& labels, const fs::path& root, const ExportOption
         report.files.push_back(places.seqinfo);
         listSequence(places.seqmap, pathWord(options.sequence), report);
     }
-    report.notes.push_back("run_mot_challenge.py --GT_FOLDER " + (root / "gt/mot_challenge").string() +
-                           " --TRACKERS_FOLDER " + (root / "trackers/mot_challenge").string() + " --BENCHMARK " +
-                           pathWord(options.benchmark) + " --SPLIT_TO_EVAL " + pathWord(options.split));
+    report.notes.push_back(commandFor(root, options));
+    report.notes.push_back(
+        "its figures are those of eyrie-cli evaluate --convention trackeval --overlap 0.5 --upright; ignored boxes "
+        "forgive nothing there");
 }
 
 std::vector<fs::path> sequencesOf(const fs::path& root) {

@@ -125,9 +125,14 @@ std::vector<ExportFile> filesOf(const fs::path& path, const ExportOptions&) {
     return {{textOf(path, kPlain)}, {textOf(path, kWhole)}, {textOf(path, kIgnore)}};
 }
 
+bool reachesBeyond(const OrientedBox& box, cv::Size image) {
+    const BoxEdges e = edgesOf(box, 0);
+    return e.left < 0 || e.top < 0 || e.left + e.width > image.width || e.top + e.height > image.height;
+}
+
 void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptions&, ExportReport& report) {
     std::string plain, whole, areas;
-    int rounded = 0, strange = 0, fully = 0, classes_of_areas = 0;
+    int rounded = 0, strange = 0, fully = 0, partly = 0, beyond = 0, objects = 0, classes_of_areas = 0;
     for (const auto& [frame, records] : labels.boxes) {
         for (const LabelBox& record : records) {
             const std::string begin = beginning(frame, *record.id, record.box, rounded);
@@ -139,7 +144,10 @@ void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptio
             std::size_t category = 3;
             while (category > 0 && record.object_class != kCategories[category]) --category;
             strange += category == 0;
+            ++objects;
             fully += record.occlusion == Occlusion::fully;
+            partly += record.occlusion == Occlusion::partly;
+            beyond += labels.image_size && reachesBeyond(record.box, *labels.image_size);
             const char* occlusion = record.occlusion == Occlusion::none     ? "1"
                                     : record.occlusion == Occlusion::partly ? "3"
                                                                             : "2";
@@ -155,7 +163,11 @@ void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptio
     report.add(LossKind::rounded, rounded, "were rounded to whole pixels");
     report.add(LossKind::class_name, strange, "have a class that UAVDT does not know and became cars");
     report.add(LossKind::class_name, classes_of_areas, "are ignored and lost their class and id");
-    report.add(LossKind::occlusion, fully, "are fully hidden, which UAVDT only calls a large occlusion");
+    report.add(LossKind::occlusion, fully, "fully hidden became a large occlusion, the most that UAVDT knows");
+    report.add(LossKind::occlusion, partly, "partly hidden became a medium occlusion, as nobody said how much");
+    report.add(LossKind::other, beyond, "reaching beyond the image: how far out of view was not carried");
+    if (objects > 0)
+        report.notes.push_back("every box is written as in view (1): how far one is out of view is not kept");
 }
 
 }  // namespace

@@ -1,16 +1,20 @@
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/angle.h"
 #include "formats/format_functions.h"
 #include "io/atomic_file.h"
 #include "io/csv_reader.h"
+#include "io/image_sequence.h"
 #include "io/number_text.h"
 
 /// VIAME CSV, as DIVE writes it too: lines that begin with "#" are comments or metadata; pixels and frames from 0.
 ///   id, image or time, frame, left, top, right, bottom, confidence, length (-1), [class, score]…, then attributes:
 ///   (atr) key value · (trk-atr) key value · (note) text · (kp) name x y · (poly) x y … · (hole) …
 /// DIVE's attribute "rotation" turns the bounds about their centre, in radians; in its code positive is clockwise on
-/// screen, whatever its text says. `occluded` and `ignore` are attributes of ours.
+/// screen, whatever its text says. `occluded` and `ignore` are attributes of ours. Confidence and length may be empty.
+/// Rows that cannot be taken are left out one by one, as DIVE reads on, too.
 namespace eyrie {
 namespace {
 
@@ -58,9 +62,9 @@ LabelBox boxOf(const TextLine& line, int& passed_over) {
     record.id = line.identity(0);
     record.frame = line.frame(2, 0);
     record.box = boxByCorners(line, 3, 0);
-    const double confidence = line.number(7, "confidence");
+    const double confidence = line.text(7).empty() ? -1 : line.number(7, "confidence");
     record.score = confidence < 0 ? 1 : confidence;  // −1 where nobody said
-    line.number(8, "length");
+    if (!line.text(8).empty()) line.number(8, "length");
     double surest = -1;
     for (std::size_t field = kClassField; field < line.size(); ++field) {
         if (line.text(field).empty()) continue;
@@ -87,10 +91,50 @@ void readMetadata(const std::string& text, LabelFile& labels) {
     if (value && *value > 0) labels.frame_rate_hz = *value;
 }
 
-LabelFile readViame(const std::filesystem::path& path, const ImportOptions&) {
-    LabelFile labels;
+/// A row that could be taken.
+struct Row {
+    TextLine line;
+    LabelBox record;
+    std::string image;
+};
+
+/// Whether images are told apart by their names alone: some frame number has several.
+bool framesAreMixed(const std::vector<Row>& rows) {
+    std::map<FrameIndex, const std::string*> name_of_frame;
+    for (const Row& row : rows) {
+        if (row.image.empty()) continue;
+        const auto [known, is_new] = name_of_frame.emplace(row.record.frame, &row.image);
+        if (!is_new && *known->second != row.image) return true;
+    }
+    return false;
+}
+
+/// Frames by the names of the images, in natural order.
+void numberByImages(std::vector<Row>& rows, LeftOutRows& left_out) {
+    const auto before = [](const std::string& a, const std::string& b) {
+        return naturalOrder(a, b) || (!naturalOrder(b, a) && a < b);
+    };
+    std::map<std::string, FrameIndex, decltype(before)> frames(before);
+    std::erase_if(rows, [&](const Row& row) {
+        if (!row.image.empty()) {
+            frames.emplace(row.image, 0);
+            return false;
+        }
+        try {
+            row.line.fail(1, "names no image, and the numbers of frames are not to be trusted here");
+        } catch (const Error& reason) {
+            left_out.add(reason);
+        }
+        return true;
+    });
+    FrameIndex next = 0;
+    for (auto& [name, frame] : frames) frame = next++;
+    for (Row& row : rows) row.record.frame = frames.at(row.image);
+}
+
+std::vector<Row> readRows(const std::filesystem::path& path, LabelFile& labels, LeftOutRows& left_out) {
+    std::vector<Row> rows;
     int number = 0, passed_over = 0;
-    std::map<int, std::string> last_class;
     for (const std::string& text : readTextLines(path)) {
         ++number;
         const std::size_t first = text.find_first_not_of(" \t\r");
@@ -99,10 +143,46 @@ LabelFile readViame(const std::filesystem::path& path, const ImportOptions&) {
             readMetadata(text, labels);
             continue;
         }
-        const TextLine line(path, number, text);
-        LabelBox record = boxOf(line, passed_over);
-        if (!line.text(1).empty()) labels.image_names[record.frame] = withoutFormulaGuard(line.word(1, "image"));
-        if (!record.object_class.empty()) last_class[*record.id] = record.object_class;
+        try {
+            TextLine line(path, number, text);
+            LabelBox record = boxOf(line, passed_over);
+            std::string image = withoutFormulaGuard(line.word(1, "image"));
+            rows.push_back({std::move(line), std::move(record), std::move(image)});
+        } catch (const Error& reason) {
+            left_out.add(reason);
+        }
+    }
+    if (passed_over > 0) {
+        labels.notes.push_back(counted(passed_over, "entry", "entries") +
+                               " of other kinds (key points, polygons, notes, attributes) were passed over");
+    }
+    return rows;
+}
+
+LabelFile readViame(const std::filesystem::path& path, const ImportOptions&) {
+    LabelFile labels;
+    LeftOutRows left_out;
+    std::vector<Row> rows = readRows(path, labels, left_out);
+    if (framesAreMixed(rows)) {
+        numberByImages(rows, left_out);
+        labels.notes.emplace_back(
+            "the same frame number stands for several images, so frames are the images in the order of their names");
+    }
+    std::map<int, std::string> last_class;
+    std::set<std::pair<FrameIndex, int>> taken;
+    for (Row& row : rows) {
+        LabelBox& record = row.record;
+        const int id = *record.id;
+        try {
+            if (!record.ignore && !taken.insert({record.frame, id}).second) {
+                row.line.fail(0, "id " + std::to_string(id) + " has a box in this frame already");
+            }
+        } catch (const Error& reason) {
+            left_out.add(reason);
+            continue;
+        }
+        if (!row.image.empty()) labels.image_names[record.frame] = row.image;
+        if (!record.object_class.empty()) last_class[id] = record.object_class;
         labels.boxes[record.frame].push_back(std::move(record));
     }
     // The classes of a track's last row count for the whole track.
@@ -112,10 +192,7 @@ LabelFile readViame(const std::filesystem::path& path, const ImportOptions&) {
             if (found != last_class.end()) record.object_class = found->second;
         }
     }
-    if (passed_over > 0) {
-        labels.notes.push_back(counted(passed_over, "entry", "entries") +
-                               " of other kinds (key points, polygons, notes, attributes) were passed over");
-    }
+    left_out.tell(labels);
     return labels;
 }
 
@@ -159,6 +236,22 @@ void writeViame(const LabelFile& labels, const std::filesystem::path& path, cons
     }
 }
 
+bool looksLikeRow(const FileHead& head, const std::string& line) {
+    if (line[line.find_first_not_of(" \t")] == '#') return false;
+    try {
+        const TextLine fields(head.path, 1, line);
+        if (fields.size() < 9 || !parseWhole(fields.text(0))) return false;
+        for (std::size_t field = 2; field < 9; ++field) {
+            const bool may_be_empty = field > 6;
+            if (!(may_be_empty && fields.text(field).empty()) && !parseReal(fields.text(field))) return false;
+        }
+        // Without a head, numbers alone could be a table of anything.
+        return head.lines.front().starts_with('#') || !parseReal(fields.text(1));
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 }  // namespace
 
 LabelFormat viameFormat() {
@@ -170,17 +263,8 @@ LabelFormat viameFormat() {
     format.read = readViame;
     format.write = writeViame;
     format.fits = [](const FileHead& head) {
-        for (const std::string& line : head.lines) {
-            if (line[line.find_first_not_of(" \t")] == '#') continue;
-            const std::size_t second = line.find(',');
-            if (second == std::string::npos || leadingNumbers(line, ',').empty()) return false;
-            const std::size_t third = line.find(',', second + 1);
-            if (third == std::string::npos) return false;
-            const bool commented = head.lines.front().starts_with('#');
-            const bool named = leadingNumbers(line, ',').size() == 1;
-            return (commented || named) && leadingNumbers(line.substr(third + 1), ',').size() >= 7;
-        }
-        return false;
+        return !head.folder && std::any_of(head.lines.begin(), head.lines.end(),
+                                           [&](const std::string& line) { return looksLikeRow(head, line); });
     };
     return format;
 }

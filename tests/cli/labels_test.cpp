@@ -193,6 +193,45 @@ TEST_F(LabelCommands, OwnColumnsConvert) {
     EXPECT_EQ(textOf("dark2.txt"), textOf("dark.txt"));
 }
 
+TEST_F(LabelCommands, BoxesWithoutIdReachTheProject) {
+    const std::string path = project();
+    ASSERT_EQ(cli({"export", "--from", truth(), "--format", "coco", "--out", at("c.json")}).exit_code, 0);
+    const auto single = cli({"import", at("c.json"), "--project", path});
+    EXPECT_EQ(single.exit_code, 0) << single.errors;
+    EXPECT_THAT(single.output, AllOf(HasSubstr("45 objects with"), HasSubstr("have no id"), HasSubstr("--link")));
+    EXPECT_EQ(labelsOf(path).objects.size(), 45u);
+    std::filesystem::remove(path);
+    const auto linked = cli({"import", at("c.json"), "--project", project(), "--link"});
+    EXPECT_EQ(linked.exit_code, 0) << linked.errors;
+    EXPECT_EQ(labelsOf(path).objects.size(), 3u) << "the van hides once";
+}
+
+TEST_F(LabelCommands, ALabelsTextBesideMotCountsInEvaluateToo) {
+    std::filesystem::create_directories(at("task/gt"));
+    write("task/gt/gt.txt", "1,1,10,20,30,40,1,1,1.0\n2,1,12,20,30,40,1,1,1.0\n");
+    write("task/gt/labels.txt", "car");
+    write("r.csv",
+          "frame,id,x,y,length,width,heading,class,ignore\n0,5,24.5,39.5,30,40,0,car,0\n"
+          "1,5,26.5,39.5,30,40,0,car,0\n");
+    const auto exact = cli({"evaluate", "--ground-truth", at("task/gt/gt.txt"), "--result", at("r.csv"), "--overlap",
+                            "0.999", "--vehicles"});
+    EXPECT_EQ(exact.exit_code, 0) << exact.errors;
+    EXPECT_THAT(exact.output, HasSubstr("FN                            0"));
+    const auto told = cli({"evaluate", "--ground-truth", at("task/gt/gt.txt"), "--result", at("r.csv"), "--overlap",
+                           "0.999", "--vehicles", "--mot-origin", "1"});
+    EXPECT_THAT(told.output, HasSubstr("FN                            2"));
+}
+
+TEST_F(LabelCommands, AFileWithoutAnyBoxSaysWhy) {
+    const auto shown =
+        cli({"import",
+             write("n.json",
+                   R"({"images":[{"id":1,"file_name":"a.png"}],"annotations":[{"id":1,"image_id":1,"bbox":[]}]})"),
+             "--show"});
+    EXPECT_EQ(shown.exit_code, 0) << shown.errors;
+    EXPECT_THAT(shown.output, AllOf(HasSubstr("boxes       none"), HasSubstr("no bbox and no polygon")));
+}
+
 TEST_F(LabelCommands, WrongUseIsToldApart) {
     EXPECT_EQ(cli({"import", truth()}).exit_code, 2);
     EXPECT_EQ(cli({"import", at("absent.csv"), "--show"}).exit_code, 3);

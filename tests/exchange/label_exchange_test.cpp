@@ -185,5 +185,73 @@ TEST_F(LabelExchange, RegionsLeaveAsBoxesThatCoverThem) {
     EXPECT_LT(covered, 2600);  // and not its square of 3600
 }
 
+/// Detections of two cars that pass each other, and one lone box of another class; nobody numbered them.
+LabelFile detections() {
+    LabelFile labels;
+    for (int frame = 0; frame < 10; ++frame) {
+        for (const int lane : {0, 1}) {
+            if (frame == 6 && lane == 1) continue;
+            LabelBox box;
+            box.frame = frame;
+            box.object_class = "car";
+            box.box = {{lane == 0 ? 20.0 + 6 * frame : 80.0 - 6 * frame, 40.0 + 15 * lane}, 18, 9, 0};
+            labels.boxes[frame].push_back(box);
+        }
+    }
+    LabelBox lone = labels.boxes[3][0];
+    lone.object_class = "person";
+    labels.boxes[3].push_back(lone);
+    return labels;
+}
+
+TEST_F(LabelExchange, BoxesWithoutIdBecomeObjectsOfOneFrame) {
+    AnnotationStore store(project_, sequence_.id);
+    const LabelImport plan = planImport(detections(), sequence_, {}, store, 0.45);
+    EXPECT_EQ(plan.objects, 20);
+    EXPECT_EQ(plan.loose.boxes, 20);
+    EXPECT_THAT(plan.notes, Contains(HasSubstr("20 boxes have no id; each is an object of one frame")));
+    store.apply(plan.edit);
+    const LabelFile back = labelsOf(store.annotations(), sequence_, {});
+    const LabelFile before = detections();
+    for (const auto& [frame, records] : before.boxes) {
+        ASSERT_EQ(back.boxes.at(frame).size(), records.size()) << frame;
+        for (std::size_t i = 0; i < records.size(); ++i)
+            EXPECT_NEAR(cv::norm(back.boxes.at(frame)[i].box.centre - records[i].box.centre), 0, 1e-6);
+    }
+    // the same file again adds nothing
+    const LabelImport again = planImport(detections(), sequence_, {}, store, 0.45);
+    EXPECT_EQ(again.objects, 0);
+    EXPECT_EQ(again.doubles, 20);
+}
+
+TEST_F(LabelExchange, BoxesWithoutIdAreLinkedOnRequest) {
+    AnnotationStore store(project_, sequence_.id);
+    const LabelImport plan = planImport(detections(), sequence_, {}, store, 0.45, Doubles::skip, LooseBoxes::link);
+    EXPECT_EQ(plan.objects, 4) << "a car, another before and behind its gap, a person";
+    EXPECT_THAT(plan.notes, Contains(HasSubstr("they are 4 objects")));
+    store.apply(plan.edit);
+    int whole = 0;
+    for (const auto& [id, object] : store.annotations().objects) {
+        const bool first_lane = std::abs(object.keyframes.front().box.centre.y - 40) < 1;
+        EXPECT_EQ(object.last_frame == 3, object.object_class == "person");
+        for (const Keyframe& keyframe : object.keyframes)
+            EXPECT_EQ(std::abs(keyframe.box.centre.y - 40) < 1, first_lane) << "stays in its lane";
+        whole += object.keyframes.front().frame == 0 && object.last_frame == 9;
+    }
+    EXPECT_EQ(whole, 1);
+}
+
+TEST_F(LabelExchange, LinkingKeepsTheIdsThatThereAre) {
+    LabelFile labels = detections();
+    for (auto& [frame, records] : labels.boxes) records[0].id = 30;
+    const LooseBoxCount count = gatherLooseBoxes(labels, LooseBoxes::link);
+    EXPECT_EQ(count.boxes, 10);
+    EXPECT_EQ(count.objects, 3);
+    for (const auto& [frame, records] : labels.boxes) {
+        EXPECT_EQ(records[0].id, 30);
+        for (std::size_t i = 1; i < records.size(); ++i) EXPECT_GT(records[i].id, 30);
+    }
+}
+
 }  // namespace
 }  // namespace eyrie

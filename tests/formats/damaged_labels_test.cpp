@@ -23,6 +23,15 @@ class DamagedLabels : public testing::Test {
         EXPECT_THAT(message, HasSubstr("labels.txt")) << format << ": " << text.substr(0, 200);
         return message;
     }
+    /// What is said of the row that is left out, where programs of the format read on, or of the file that is refused.
+    std::string complaint(const std::string& format, const std::string& text, const std::string& columns = "") {
+        const bool reads_on = format == "viame" || format == "coco" || format == "kwcoco";
+        if (!reads_on) return refusal(format, text, columns);
+        const LabelFile labels = readLabels(writeText(folder_ / "labels.txt", text), format);
+        EXPECT_EQ(reportOn(labels).boxes, 1) << "the good one";
+        EXPECT_THAT(labels.notes, testing::Contains(AllOf(testing::StartsWith("left out: "), HasSubstr("labels.txt"))));
+        return labels.notes.empty() ? "" : labels.notes.back();
+    }
     test::TemporaryFolder folder_;
 };
 
@@ -84,29 +93,30 @@ TEST_F(DamagedLabels, TablesNameLineAndColumn) {
                   "no error");
         for (const char* bad : {"ten", "nan", "inf", "1e999", "1e12", "0x10", "--1", "1,5.2.3"}) {
             if (table.separator == ',' && std::string(bad).find(',') != std::string::npos) continue;
-            const std::string message = refusal(table.format, good + lineOf(table, table.x, bad), table.columns);
+            const std::string message = complaint(table.format, good + lineOf(table, table.x, bad), table.columns);
             const bool native_range = std::string(table.format) == "native" && std::string(bad) == "1e12";
             EXPECT_THAT(message, HasSubstr(native_range ? "frame 1" : where)) << bad;
         }
-        EXPECT_THAT(refusal(table.format, good + lineOf(table, 999, "", 3), table.columns), HasSubstr(where));
+        EXPECT_THAT(complaint(table.format, good + lineOf(table, 999, "", 3), table.columns), HasSubstr(where));
         const std::string longer = lineOf(table).substr(0, lineOf(table).size() - 1) + table.separator + "7" +
                                    table.separator + "7" + table.separator + "7";
         if (std::string(table.format) != "viame") {
-            EXPECT_THAT(refusal(table.format, good + longer + "\n", table.columns), HasSubstr(where));
+            EXPECT_THAT(complaint(table.format, good + longer + "\n", table.columns), HasSubstr(where));
         }
         if (table.frame < 99) {
-            EXPECT_THAT(refusal(table.format, good + lineOf(table, table.frame, "-1"), table.columns),
+            EXPECT_THAT(complaint(table.format, good + lineOf(table, table.frame, "-1"), table.columns),
                         HasSubstr(where));
-            EXPECT_THAT(refusal(table.format, good + lineOf(table, table.frame, "1.5"), table.columns),
+            EXPECT_THAT(complaint(table.format, good + lineOf(table, table.frame, "1.5"), table.columns),
                         HasSubstr(where));
-            refusal(table.format, good + lineOf(table, table.frame, "2000000000"), table.columns);
-            EXPECT_THAT(refusal(table.format, good + lineOf(table, table.frame, "99999999999999"), table.columns),
+            complaint(table.format, good + lineOf(table, table.frame, "2000000000"), table.columns);
+            EXPECT_THAT(complaint(table.format, good + lineOf(table, table.frame, "99999999999999"), table.columns),
                         HasSubstr(where));
-            EXPECT_THAT(refusal(table.format, good + lineOf(table), table.columns),
+            EXPECT_THAT(complaint(table.format, good + lineOf(table), table.columns),
                         HasSubstr("id 1"));  // twice in a frame
         }
         if (table.size < 99) {
-            EXPECT_THAT(refusal(table.format, good + lineOf(table, table.size, "-5"), table.columns), HasSubstr(where));
+            EXPECT_THAT(complaint(table.format, good + lineOf(table, table.size, "-5"), table.columns),
+                        HasSubstr(where));
         }
         EXPECT_THAT(refusal(table.format, good + "\xff\xfe" + lineOf(table), table.columns), HasSubstr("UTF-8"));
         EXPECT_THAT(refusal(table.format, good + std::string("1\0", 2) + lineOf(table), table.columns),
@@ -191,12 +201,12 @@ TEST_F(DamagedLabels, DeepNestingIsRefused) {
 }
 
 TEST_F(DamagedLabels, CocoNamesTheEntry) {
-    const auto with = [&](const std::string& annotation) {
-        return refusal(
-            "coco",
-            R"({"images":[{"id":1,"file_name":"a"}],"categories":[{"id":1,"name":"car"}],"annotations":[{"image_id":1,"bbox":[0,0,1,1]},)" +
-                annotation + "]}");
+    const auto beside = [](const std::string& annotation) {
+        return R"({"images":[{"id":1,"file_name":"a"}],"categories":[{"id":1,"name":"car"}],)"
+               R"("annotations":[{"image_id":1,"bbox":[0,0,1,1]},)" +
+               annotation + "]}";
     };
+    const auto with = [&](const std::string& annotation) { return complaint("coco", beside(annotation)); };
     EXPECT_THAT(with(R"({"image_id":2,"bbox":[0,0,1,1]})"),
                 HasSubstr("annotations[1].image_id: there is no such image"));
     EXPECT_THAT(with(R"({"bbox":[0,0,1,1]})"), HasSubstr("\"image_id\" is missing"));
@@ -209,9 +219,9 @@ TEST_F(DamagedLabels, CocoNamesTheEntry) {
     EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,0,1,1],"track_id":-4})"), HasSubstr("negative"));
     EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,0,1,1],"dive_detection_attributes":{"rotation":"a"}})"),
                 HasSubstr("rotation: is no number"));
-    EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,0,1,1e999]})"), HasSubstr("labels.txt"));
+    EXPECT_THAT(refusal("coco", beside(R"({"image_id":1,"bbox":[0,0,1,1e999]})")), HasSubstr("labels.txt"));
     EXPECT_THAT(with("7"), HasSubstr("annotations[1]: is no object"));
-    EXPECT_THAT(with("{"), HasSubstr("no valid JSON"));
+    EXPECT_THAT(refusal("coco", beside("{")), HasSubstr("no valid JSON"));
     EXPECT_THAT(refusal("coco", "{}"), HasSubstr("is this COCO"));
     EXPECT_THAT(refusal("coco", ""), HasSubstr("no valid JSON"));
     EXPECT_THAT(refusal("coco", "{\"images\":\"\xff\"}"), HasSubstr("no valid JSON"));

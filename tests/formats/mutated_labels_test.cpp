@@ -59,13 +59,16 @@ TEST_P(MutatedLabels, GiveLabelsOrAnErrorThatNamesTheFile) {
     ExportOptions options;
     options.columns = "frame,n,[id,cname,x1,y1,w,h,heading,score,ignore,occluded]";
     const bool per_image = format == "dota" || format == "yolo-obb";
-    if (per_image)
+    if (format == "mot-cvat")
+        writeLabels(test::sampleLabels(), folder / "changed", format, options);
+    else if (per_image)
         writeLabels(test::sampleLabels(), folder / "good", format, options);
     else
         writeLabels(test::sampleLabels(), folder / "good_gt.txt", format, options);
     const auto source = format == "dota"       ? folder.path() / "good" / "labelTxt" / "000004.txt"
                         : format == "yolo-obb" ? folder.path() / "good" / "labels" / "000004.txt"
                         : format == "uavdt"    ? folder / "good_gt_whole.txt"
+                        : format == "mot-cvat" ? folder / "changed/gt/gt.txt"
                                                : folder / "good_gt.txt";
     const std::string good = test::textOf(source);
     ASSERT_FALSE(good.empty());
@@ -74,7 +77,9 @@ TEST_P(MutatedLabels, GiveLabelsOrAnErrorThatNamesTheFile) {
     if (format == "columns") import.columns = options.columns;
 
     std::mt19937 random(20261121);
-    const auto file = folder / (format == "uavdt" ? "changed_gt_whole.txt" : "changed.txt");
+    const auto file = folder / (format == "uavdt"      ? "changed_gt_whole.txt"
+                                : format == "mot-cvat" ? "changed/gt/gt.txt"
+                                                       : "changed.txt");
     int read = 0, refused = 0;
     for (int round = 0; round < 600; ++round) {
         const std::string text = mutated(good, random);

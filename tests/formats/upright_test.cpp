@@ -115,9 +115,9 @@ TEST_P(Upright, ATurnThatMovesNoEdgeIsNone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Upright,
-                         testing::Values("native", "native-result", "mot", "mot-result", "trackeval", "cvat", "coco",
-                                         "kwcoco", "dota", "yolo-obb", "visdrone", "uavdt", "kw18", "virat", "viame",
-                                         "vivid", "columns"),
+                         testing::Values("native", "native-result", "mot", "mot-cvat", "mot-result", "trackeval",
+                                         "cvat", "coco", "kwcoco", "dota", "yolo-obb", "visdrone", "uavdt", "kw18",
+                                         "virat", "viame", "vivid", "columns"),
                          [](const auto& entry) {
                              std::string name = entry.param;
                              std::replace(name.begin(), name.end(), '-', '_');

@@ -78,6 +78,36 @@ class LabelFilesTest : public QObject, test::Labelling {
         }
     }
 
+    void boxesWithoutIdAreImportedOneByOneOrLinked() {
+        const auto file = home() / "detections.txt";
+        {
+            std::ofstream out(file);
+            for (int frame = 1; frame <= 6; ++frame)
+                out << frame << ",-1," << 20 + 3 * frame << ",30,20,10,0.9,-1,-1,-1\n";
+        }
+        for (const bool link : {false, true}) {
+            const auto window = labellingWindow(10);
+            QVERIFY(window);
+            LabelSession& labels = window->labelling().labels();
+            const std::size_t before = labels.annotations().objects.size();
+            LabelImportDialog import(labels);
+            QSignalSpy read(&import, &LabelImportDialog::fileRead);
+            import.setFile(file);
+            QVERIFY(read.wait(kPatience_ms));
+            QVERIFY2(import.report().contains(QStringLiteral("6 boxes have no id")), qPrintable(import.report()));
+            if (link) {
+                read.clear();
+                import.setLink(true);
+                QVERIFY(read.wait(kPatience_ms));
+                import.setAddDoubles(true);
+            }
+            QSignalSpy accepted(&import, &QDialog::accepted);
+            import.accept();
+            QVERIFY(accepted.wait(kPatience_ms));
+            QCOMPARE(labels.annotations().objects.size() - before, std::size_t(link ? 1 : 6));
+        }
+    }
+
     void aBrokenFileIsRefusedAndNothingChanges() {
         const auto window = labellingWindow(5);
         QVERIFY(window);

@@ -33,6 +33,7 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
       tolerance_(new QDoubleSpinBox),
       classes_(new QTableWidget(0, 3)),
       add_doubles_(new QCheckBox(tr("Add objects that are labelled here already"))),
+      link_(new QCheckBox(tr("Link boxes without id by their overlap from frame to frame"))),
       text_(reportField()) {
     setWindowTitle(tr("Import labels"));
     format_->addItem(tr("Find out"), QStringLiteral("auto"));
@@ -71,6 +72,8 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
     layout->addWidget(classes_);
     add_doubles_->hide();
     layout->addWidget(add_doubles_);
+    link_->hide();
+    layout->addWidget(link_);
     layout->addWidget(buttons_);
     const auto show_columns = [this, form] {
         const bool wanted = format_->currentData().toString() == QLatin1String("columns");
@@ -81,6 +84,7 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
     connect(columns_, &QLineEdit::editingFinished, this, &LabelImportDialog::read);
     connect(shift_, &QSpinBox::valueChanged, this, &LabelImportDialog::read);
     connect(scale_, &QDoubleSpinBox::valueChanged, this, &LabelImportDialog::read);
+    connect(link_, &QCheckBox::toggled, this, &LabelImportDialog::read);
     connect(buttons_, &QDialogButtonBox::accepted, this, &LabelImportDialog::accept);
     connect(buttons_, &QDialogButtonBox::rejected, this, &LabelImportDialog::reject);
     show_columns();
@@ -125,10 +129,12 @@ void LabelImportDialog::read() {
     thread_.postNewest([this, ticket = ++ticket_, path = path_,
                         format = format_->currentData().toString().toStdString(), options = options(),
                         present = labels_.annotations(), camera = labels_.sharedCamera(),
-                        within = 1 + tolerance_->value()](const std::stop_token&) {
+                        within = 1 + tolerance_->value(),
+                        loose = link_->isChecked() ? LooseBoxes::link : LooseBoxes::single](const std::stop_token&) {
         try {
-            const LabelFile labels = readLabels(path, format, options);
+            LabelFile labels = readLabels(path, format, options);
             const LabelReport report = reportOn(labels);
+            gatherLooseBoxes(labels, loose);
             const auto doubles = static_cast<int>(alreadyLabelled(labels, present, *camera, within).size());
             queuedCall(this, [this, ticket, report, doubles] {
                 if (ticket == ticket_) showReport(report, doubles);
@@ -146,6 +152,7 @@ void LabelImportDialog::read() {
 void LabelImportDialog::showReport(const LabelReport& report, int doubles) {
     report_ = report;
     add_doubles_->setVisible(doubles > 0);
+    link_->setVisible(report.loose > 0);
     const LabelFormatInfo* format = formatNamed(QString::fromStdString(report.format));
     QString text = tr("%1\n").arg(format != nullptr ? QString::fromStdString(format->title)
                                                     : QString::fromStdString(report.format));
@@ -157,7 +164,9 @@ void LabelImportDialog::showReport(const LabelReport& report, int doubles) {
                 .arg(report.first_frame_number);
     text += report.ids > 0 ? tr("%1 ids, %2 to %3\n").arg(report.ids).arg(report.lowest_id).arg(report.highest_id)
                            : tr("no ids\n");
-    if (report.without_id > 0) text += tr("%1 boxes without id belong to no object\n").arg(report.without_id);
+    if (report.loose > 0)
+        text += tr("%1 boxes have no id; each becomes an object of one frame, unless you choose to link them\n")
+                    .arg(report.loose);
     if (report.turned > 0) text += tr("%1 boxes are turned\n").arg(report.turned);
     if (report.ignored > 0) text += tr("%1 boxes are to be ignored\n").arg(report.ignored);
     if (report.occluded > 0) text += tr("%1 boxes are occluded\n").arg(report.occluded);
@@ -218,6 +227,10 @@ void LabelImportDialog::setAddDoubles(bool add) {
     add_doubles_->setChecked(add);
 }
 
+void LabelImportDialog::setLink(bool link) {
+    link_->setChecked(link);
+}
+
 void LabelImportDialog::accept() {
     if (!report_ || labels_.store() == nullptr) return;
     ImportOptions with_classes = options();
@@ -232,11 +245,13 @@ void LabelImportDialog::accept() {
     // Nobody else changes labels while this dialog is up, so the store may hand out ids on the other thread.
     thread_.post([this, path = path_, format = report_->format, with_classes, store = labels_.store(),
                   sequence = labels_.sequence(), camera = labels_.sharedCamera(), tolerance = tolerance_->value(),
-                  doubles = add_doubles_->isChecked() ? Doubles::add : Doubles::skip](const std::stop_token&) {
+                  doubles = add_doubles_->isChecked() ? Doubles::add : Doubles::skip,
+                  loose = link_->isChecked() ? LooseBoxes::link : LooseBoxes::single](const std::stop_token&) {
         LabelImport planned;
         QString failure;
         try {
-            planned = planImport(readLabels(path, format, with_classes), sequence, *camera, *store, tolerance, doubles);
+            planned = planImport(readLabels(path, format, with_classes), sequence, *camera, *store, tolerance, doubles,
+                                 loose);
         } catch (const std::exception& error) {
             failure = QString::fromUtf8(error.what());
         }

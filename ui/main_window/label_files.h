@@ -41,6 +41,8 @@ class LabelImportDialog : public QDialog {
     void setShift(int frames);
     /// Objects that are labelled already are taken all the same.
     void setAddDoubles(bool add);
+    /// Boxes without id that overlap from frame to frame become one object, otherwise each an object of one frame.
+    void setLink(bool link);
     /// What came of it, once it was accepted.
     const QString& summary() const { return summary_; }
     void accept() override;
@@ -66,6 +68,7 @@ class LabelImportDialog : public QDialog {
     QDoubleSpinBox* tolerance_;
     QTableWidget* classes_;
     QCheckBox* add_doubles_;
+    QCheckBox* link_;
     QPlainTextEdit* text_;
     QDialogButtonBox* buttons_;
     TaskThread thread_;  ///< last: stops before the rest goes
