@@ -45,7 +45,8 @@ struct Identity {
 Identity identify(const fs::path& path) {
     Identity identity;
     std::error_code failed;
-    identity.canonical = fs::weakly_canonical(path, failed);
+    // Of a name alone that does not exist yet, weakly_canonical() would make no path.
+    identity.canonical = fs::weakly_canonical(fs::absolute(path, failed), failed);
     if (failed) identity.canonical = fs::absolute(path, failed).lexically_normal();
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0) {
