@@ -116,12 +116,15 @@ int leaveDoublesOut(ImportedLabels& imported, const LabelFile& labels, const Cam
     return left_out;
 }
 
+constexpr ObjectId kHighestKeptId = 2'000'000'000;
+
 AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
     AnnotationEdit edit;
     const auto& objects = imported.annotations.objects;
     edit.name = "Import " + std::to_string(objects.size()) + (objects.size() == 1 ? " object" : " objects");
     const ObjectId first_free = store.newObjectId();
-    const bool keep_ids = first_free == 1;
+    // An id near the largest number would leave none for objects to come.
+    const bool keep_ids = first_free == 1 && (objects.empty() || objects.rbegin()->first <= kHighestKeptId);
     ObjectId next = first_free;
     for (const auto& [id, object] : objects) {
         LabelledObject added = object;

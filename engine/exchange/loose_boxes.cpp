@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "formats/free_numbers.h"
+
 namespace eyrie {
 namespace {
 
@@ -31,13 +33,6 @@ struct Pair {
 
 bool isLoose(const LabelBox& record) {
     return !record.id && !record.ignore;
-}
-
-int highestId(const LabelBoxes& boxes) {
-    int highest = 0;
-    for (const auto& [frame, records] : boxes)
-        for (const LabelBox& record : records) highest = std::max(highest, record.id.value_or(0));
-    return highest;
 }
 
 std::vector<LabelBox*> looseBoxesOf(std::vector<LabelBox>& records) {
@@ -68,8 +63,9 @@ std::vector<Pair> pairsOf(const std::vector<Chain>& chains, const std::vector<La
     return pairs;
 }
 
-/// Gives the frame's boxes ids and answers the objects that go on from here.
-std::vector<Chain> linked(const std::vector<Chain>& chains, const std::vector<LabelBox*>& boxes, int& next_id) {
+/// Gives the frame's boxes ids, counts those that begin `objects`, and answers the objects that go on from here.
+std::vector<Chain> linked(const std::vector<Chain>& chains, const std::vector<LabelBox*>& boxes, FreeNumbers& ids,
+                          int& objects) {
     std::vector<char> chain_used(chains.size(), 0), box_used(boxes.size(), 0);
     std::vector<Chain> going_on;
     for (const Pair& pair : pairsOf(chains, boxes)) {
@@ -82,7 +78,8 @@ std::vector<Chain> linked(const std::vector<Chain>& chains, const std::vector<La
     }
     for (std::size_t b = 0; b < boxes.size(); ++b) {
         if (box_used[b] != 0) continue;
-        boxes[b]->id = next_id++;
+        boxes[b]->id = ids.next();
+        ++objects;
         going_on.push_back({*boxes[b]->id, boxes[b]->box, {0, 0}, boxes[b]->object_class});
     }
     return going_on;
@@ -92,18 +89,16 @@ std::vector<Chain> linked(const std::vector<Chain>& chains, const std::vector<La
 
 LooseBoxCount gatherLooseBoxes(LabelFile& labels, LooseBoxes how) {
     LooseBoxCount count;
-    const int first_id = highestId(labels.boxes) + 1;
-    int next_id = first_id;
+    FreeNumbers ids(labels.boxes);
     std::vector<Chain> chains;
     FrameIndex before = -2;
     for (auto& [frame, records] : labels.boxes) {
         const std::vector<LabelBox*> loose = looseBoxesOf(records);
         count.boxes += static_cast<int>(loose.size());
         if (how == LooseBoxes::single || before + 1 != frame) chains.clear();
-        chains = linked(chains, loose, next_id);
+        chains = linked(chains, loose, ids, count.objects);
         before = frame;
     }
-    count.objects = next_id - first_id;
     if (count.boxes > 0) labels.objects.clear();  // now the boxes make the objects
     return count;
 }

@@ -1,36 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "formats/format_functions.h"
+#include "formats/free_numbers.h"
 
 namespace eyrie {
 namespace {
-
-/// Numbers above all that are in use, or, above the largest there is, the lowest that are free.
-class FreeNumbers {
- public:
-    explicit FreeNumbers(const LabelBoxes& boxes) {
-        for (const auto& [frame, records] : boxes) {
-            for (const LabelBox& record : records)
-                if (record.id) used_.insert(*record.id);
-        }
-        highest_ = used_.empty() ? 0 : std::max(0, *used_.rbegin());
-    }
-    int next() {
-        if (highest_ < std::numeric_limits<int>::max()) return ++highest_;
-        while (used_.count(lowest_) > 0) ++lowest_;
-        return lowest_++;
-    }
-
- private:
-    std::set<int> used_;
-    int highest_ = 0;
-    int lowest_ = 1;
-};
 
 /// Gives ids of their own to boxes that have none, or one that another box of the frame has.
 int numberBoxes(LabelBoxes& boxes) {

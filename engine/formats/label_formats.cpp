@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include "core/error.h"
@@ -47,12 +48,9 @@ FileHead headOf(const std::filesystem::path& path) {
     return head;
 }
 
-/// Ids beyond leave no room for those that are added to them.
-constexpr int kLowestId = -100'000'000;
-constexpr int kHighestId = 2'000'000'000;
-
 /// Nothing that a reader let through may be beyond what can be worked with.
 void checkLabels(const LabelFile& labels, const std::filesystem::path& path) {
+    int lowest_id = 1, highest_id = 1;
     for (const auto& [frame, records] : labels.boxes) {
         std::set<int> ids;
         for (const LabelBox& record : records) {
@@ -61,10 +59,8 @@ void checkLabels(const LabelFile& labels, const std::filesystem::path& path) {
             if (frame < 0 || frame >= kFrameLimit) {
                 throw Error(ErrorKind::input, place + " is beyond any video; is the shift of frames right?");
             }
-            if (record.id && (*record.id < kLowestId || *record.id > kHighestId)) {
-                throw Error(ErrorKind::input, place + " has the id " + std::to_string(*record.id) +
-                                                  ", which is out of range; number the objects from 1");
-            }
+            lowest_id = std::min(lowest_id, record.id.value_or(lowest_id));
+            highest_id = std::max(highest_id, record.id.value_or(highest_id));
             for (const double value : {box.centre.x, box.centre.y, box.length, box.width, box.heading}) {
                 if (std::isfinite(value) && std::abs(value) <= 2 * kLargestCoordinate) continue;
                 throw Error(ErrorKind::input, place + " has a box that lies outside any image");
@@ -78,6 +74,11 @@ void checkLabels(const LabelFile& labels, const std::filesystem::path& path) {
                                                   "; an object has one box in a frame");
             }
         }
+    }
+    // Ids of a project count from 1, to which all of a file are raised.
+    if (1LL - lowest_id + highest_id > std::numeric_limits<int>::max()) {
+        throw Error(ErrorKind::input, path.string() + ": ids reach from " + std::to_string(lowest_id) + " to " +
+                                          std::to_string(highest_id) + "; number the objects from 1");
     }
 }
 

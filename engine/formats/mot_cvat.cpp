@@ -52,7 +52,7 @@ void writeForCvat(const LabelFile& labels, const fs::path& path, const ExportOpt
     for (const auto& [frame, records] : labels.boxes) {
         for (const LabelBox& record : records) {
             const BoxEdges e = edgesOf(record.box, first_pixel_edge);
-            text += std::to_string(frame + 1) + ',' + std::to_string(record.id.value_or(1) + 1 - lowest);
+            text += std::to_string(frame + 1) + ',' + std::to_string(record.id.value_or(1) + (1 - lowest));
             for (const double value : {e.left, e.top, e.width, e.height}) text += ',' + fixedText(value, 3);
             text += std::string(record.ignore ? ",0," : ",1,") +
                     std::to_string(numbers.at(record.object_class.empty() ? kUnnamed : record.object_class)) +

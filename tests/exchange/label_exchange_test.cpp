@@ -253,5 +253,15 @@ TEST_F(LabelExchange, LinkingKeepsTheIdsThatThereAre) {
     }
 }
 
+TEST_F(LabelExchange, IdsThatLeaveNoRoomAreNotKept) {
+    AnnotationStore store(project_, sequence_.id);
+    LabelFile labels = detections();
+    labels.boxes[0][0].id = 2147483647;
+    store.apply(planImport(labels, sequence_, {}, store, 0.45).edit);
+    EXPECT_EQ(store.annotations().objects.size(), 20u);
+    EXPECT_EQ(store.annotations().objects.rbegin()->first, 20);
+    EXPECT_GT(store.newObjectId(), 20);
+}
+
 }  // namespace
 }  // namespace eyrie

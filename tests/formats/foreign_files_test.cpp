@@ -263,8 +263,9 @@ TEST_F(ForeignFiles, SkewedOutlinesTakeTheRectangleThatFitsBest) {
 }
 
 TEST_F(ForeignFiles, NumbersBeyondCountingAreRefused) {
-    EXPECT_THAT(test::messageOf([&] { read("v.txt", "2147483647 1 0 10 10 5 5 2\n", "virat"); }),
-                HasSubstr("out of range"));
+    EXPECT_THAT(test::messageOf([&] { read("v.txt", "2147483647 1 0 10 10 5 5 2\n0 1 0 40 10 5 5 2\n", "virat"); }),
+                HasSubstr("ids reach from 0 to 2147483647"));
+    EXPECT_EQ(read("v.txt", "2147483647 1 0 10 10 5 5 2\n", "virat").boxes.at(0)[0].id, 2147483647);
     ImportOptions options;
     options.frame_shift = 2'000'000'000;
     EXPECT_THAT(test::messageOf([&] { read("v.txt", "7 1 0 10 10 5 5 2\n", "virat", options); }), HasSubstr("shift"));
