@@ -27,6 +27,7 @@ struct Identity {
     fs::path canonical;
     std::optional<std::pair<dev_t, ino_t>> node;  ///< of an existing file
     mode_t type = 0;                              ///< S_IF…; 0: nothing is there
+    int obstacle = 0;                             ///< errno where it cannot be told what is there (a link to itself)
 
     bool exists() const { return type != 0; }
     bool regular() const { return type == S_IFREG; }
@@ -52,6 +53,8 @@ Identity identify(const fs::path& path) {
     if (::stat(path.c_str(), &status) == 0) {
         identity.node = std::pair(status.st_dev, status.st_ino);
         identity.type = status.st_mode & S_IFMT;
+    } else if (errno != ENOENT && errno != ENOTDIR) {
+        identity.obstacle = errno;
     }
     return identity;
 }
@@ -161,6 +164,9 @@ std::vector<fs::path> filesToReplace(const std::vector<OutputFile>& outputs, con
     for (const OutputFile& output : outputs) {
         if (output.path.empty()) continue;
         const Identity file = identify(output.path);
+        if (file.obstacle != 0)
+            refuse(output.path,
+                   std::string("cannot be written (") + std::strerror(file.obstacle) + "); choose another name");
         for (const Input& input : read) refuseInput(output, file, input);
         if (file.folder()) refuse(output.path, "is a folder; name a file");
         if (file.exists() && !file.regular()) {

@@ -51,9 +51,10 @@ bool hasLog(const std::filesystem::path& project) {
 
 bool isProject(const std::filesystem::path& path) {
     std::error_code failed;
+    if (std::filesystem::is_directory(path, failed)) return false;
+    if (path.extension() == ".eyrie") return true;
     // Opening a pipe would wait for its writer.
     if (!std::filesystem::is_regular_file(path, failed)) return false;
-    if (path.extension() == ".eyrie") return true;
     const auto beginning = readBeginning(path);
     return beginning && beginning->isDatabase();
 }

@@ -12,7 +12,8 @@ namespace eyrie {
 /// cannot be read, is empty, no database, or shorter than its header says.
 void checkFile(const std::filesystem::path& path);
 
-/// Whether a file is to be opened as a project: by its ending (.eyrie) or its first bytes. False for what is missing.
+/// Whether a file is to be opened as a project: by its ending (.eyrie), also of one that is missing, or its first
+/// bytes.
 bool isProject(const std::filesystem::path& path);
 
 /// Whether committed pages wait in a log beside the project to be moved into it (a process was killed, or works now).
