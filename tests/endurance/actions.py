@@ -44,8 +44,12 @@ class Action:
         following = type(self)(
             self.world, self.folder, self.project, Path(self.project).exists(), self.mark, self.random
         )
-        following.attempt = "-again"
+        following.attempt = self.attempt + "-again"
         return following
+
+    def going_on(self, held):
+        """What a user does after it was killed; `held` is what project_facts tells then."""
+        return self.again()
 
     def check_output(self, result):
         """Raises Failure when a file that it wrote is there and not whole."""
@@ -78,6 +82,17 @@ class Run(Action):
     def claims(self, result):
         shown = [int(n) for n in re.findall(r"(\d+)/\d+ frames", result.err)]
         return {f"frames {self.mark}": max(shown, default=0), **super().claims(result)}
+
+    def going_on(self, held):
+        begun = f"frames {self.mark}" in held and not held.get(f"finished {self.mark}")
+        if begun and self.random.random() < 0.7:
+            return ResumedRun(self.world, self.folder, self.project, True, self.mark, self.random)
+        return self.again()
+
+
+class ResumedRun(Run):
+    def words(self):
+        return ["run", "--resume", "--project", self.project]
 
 
 class RunWithTracks(Run):

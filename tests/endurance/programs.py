@@ -54,7 +54,7 @@ class Program:
         with open(self._out, "wb") as output:
             self._process = subprocess.Popen(
                 self.line, stdin=subprocess.DEVNULL, stdout=output, stderr=slave, env=environment, cwd=folder,
-                start_new_session=True,
+                process_group=0,
             )  # fmt: skip
         if terminal:
             os.close(slave)

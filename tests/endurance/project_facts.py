@@ -1,5 +1,6 @@
 """Looks into a project with another program's eyes (Python's SQLite): whether it is whole, and what it holds."""
 
+import contextlib
 import json
 import shutil
 import sqlite3
@@ -23,21 +24,41 @@ def facts(project, folder):
     Raises Failure when it is not whole. Looks at a copy in `folder`, so that the project stays as it was left."""
     if not Path(project).exists():
         return {}
+    with _opened(project, folder) as database:
+        return _whole(database)
+
+
+def finished_tracks(project, folder):
+    """The track states of every finished run, by the run's id: its name and what was found."""
+    found = {}
+    with _opened(project, folder) as database:
+        for run, name in database.execute("SELECT id, name FROM run WHERE state = 'finished'").fetchall():
+            rows = database.execute(
+                "SELECT frame, track_id, x, y, length, width, heading_rad, status, origin FROM track_state "
+                "WHERE run_id = ? ORDER BY frame, track_id",
+                (run,),
+            )
+            found[run] = (name, rows.fetchall())
+    return found
+
+
+@contextlib.contextmanager
+def _opened(project, folder):
     copy = Path(folder) / ".facts.eyrie"
-    for ending in (*COMPANIONS, "-shm"):
-        Path(f"{copy}{ending}").unlink(missing_ok=True)
+    _remove(copy)
     copy_project(project, copy)
     try:
-        database = sqlite3.connect(copy)
-        try:
-            return _whole(database)
-        finally:
-            database.close()
+        with contextlib.closing(sqlite3.connect(copy)) as database:
+            yield database
     except sqlite3.DatabaseError as error:
         raise Failure(f"{project} is damaged: {error}") from error
     finally:
-        for ending in (*COMPANIONS, "-shm"):
-            Path(f"{copy}{ending}").unlink(missing_ok=True)
+        _remove(copy)
+
+
+def _remove(project):
+    for ending in (*COMPANIONS, "-shm"):
+        Path(f"{project}{ending}").unlink(missing_ok=True)
 
 
 def _whole(database):
