@@ -126,6 +126,7 @@ TEST_F(TrainCommand, classifyTestComparesOverSources) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "roc"), {}), 2 * 2 * 2);
     auto with_json = arguments;
     with_json.push_back("--json");
+    with_json.push_back("--force");  // the curves are there already
     const auto json = nlohmann::json::parse(cli(with_json).output);
     ASSERT_EQ(json["combinations"].size(), 4U);
     for (const auto& combination : json["combinations"]) {

@@ -331,7 +331,8 @@ TEST(Export, TheHighestIdLeavesNumbersForBoxesWithoutOne) {
     }
     writeLabels(labels, folder / "x.txt", "mot");
     std::set<int> ids;
-    for (const LabelBox& box : readLabels(folder / "x.txt", "mot").boxes.at(0)) ids.insert(box.id.value());
+    const LabelFile read = readLabels(folder / "x.txt", "mot");
+    for (const LabelBox& box : read.boxes.at(0)) ids.insert(box.id.value());
     EXPECT_EQ(ids, (std::set<int>{1, 2, 3, 2147483647}));
 }
 

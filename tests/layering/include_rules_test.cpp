@@ -51,7 +51,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"motion", {"core"}},
     {"stacking", {"core", "imaging"}},
     {"detection", {"core", "imaging", "learning"}},
-    {"learning", {"core", "imaging"}},
+    {"learning", {"core", "imaging", "io"}},
     {"removal", {"core"}},
     {"tracking", {"core", "imaging"}},
     {"evaluation", {"core"}},

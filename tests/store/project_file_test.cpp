@@ -120,7 +120,8 @@ TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
 
 TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
     test::writeSampleProject(path_, 2);
-    makeDatabase({"ALTER TABLE run DROP COLUMN removed_utc", "DROP TABLE dropped_state", "PRAGMA user_version = 5"});
+    makeDatabase({"ALTER TABLE run DROP COLUMN removed_utc", "DROP TABLE run_state",
+                  "DROP TABLE unfinished_track_state", "DROP TABLE dropped_state", "PRAGMA user_version = 5"});
     ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);
     test::expectSame(*RunStore(project).frameResult(1, 1), test::sampleFrame(1));
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
