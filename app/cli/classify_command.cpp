@@ -9,14 +9,14 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct ClassifyArguments {
     std::string model;
     std::string patches;
     std::string roc;
     bool json = false;
 };
 
-int run(const Arguments& arguments) {
+int run(const ClassifyArguments& arguments) {
     const VehicleModel model = loadModel(arguments.model);
     const SampleSet samples = readPatchSheets(arguments.patches);
     const ClassificationResult result = classify(model, samples);
@@ -50,7 +50,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void addClassifyCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ClassifyArguments>();
     CLI::App* command = app.add_subcommand("classify", "Measure a trained classifier on patch sheets");
     command->add_option("--model", arguments->model, "A model that eyrie-cli train wrote")->required();
     command->add_option("--patches", arguments->patches, "Folder with pos.png, neg.png and patches.csv")->required();

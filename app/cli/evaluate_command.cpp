@@ -19,7 +19,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct EvaluateArguments {
     std::string ground_truth;
     std::string result;
     std::string project;
@@ -56,7 +56,7 @@ std::vector<Registration> registrationsOf(const RunStore& store, int run_id) {
     return registrations;
 }
 
-Result readResult(const Arguments& arguments, const MotOptions& mot) {
+Result readResult(const EvaluateArguments& arguments, const MotOptions& mot) {
     Result result;
     if (arguments.project.empty()) {
         result.boxes = readResultBoxes(arguments.result, mot).boxes;
@@ -94,20 +94,20 @@ bool allUpright(const BoxesByFrame& boxes) {
     return true;
 }
 
-std::optional<cv::Size> knownImageSize(const Arguments& arguments, const Result& result) {
+std::optional<cv::Size> knownImageSize(const EvaluateArguments& arguments, const Result& result) {
     if (!arguments.size.empty()) return parseSize(arguments.size);
     if (result.run) return result.run->sequence.size;
     return describedBeside(arguments.ground_truth).image_size;
 }
 
-cv::Size imageSize(const Arguments& arguments, const Result& result) {
+cv::Size imageSize(const EvaluateArguments& arguments, const Result& result) {
     if (const auto known = knownImageSize(arguments, result)) return *known;
     throw Error(ErrorKind::parameter,
                 "--border needs the size of the image, which neither a project nor a file beside " +
                     arguments.ground_truth + " tells; add --size WIDTHxHEIGHT");
 }
 
-RegistrationError registrationErrorOf(const Arguments& arguments, const Result& result) {
+RegistrationError registrationErrorOf(const EvaluateArguments& arguments, const Result& result) {
     TrueHomographies truth;
     for (const Homography& homography : readHomographyCsv(arguments.homographies)) {
         truth[homography.from_frame] = homography.matrix;
@@ -116,7 +116,7 @@ RegistrationError registrationErrorOf(const Arguments& arguments, const Result& 
 }
 
 /// The list of errors at the first T_ov; causes need a stored run.
-void writeErrors(const Arguments& arguments, const BoxesByFrame& truth, const Result& result,
+void writeErrors(const EvaluateArguments& arguments, const BoxesByFrame& truth, const Result& result,
                  EvaluationOptions options) {
     options.overlap = arguments.overlaps.empty() ? options.overlap : arguments.overlaps.front();
     const EvaluationInput input = prepareEvaluation(truth, result.boxes, options);
@@ -135,7 +135,7 @@ void writeErrors(const Arguments& arguments, const BoxesByFrame& truth, const Re
 }
 
 /// The file that was named, else what people labelled in the project.
-BoxFile readTruth(const Arguments& arguments, const Result& result, const MotOptions& mot) {
+BoxFile readTruth(const EvaluateArguments& arguments, const Result& result, const MotOptions& mot) {
     BoxFile truth;
     if (!arguments.ground_truth.empty()) {
         truth = readTruthBoxes(arguments.ground_truth, mot, knownImageSize(arguments, result));
@@ -148,7 +148,7 @@ BoxFile readTruth(const Arguments& arguments, const Result& result, const MotOpt
     return truth;
 }
 
-void evaluateAndPrint(const Arguments& arguments) {
+void evaluateAndPrint(const EvaluateArguments& arguments) {
     const MotOptions mot{arguments.mot_origin};
     EvaluationReport report;
     report.options = arguments.options;
@@ -189,7 +189,7 @@ void evaluateAndPrint(const Arguments& arguments) {
 }  // namespace
 
 void addEvaluateCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<EvaluateArguments>();
     CLI::App* command = app.add_subcommand("evaluate", "Measure tracks or detections against ground truth");
     command->add_option("--ground-truth", arguments->ground_truth,
                         "True boxes, in any format that import reads (default: the project's labels of the video)");

@@ -19,7 +19,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct RunArguments {
     std::string input;
     std::string project;
     std::optional<double> gsd_m_per_px;
@@ -37,7 +37,7 @@ struct Arguments {
 /// Shows progress and, if wanted, writes the annotated video.
 class ConsoleObserver : public ChainObserver {
  public:
-    ConsoleObserver(const Arguments& arguments, const VideoInfo& video) : quiet_(arguments.quiet) {
+    ConsoleObserver(const RunArguments& arguments, const VideoInfo& video) : quiet_(arguments.quiet) {
         if (arguments.annotated.empty()) return;
         const int zoom = annotationZoom(video.size);
         VideoWriterOptions options;
@@ -59,7 +59,7 @@ class ConsoleObserver : public ChainObserver {
     std::unique_ptr<VideoWriter> writer_;
 };
 
-SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const Arguments& arguments,
+SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const RunArguments& arguments,
                    const std::stop_token& stop) {
     ConsoleProgress console("looks");
     return chooseScale(source, range, options, arguments.gsd_m_per_px.value_or(0), stop,
@@ -85,14 +85,14 @@ void checkFolderOf(const std::filesystem::path& file) {
                 "the folder " + folder.string() + " for " + file.string() + " does not exist; make it first");
 }
 
-std::filesystem::path projectPath(const Arguments& arguments) {
+std::filesystem::path projectPath(const RunArguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
     const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
     const auto stem = std::filesystem::path(input).lexically_normal().stem().string();
     return (stem.empty() || stem == "." || stem == ".." ? "video" : stem) + ".eyrie";
 }
 
-int run(const Arguments& arguments) {
+int run(const RunArguments& arguments) {
     if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
     if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
     const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
@@ -141,7 +141,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void addRunCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RunArguments>();
     CLI::App* command =
         app.add_subcommand("run", "Find and follow the moving vehicles of a video and store them in a project");
     command

@@ -19,7 +19,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct SweepArguments {
     SweepSources sources;
     std::vector<std::string> axes;
     std::vector<double> overlaps{0.1, 0.2, 0.3};
@@ -56,7 +56,7 @@ std::vector<int> chosenPositions(const SweepPlan& plan, const std::string& shard
 }
 
 /// Parameters that all points share. Of stored runs they are those of the first, unless a preset is named.
-ChainOptions baseOptions(const Arguments& arguments, const std::vector<StoredRun>& runs) {
+ChainOptions baseOptions(const SweepArguments& arguments, const std::vector<StoredRun>& runs) {
     if (runs.empty() || arguments.preset_given) return arguments.preset.options();
     ChainOptions options = runs.front().options;
     PresetArguments settings = arguments.preset;
@@ -65,7 +65,7 @@ ChainOptions baseOptions(const Arguments& arguments, const std::vector<StoredRun
     return options;
 }
 
-SweepCriterion criterionOf(const Arguments& arguments, const SweepPlan& plan) {
+SweepCriterion criterionOf(const SweepArguments& arguments, const SweepPlan& plan) {
     SweepCriterion criterion = usualCriterion(plan);
     criterion.key = measureText(arguments.criterion).key;
     if (!arguments.of.empty()) criterion.tracks = arguments.of == "tracks";
@@ -86,7 +86,7 @@ void refuseTooMany(const std::vector<std::string>& axes, bool yes) {
 }
 
 /// Runs what is missing; answers whether all was done.
-bool runMissing(const Arguments& arguments, const SweepPlan& plan, const std::vector<SweepInput>& inputs,
+bool runMissing(const SweepArguments& arguments, const SweepPlan& plan, const std::vector<SweepInput>& inputs,
                 std::vector<int> positions, ProjectFile& project, int sweep, const std::stop_token& stop) {
     const std::set<int> done = SweepStore(project).pointsDone(sweep);
     std::erase_if(positions, [&](int position) { return done.count(position) > 0; });
@@ -118,7 +118,7 @@ void savePreset(const std::string& file, const SweepTable& table, const SweepCri
     writePreset(file, {"best of " + table.plan.describe(best->position), parameterValues(options)});
 }
 
-int sweep(const Arguments& arguments) {
+int sweep(const SweepArguments& arguments) {
     if (arguments.sources.sequences.empty() == arguments.sources.project.empty()) {
         throw Error(ErrorKind::parameter,
                     "sweep needs what to work on: either --sequence with --ground-truth, or --project");
@@ -170,7 +170,7 @@ int sweep(const Arguments& arguments) {
 }  // namespace
 
 void addSweepCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<SweepArguments>();
     CLI::App* command =
         app.add_subcommand("sweep", "Try many values of one or two parameters on sequences with ground truth");
     SweepSources& sources = arguments->sources;

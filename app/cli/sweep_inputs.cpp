@@ -32,8 +32,8 @@ std::string absolutePath(const std::string& path) {
 }
 
 /// Reads the truth of a clip and decides how boxes are compared.
-BoxesByFrame readTruth(const SweepSources& sources, const std::string& file, cv::Size image_size, SweepClip& clip,
-                       std::vector<std::string>& remarks) {
+BoxesByFrame readClipTruth(const SweepSources& sources, const std::string& file, cv::Size image_size, SweepClip& clip,
+                           std::vector<std::string>& remarks) {
     BoxFile truth = readTruthBoxes(file, {sources.mot_origin}, image_size);
     remarks.insert(remarks.end(), truth.remarks.begin(), truth.remarks.end());
     clip.ground_truth = absolutePath(file);
@@ -96,7 +96,7 @@ OpenedSources openSequences(const SweepSources& sources, const ChainOptions& opt
         const double rate = sources.frame_rate_hz.value_or(0);
         const auto source = openInput(sequence, rate, stop);
         const BoxesByFrame truth =
-            readTruth(sources, sources.ground_truths[i], source->info().size, clip, opened.remarks);
+            readClipTruth(sources, sources.ground_truths[i], source->info().size, clip, opened.remarks);
         const double gsd = sources.gsds.empty() ? 0 : sources.gsds[sources.gsds.size() == 1 ? 0 : i];
         clip.scale = chooseScale(*source, range, options, gsd, stop);
         opened.inputs.push_back(openClip(clip, opener(clip.sequence, rate), range, truth));
@@ -119,7 +119,7 @@ OpenedSources openStoredRuns(const SweepSources& sources, std::vector<StoredRun>
         const BoxesByFrame truth =
             sources.ground_truths.empty()
                 ? labelsOfProject(sources, run, clip)
-                : readTruth(sources, sources.ground_truths[i], imageSizeOf(sources, run), clip, opened.remarks);
+                : readClipTruth(sources, sources.ground_truths[i], imageSizeOf(sources, run), clip, opened.remarks);
         SweepInput input = openClip(clip, opener(clip.sequence, clip.scale.frame_rate_hz), run.range, truth);
         input.cache->useStoredMotion(run.options, std::move(run.motion));
         if (signatureUpTo(run.options, SweepStage::motion) != signatureUpTo(options, SweepStage::motion))

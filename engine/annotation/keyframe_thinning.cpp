@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "annotation/corner_distance.h"
+
 namespace eyrie {
 namespace {
 
@@ -139,14 +141,6 @@ class Thinner {
     const CameraMotion& camera_;
     const ReductionOptions& options_;
 };
-
-double cornerDistance(const OrientedBox& a, const OrientedBox& b) {
-    const auto p = a.corners();
-    const auto q = b.corners();
-    double worst = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) worst = std::max(worst, std::hypot(p[i].x - q[i].x, p[i].y - q[i].y));
-    return worst;
-}
 
 }  // namespace
 

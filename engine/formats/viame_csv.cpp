@@ -49,7 +49,7 @@ void takeAttribute(const TextLine& line, std::size_t field, LabelBox& record, in
     }
 }
 
-LabelBox boxOf(const TextLine& line, int& passed_over) {
+LabelBox viameBoxOf(const TextLine& line, int& passed_over) {
     if (line.size() < 9) {
         line.fail(0, std::to_string(line.size()) +
                          " columns, expected 9 or more: id,image,frame,left,top,right,bottom,confidence,length");
@@ -100,7 +100,7 @@ LabelFile readViame(const std::filesystem::path& path, const ImportOptions&) {
             continue;
         }
         const TextLine line(path, number, text);
-        LabelBox record = boxOf(line, passed_over);
+        LabelBox record = viameBoxOf(line, passed_over);
         if (!line.text(1).empty()) labels.image_names[record.frame] = line.word(1, "image");
         if (!record.object_class.empty()) last_class[*record.id] = record.object_class;
         labels.boxes[record.frame].push_back(std::move(record));

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/size_text.h"
 
 namespace eyrie {
 
@@ -56,10 +57,6 @@ cv::Mat decode(const std::filesystem::path& file) {
         throw Error(ErrorKind::input, file.string() + ": images must have one or three channels, this one has " +
                                           std::to_string(image.channels()));
     return image;
-}
-
-std::string sizeText(cv::Size size) {
-    return std::to_string(size.width) + "×" + std::to_string(size.height);
 }
 
 std::vector<std::filesystem::path> imagesIn(const std::filesystem::path& folder) {

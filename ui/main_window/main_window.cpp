@@ -35,7 +35,7 @@ namespace eyrie::ui {
 namespace {
 constexpr QSize kFirstSize(1500, 940);
 
-QString text(const std::filesystem::path& path) {
+QString pathText(const std::filesystem::path& path) {
     return QString::fromStdString(path.string());
 }
 }  // namespace
@@ -316,7 +316,7 @@ void MainWindow::openPath(const QString& path) {
 }
 
 void MainWindow::saveCopy() {
-    const QString suggestion = QFileInfo(text(session_.project())).fileName();
+    const QString suggestion = QFileInfo(pathText(session_.project())).fileName();
     QString path =
         QFileDialog::getSaveFileName(this, tr("Save project as"), suggestion, tr("Eyrie projects (*.eyrie)"));
     if (path.isEmpty()) return;

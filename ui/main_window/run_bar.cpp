@@ -15,7 +15,7 @@ namespace eyrie::ui {
 namespace {
 constexpr double kLargestGsd = 100;
 
-QToolButton* buttonOf(QAction* action, QWidget* parent) {
+QToolButton* toolButtonOf(QAction* action, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setDefaultAction(action);
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -26,8 +26,8 @@ QToolButton* buttonOf(QAction* action, QWidget* parent) {
 
 RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* parent)
     : QWidget(parent), session_(session) {
-    run_button_ = buttonOf(actions.run, this);
-    stop_button_ = buttonOf(actions.stop, this);
+    run_button_ = toolButtonOf(actions.run, this);
+    stop_button_ = toolButtonOf(actions.stop, this);
     stop_button_->setToolButtonStyle(Qt::ToolButtonIconOnly);
 
     gsd_ = new QLineEdit(this);

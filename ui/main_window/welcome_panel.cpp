@@ -13,7 +13,7 @@
 namespace eyrie::ui {
 
 namespace {
-constexpr int kMostRecent = 6;
+constexpr int kMostShown = 6;
 constexpr int kWidth = 620;
 
 QPushButton* buttonOf(QAction* action, QWidget* parent) {
@@ -82,7 +82,7 @@ void WelcomePanel::setRecent(const QStringList& paths) {
     auto* heading = new QLabel(tr("Opened lately"), recent_box_);
     heading->setForegroundRole(QPalette::PlaceholderText);
     recent_layout_->addWidget(heading);
-    for (const QString& path : paths.mid(0, kMostRecent)) {
+    for (const QString& path : paths.mid(0, kMostShown)) {
         auto* button = new QToolButton(recent_box_);
         const QString full = tr("%1  –  %2").arg(QFileInfo(path).fileName(), QFileInfo(path).path());
         button->setText(button->fontMetrics().elidedText(full, Qt::ElideMiddle, kWidth - 64));
