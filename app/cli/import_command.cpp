@@ -59,7 +59,8 @@ std::vector<std::string> doubtsAbout(const LabelFile& labels, ProjectFile& proje
 
 SequenceRecord sequenceFor(ProjectFile& project, const Arguments& arguments) {
     if (arguments.video.empty()) return chosenSequence(project, arguments.sequence);
-    const std::unique_ptr<FrameSource> source = openInput(arguments.video, 0, {});
+    const std::unique_ptr<FrameSource> source =
+        openInput(arguments.video, 0, {}, rememberedRate(project.path(), arguments.video));
     const VideoInfo& info = source->info();
     SequenceRecord sequence;
     sequence.path = info.path.string();

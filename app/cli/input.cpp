@@ -9,6 +9,7 @@
 #include "cli/console_progress.h"
 #include "core/error.h"
 #include "scene/scene_source.h"
+#include "store/annotation_store.h"
 
 namespace eyrie::cli {
 namespace {
@@ -27,11 +28,22 @@ bool readFrameNumber(const std::string& text, FrameIndex& value) {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop) {
+double rememberedRate(const std::filesystem::path& project, const std::string& input) {
+    std::error_code failure;
+    if (!std::filesystem::exists(project, failure)) return 0;
+    ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+    for (const SequenceRecord& sequence : sequencesOf(file))
+        if (std::filesystem::equivalent(sequence.path, input, failure)) return sequence.frame_rate_hz;
+    return 0;
+}
+
+std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop,
+                                       double remembered_rate_hz) {
     const std::string prefix = "scene:";
     if (input.rfind(prefix, 0) == 0) return openScene(input.substr(prefix.size()));
     SourceOptions options;
     options.frame_rate_hz = frame_rate_hz;
+    options.remembered_rate_hz = remembered_rate_hz;
     ConsoleProgress progress("% indexed");
     const auto start = std::chrono::steady_clock::now();
     return openSource(

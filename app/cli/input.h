@@ -11,7 +11,13 @@ namespace eyrie::cli {
 
 /// Opens a video file, a folder of images, or a built-in scene ("scene:seq1"). Shows progress while a long video is
 /// indexed. Throws Error(input | parameter).
-std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop);
+/// `remembered_rate_hz`: see rememberedRate().
+std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop,
+                                       double remembered_rate_hz = 0);
+
+/// The frames per second that a project knows for an input, so that a rate given once need not be given again; 0 when
+/// there is no such project or it does not know the input. Throws Error(project) for one that cannot be read.
+double rememberedRate(const std::filesystem::path& project, const std::string& input);
 
 /// Throws Error(parameter) unless `gsd` is a usable number of metres per pixel.
 void checkGsd(double gsd_m_per_px);

@@ -242,7 +242,8 @@ int run(const Arguments& arguments) {
     std::unique_ptr<FrameSource> source;
     if (!arguments.input.empty()) {
         checkOutputs(arguments, project, arguments.input);
-        source = openInput(arguments.input, arguments.frame_rate_hz.value_or(0), interrupt.token());
+        source = openInput(arguments.input, arguments.frame_rate_hz.value_or(0), interrupt.token(),
+                           rememberedRate(project, arguments.input));
     }
     ResumeChoice choice;
     if (arguments.resume) {
@@ -253,7 +254,7 @@ int run(const Arguments& arguments) {
     }
     if (!source) {
         checkOutputs(arguments, project, choice.run->sequence.path);
-        source = openInput(choice.run->sequence.path, choice.run->scale.frame_rate_hz, interrupt.token());
+        source = openInput(choice.run->sequence.path, 0, interrupt.token(), choice.run->scale.frame_rate_hz);
     }
     keepEarlierState(project);
     const auto [record, summary, has_video] = !choice.run ? runAnew(arguments, *source, project, interrupt)

@@ -1,6 +1,7 @@
 #include "io/frame_source.h"
 
 #include <cctype>
+#include <cmath>
 #include <fstream>
 
 #include "core/error.h"
@@ -9,6 +10,9 @@
 
 namespace eyrie {
 namespace {
+
+/// Nearer than this a remembered rate is the video's own, only measured again.
+constexpr double kSameRate = 0.005;
 
 /// A project or a table where a video belongs: says what takes them.
 void refuseOtherThanVideo(const std::filesystem::path& path) {
@@ -35,6 +39,12 @@ void refuseOtherThanVideo(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+double overridingRate(const SourceOptions& options, double own_rate_hz) {
+    if (options.frame_rate_hz > 0) return options.frame_rate_hz;
+    const double remembered = options.remembered_rate_hz;
+    return remembered > 0 && std::abs(remembered - own_rate_hz) > kSameRate * own_rate_hz ? remembered : 0;
+}
 
 std::unique_ptr<FrameSource> openSource(const std::filesystem::path& path, const SourceOptions& options,
                                         const IndexProgress& progress, std::stop_token stop) {

@@ -38,8 +38,14 @@ class FrameSource {
 struct SourceOptions {
     double frame_rate_hz =
         0;  ///< > 0 overrides the video's own rate (needed for image folders); 0: own, 25 for folders
+    /// The rate a project knows for this video; 0: none. Where `frame_rate_hz` says nothing it counts like it, unless
+    /// it is the video's own: then the time stamps stay as they are.
+    double remembered_rate_hz = 0;
     std::filesystem::path index_folder;  ///< where indexes are cached; empty: the user's cache folder
 };
+
+/// The rate that overrides a video's own one, `own_rate_hz`; 0: none does.
+double overridingRate(const SourceOptions& options, double own_rate_hz);
 
 /// Called while a video is indexed, with the share done in [0, 1].
 using IndexProgress = std::function<void(double share)>;

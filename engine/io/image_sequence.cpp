@@ -146,7 +146,7 @@ ImageSequence::ImageSequence(const std::filesystem::path& path, const SourceOpti
     if (first.depth() == CV_16U) std::tie(black_, white_) = rangeOf(first);
     info_.size = first.size();
     info_.frame_count = static_cast<int>(files_.size());
-    info_.frame_rate_hz = options.frame_rate_hz > 0 ? options.frame_rate_hz : 25.0;
+    if (const double rate = overridingRate(options, info_.frame_rate_hz); rate > 0) info_.frame_rate_hz = rate;
     info_.is_image_sequence = true;
     info_.codec = lowerExtension(files_.front()).substr(1) + " sequence";
     info_.container = "folder";

@@ -95,11 +95,11 @@ void VideoReader::describe(const SourceOptions& options) {
     const FrameTiming timing = timingOf(ticks, tick_s);
     if (timing.rate_hz > 0) info_.frame_rate_hz = timing.rate_hz;
     info_.variable_frame_rate = timing.is_variable;
-    if (options.frame_rate_hz > 0) {
-        info_.frame_rate_hz = options.frame_rate_hz;
+    if (const double rate = overridingRate(options, info_.frame_rate_hz); rate > 0) {
+        info_.frame_rate_hz = rate;
         info_.variable_frame_rate = false;
         index_.tick_numerator = 1000;
-        index_.tick_denominator = std::max<std::int64_t>(1, std::llround(options.frame_rate_hz * 1000));
+        index_.tick_denominator = std::max<std::int64_t>(1, std::llround(rate * 1000));
         for (std::size_t i = 0; i < ticks.size(); ++i) index_.shown_ticks[i] = static_cast<std::int64_t>(i);
     }
 }
