@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "chain/scale_estimation.h"
 #include "cli/console_progress.h"
 #include "io/atomic_file.h"
 
@@ -34,30 +33,64 @@ std::string speedText(const SceneScale& scale, double px_per_frame) {
                            : formatted("%.2f px/frame", px_per_frame);
 }
 
-/// A scale that nobody gave: seen in the traffic, or not even that.
-std::string scaleGuess(const SceneScale& scale) {
-    return isFallbackScale(scale)
-               ? formatted(
-                     "GSD unknown and the traffic shows none: works with a fallback of %.2g m/px, which may be far "
-                     "off; give --gsd",
-                     scale.gsd_m_per_px)
-               : formatted("GSD unknown, estimated %.2g m/px from the traffic (give --gsd for metres and km/h)",
-                           scale.gsd_m_per_px);
+std::string scaleText(const RunFacts& facts) {
+    switch (facts.scale_origin) {
+        case ScaleOrigin::given:
+            return formatted("%.3g m/px", facts.gsd_m_per_px);
+        case ScaleOrigin::estimated:
+            return formatted("GSD unknown, estimated %.2g m/px from the traffic (give --gsd for metres and km/h)",
+                             facts.gsd_m_per_px);
+        case ScaleOrigin::fallback:
+            break;
+    }
+    return formatted(
+        "GSD unknown and the traffic shows none: works with a fallback of %.2g m/px, which may be far off; give --gsd",
+        facts.gsd_m_per_px);
+}
+
+/// "Not registered: 12 frames (too few corners 9, cut 3)"; empty when all were.
+std::string unregisteredText(const RunCounts& counts) {
+    if (counts.unregistered == 0) return {};
+    std::string text =
+        formatted("Not registered: %d frame%s (", counts.unregistered, counts.unregistered == 1 ? "" : "s");
+    for (const ReasonCount& count : counts.reasons) text += formatted("%s %d, ", count.reason.c_str(), count.frames);
+    text.resize(text.size() - 2);
+    return text + ")\n";
+}
+
+const char* whyNothing(NothingFollowed nothing) {
+    switch (nothing) {
+        case NothingFollowed::has_tracks:
+            return "";
+        case NothingFollowed::no_frames:
+            return "no frame was processed";
+        case NothingFollowed::not_registered:
+            return "no frame could be registered onto the one before it, so nothing could be told to move";
+        case NothingFollowed::no_motion:
+            return "nothing moved otherwise than the ground (motion.min_speed decides)";
+        case NothingFollowed::no_detections:
+            return "something moved, but nothing looked like a vehicle (detection.method decides, and --gsd)";
+        case NothingFollowed::all_rejected:
+            return "every detection was rejected as duplicate, outlier or for its size; check --gsd";
+        case NothingFollowed::none_confirmed:
+            return "nothing was detected often enough to become a track (tracking.confirm_hits decides)";
+        case NothingFollowed::all_dropped:
+            return "what was followed was left out when the tracks were finished (the finishing parameters decide)";
+    }
+    return "";
 }
 
 }  // namespace
 
-std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary,
+std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,
                         const std::vector<TrackSummary>& tracks, const std::filesystem::path& project) {
-    std::string text = formatted(
-        "%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(), video.size.width, video.size.height,
-        video.frame_count, video.frame_rate_hz,
-        run.scale.gsd_known ? formatted("%.3g m/px", run.scale.gsd_m_per_px).c_str() : scaleGuess(run.scale).c_str());
+    std::string text =
+        formatted("%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(), video.size.width,
+                  video.size.height, video.frame_count, video.frame_rate_hz, scaleText(facts).c_str());
     text += formatted("Run %d %s: %d of %d frames in %s (%.1f frames/s)", run.id, nameOf(summary.outcome),
                       summary.frames_done, summary.frames_total, clockText(summary.seconds).c_str(),
                       summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0);
-    if (summary.unregistered_frames > 0) text += formatted(", %d not registered", summary.unregistered_frames);
-    text += "\n";
+    text += "\n" + unregisteredText(facts.counts);
     int confirmed = 0;
     double speed = 0;
     for (const auto& track : tracks) {
@@ -67,6 +100,7 @@ std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunS
     }
     text += formatted("Vehicles followed: %d", confirmed);
     if (confirmed > 0) text += formatted(", mean speed %s", speedText(run.scale, speed / confirmed).c_str());
+    if (facts.nothing != NothingFollowed::has_tracks) text += formatted(": %s", whyNothing(facts.nothing));
     text += "\nMedian per frame:";
     for (int i = 0; i < kStageCount; ++i) {
         const float ms = summary.median_ms[static_cast<std::size_t>(i)];

@@ -4,13 +4,14 @@
 #include <string>
 
 #include "chain/chain_run.h"
+#include "chain/run_facts.h"
 #include "io/frame_source.h"
 #include "store/run_store.h"
 
 namespace eyrie::cli {
 
 /// What a person wants to know when a run has ended, as text for the terminal.
-std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary,
+std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,
                         const std::vector<TrackSummary>& tracks, const std::filesystem::path& project);
 
 /// Median ms per stage and overall speed as JSON, for --timing. Throws Error(output).

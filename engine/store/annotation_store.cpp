@@ -37,6 +37,13 @@ int ensureSequence(ProjectFile& project, const SequenceRecord& sequence) {
     return guarded(project.path(), "adding a video", [&] { return storeSequence(project.database(), sequence); });
 }
 
+void relocateSequence(ProjectFile& project, int sequence_id, const std::string& path) {
+    guarded(project.path(), "storing where the video lies now", [&] {
+        SQLite::Statement statement(project.database(), "UPDATE sequence SET path = ? WHERE id = ?");
+        RowWriter(statement).text(path).integer(sequence_id).run();
+    });
+}
+
 std::vector<SequenceRecord> sequencesOf(ProjectFile& project) {
     return guarded(project.path(), "listing the videos", [&] {
         SQLite::Statement statement(project.database(),

@@ -14,8 +14,12 @@
 
 namespace eyrie {
 
-/// The row of a video in a project, made if it is not there. Throws Error(project | output).
+/// The row of a video in a project, made if it is not there; what is known of the video now, its frame rate too,
+/// replaces what was known. Throws Error(project | output).
 int ensureSequence(ProjectFile& project, const SequenceRecord& sequence);
+/// A video of the project lies elsewhere now: its runs and labels belong to `path`. Throws Error(project | output),
+/// also when the project has another video of that path and size.
+void relocateSequence(ProjectFile& project, int sequence_id, const std::string& path);
 /// All videos of a project, ascending ids.
 std::vector<SequenceRecord> sequencesOf(ProjectFile& project);
 /// The labels of a sequence, read once, by anybody (command line). Throws Error(project) for damaged labels.
