@@ -266,7 +266,9 @@ int run(const Arguments& arguments) {
     if (!arguments.tracks_csv.empty()) writeResultCsv(arguments.tracks_csv, store.trackBoxes(record.id));
     if (!arguments.detections_csv.empty()) writeResultCsv(arguments.detections_csv, store.detectionBoxes(record.id));
     if (!arguments.timing.empty()) writeTiming(arguments.timing, summary);
-    std::fputs(summaryText(source->info(), record, summary, factsOf(file, record), store.tracks(record.id), project).c_str(), stdout);
+    std::fputs(
+        summaryText(source->info(), record, summary, factsOf(file, record), store.tracks(record.id), project).c_str(),
+        stdout);
     if (has_video) std::printf("Annotated video: %s\n", arguments.annotated.c_str());
     if (summary.outcome == RunOutcome::failed) {
         std::fprintf(stderr, "eyrie-cli: the run failed after %d frames: %s\n", summary.frames_done,

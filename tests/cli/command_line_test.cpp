@@ -61,6 +61,29 @@ TEST_F(CommandLine, runWritesProjectTracksDetectionsTimingAndVideo) {
     EXPECT_EQ(evaluated.exit_code, 0) << evaluated.errors;
 }
 
+TEST_F(CommandLine, aFrameRateGivenOnceCountsForLaterRuns) {
+    const std::string input = clip(3);
+    for (const auto& rate : std::vector<std::vector<std::string>>{{"--fps", "30"}, {}, {"--fps", "10"}, {}}) {
+        std::vector<std::string> command{"run", input, "--gsd", "0.2", "--project", at("p.eyrie")};
+        command.insert(command.end(), rate.begin(), rate.end());
+        ASSERT_EQ(cli(command).exit_code, 0);
+    }
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    std::vector<double> rates;
+    for (const RunRecord& run : RunStore(project).runs()) rates.push_back(run.scale.frame_rate_hz);
+    EXPECT_THAT(rates, testing::ElementsAre(30, 30, 10, 10));
+}
+
+TEST_F(CommandLine, aRunThatFollowsNothingSaysWhy) {
+    std::filesystem::create_directories(folder / "blank");
+    for (int i = 0; i < 12; ++i)
+        cv::imwrite(at("blank/" + std::to_string(10 + i) + ".png"), cv::Mat(120, 160, CV_8U, cv::Scalar(i)));
+    const auto result = cli({"run", at("blank"), "--gsd", "0.2", "--project", at("p.eyrie"), "--quiet"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output, HasSubstr("Not registered: 11 frames (blank picture: too few corners 11)"));
+    EXPECT_THAT(result.output, HasSubstr("Vehicles followed: 0: no frame could be registered"));
+}
+
 TEST_F(CommandLine, frameRangeIsInclusiveAndChecked) {
     const auto result = cli({"run", clip(), "--frames", "5:14", "--project", at("p.eyrie")});
     EXPECT_EQ(result.exit_code, 0) << result.errors;

@@ -100,6 +100,15 @@ TEST_F(Images, TimesFollowTheGivenRate) {
     EXPECT_EQ(open(2)->timeOf(3), 1'500'000);
 }
 
+TEST_F(Images, ARememberedRateCountsUntilAnotherIsGiven) {
+    writeFlat("0.png", 0);
+    SourceOptions options;
+    options.remembered_rate_hz = 30;
+    EXPECT_EQ(openSource(folder_.path(), options)->info().frame_rate_hz, 30);
+    options.frame_rate_hz = 10;
+    EXPECT_EQ(openSource(folder_.path(), options)->info().frame_rate_hz, 10);
+}
+
 TEST_F(Images, ColourBecomesGreyTheSameWithAndWithoutColour) {
     write("a.png", cv::Mat(30, 40, CV_8UC3, cv::Scalar(10, 200, 30)));
     const auto source = open();

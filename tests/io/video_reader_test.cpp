@@ -51,6 +51,20 @@ TEST_P(EveryFormat, DeliversEachFrameInOrderAtItsTime) {
     }
 }
 
+TEST_P(EveryFormat, ARememberedRateCountsOnlyWhereItIsNotTheVideosOwn) {
+    const auto own = open(12);
+    SourceOptions options;
+    options.index_folder = folder_ / "index";
+    options.remembered_rate_hz = own->info().frame_rate_hz * 1.0001;  // as a project keeps it
+    const auto same = openSource(own->info().path, options);
+    EXPECT_EQ(same->info().frame_rate_hz, own->info().frame_rate_hz);
+    EXPECT_EQ(same->timeOf(7), own->timeOf(7));
+    options.remembered_rate_hz = 50;
+    const auto other = openSource(own->info().path, options);
+    EXPECT_EQ(other->info().frame_rate_hz, 50);
+    EXPECT_EQ(other->timeOf(7), 140'000);
+}
+
 TEST_P(EveryFormat, JumpsToExactlyTheFrameAskedFor) {
     const auto source = open(80);
     std::mt19937 random(7);

@@ -1,0 +1,101 @@
+#include "chain/run_facts.h"
+
+#include <gtest/gtest.h>
+
+#include "chain/run_recorder.h"
+#include "support/moving_scene.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+/// Pictures without anything on them.
+class BlankSource : public FrameSource {
+ public:
+    BlankSource() {
+        info_.path = "/nowhere/blank.mp4";
+        info_.size = {160, 120};
+        info_.frame_count = 12;
+    }
+    const VideoInfo& info() const override { return info_; }
+    Frame read(FrameIndex index, bool) override {
+        Frame frame;
+        frame.index = index;
+        frame.time_us = timeOf(index);
+        frame.gray = cv::Mat(info_.size, CV_8U, cv::Scalar(index));
+        return frame;
+    }
+    std::int64_t timeOf(FrameIndex index) const override { return index * std::int64_t{40'000}; }
+
+ private:
+    VideoInfo info_;
+};
+
+/// A recorded run and what is known of its end.
+RunFacts facts(FrameSource& source, const SceneScale& scale, const ChainOptions& options = {}) {
+    const test::TemporaryFolder folder;
+    RunRecorder recorder(folder / "p.eyrie", plannedRun(source.info(), scale, {}, "default"), options);
+    const RunRecord run = recorder.finish(ChainRun(options, scale).run(source, {}, recorder, {}));
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    return factsOf(project, run);
+}
+
+}  // namespace
+
+TEST(RunFacts, aRunWithTracksSaysHowMany) {
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    const RunFacts found = facts(source, sceneScale(source.info(), 0.2));
+    EXPECT_EQ(found.state, RunState::finished);
+    EXPECT_EQ(found.nothing, NothingFollowed::has_tracks);
+    EXPECT_EQ(found.counts.tracks, 2);
+    EXPECT_EQ(found.counts.unregistered, 0);
+    EXPECT_EQ(found.frames_planned, 40);
+    EXPECT_EQ(found.scale_origin, ScaleOrigin::given);
+}
+
+TEST(RunFacts, theFirstStepThatLeftNothingIsNamed) {
+    BlankSource blank;
+    const RunFacts unseen = facts(blank, sceneScale(blank.info(), 0.2));
+    EXPECT_EQ(unseen.nothing, NothingFollowed::not_registered);
+    EXPECT_EQ(unseen.counts.unregistered, 11);
+    ASSERT_FALSE(unseen.counts.reasons.empty());
+
+    test::MovingScene empty;
+    empty.vehicles.clear();
+    test::MemorySource ground(empty);
+    EXPECT_EQ(facts(ground, sceneScale(ground.info(), 0.2)).nothing, NothingFollowed::no_motion);
+
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    ChainOptions options;
+    options.tracking.confirm_hits = 64;
+    options.tracking.confirm_window = 64;
+    EXPECT_EQ(facts(source, sceneScale(source.info(), 0.2), options).nothing, NothingFollowed::none_confirmed);
+}
+
+TEST(RunFacts, aScaleNobodyGaveIsAnEstimateOrAFallback) {
+    SceneScale scale;
+    EXPECT_EQ(originOf(scale), ScaleOrigin::fallback);
+    scale.gsd_m_per_px = 0.091;
+    EXPECT_EQ(originOf(scale), ScaleOrigin::estimated);
+    scale.gsd_known = true;
+    EXPECT_EQ(originOf(scale), ScaleOrigin::given);
+}
+
+TEST(RunFacts, aRunThatNobodyWritesAnyMoreWasStopped) {
+    const test::TemporaryFolder folder;
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    {
+        const RunRecorder killed(folder / "p.eyrie", plannedRun(source.info(), {}, {}, "default"), {});
+        ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+        EXPECT_EQ(factsOf(project, RunStore(project).runs().front()).state, RunState::running);
+    }
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    const RunFacts found = factsOf(project, RunStore(project).runs().front());
+    EXPECT_EQ(found.state, RunState::stopped);
+    EXPECT_EQ(found.nothing, NothingFollowed::no_frames);
+}
+
+}  // namespace eyrie
