@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "panels/message_bar.h"
+#include "ui/full_disk.h"
 #include "ui/labelling.h"
 
 namespace eyrie::ui {
@@ -45,7 +46,8 @@ class LabelKeepingTest : public QObject, test::Labelling {
         QVERIFY(second);
         QVERIFY(second->labelling().labels().readOnly());
         QVERIFY(!second->messages().texts().isEmpty());
-        QVERIFY(second->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("read-only")));
+        QVERIFY(
+            second->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("The labels can only be read")));
         second->labelling().labels().select(id);
         const double x = object(*second, id).keyframes[0].box.centre.x;
         key(*second, Qt::Key_Right);
@@ -57,6 +59,22 @@ class LabelKeepingTest : public QObject, test::Labelling {
         second->labelling().actions().try_to_write->trigger();
         QVERIFY(second->labelling().labels().canEdit());
         QVERIFY(std::abs(object(*second, id).keyframes[0].box.centre.x - x - 1) < 1e-9);
+    }
+
+    void onAFullDiskNothingIsShownThatIsNotStored() {
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        const ObjectId id = draw(*window, {40, 60}, {58, 60});
+        const double x = object(*window, id).keyframes[0].box.centre.x;
+        {
+            const test::FullDisk full;
+            key(*window, Qt::Key_Right);
+        }
+        QCOMPARE(object(*window, id).keyframes[0].box.centre.x, x);
+        const QString told = window->messages().texts().join(QLatin1Char(' '));
+        QVERIFY2(told.contains(QStringLiteral("disk")), qPrintable(told));
+        key(*window, Qt::Key_Right);  // there is room again
+        QVERIFY(std::abs(object(*window, id).keyframes[0].box.centre.x - x - 1) < 1e-9);
     }
 };
 

@@ -366,8 +366,10 @@ class MainWindowTest : public QObject {
             QVERIFY(waitFor(
                 [&] { return !window.session().runs().empty() && window.session().runs().back().frames_done >= 12; }));
             project = window.session().project();
-            window.close();  // 100,000 frames would take an hour: returning at all shows that nobody waits for them
-            QVERIFY(!window.isVisible());
+            window.close();
+            QVERIFY(test::answer(window, QStringLiteral("Stop the run")));
+            // 100,000 frames would take an hour: closing at all shows that nobody waits for them.
+            QVERIFY(waitFor([&] { return !window.isVisible(); }));
         }
         ProjectFile file = ProjectFile::open(project);
         const auto runs = RunStore(file).runs();

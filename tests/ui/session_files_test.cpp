@@ -1,7 +1,11 @@
+#include <fstream>
+
 #include "core/error.h"
 #include "session/kept_scene.h"
 #include "session/preset_store.h"
 #include "session/project_location.h"
+#include "store/annotation_store.h"
+#include "ui/full_disk.h"
 #include "ui/session_support.h"
 
 namespace eyrie::ui {
@@ -36,14 +40,70 @@ class SessionFilesTest : public QObject {
         QVERIFY(problem.wait(kPatience_ms));
     }
 
+    void afterAFullDiskRunsAndCopiesGoOn() {
+        ProjectSession session;
+        QVERIFY(openAndWait(session, test::sceneUnderTest(20)));
+        QVERIFY(runAndWait(session));
+        QSignalSpy problem(&session, &ProjectSession::problem);
+        const auto copy = *home_ / "copy.eyrie";
+        {
+            const test::FullDisk full(5000);
+            session.saveProjectCopy(copy);
+            QVERIFY(problem.wait(kPatience_ms));
+            QVERIFY(runAndWait(session));
+        }
+        QVERIFY(!std::filesystem::exists(copy));
+        QVERIFY(problem.size() >= 2);
+        for (const auto& told : problem)
+            QVERIFY2(told.at(0).toString().contains(QStringLiteral("disk")), qPrintable(told.at(0).toString()));
+        QVERIFY(runAndWait(session));
+        session.saveProjectCopy(copy);
+        QVERIFY(QTest::qWaitFor([&] { return std::filesystem::exists(copy); }, kPatience_ms));
+        QVERIFY(QTest::qWaitFor([&] { return !session.runs().empty(); }, kPatience_ms));
+        QCOMPARE(session.runs().front().frames_done, 20);
+        QCOMPARE(session.runs().back().state, RunState::finished);
+    }
+
     void theSameVideoFindsItsProjectAndAnotherDoesNot() {
-        const auto a = defaultProjectPath("clip.mp4", "/videos/a/clip.mp4");
-        QCOMPARE(a, defaultProjectPath("clip.mp4", "/videos/a/clip.mp4"));
-        QVERIFY(a != defaultProjectPath("clip.mp4", "/videos/b/clip.mp4"));
+        const auto a = projectInDataFolder("clip.mp4", "/videos/a/clip.mp4");
+        QCOMPARE(a, projectInDataFolder("clip.mp4", "/videos/a/clip.mp4"));
+        QVERIFY(a != projectInDataFolder("clip.mp4", "/videos/b/clip.mp4"));
         QVERIFY(a.filename().string().starts_with("clip-"));
         QCOMPARE(a.extension(), std::filesystem::path(".eyrie"));
-        const auto odd = defaultProjectPath("a / strange: name *.mp4", "x").filename().string();
+        const auto odd = projectInDataFolder("a / strange: name *.mp4", "x").filename().string();
         QVERIFY(odd.find_first_of("/:* ") == std::string::npos);
+    }
+
+    void aProjectLiesBesideItsVideoUnlessThereIsOneInTheDataFolder() {
+        const auto folder = *home_ / "flight.2";
+        std::filesystem::create_directories(folder);
+        const auto beside = *home_ / "flight.2.eyrie";  // a folder has no ending to be taken off
+        QCOMPARE(projectPlaces("flight.2", folder.string()).front(), beside);
+        QCOMPARE(projectPlaces("clip.mp4", (folder / "clip.mp4").string()).front(), folder / "clip.eyrie");
+        QCOMPARE(projectPlaces("demo scene", "scene:demo").size(), std::size_t(1));
+        const auto hidden = projectInDataFolder("flight.2", folder.string());
+        std::filesystem::create_directories(hidden.parent_path());
+        ProjectFile::create(hidden);
+        QCOMPARE(projectPlaces("flight.2", folder.string()).front(), hidden);
+        ProjectFile::create(beside);
+        QCOMPARE(projectPlaces("flight.2", folder.string()).front(), beside);
+    }
+
+    void aCopyReplacesNothing() {
+        ProjectSession session;
+        QVERIFY(openAndWait(session, test::sceneUnderTest(5)));
+        QSignalSpy problem(&session, &ProjectSession::problem);
+        const auto video = *home_ / "clip.mp4";
+        std::ofstream(video) << "pictures";
+        session.saveProjectCopy(video);
+        QVERIFY(problem.wait(kPatience_ms));
+        QCOMPARE(std::filesystem::file_size(video), std::uintmax_t(8));
+        const auto other = *home_ / "other.eyrie";
+        ProjectFile at_work = ProjectFile::create(other);
+        ensureSequence(at_work, {.path = "/nowhere/other.mp4", .size = {10, 10}, .frame_count = 1});
+        session.saveProjectCopy(other);
+        QVERIFY(problem.wait(kPatience_ms));
+        QCOMPARE(sequencesOf(at_work).front().path, std::string("/nowhere/other.mp4"));
     }
 
     void framesOfASceneAreRenderedOnceAndKeptWithoutLoss() {

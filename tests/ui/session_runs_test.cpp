@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "store/result_writer.h"
 #include "ui/session_support.h"
 
 namespace eyrie::ui {
@@ -157,9 +158,102 @@ class SessionRunsTest : public QObject {
         QCOMPARE(session.runs().size(), std::size_t(2));
         session.renameRun(session.runs()[0].id, QStringLiteral("first try"));
         QVERIFY(QTest::qWaitFor([&] { return session.runs()[0].name == "first try"; }, kPatience_ms));
-        session.removeRun(session.runs()[1].id);
+        const int removed = session.runs()[1].id;
+        session.removeRun(removed);
         QVERIFY(QTest::qWaitFor([&] { return session.runs().size() == 1; }, kPatience_ms));
         QVERIFY(!session.currentRun());
+        QCOMPARE(session.removedRuns().size(), std::size_t(1));
+        session.restoreRun(removed);
+        QVERIFY(QTest::qWaitFor([&] { return session.runs().size() == 2; }, kPatience_ms));
+        QCOMPARE(session.runs()[1].frames_done, 15);
+        QVERIFY(session.removedRuns().empty());
+    }
+
+    void aRemovedRunIsGoneWhenTheProjectWasClosed() {
+        std::filesystem::path project;
+        {
+            ProjectSession session;
+            QVERIFY(openAndWait(session, test::sceneUnderTest(15)));
+            QVERIFY(runAndWait(session));
+            project = session.project();
+            session.removeRun(session.runs()[0].id);
+            QVERIFY(QTest::qWaitFor([&] { return session.runs().empty(); }, kPatience_ms));
+        }
+        ProjectFile file = ProjectFile::open(project);
+        QVERIFY(RunStore(file).removedRuns().empty());
+    }
+
+    void theRunOfAnotherProgramIsWatchedAsItGrows() {
+        ProjectSession session;
+        QVERIFY(openAndWait(session, test::sceneUnderTest(60)));
+        std::optional<ResultWriter> other;
+        RunRecord record;
+        record.sequence = {.path = "/nowhere/scene.mp4", .size = {240, 180}, .frame_count = 60};
+        record.last_frame = 59;
+        other.emplace(session.project(), record, parameterValues(ChainOptions{}));
+        const auto write = [&](FrameIndex frame) {
+            FrameResult result;
+            result.motion.frame = frame;
+            other->write(result);
+        };
+        write(0);
+        QVERIFY(QTest::qWaitFor([&] { return session.runs().size() == 1; }, kPatience_ms));
+        QVERIFY(session.runs()[0].live);
+        session.showRun(session.runs()[0].id);
+        QVERIFY(QTest::qWaitFor([&] { return session.runData() != nullptr; }, kPatience_ms));
+        write(1);
+        write(2);
+        QVERIFY(QTest::qWaitFor([&] { return session.runData()->frames.size() == 3; }, kPatience_ms));
+        other.reset();  // as after a kill: the run was never finished
+        QVERIFY(QTest::qWaitFor([&] { return !session.runs()[0].live; }, kPatience_ms));
+        QCOMPARE(session.runs()[0].state, RunState::running);
+        QVERIFY(QTest::qWaitFor([&] { return session.runData()->facts.state == RunState::stopped; }, kPatience_ms));
+    }
+
+    void aRunIsSummarisedWhenItEnds() {
+        ProjectSession session;
+        QVERIFY(openAndWait(session, test::sceneUnderTest(40)));
+        std::optional<RunFacts> facts;
+        connect(&session, &ProjectSession::runSummarised, this,
+                [&](const RunRecord&, const RunFacts& found) { facts = found; });
+        QVERIFY(runAndWait(session));
+        QVERIFY(QTest::qWaitFor([&] { return facts.has_value(); }, kPatience_ms));
+        QCOMPARE(facts->state, RunState::finished);
+        QCOMPARE(facts->counts.frames, 40);
+        QCOMPARE(facts->scale_origin, ScaleOrigin::given);
+    }
+
+    void theNextVideoIsNotDisturbedByARunThatStillEnds() {
+        auto door = std::make_shared<Door>();
+        ProjectSession session;
+        QVERIFY(openAndWait(session, test::sceneUnderTest(200, [door](FrameIndex f) { door->pass(f); })));
+        door->closeFrom(20);
+        session.startRun();
+        QVERIFY(QTest::qWaitFor([&] { return !session.runs().empty() && session.runs().back().frames_done >= 10; },
+                                kPatience_ms));
+        Media next = test::sceneUnderTest(50);
+        next.identity = "/nowhere/next.mp4";
+        QVERIFY(openAndWait(session, next));
+        QSignalSpy finished(&session, &ProjectSession::runFinished);
+        door->open();
+        QVERIFY(session.running() ? finished.wait(kPatience_ms) : true);
+        QVERIFY(shows(session, 0));
+        QCOMPARE(session.currentFrame(), 0);
+        QVERIFY(session.runs().empty());
+    }
+
+    void theNumberOfAFrameIsThatOfItsPicture() {
+        auto door = std::make_shared<Door>();
+        ProjectSession session;
+        QVERIFY(openAndWait(session, test::sceneUnderTest(60, [door](FrameIndex f) { door->pass(f); })));
+        QVERIFY(shows(session, 0));
+        door->closeFrom(40);  // its picture takes its time
+        session.goToFrame(50);
+        QCOMPARE(session.currentFrame(), 50);
+        QCOMPARE(session.shownFrame(), 0);
+        door->open();
+        QVERIFY(shows(session, 50));
+        QCOMPARE(session.shownFrame(), 50);
     }
 
     void selectingATrackReadsItsStates() {

@@ -117,11 +117,12 @@ class SessionTest : public QObject {
             project = session.project();
         }
         ProjectSession session;
-        QSignalSpy problem(&session, &ProjectSession::problem);
+        QSignalSpy not_found(&session, &ProjectSession::videoNotFound);
         QSignalSpy ready(&session, &ProjectSession::ready);
         session.open(project);
         QVERIFY(ready.wait(kPatience_ms));
-        QCOMPARE(problem.count(), 1);
+        QCOMPARE(not_found.count(), 1);
+        QVERIFY(session.videoMissing());
         QCOMPARE(session.video()->frame_count, 30);
         QCOMPARE(session.settings().gsd_m_per_px, 0.25);  // what the run was given; a next one gets it too
         session.goToFrame(20);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <QAbstractButton>
 #include <QCoreApplication>
+#include <QMessageBox>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTest>
@@ -103,6 +105,19 @@ inline Media sceneUnderTest(int frames, std::function<void(FrameIndex)> before_r
         return std::make_unique<SceneSource>(frames, before_read);
     };
     return media;
+}
+
+/// Presses the button of this text in the question that is open over a window; answers whether there is one.
+inline bool answer(QWidget& window, const QString& button_text) {
+    for (auto* box : window.findChildren<QMessageBox*>()) {
+        if (!box->isVisible()) continue;
+        for (QAbstractButton* button : box->buttons()) {
+            if (button->text().remove(QLatin1Char('&')) != button_text) continue;
+            button->click();
+            return true;
+        }
+    }
+    return false;
 }
 
 inline constexpr int kPatience_ms = 60'000;  ///< for what comes sooner on any machine that works

@@ -49,8 +49,8 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     ignore = add(tr("Ignore from here"), {QKeySequence(Qt::Key_I)});
     spread_flags = add(tr("Give these flags to the selected objects over the range of frames above"),
                        {QKeySequence(tr("Shift+O"))});
-    turn_left = add(tr("Turn by 1° against the clock"), {QKeySequence(Qt::Key_BracketLeft)});
-    turn_right = add(tr("Turn by 1° with the clock"), {QKeySequence(Qt::Key_BracketRight)});
+    turn_left = add(tr("Turn by 1° counter-clockwise"), {QKeySequence(Qt::Key_BracketLeft)});
+    turn_right = add(tr("Turn by 1° clockwise"), {QKeySequence(Qt::Key_BracketRight)});
     const Qt::Key arrows[] = {Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down};
     const Qt::KeyboardModifier steps[] = {Qt::NoModifier, Qt::ControlModifier, Qt::ShiftModifier};
     const QString names[] = {tr("left"), tr("right"), tr("up"), tr("down")};
@@ -67,8 +67,8 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
 
     section(tr("Go"));
     next_frame = add(tr("Next frame"), {QKeySequence(Qt::Key_D), QKeySequence(Qt::Key_Period)});
-    previous_frame = add(tr("Frame before"), {QKeySequence(Qt::Key_A), QKeySequence(Qt::Key_Comma)});
-    ten_on = add(tr("10 frames on"), {QKeySequence(tr("Shift+D"))});
+    previous_frame = add(tr("Previous frame"), {QKeySequence(Qt::Key_A), QKeySequence(Qt::Key_Comma)});
+    ten_on = add(tr("10 frames forward"), {QKeySequence(tr("Shift+D"))});
     ten_back = add(tr("10 frames back"), {QKeySequence(tr("Shift+A"))});
     next_object = add(tr("Next object"), {QKeySequence(Qt::Key_N)});
     previous_object = add(tr("Object before"), {QKeySequence(tr("Shift+N"))});

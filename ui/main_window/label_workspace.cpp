@@ -32,6 +32,15 @@
 
 namespace eyrie::ui {
 
+namespace {
+const QString kRightTopic = QStringLiteral("right to label");
+
+QString asSentence(const std::string& reason) {
+    const QString text = QString::fromStdString(reason);
+    return text.left(1).toUpper() + text.mid(1) + QLatin1Char('.');
+}
+}  // namespace
+
 LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&around.window), around_(around) {
     labels_ = new LabelSession(around_.session, this);
     proposals_ = new LabelProposals(around_.session, *labels_, this);
@@ -150,13 +159,12 @@ void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::problem, &around_.session, &ProjectSession::problem);
     connect(labels_, &LabelSession::notice, this, &LabelWorkspace::tell);
     connect(labels_, &LabelSession::opened, this, [this] {
-        around_.messages.dismiss(MessageKind::warning);
+        around_.messages.dismissTopic(kRightTopic);
         if (labels_->readOnly())
-            around_.messages.showMessage(
-                MessageKind::warning,
-                tr("Labels are read-only here: %1.").arg(QString::fromStdString(labels_->store()->readOnlyReason())),
-                tr("Try again"), [this] { labels_->tryToWrite(); });
-        else if (!around_.session.currentRun() && labels_->annotations().objects.empty())
+            around_.messages.showTopic(kRightTopic, MessageKind::warning,
+                                       asSentence(labels_->store()->readOnlyReason()), tr("Try again"),
+                                       [this] { labels_->tryToWrite(); });
+        else if (active_ && !around_.session.currentRun() && labels_->annotations().objects.empty())
             tell(tr(
                 "This video has no run yet: boxes are interpolated in the image. After a run they follow the ground, "
                 "however the camera moves."));
@@ -275,8 +283,7 @@ void LabelWorkspace::enableActions() {
 }
 
 void LabelWorkspace::tell(const QString& text) {
-    around_.messages.dismiss(MessageKind::info);  // the newest counts
-    around_.messages.showMessage(MessageKind::info, text);
+    around_.messages.showTopic(kLabelTopic, MessageKind::info, text);  // the newest counts
 }
 
 void LabelWorkspace::followObject() {

@@ -34,6 +34,9 @@ class TimelineView;
 class VideoView;
 class WindowActions;
 
+/// What the label workspace says it says about this: one message at a time.
+inline constexpr char kLabelTopic[] = "labelling";
+
 /// What the label workspace is joined with.
 struct LabelSurroundings {
     ProjectSession& session;

@@ -24,19 +24,19 @@ void LabelWorkspace::offer(QAction* action, const std::function<std::optional<La
     const FrameIndex frame = around_.session.currentFrame();
     if (before.action == action && before.frame == frame && before.selection == labels_->selection() && before.plan &&
         before.plan->version == labels_->version()) {
-        around_.messages.dismiss(MessageKind::info);
+        around_.messages.dismissTopic(kLabelTopic);
         editor_->carryOut(before.plan);
         return;
     }
     auto plan = make();
     if (!plan) return;
     const QString key = action->shortcut().toString(QKeySequence::NativeText);
-    const QString text =
-        tr("%1 → %2. %3 again does it, Esc does not.").arg(QString::fromStdString(plan->edit.name), plan->text, key);
+    const QString text = tr("%1 → %2. Press %3 again to do it, Esc to leave it.")
+                             .arg(QString::fromStdString(plan->edit.name), plan->text, key);
     planned_ = {action, frame, labels_->selection(), std::move(plan)};
     showScene();
-    around_.messages.dismiss(MessageKind::info);
-    around_.messages.showMessage(MessageKind::info, text, tr("Do it"), [this, action] { action->trigger(); });
+    around_.messages.showTopic(kLabelTopic, MessageKind::info, text, tr("Do it"),
+                               [this, action] { action->trigger(); });
 }
 
 void LabelWorkspace::identityWithOther(bool fuse) {

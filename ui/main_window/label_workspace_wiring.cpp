@@ -174,7 +174,7 @@ void LabelWorkspace::escape() {
         tracking_->stop();
         fitting_->stop();
     } else if (std::exchange(planned_, {}).plan) {
-        around_.messages.dismiss(MessageKind::info);
+        around_.messages.dismissTopic(kLabelTopic);
         showScene();
     } else if (!around_.canvas.hasFocus()) {
         around_.canvas.setFocus();

@@ -1,14 +1,13 @@
 #include "main_window/main_window.h"
 
 #include <QDockWidget>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QMenu>
 #include <QMenuBar>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
+#include <filesystem>
 #include <utility>
 
 #include "main_window/evaluation_docks.h"
@@ -16,12 +15,15 @@
 #include "main_window/parameter_binding.h"
 #include "main_window/review_docks.h"
 #include "main_window/run_bar.h"
+#include "main_window/run_guard.h"
 #include "main_window/status_fields.h"
 #include "main_window/timeline_binding.h"
 #include "main_window/transport_bar.h"
 #include "main_window/tuning.h"
 #include "main_window/welcome_panel.h"
 #include "main_window/window_actions.h"
+#include "models/run_text.h"
+#include "models/runs_model.h"
 #include "panels/message_bar.h"
 #include "panels/parameter_form.h"
 #include "panels/stage_times_chart.h"
@@ -34,10 +36,10 @@ namespace eyrie::ui {
 
 namespace {
 constexpr QSize kFirstSize(1500, 940);
-
-QString text(const std::filesystem::path& path) {
-    return QString::fromStdString(path.string());
-}
+/// What messages are about; a later one about the same takes the place of the former.
+const QString kGsdTopic = QStringLiteral("gsd");
+const QString kRunTopic = QStringLiteral("run");
+const QString kVideoTopic = QStringLiteral("video");
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
@@ -53,6 +55,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildCentre();
     buildToolBar();
     resize(kFirstSize);
+    guard_ = new RunGuard(session_, *this);
     inspection_ = new Inspection(session_, this);
     docks_ = new ReviewDocks(session_, *inspection_, *this);
     parameters_ = new ParameterBinding(session_, docks_->parameterForm(), this);
@@ -136,8 +139,8 @@ void MainWindow::buildMenus() {
         menu->addActions(section.actions);
         if (section.actions.contains(actions_->open_project)) {
             recent_menu_ = new QMenu(tr("Open &recent"), menu);
-            menu->insertMenu(actions_->save_copy, recent_menu_);
-            menu->insertSeparator(actions_->save_copy);
+            menu->insertMenu(actions_->save_as, recent_menu_);
+            menu->insertSeparator(actions_->save_as);
             menu->insertSeparator(actions_->quit);
         }
         if (section.actions.contains(actions_->fit)) {
@@ -155,11 +158,12 @@ void MainWindow::wireFileActions() {
     connect(actions_->open_video, &QAction::triggered, this, &MainWindow::openVideo);
     connect(actions_->open_folder, &QAction::triggered, this, &MainWindow::openFolder);
     connect(actions_->open_project, &QAction::triggered, this, &MainWindow::openProject);
+    connect(actions_->save_as, &QAction::triggered, this, &MainWindow::saveAs);
     connect(actions_->save_copy, &QAction::triggered, this, &MainWindow::saveCopy);
     connect(actions_->demo, &QAction::triggered, this, &MainWindow::showDemo);
     connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
-    connect(welcome_, &WelcomePanel::recentChosen, this, &MainWindow::openPath);
-    connect(actions_->run, &QAction::triggered, &session_, &ProjectSession::startRun);
+    connect(welcome_, &WelcomePanel::recentChosen, this, &MainWindow::openRecent);
+    connect(actions_->run, &QAction::triggered, this, &MainWindow::startRun);
     connect(actions_->stop, &QAction::triggered, &session_, &ProjectSession::stopRun);
     connect(actions_->follow, &QAction::triggered, &session_, [this](bool on) {
         if (on)
@@ -167,7 +171,15 @@ void MainWindow::wireFileActions() {
         else
             session_.goToFrame(session_.currentFrame());
     });
+    connect(actions_->continue_run, &QAction::triggered, &session_, [this] {
+        if (session_.currentRun()) session_.continueRun(*session_.currentRun());
+    });
+    connect(docks_, &ReviewDocks::continueRequested, &session_, &ProjectSession::continueRun);
+    connect(actions_->restore_run, &QAction::triggered, &session_, [this] {
+        if (!session_.removedRuns().empty()) session_.restoreRun(session_.removedRuns().back().id);
+    });
     connect(docks_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
+    connect(docks_, &ReviewDocks::removeRequested, guard_, &RunGuard::remove);
     connect(docks_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
     connect(tuning_, &Tuning::storedParametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
     connect(tuning_, &Tuning::parameterRequested, parameters_, [this](const QString& name, const QString& value) {
@@ -230,12 +242,51 @@ void MainWindow::wireSession() {
     connect(&session_, &ProjectSession::ready, this, &MainWindow::becameReady);
     connect(&session_, &ProjectSession::runFinished, this, &MainWindow::runEnded);
     connect(&session_, &ProjectSession::runStarted, this, &MainWindow::enableActions);
-    connect(&session_, &ProjectSession::currentRunChanged, this, &MainWindow::updateTitle);
+    connect(&session_, &ProjectSession::runsChanged, this, &MainWindow::enableActions);
+    connect(&session_, &ProjectSession::currentRunChanged, this, &MainWindow::enableActions);
     connect(&session_, &ProjectSession::projectChanged, this, &MainWindow::enableActions);
+    connect(&session_, &ProjectSession::projectChanged, this, &MainWindow::updateTitle);
+    connect(&session_, &ProjectSession::projectChanged, this, [this] {
+        if (shown_project_.empty() || session_.project().empty()) return;  // becameReady() follows
+        shown_project_ = session_.project();
+        rememberProject();
+    });
+    wireRunMessages();
     connect(&session_, &ProjectSession::followingChanged, this, [this](bool following) {
         actions_->follow->setChecked(following);
         enableActions();
     });
+}
+
+void MainWindow::wireRunMessages() {
+    connect(&session_, &ProjectSession::runSummarised, this, [this](const RunRecord& run, const RunFacts& facts) {
+        const bool doubtful = facts.counts.tracks == 0 || facts.state == RunState::failed;
+        messages_->showTopic(kRunTopic, doubtful ? MessageKind::warning : MessageKind::info, runSummaryText(run, facts),
+                             tr("Show the tracks"), [this] { docks_->showTrackList(); });
+    });
+    connect(&session_, &ProjectSession::runPreparing, this, [this] {
+        // What was wrong with the former run, or kept this one from starting, is of no use any more.
+        messages_->dismiss(MessageKind::error);
+        messages_->dismissTopic(kRunTopic);
+    });
+    connect(&session_, &ProjectSession::runRemoved, this, [this](const RunRecord& run) {
+        messages_->showTopic(
+            kRunTopic, MessageKind::info,
+            tr("Removed “%1”. It can be brought back until the project is closed.").arg(shownName(run)),
+            tr("Bring it back"), [this, id = run.id] { session_.restoreRun(id); });
+    });
+    connect(&session_, &ProjectSession::videoNotFound, this, [this](const QString& message) {
+        messages_->showTopic(kVideoTopic, MessageKind::warning,
+                             tr("%1. The results can be looked at without it.").arg(message), tr("Locate…"),
+                             [this] { locateVideo(); });
+    });
+    connect(run_bar_, &RunBar::gsdRefused, this,
+            [this](const QString& message) { messages_->showTopic(kGsdTopic, MessageKind::error, message); });
+    connect(run_bar_, &RunBar::gsdTouched, this, [this] { messages_->dismissTopic(kGsdTopic); });
+}
+
+void MainWindow::startRun() {
+    if (run_bar_->takeEdits()) session_.startRun();
 }
 
 void MainWindow::enableActions() {
@@ -248,14 +299,18 @@ void MainWindow::enableActions() {
     actions_->full_screen->setEnabled(true);
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);
+    actions_->continue_run->setEnabled(session_.currentRun() && session_.canContinue(*session_.currentRun()));
     actions_->follow->setEnabled(running);
+    actions_->save_as->setEnabled(has_video && !running);
     actions_->save_copy->setEnabled(!session_.project().empty());
+    actions_->restore_run->setEnabled(!session_.removedRuns().empty());
 }
 
 void MainWindow::updateTitle() {
-    QString title = tr("Eyrie");
-    if (session_.media()) title = tr("%1 – Eyrie").arg(QString::fromStdString(session_.media()->name));
-    setWindowTitle(title);
+    QStringList parts;
+    if (session_.media()) parts << QString::fromStdString(session_.media()->name);
+    if (!session_.project().empty()) parts << QString::fromStdString(session_.project().filename().string());
+    setWindowTitle((parts << tr("Eyrie")).join(QStringLiteral(" – ")));
 }
 
 void MainWindow::showProblem(const QString& message) {
@@ -268,119 +323,6 @@ void MainWindow::showNotice(const QString& message) {
 
 void MainWindow::focusCanvas() {
     canvas_->setFocus();
-}
-
-// ---- opening and closing
-// ---------------------------------------------------------------------------------------------
-
-void MainWindow::start(const StartOptions& options) {
-    start_ = options;
-    if (options.demo) {
-        showDemo();
-        return;
-    }
-    if (options.input.empty()) return;
-    run_when_ready_ = true;
-    if (options.frame_rate_hz > 0)
-        session_.openMedia(videoMedia(options.input, options.frame_rate_hz));
-    else
-        session_.open(options.input);
-}
-
-void MainWindow::openVideo() {
-    const QString path = QFileDialog::getOpenFileName(
-        this, tr("Open video"), settings_.value(QStringLiteral("folder"), QString()).toString(),
-        tr("Videos (*.mp4 *.mkv *.mov *.avi *.ts *.m2ts *.mts *.mpg *.mpeg *.m4v *.webm *.wmv *.mxf);;All files (*)"));
-    if (!path.isEmpty()) openPath(path);
-}
-
-void MainWindow::openFolder() {
-    const QString path = QFileDialog::getExistingDirectory(
-        this, tr("Open folder of images"), settings_.value(QStringLiteral("folder"), QString()).toString());
-    if (!path.isEmpty()) openPath(path);
-}
-
-void MainWindow::openProject() {
-    const QString path = QFileDialog::getOpenFileName(this, tr("Open project"),
-                                                      settings_.value(QStringLiteral("folder"), QString()).toString(),
-                                                      tr("Eyrie projects (*.eyrie);;All files (*)"));
-    if (!path.isEmpty()) openPath(path);
-}
-
-void MainWindow::openPath(const QString& path) {
-    rememberView();
-    play_when_done_ = false;
-    run_when_ready_ = false;
-    settings_.setValue(QStringLiteral("folder"), QFileInfo(path).path());
-    session_.open(path.toStdString());
-}
-
-void MainWindow::saveCopy() {
-    const QString suggestion = QFileInfo(text(session_.project())).fileName();
-    QString path =
-        QFileDialog::getSaveFileName(this, tr("Save project as"), suggestion, tr("Eyrie projects (*.eyrie)"));
-    if (path.isEmpty()) return;
-    if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".eyrie");
-    session_.saveProjectCopy(path.toStdString());
-}
-
-void MainWindow::showDemo() {
-    rememberView();
-    run_when_ready_ = true;
-    play_when_done_ = true;
-    session_.openMedia(sceneMedia("demo"));
-}
-
-void MainWindow::becameReady(bool has_results) {
-    const bool run_if_needed = std::exchange(run_when_ready_, false);
-    const StartOptions asked = std::exchange(start_, {});
-    if (asked.gsd_m_per_px > 0) {
-        session_.settings().gsd_m_per_px = asked.gsd_m_per_px;
-        run_bar_->refresh();
-    }
-    if (session_.media() && QFileInfo::exists(QString::fromStdString(session_.media()->identity))) {
-        settings_.addRecent(QString::fromStdString(session_.media()->identity));
-        showRecent();
-    }
-    shown_project_ = session_.project();
-    restoreView();
-    focusCanvas();
-    // Another scale than that of the run shown is another result.
-    const bool other_scale =
-        asked.gsd_m_per_px > 0 && has_results && session_.scale().gsd_m_per_px != asked.gsd_m_per_px;
-    if (asked.run || other_scale || (run_if_needed && !has_results))
-        session_.startRun();
-    else if (run_if_needed)
-        session_.togglePlay();
-    if (play_when_done_) actions_->loop->setChecked(true);
-}
-
-void MainWindow::runEnded(const RunSummary& summary) {
-    enableActions();
-    if (summary.outcome == RunOutcome::stopped)
-        showNotice(tr("Stopped after %1 of %2 frames. What was done is in the project.")
-                       .arg(summary.frames_done)
-                       .arg(summary.frames_total));
-    if (std::exchange(play_when_done_, false) && summary.outcome == RunOutcome::finished) {
-        session_.goToFrame(0);
-        session_.togglePlay();
-    }
-}
-
-void MainWindow::showRecent() {
-    const QStringList recent = settings_.recent();
-    welcome_->setRecent(recent);
-    recent_menu_->clear();
-    for (const QString& path : recent)
-        recent_menu_->addAction(QFileInfo(path).fileName(), this, [this, path] { openPath(path); })->setToolTip(path);
-    recent_menu_->setEnabled(!recent.isEmpty());
-    if (recent.isEmpty()) return;
-    recent_menu_->setToolTipsVisible(true);
-    recent_menu_->addSeparator();
-    recent_menu_->addAction(tr("Forget these"), this, [this] {
-        settings_.clearRecent();
-        showRecent();
-    });
 }
 
 }  // namespace eyrie::ui

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <QMainWindow>
-#include <QStringList>
+#include <functional>
 #include <memory>
 
 #include "main_window/start_options.h"
@@ -22,6 +22,7 @@ class MessageBar;
 class ParameterBinding;
 class ReviewDocks;
 class RunBar;
+class RunGuard;
 class StatusFields;
 class TimelineBinding;
 class TimelineView;
@@ -75,12 +76,20 @@ class MainWindow : public QMainWindow {
     void buildEvaluation();
     /// The layout of the review workspace, whichever is shown.
     QByteArray reviewLayout() const;
+    void wireRunMessages();
     void openVideo();
     void openFolder();
     void openProject();
+    void locateVideo();
+    void saveAs();
     void saveCopy();
+    QString chosenTarget(const QString& title);
     void openPath(const QString& path);
+    void openRecent(const RecentProject& project);
+    void leave(std::function<void()> then);
+    void rememberProject();
     void showDemo();
+    void startRun();
     void showProblem(const QString& message);
     void showNotice(const QString& message);
     void becameReady(bool has_results);
@@ -99,6 +108,7 @@ class MainWindow : public QMainWindow {
     StartOptions start_;           ///< what is still to be done of it
     bool run_when_ready_ = false;  ///< opened from the command line, by the demo or by dropping: run if there is no run
     bool play_when_done_ = false;
+    bool closing_ = false;                 ///< the user was asked and answered
     std::filesystem::path shown_project_;  ///< whose view is to be remembered
 
     WindowActions* actions_;
@@ -110,6 +120,7 @@ class MainWindow : public QMainWindow {
     TimelineView* timeline_;
     LabelTimeline* label_rows_;
     RunBar* run_bar_;
+    RunGuard* guard_;
     StatusFields* status_;
     Inspection* inspection_;
     ReviewDocks* docks_;

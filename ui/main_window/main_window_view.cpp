@@ -24,6 +24,7 @@
 #include "main_window/main_window.h"
 #include "main_window/parameter_binding.h"
 #include "main_window/review_docks.h"
+#include "main_window/run_guard.h"
 #include "main_window/stacks_panel.h"
 #include "main_window/stage_chips.h"
 #include "main_window/status_fields.h"
@@ -159,7 +160,7 @@ void MainWindow::wireInspection() {
     connect(&docks_->stacks(), &StacksPanel::stackingRunRequested, this, [this] {
         parameters_->adoptRunParameters();
         parameters_->setValue("stacking.enabled", "true");
-        session_.startRun();
+        startRun();
     });
 }
 
@@ -218,6 +219,14 @@ void MainWindow::rememberView() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+    if (!closing_ && session_.running() && !session_.stopping()) {
+        event->ignore();
+        guard_->beforeEnding(tr("the window closes"), [this] {
+            closing_ = true;
+            close();
+        });
+        return;
+    }
     rememberView();
     settings_.setGeometry(saveGeometry());
     settings_.setLayout(reviewLayout());

@@ -10,6 +10,7 @@
 #include "main_window/stacks_panel.h"
 #include "main_window/stages_panel.h"
 #include "main_window/sweep_panel.h"
+#include "models/run_text.h"
 #include "panels/empty_state.h"
 #include "panels/parameter_form.h"
 #include "panels/runs_panel.h"
@@ -86,6 +87,14 @@ void ReviewDocks::wireSweeps(ParameterBinding& parameters) {
     connect(sweeps_, &SweepPanel::notice, &parameters, &ParameterBinding::notice);
 }
 
+void ReviewDocks::showTrackList() {
+    for (QDockWidget* dock : docks_) {
+        if (dock->widget() != tracks_) continue;
+        dock->show();
+        dock->raise();
+    }
+}
+
 void ReviewDocks::wireRuns() {
     connect(&session_, &ProjectSession::videoChanged, this, &ReviewDocks::showRuns);
     connect(&session_, &ProjectSession::runsChanged, this, &ReviewDocks::showRuns);
@@ -94,11 +103,13 @@ void ReviewDocks::wireRuns() {
     connect(&session_, &ProjectSession::runStarted, this, &ReviewDocks::showRuns);
     connect(&session_, &ProjectSession::runFinished, this, &ReviewDocks::showRuns);
     connect(&session_, &ProjectSession::liveFrames, this, [this] {
-        if (session_.running() && !session_.runs().empty()) runs_model_->updateRun(session_.runs().back());
+        if (const RunRecord* run = session_.ownRun()) runs_model_->updateRun(*run);
     });
     connect(runs_model_, &RunsModel::renameRequested, &session_, &ProjectSession::renameRun);
     connect(runs_, &RunsPanel::runActivated, &session_, &ProjectSession::showRun);
-    connect(runs_, &RunsPanel::removeRequested, &session_, &ProjectSession::removeRun);
+    runs_->setContinuable([this](int run_id) { return session_.canContinue(run_id); });
+    connect(runs_, &RunsPanel::continueRequested, this, &ReviewDocks::continueRequested);
+    connect(runs_, &RunsPanel::removeRequested, this, &ReviewDocks::removeRequested);
     connect(runs_, &RunsPanel::runRequested, this, &ReviewDocks::runRequested);
     connect(runs_, &RunsPanel::parametersRequested, this, [this](int run_id) {
         if (session_.currentRun() == run_id && session_.runData()) {
@@ -123,7 +134,7 @@ void ReviewDocks::showRuns() {
             tr("Run with these defaults"));
     else
         runs_->emptyState()->setTexts(tr("The runs of a video are kept here. Open one to begin."));
-    runs_model_->setLiveRun(session_.running() && !session_.runs().empty() ? session_.runs().back().id : 0);
+    runs_model_->setLiveRun(session_.ownRun() != nullptr ? session_.ownRun()->id : 0);
     runs_model_->setRuns(session_.runs());
     runs_->selectId(session_.currentRun().value_or(0));
 }
@@ -139,7 +150,20 @@ void ReviewDocks::wireTracks() {
     });
 }
 
+void ReviewDocks::explainNoTracks() {
+    const auto& data = session_.runData();
+    QString text =
+        tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and "
+           "size.");
+    if (data && !data->record.live && !(session_.ownRun() != nullptr && session_.ownRun()->id == data->record.id))
+        text = whyNoTracks(data->facts);
+    else if (data)
+        text = tr("No tracks yet. They appear while the run works.");
+    tracks_->emptyState()->setTexts(text);
+}
+
 void ReviewDocks::showTracks() {
+    explainNoTracks();
     tracks_model_->setTracks(session_.runData() ? session_.runData()->tracks : std::vector<TrackSummary>(),
                              session_.scale());
     tracks_->selectId(session_.selectedTrack().value_or(0));

@@ -42,11 +42,15 @@ class ReviewDocks : public QObject {
     MotionStatisticsPanel& statistics() { return *statistics_; }
     SweepPanel& sweeps() { return *sweeps_; }
 
+    /// Brings the list of tracks to the front.
+    void showTrackList();
     /// What a sweep found goes into the parameters of the next run.
     void wireSweeps(ParameterBinding& parameters);
 
  signals:
     void runRequested();
+    void removeRequested(int run_id);
+    void continueRequested(int run_id);
     void parametersRequested();
 
  private:
@@ -55,6 +59,7 @@ class ReviewDocks : public QObject {
     void wireTracks();
     void showRuns();
     void showTracks();
+    void explainNoTracks();
 
     ProjectSession& session_;
     QMainWindow& window_;

@@ -9,12 +9,12 @@
 #include <cmath>
 
 #include "main_window/window_actions.h"
+#include "models/gsd_text.h"
+#include "models/run_text.h"
 
 namespace eyrie::ui {
 
 namespace {
-constexpr double kLargestGsd = 100;
-
 QToolButton* buttonOf(QAction* action, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setDefaultAction(action);
@@ -29,18 +29,27 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     run_button_ = buttonOf(actions.run, this);
     stop_button_ = buttonOf(actions.stop, this);
     stop_button_->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    auto* continue_button = buttonOf(actions.continue_run, this);
+    continue_button->setText(tr("Continue"));
+    const auto offer = [continue_button, action = actions.continue_run] {
+        continue_button->setText(tr("Continue"));
+        continue_button->setVisible(action->isEnabled());
+    };
+    connect(actions.continue_run, &QAction::enabledChanged, continue_button, offer);
+    offer();
 
     gsd_ = new QLineEdit(this);
     gsd_->setObjectName(QStringLiteral("gsd"));
     gsd_->setPlaceholderText(tr("unknown: speeds in px/frame"));
     gsd_->setToolTip(
-        tr("Ground sampling distance: metres on the ground per pixel. Without it the chain assumes 0.25 m/px "
-           "and shows pixels instead of metres and km/h."));
+        tr("Ground sampling distance: metres on the ground per pixel. Without it the run looks at the traffic for a "
+           "scale to work with, and results are shown in pixels instead of metres and km/h."));
     gsd_->setAccessibleName(tr("Ground sampling distance, metres per pixel"));
     gsd_->setClearButtonEnabled(true);
     gsd_->setMinimumWidth(fontMetrics().horizontalAdvance(gsd_->placeholderText()) + 40);
     gsd_->setMaximumWidth(gsd_->minimumWidth() + 20);
-    connect(gsd_, &QLineEdit::editingFinished, this, &RunBar::gsdEdited);
+    connect(gsd_, &QLineEdit::editingFinished, this, &RunBar::takeGsd);
+    connect(gsd_, &QLineEdit::textEdited, this, &RunBar::gsdTouched);
     connect(gsd_, &QLineEdit::returnPressed, this, &RunBar::editingDone);
 
     frame_rate_ = new QDoubleSpinBox(this);
@@ -49,7 +58,9 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     frame_rate_->setSuffix(tr(" fps"));
     frame_rate_->setSpecialValueText(QStringLiteral("–"));
     frame_rate_->setKeyboardTracking(false);
-    frame_rate_->setToolTip(tr("Frames per second of the video. Folders of images do not tell: give theirs."));
+    frame_rate_->setToolTip(
+        tr("Frames per second of the video. Folders of images do not tell: give theirs. The project "
+           "remembers what is given here."));
     frame_rate_->setAccessibleName(tr("Frames per second"));
     connect(frame_rate_, &QDoubleSpinBox::editingFinished, this, &RunBar::frameRateEdited);
 
@@ -68,6 +79,7 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     layout->setContentsMargins(4, 2, 4, 2);
     layout->addWidget(run_button_);
     layout->addWidget(stop_button_);
+    layout->addWidget(continue_button);
     const auto named = [&](const QString& name, QWidget* field) {
         auto* label = new QLabel(name, this);
         label->setBuddy(field);
@@ -84,6 +96,9 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
 
     connect(&session_, &ProjectSession::videoChanged, this, &RunBar::refresh);
     connect(&session_, &ProjectSession::ready, this, &RunBar::refresh);
+    connect(&session_, &ProjectSession::scaleChanged, this, &RunBar::refresh);
+    connect(&session_, &ProjectSession::runsChanged, this, &RunBar::showGuess);
+    connect(&session_, &ProjectSession::currentRunChanged, this, &RunBar::showGuess);
     connect(&session_, &ProjectSession::followingChanged, this, &RunBar::enable);
     connect(&session_, &ProjectSession::runStarted, this, &RunBar::enable);
     connect(&session_, &ProjectSession::runFinished, this, &RunBar::enable);
@@ -105,7 +120,27 @@ void RunBar::refresh() {
         frame_rate_->setValue(0);
     }
     refreshing_ = false;
+    emit gsdTouched();
+    showGuess();
     enable();
+}
+
+void RunBar::showGuess() {
+    const SceneScale scale = session_.scale();
+    // Without a run nothing was estimated yet.
+    gsd_->setPlaceholderText(session_.currentRun() && originOf(scale) == ScaleOrigin::estimated
+                                 ? tr("unknown; estimated %1").arg(locale().toString(scale.gsd_m_per_px, 'g', 3))
+                                 : tr("unknown: speeds in px/frame"));
+}
+
+bool RunBar::takeEdits() {
+    // A click on Run or its key leaves the focus where it is; what was typed counts all the same.
+    frame_rate_->interpretText();
+    first_frame_->interpretText();
+    last_frame_->interpretText();
+    takeRange();
+    takeFrameRate();
+    return takeGsd();
 }
 
 void RunBar::enable() {
@@ -113,31 +148,34 @@ void RunBar::enable() {
     for (QWidget* field :
          {static_cast<QWidget*>(gsd_), static_cast<QWidget*>(first_frame_), static_cast<QWidget*>(last_frame_)})
         field->setEnabled(idle);
-    frame_rate_->setEnabled(idle && session_.video()->is_image_sequence);
+    frame_rate_->setEnabled(idle && !session_.videoMissing());
     stop_button_->setVisible(session_.running());
 }
 
-void RunBar::gsdEdited() {
-    if (refreshing_) return;
-    QString text = gsd_->text().trimmed();
-    bool understood = true;
-    double value = text.isEmpty() ? 0 : locale().toDouble(text, &understood);
-    if (!understood) value = QLocale::c().toDouble(text, &understood);
-    const bool valid = text.isEmpty() || (understood && std::isfinite(value) && value > 0 && value <= kLargestGsd);
-    if (!valid) {
-        emit session_.problem(tr("GSD “%1” is not a number of metres per pixel above 0 and up to %2. Leave the field "
-                                 "empty if it is not known.")
-                                  .arg(text)
-                                  .arg(kLargestGsd));
-        refresh();
-        return;
+bool RunBar::takeGsd() {
+    if (refreshing_) return true;
+    const auto value = gsdFromText(gsd_->text());
+    if (!value) {
+        emit gsdRefused(
+            tr("GSD “%1” is not a number of metres per pixel above 0 and up to %2. Leave the field empty if "
+               "it is not known.")
+                .arg(gsd_->text().trimmed())
+                .arg(kLargestGsd));
+        return false;
     }
-    session_.settings().gsd_m_per_px = value;
+    emit gsdTouched();
+    session_.settings().gsd_m_per_px = *value;
+    return true;
 }
 
 void RunBar::frameRateEdited() {
     if (refreshing_ || !session_.video()) return;
     emit editingDone();
+    takeFrameRate();
+}
+
+void RunBar::takeFrameRate() {
+    if (!session_.video() || !frame_rate_->isEnabled()) return;
     if (frame_rate_->value() <= 0) {
         refresh();
         return;
@@ -148,11 +186,16 @@ void RunBar::frameRateEdited() {
 
 void RunBar::rangeEdited() {
     if (refreshing_ || !session_.video()) return;
+    takeRange();
+    emit editingDone();
+}
+
+void RunBar::takeRange() {
+    if (!session_.video()) return;
     if (last_frame_->value() < first_frame_->value()) last_frame_->setValue(first_frame_->value());
     FrameRange& range = session_.settings().range;
     range.first = first_frame_->value();
     range.last = last_frame_->value() >= session_.video()->frame_count - 1 ? -1 : last_frame_->value();
-    emit editingDone();
 }
 
 }  // namespace eyrie::ui

@@ -25,15 +25,25 @@ class RunBar : public QWidget {
 
     /// Takes the values of the session's settings and video.
     void refresh();
+    /// What stands in the fields becomes what the next run is made with, whether its editing was finished or not.
+    /// False, after gsdRefused(), when it cannot.
+    bool takeEdits();
 
  signals:
     /// Editing is over: the keys belong to the canvas again.
     void editingDone();
+    /// What was typed is no GSD; it stays in the field, to be mended.
+    void gsdRefused(const QString& message);
+    /// The GSD is being mended, or is good: what was said about it no longer holds.
+    void gsdTouched();
 
  private:
-    void gsdEdited();
+    bool takeGsd();
+    void showGuess();
     void frameRateEdited();
+    void takeFrameRate();
     void rangeEdited();
+    void takeRange();
     void enable();
 
     ProjectSession& session_;

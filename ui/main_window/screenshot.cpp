@@ -36,6 +36,7 @@ class Photographer : public QObject {
                 QApplication::exit(1);
                 return;
             }
+            window_.session().stopRun();  // nobody is there to be asked
             window_.close();
         });
     }

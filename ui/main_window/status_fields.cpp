@@ -46,7 +46,8 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     bar.addPermanentWidget(stop_);
     hideProgress();
 
-    connect(&session_, &ProjectSession::frameChanged, this, &StatusFields::showFrame);
+    // The number names the picture it stands under, which may come later than it was asked for.
+    connect(&session_, &ProjectSession::viewFrameChanged, this, &StatusFields::showFrame);
     connect(&session_, &ProjectSession::videoChanged, this, &StatusFields::showFrame);
     connect(&session_, &ProjectSession::openingProgress, this, &StatusFields::showOpening);
     connect(&session_, &ProjectSession::openingEnded, this, &StatusFields::hideProgress);
@@ -77,7 +78,7 @@ void StatusFields::showFrame() {
         frame_->clear();
         return;
     }
-    const FrameIndex frame = session_.currentFrame();
+    const FrameIndex frame = session_.shownFrame();
     const auto& times = session_.timesUs();
     const QString time = static_cast<size_t>(frame) < times.size()
                              ? QString::fromStdString(timeText(times[static_cast<size_t>(frame)]))

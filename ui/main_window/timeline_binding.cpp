@@ -1,6 +1,7 @@
 #include "main_window/timeline_binding.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "panels/stage_times_chart.h"
 #include "view/timeline_view.h"
@@ -29,17 +30,28 @@ TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline
     connect(&session_, &ProjectSession::runDataChanged, this, &TimelineBinding::showRun);
     connect(&session_, &ProjectSession::liveFrames, this, &TimelineBinding::addLive);
     connect(&session_, &ProjectSession::selectionChanged, this, &TimelineBinding::showTrackLife);
-    connect(&session_, &ProjectSession::frameChanged, this, [this](FrameIndex frame) {
+    const auto mark = [this](FrameIndex frame) {
         timeline_.setCurrentFrame(frame);
         chart_.setCurrentFrame(frame);
+    };
+    // While it plays, the mark keeps to the picture, which may be late; whoever steps or drags sees at once where to.
+    connect(&session_, &ProjectSession::frameChanged, this, [this, mark](FrameIndex frame) {
+        if (!session_.playback().playing()) mark(frame);
+    });
+    connect(&session_, &ProjectSession::viewFrameChanged, this, [this, mark](const ViewFrame& frame) {
+        if (session_.playback().playing()) mark(frame.index);
     });
     connect(&session_, &ProjectSession::runStarted, this, [this](const RunRecord& run) {
         live_ = true;
+        known_before_ = false;
         timeline_.setRunRange(std::pair(run.first_frame, run.last_frame));
     });
     connect(&session_, &ProjectSession::runFinished, this, [this] {
         live_ = false;
         timeline_.setRunRange(std::nullopt);
+    });
+    connect(&session_, &ProjectSession::currentRunChanged, &timeline_, [this] {
+        if (!live_) timeline_.setRunRange(std::nullopt);
     });
     connect(&timeline_, &TimelineView::frameRequested, &session_,
             [this](FrameIndex frame, bool) { session_.goToFrame(frame); });
@@ -61,7 +73,13 @@ void TimelineBinding::forgetRun() {
 
 void TimelineBinding::showRun() {
     showTrackLife();
-    if (live_ || !session_.runData()) return;  // what came live is newer than what was read
+    if (!session_.runData()) return;
+    if (live_) {  // what came live is newer than what was read; but a run that is gone on with has frames before it
+        if (!std::exchange(known_before_, true)) addLive(session_.runData()->frames);
+        return;
+    }
+    const RunRecord& run = session_.runData()->record;  // another program may be at work on it
+    timeline_.setRunRange(run.live ? std::optional(std::pair(run.first_frame, run.last_frame)) : std::nullopt);
     std::vector<TimelineFrame> frames;
     for (const FrameSummary& frame : session_.runData()->frames) {
         if (frame.frame < 0) continue;

@@ -28,7 +28,8 @@ class TimelineBinding : public QObject {
     ProjectSession& session_;
     TimelineView& timeline_;
     StageTimesChart& chart_;
-    bool live_ = false;  ///< what is shown came from the running run
+    bool live_ = false;          ///< what is shown came from the running run
+    bool known_before_ = false;  ///< what that run had done before it was gone on with is shown, too
 };
 
 }  // namespace eyrie::ui

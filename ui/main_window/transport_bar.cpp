@@ -59,11 +59,13 @@ TransportBar::TransportBar(ProjectSession& session, const WindowActions& actions
     showSpeed(session_.playback().speed());
     connect(&session_, &ProjectSession::videoChanged, this,
             [this] { frame_->setRange(0, session_.video() ? std::max(0, session_.video()->frame_count - 1) : 0); });
-    connect(&session_, &ProjectSession::frameChanged, this, [this](FrameIndex frame) {
-        if (!frame_->hasFocus()) frame_->setValue(frame);
-    });
+    const auto show = [this] {
+        if (!frame_->hasFocus()) frame_->setValue(session_.shownFrame());
+    };
+    connect(&session_, &ProjectSession::videoChanged, this, show);
+    connect(&session_, &ProjectSession::viewFrameChanged, this, show);
     connect(frame_, &QSpinBox::editingFinished, this, [this] {
-        if (frame_->value() != session_.currentFrame()) session_.goToFrame(frame_->value());
+        if (frame_->value() != session_.shownFrame()) session_.goToFrame(frame_->value());
         if (frame_->hasFocus()) emit editingDone();
     });
 }

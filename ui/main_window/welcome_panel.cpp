@@ -1,6 +1,5 @@
 #include "main_window/welcome_panel.h"
 
-#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
@@ -72,24 +71,25 @@ void WelcomePanel::paintEvent(QPaintEvent*) {
     painter.drawRoundedRect(QRectF(column_->geometry()).adjusted(-12, -12, 12, 12), 10, 10);
 }
 
-void WelcomePanel::setRecent(const QStringList& paths) {
+void WelcomePanel::setRecent(const QList<RecentProject>& projects) {
     while (QLayoutItem* item = recent_layout_->takeAt(0)) {
         delete item->widget();
         delete item;
     }
-    recent_box_->setVisible(!paths.isEmpty());
-    if (paths.isEmpty()) return;
-    auto* heading = new QLabel(tr("Opened lately"), recent_box_);
+    recent_box_->setVisible(!projects.isEmpty());
+    if (projects.isEmpty()) return;
+    auto* heading = new QLabel(tr("Recent projects"), recent_box_);
     heading->setForegroundRole(QPalette::PlaceholderText);
     recent_layout_->addWidget(heading);
-    for (const QString& path : paths.mid(0, kMostRecent)) {
+    for (const RecentProject& project : projects.mid(0, kMostRecent)) {
         auto* button = new QToolButton(recent_box_);
-        const QString full = tr("%1  –  %2").arg(QFileInfo(path).fileName(), QFileInfo(path).path());
+        const QString full =
+            project.folder().isEmpty() ? project.name() : tr("%1  –  %2").arg(project.name(), project.folder());
         button->setText(button->fontMetrics().elidedText(full, Qt::ElideMiddle, kWidth - 64));
-        button->setToolTip(path);
+        button->setToolTip(project.project);
         button->setAutoRaise(true);
         button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-        connect(button, &QToolButton::clicked, this, [this, path] { emit recentChosen(path); });
+        connect(button, &QToolButton::clicked, this, [this, project] { emit recentChosen(project); });
         recent_layout_->addWidget(button);
     }
 }

@@ -1,7 +1,9 @@
 #pragma once
 
-#include <QStringList>
+#include <QList>
 #include <QWidget>
+
+#include "main_window/window_settings.h"
 
 class QVBoxLayout;
 
@@ -15,14 +17,14 @@ class WelcomePanel : public QWidget {
 
  public:
     WelcomePanel(const WindowActions& actions, QWidget* parent = nullptr);
-    /// Files opened lately, newest first.
-    void setRecent(const QStringList& paths);
+    /// Projects opened lately, newest first.
+    void setRecent(const QList<RecentProject>& projects);
 
  protected:
     void paintEvent(QPaintEvent* event) override;
 
  signals:
-    void recentChosen(const QString& path);
+    void recentChosen(const RecentProject& project);
 
  private:
     QWidget* column_;

@@ -12,7 +12,10 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     open_video = add(tr("Open &video…"), {"document-open", {QKeySequence::Open}});
     open_folder = add(tr("Open folder of &images…"), {"document-open-folder", {QKeySequence(tr("Ctrl+Shift+O"))}});
     open_project = add(tr("Open &project…"), {"project-open", {QKeySequence(tr("Ctrl+P"))}});
-    save_copy = add(tr("&Save project as…"), {"document-save-as", {QKeySequence(tr("Ctrl+Shift+S"))}});
+    save_as = add(tr("&Save project as…"), {"document-save-as",
+                                            {QKeySequence(tr("Ctrl+Shift+S"))},
+                                            QT_TR_NOOP("Save under another name, and go on working there")});
+    save_copy = add(tr("Save a &copy…"), {"document-save", {}, QT_TR_NOOP("Save a copy, and go on working here")});
     report = add(tr("Evaluation &report…"), {"document-export",
                                              {QKeySequence(tr("Ctrl+Shift+R"))},
                                              QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});
@@ -25,19 +28,24 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                            QT_TR_NOOP("Find and follow the moving vehicles, with the parameters shown")});
     stop = add(tr("S&top the run"),
                {"media-playback-stop", {QKeySequence(tr("Ctrl+."))}, QT_TR_NOOP("Stop; what is done is kept")});
+    continue_run = add(tr("&Continue the run"), {"media-playback-start",
+                                                 {QKeySequence(tr("Ctrl+Shift+."))},
+                                                 QT_TR_NOOP("Go on with the run that is shown, where it was stopped")});
     follow = addToggle(tr("&Follow the run"),
                        {"go-last", {QKeySequence(tr("Ctrl+L"))}, QT_TR_NOOP("Show each frame as the run finishes it")},
                        false);
 
+    restore_run =
+        add(tr("Bring back the re&moved run"), {"edit-undo", {}, QT_TR_NOOP("Possible until the project is closed")});
     train =
         add(tr("Train from &labels…"), {nullptr, {}, QT_TR_NOOP("A classifier of your own for the sliding window")});
 
     section(tr("Playback"));
     play = add(tr("&Play"), {"media-playback-start", {QKeySequence(Qt::Key_Space)}});
     step_back = add(tr("Step back"), {"media-skip-backward", {QKeySequence(Qt::Key_Left)}});
-    step_on = add(tr("Step on"), {"media-skip-forward", {QKeySequence(Qt::Key_Right)}});
+    step_on = add(tr("Step forward"), {"media-skip-forward", {QKeySequence(Qt::Key_Right)}});
     jump_back = add(tr("10 frames back"), {"media-seek-backward", {QKeySequence(tr("Shift+Left"))}});
-    jump_on = add(tr("10 frames on"), {"media-seek-forward", {QKeySequence(tr("Shift+Right"))}});
+    jump_on = add(tr("10 frames forward"), {"media-seek-forward", {QKeySequence(tr("Shift+Right"))}});
     first = add(tr("First frame"), {"go-first", {QKeySequence(Qt::Key_Home)}});
     last = add(tr("Last frame"), {"go-last", {QKeySequence(Qt::Key_End)}});
     go_to_frame = add(tr("&Go to frame…"), {"go-jump", {QKeySequence(Qt::Key_G)}});

@@ -1,15 +1,26 @@
 #include "main_window/window_settings.h"
 
+#include <QCoreApplication>
 #include <QCryptographicHash>
+#include <QFileInfo>
 #include <QPointF>
+#include <QStandardPaths>
 
 namespace eyrie::ui {
 
 namespace {
 constexpr int kMostRecent = 12;
-const QString kRecent = QStringLiteral("recent");
+const QString kRecent = QStringLiteral("recent_projects");
+const QString kScene = QStringLiteral("scene:");
 const QString kGeometry = QStringLiteral("window/geometry");
 const QString kLayout = QStringLiteral("window/layout");
+
+/// Hidden there, a project's own name tells nobody anything.
+bool liesInDataFolder(const QString& project) {
+    return project.isEmpty() ||
+           project.startsWith(QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) +
+                              QStringLiteral("/eyrie/"));
+}
 
 QString groupOf(const std::filesystem::path& project) {
     const QByteArray hash =
@@ -18,15 +29,31 @@ QString groupOf(const std::filesystem::path& project) {
 }
 }  // namespace
 
-QStringList WindowSettings::recent() const {
-    return settings_.value(kRecent).toStringList();
+QString RecentProject::name() const {
+    if (video.startsWith(kScene)) return QCoreApplication::translate("RecentProject", "%1 scene").arg(video.mid(6));
+    return QFileInfo(liesInDataFolder(project) ? video : project).fileName();
 }
 
-void WindowSettings::addRecent(const QString& path) {
-    QStringList paths = recent();
-    paths.removeAll(path);
-    paths.prepend(path);
-    settings_.setValue(kRecent, paths.mid(0, kMostRecent));
+QString RecentProject::folder() const {
+    if (video.startsWith(kScene)) return {};
+    return QFileInfo(liesInDataFolder(project) ? video : project).path();
+}
+
+QList<RecentProject> WindowSettings::recent() const {
+    QList<RecentProject> projects;
+    const QStringList entries = settings_.value(kRecent).toStringList();
+    // Pairs: project, video.
+    for (qsizetype i = 0; i + 1 < entries.size(); i += 2) projects.append({entries[i], entries[i + 1]});
+    return projects;
+}
+
+void WindowSettings::addRecent(const RecentProject& project) {
+    QList<RecentProject> projects = recent();
+    projects.removeIf([&](const RecentProject& known) { return known.project == project.project; });
+    projects.prepend(project);
+    QStringList entries;
+    for (const RecentProject& each : projects.mid(0, kMostRecent)) entries << each.project << each.video;
+    settings_.setValue(kRecent, entries);
 }
 
 void WindowSettings::clearRecent() {

@@ -16,12 +16,24 @@ struct ProjectView {
     int frame = 0;
 };
 
+/// A project that was opened lately.
+struct RecentProject {
+    QString project;  ///< its file; empty: only the video is known
+    QString video;    ///< what was shown of it: a path or "scene:demo"; may be empty
+
+    /// For lists: the name of the project, or of the video where the project lies hidden in the data folder.
+    QString name() const;
+    /// The folder in which that lies; empty for built-in scenes.
+    QString folder() const;
+};
+
 /// What the window remembers between sessions: recent files, geometry, and a view per project.
 class WindowSettings {
  public:
-    QStringList recent() const;
-    /// Puts a path first.
-    void addRecent(const QString& path);
+    /// The newest first.
+    QList<RecentProject> recent() const;
+    /// Puts a project first.
+    void addRecent(const RecentProject& project);
     void clearRecent();
 
     QByteArray geometry() const;

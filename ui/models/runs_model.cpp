@@ -4,6 +4,7 @@
 #include <QFileInfo>
 
 #include "models/display_text.h"
+#include "models/run_text.h"
 #include "models/table_roles.h"
 
 namespace eyrie::ui {
@@ -15,6 +16,20 @@ int plannedFrames(const RunRecord& run) {
 
 double secondsOfVideo(const RunRecord& run) {
     return run.scale.frame_rate_hz > 0 ? run.frames_done / run.scale.frame_rate_hz : 0;
+}
+
+/// Short, for a column: "0.080", "≈ 0.091", "unknown".
+QString gsdText(const SceneScale& scale) {
+    const QString value = numberText(scale.gsd_m_per_px, 3);
+    switch (originOf(scale)) {
+        case ScaleOrigin::given:
+            return value;
+        case ScaleOrigin::estimated:
+            return QStringLiteral("≈ ") + value;
+        case ScaleOrigin::fallback:
+            break;
+    }
+    return QCoreApplication::translate("RunsModel", "unknown");
 }
 
 QString fileName(const RunRecord& run) {
@@ -85,7 +100,7 @@ QString RunsModel::textOf(const RunRecord& run, int column) const {
         case preset_column:
             return QString::fromStdString(run.preset);
         case gsd_column:
-            return run.scale.gsd_known ? numberText(run.scale.gsd_m_per_px, 3) : tr("unknown");
+            return gsdText(run.scale);
         case video_column:
             return fileName(run);
         default:
@@ -115,7 +130,7 @@ QString RunsModel::stateText(const RunRecord& run) const {
         case RunState::failed:
             return tr("failed");
         case RunState::running:
-            if (run.id == live_run_) return tr("running");
+            if (run.live || run.id == live_run_) return tr("running");
             break;
         case RunState::stopped:
             break;
@@ -128,6 +143,8 @@ QString RunsModel::toolTipOf(const RunRecord& run) const {
                       tr("frames %1 to %2, %3 done").arg(run.first_frame).arg(run.last_frame).arg(run.frames_done),
                       tr("%1 frames a second, Eyrie %2")
                           .arg(numberText(run.scale.frame_rate_hz, 2), QString::fromStdString(run.engine_version))};
+    lines << tr("Scale: %1").arg(scaleText(run.scale));
+    if (run.live && run.id != live_run_) lines << tr("Written by %1").arg(QString::fromStdString(run.writer));
     if (!run.message.empty()) lines << QString::fromStdString(run.message);
     return lines.join(QLatin1Char('\n'));
 }

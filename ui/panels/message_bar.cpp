@@ -112,6 +112,24 @@ void MessageBar::showMessage(MessageKind kind, const QString& text, const QStrin
         strip->countUp();
         return;
     }
+    add(kind, text, action_text, std::move(action));
+}
+
+void MessageBar::showTopic(const QString& topic, MessageKind kind, const QString& text, const QString& action_text,
+                           std::function<void()> action) {
+    dismissTopic(topic);
+    add(kind, text, action_text, std::move(action))->setTopic(topic);
+}
+
+void MessageBar::dismissTopic(const QString& topic) {
+    const QList<MessageStrip*> shown = strips_;
+    for (MessageStrip* strip : shown) {
+        if (strip->topic() == topic) remove(strip);
+    }
+}
+
+MessageStrip* MessageBar::add(MessageKind kind, const QString& text, const QString& action_text,
+                              std::function<void()> action) {
     while (strips_.size() >= kMostMessages) remove(strips_.last());
     auto* strip = new MessageStrip(kind, text, this);
     if (!action_text.isEmpty() && action) strip->setAction(action_text, std::move(action));
@@ -122,6 +140,7 @@ void MessageBar::showMessage(MessageKind kind, const QString& text, const QStrin
     layout_->insertWidget(0, strip);
     strip->show();
     show();
+    return strip;
 }
 
 void MessageBar::remove(MessageStrip* strip) {

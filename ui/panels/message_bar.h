@@ -18,6 +18,9 @@ class MessageStrip : public QFrame {
     MessageStrip(MessageKind kind, const QString& text, QWidget* parent);
     MessageKind kind() const { return kind_; }
     const QString& text() const { return text_; }
+    /// What the message is about; empty: nothing that a later message could be about, too.
+    const QString& topic() const { return topic_; }
+    void setTopic(const QString& topic) { topic_ = topic; }
     /// Adds a button; the message goes when it is pressed.
     void setAction(const QString& text, std::function<void()> action);
     /// The same message came once more.
@@ -33,6 +36,7 @@ class MessageStrip : public QFrame {
     void applyColours();
     MessageKind kind_;
     QString text_;
+    QString topic_;
     int count_ = 1;
     bool applying_ = false;
     QLabel* icon_;
@@ -47,6 +51,11 @@ class MessageBar : public QWidget {
     explicit MessageBar(QWidget* parent = nullptr);
     void showMessage(MessageKind kind, const QString& text, const QString& action_text = {},
                      std::function<void()> action = {});
+    /// The same about a topic, of which one message at most is shown: this one takes the place of the former.
+    void showTopic(const QString& topic, MessageKind kind, const QString& text, const QString& action_text = {},
+                   std::function<void()> action = {});
+    /// What was said about the topic no longer holds.
+    void dismissTopic(const QString& topic);
     /// Takes away messages of one kind that no longer hold, or all.
     void dismiss(MessageKind kind);
     void dismissAll();
@@ -54,6 +63,7 @@ class MessageBar : public QWidget {
     QStringList texts() const;
 
  private:
+    MessageStrip* add(MessageKind kind, const QString& text, const QString& action_text, std::function<void()> action);
     void remove(MessageStrip* strip);
     QVBoxLayout* layout_;
     QList<MessageStrip*> strips_;  ///< newest first

@@ -22,6 +22,8 @@ void RunsPanel::fillMenu(QMenu& menu, int run_id) {
     menu.addAction(tr("Show"), this, [this, run_id] { emit runActivated(run_id); });
     menu.addAction(tr("Use its parameters"), this, [this, run_id] { emit parametersRequested(run_id); });
     menu.addAction(tr("Rename"), QKeySequence(Qt::Key_F2), this, &RunsPanel::editName);
+    if (can_continue_ && can_continue_(run_id))
+        menu.addAction(tr("Continue"), this, [this, run_id] { emit continueRequested(run_id); });
     menu.addSeparator();
     menu.addAction(tr("Remove from the project"), QKeySequence(Qt::Key_Delete), this,
                    [this, run_id] { emit removeRequested(run_id); });

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <utility>
+
 #include "models/runs_model.h"
 #include "panels/table_panel.h"
 
@@ -12,12 +15,16 @@ class RunsPanel : public TablePanel {
     /// `model` must outlive the panel.
     explicit RunsPanel(RunsModel* model, QWidget* parent = nullptr);
 
+    /// Which runs can be gone on with; asked when the menu of one opens.
+    void setContinuable(std::function<bool(int run_id)> can_continue) { can_continue_ = std::move(can_continue); }
+
  signals:
     /// The user chose a run to be shown.
     void runActivated(int run_id);
     /// From the empty state: run with the present parameters.
     void runRequested();
     void removeRequested(int run_id);
+    void continueRequested(int run_id);
     /// Take the run's parameters over into the form.
     void parametersRequested(int run_id);
 
@@ -27,6 +34,7 @@ class RunsPanel : public TablePanel {
 
  private:
     void editName();
+    std::function<bool(int)> can_continue_;
 };
 
 }  // namespace eyrie::ui

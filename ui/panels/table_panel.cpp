@@ -169,8 +169,8 @@ void TablePanel::showTableOrEmptyState() {
     if (model_->rowCount() == 0) {
         stack_->setCurrentWidget(empty_);
     } else if (proxy_->rowCount() == 0) {
-        nothing_found_->setTexts(filter_->text().isEmpty() ? tr("Everything is filtered away.")
-                                                           : tr("Nothing holds “%1”.").arg(filter_->text()),
+        nothing_found_->setTexts(filter_->text().isEmpty() ? tr("All entries are hidden.")
+                                                           : tr("No entry contains “%1”.").arg(filter_->text()),
                                  filter_->text().isEmpty() ? QString() : tr("Show all"));
         stack_->setCurrentWidget(nothing_found_);
     } else {

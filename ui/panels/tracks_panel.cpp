@@ -13,8 +13,7 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     : TablePanel(model, QStringLiteral("tracks"), parent), tracks_(model), tentative_(new QToolButton(this)) {
     table()->setAccessibleName(tr("Tracks"));
     emptyState()->setTexts(
-        tr("No tracks yet. They appear while a run works, or when a run is chosen: one row for each "
-           "moving vehicle, with its life, speed and size."));
+        tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size."));
     tentative_->setText(tr("Tentative"));
     tentative_->setCheckable(true);
     tentative_->setToolTip(tr("Also list tracks that were never confirmed and are no part of the result"));

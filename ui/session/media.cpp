@@ -10,7 +10,7 @@ namespace {
 const std::string kScenePrefix = "scene:";
 }
 
-Media videoMedia(const fs::path& path, double frame_rate_hz) {
+Media videoMedia(const fs::path& path, FrameRate rate) {
     std::error_code no_such_path;
     fs::path absolute = fs::weakly_canonical(path, no_such_path);
     if (no_such_path) absolute = fs::absolute(path);
@@ -19,9 +19,11 @@ Media videoMedia(const fs::path& path, double frame_rate_hz) {
     media.name = absolute.filename().string();
     media.identity = absolute.string();
     media.gsd_m_per_px = [] { return 0.0; };
-    media.open = [absolute, frame_rate_hz](const IndexProgress& progress, std::stop_token stop) {
+    media.given_rate_hz = rate.given_hz;
+    media.open = [absolute, rate](const IndexProgress& progress, std::stop_token stop) {
         SourceOptions options;
-        options.frame_rate_hz = frame_rate_hz;
+        options.frame_rate_hz = rate.given_hz;
+        options.remembered_rate_hz = rate.remembered_hz;
         return openSource(absolute, options, progress, std::move(stop));
     };
     return media;
@@ -37,9 +39,13 @@ Media sceneMedia(const std::string& scene) {
     return media;
 }
 
-Media mediaOfIdentity(const std::string& identity, double frame_rate_hz) {
-    if (identity.starts_with(kScenePrefix)) return sceneMedia(identity.substr(kScenePrefix.size()));
-    return videoMedia(identity, frame_rate_hz);
+bool isScene(const std::string& identity) {
+    return identity.starts_with(kScenePrefix);
+}
+
+Media mediaOfIdentity(const std::string& identity, FrameRate rate) {
+    if (isScene(identity)) return sceneMedia(identity.substr(kScenePrefix.size()));
+    return videoMedia(identity, rate);
 }
 
 }  // namespace eyrie::ui

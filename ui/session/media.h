@@ -13,20 +13,30 @@ namespace eyrie::ui {
 /// Something that can be played: a video file, a folder of images or a rendered scene. A value that several threads may
 /// open, each for itself.
 struct Media {
-    std::string name;      ///< for people: the file name
-    std::string identity;  ///< what a project stores: the absolute path, or "scene:demo"
+    std::string name;          ///< for people: the file name
+    std::string identity;      ///< what a project stores: the absolute path, or "scene:demo"
+    double given_rate_hz = 0;  ///< frames per second that a person gave; 0: nobody did
     /// Metres per pixel if the media knows them, else 0. May take its time: not for the window thread.
     std::function<double()> gsd_m_per_px;
     std::function<std::unique_ptr<FrameSource>(const IndexProgress&, std::stop_token)> open;
 };
 
-/// A video file or folder of images; `frame_rate_hz` > 0 overrides its own rate.
-Media videoMedia(const std::filesystem::path& path, double frame_rate_hz = 0);
+/// The frames per second of a video, if they are not its own.
+struct FrameRate {
+    double given_hz = 0;       ///< by a person, now; 0: not
+    double remembered_hz = 0;  ///< what a project knows; 0: nothing
+};
+
+/// A video file or folder of images.
+Media videoMedia(const std::filesystem::path& path, FrameRate rate = {});
 
 /// A built-in scene, rendered as it is played. Throws Error(parameter) for an unknown one.
 Media sceneMedia(const std::string& scene);
 
+/// Whether an identity is that of a built-in scene and not a path.
+bool isScene(const std::string& identity);
+
 /// What a project's sequence path stands for.
-Media mediaOfIdentity(const std::string& identity, double frame_rate_hz = 0);
+Media mediaOfIdentity(const std::string& identity, FrameRate rate = {});
 
 }  // namespace eyrie::ui

@@ -6,8 +6,8 @@
 
 namespace eyrie::ui {
 
-/// Writes a complete copy of a project, replacing `target` only once it is whole. Works while a run writes into the
-/// project. Throws Error(output).
+/// Writes a complete copy of a project, there only once it is whole. Works while a run writes into the project. Throws
+/// Error(output), also when there is a file of that name: a project is never replaced.
 void copyProject(ProjectFile& project, const std::filesystem::path& target);
 
 }  // namespace eyrie::ui

@@ -1,18 +1,19 @@
 #include "session/project_session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
-
-#include "session/project_location.h"
-#include "store/file_check.h"
 
 namespace eyrie::ui {
 
 namespace fs = std::filesystem;
 
 namespace {
-constexpr int kListRefresh_ms = 2000;
+constexpr int kListRefresh_ms = 1500;
+
+/// Whether more of a run can be read than before.
+bool hasGrown(const RunRecord& before, const RunRecord& now) {
+    return before.frames_done != now.frames_done || before.state != now.state || before.live != now.live;
+}
 }  // namespace
 
 ProjectSession::ProjectSession(QObject* parent) : QObject(parent) {
@@ -26,8 +27,10 @@ ProjectSession::ProjectSession(QObject* parent) : QObject(parent) {
             [this](FrameIndex, const QString& text) { emit problem(text); });
     connect(&reader_, &ProjectReader::opened, this, &ProjectSession::projectOpened);
     connect(&reader_, &ProjectReader::openFailed, this, &ProjectSession::projectFailed);
-    connect(&reader_, &ProjectReader::runsRead, this, &ProjectSession::runsRead);
+    connect(&reader_, &ProjectReader::movedTo, this, &ProjectSession::projectMovedTo);
+    connect(&reader_, &ProjectReader::read, this, &ProjectSession::listsRead);
     connect(&reader_, &ProjectReader::runRead, this, &ProjectSession::runRead);
+    connect(&reader_, &ProjectReader::factsRead, this, &ProjectSession::runSummarised);
     connect(&reader_, &ProjectReader::trackRead, this,
             [this](int run_id, TrackId track, const std::vector<TrackFrame>& states) {
                 if (current_run_ == run_id && selected_track_ == track) emit trackStatesRead(track, states);
@@ -43,156 +46,36 @@ ProjectSession::ProjectSession(QObject* parent) : QObject(parent) {
     connect(&playback_, &Playback::frameDue, this, &ProjectSession::showFrame);
     list_refresh_.setInterval(kListRefresh_ms);
     connect(&list_refresh_, &QTimer::timeout, this, [this] {
-        if (running() && current_run_ && project_ == run_project_) reader_.readRun(*current_run_);
+        if (project_open_) reader_.readListsIfChanged();
     });
+    list_refresh_.start();
 }
 
 ProjectSession::~ProjectSession() = default;
 
-// ---- opening --------------------------------------------------------------------------------------------------------
-
-void ProjectSession::open(const fs::path& path) {
-    if (isProject(path))
-        openProject(path);
-    else
-        openMedia(videoMedia(path));
-}
-
-void ProjectSession::openMedia(Media media, const fs::path& project) {
-    beginOpening({std::move(media), project, std::nullopt, false});
-}
-
-void ProjectSession::beginOpening(Pending pending) {
-    pending_ = std::move(pending);
-    project_opens_video_ = false;
-    emit openingProgress(QString::fromStdString(pending_->media.name), 0);
-    loader_.openMedia(pending_->media, ++ticket_);
-}
-
-void ProjectSession::cancelOpening() {
-    if (!pending_) return;
-    ++ticket_;
-    pending_.reset();
-    loader_.cancelOpening();
-    emit openingEnded();
-}
-
-void ProjectSession::openProject(const fs::path& project) {
-    cancelOpening();
-    if (running()) stopRun();
-    project_opens_video_ = true;
-    reader_.open(project, ProjectReader::Opening::must_exist);
-}
-
-void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
-    if (ticket != ticket_ || !pending_) return;
-    const Pending pending = *std::exchange(pending_, std::nullopt);
-    emit openingEnded();
-    if (running() && !pending.keep_place) stopRun();
-    adoptVideo(pending.media, video, pending.keep_place);
-    if (pending.keep_place) {
-        request();
-        return;
-    }
-    if (pending.run) {  // its project is open already
-        adoptGsd(*pending.run);
-        useRun(pending.run->id);
-        emit ready(true);
-        return;
-    }
-    project_open_ = false;
-    runs_.clear();
-    useRun(std::nullopt);
-    emit runsChanged();
-    const fs::path project =
-        pending.project.empty() ? defaultProjectPath(pending.media.name, pending.media.identity) : pending.project;
-    reader_.open(project, ProjectReader::Opening::create_if_missing);
-}
-
-void ProjectSession::mediaFailed(int ticket, const QString& message) {
-    if (ticket != ticket_ || !pending_) return;
-    const Pending pending = *std::exchange(pending_, std::nullopt);
-    emit openingEnded();
-    emit problem(message);
-    if (pending.run) showWithoutVideo(*pending.run);
-}
-
-void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep_place) {
-    const FrameIndex place = keep_place ? std::min(current_frame_, std::max(0, video.info.frame_count - 1)) : 0;
-    if (!keep_place) settings_.gsd_m_per_px = video.gsd_m_per_px;
-    settings_.range = {};
-    media_ = std::move(media);
-    video_ = video.info;
-    times_us_ = video.times_us;
-    playback_.setTimes(times_us_);
-    current_frame_ = place;
-    view_frame_ = {};
-    if (!keep_place) selectTrack(std::nullopt);
-    emit videoChanged();
-    emit frameChanged(current_frame_);
-}
-
-void ProjectSession::showWithoutVideo(const RunRecord& run) {
-    OpenedVideo video;
-    VideoInfo& info = video.info;
-    info.path = run.sequence.path;
-    info.size = run.sequence.size;
-    info.frame_count = run.sequence.frame_count;
-    info.frame_rate_hz = run.sequence.frame_rate_hz;
-    video.times_us.resize(static_cast<size_t>(std::max(0, info.frame_count)));
-    for (size_t i = 0; i < video.times_us.size(); ++i)
-        video.times_us[i] = std::llround(static_cast<double>(i) * 1e6 / std::max(0.001, info.frame_rate_hz));
-    loader_.closeMedia();
-    adoptVideo(mediaOfIdentity(run.sequence.path), video, false);
-    adoptGsd(run);
-    useRun(run.id);
-    emit ready(true);
-}
-
-void ProjectSession::adoptGsd(const RunRecord& run) {
-    if (run.scale.gsd_known) settings_.gsd_m_per_px = run.scale.gsd_m_per_px;
-}
-
-void ProjectSession::setFrameRate(double frames_per_second) {
-    if (!media_ || running()) return;
-    beginOpening({mediaOfIdentity(media_->identity, frames_per_second), project_, std::nullopt, true});
-}
-
 // ---- project and runs -----------------------------------------------------------------------------------------------
 
-void ProjectSession::projectOpened(const fs::path& project, const std::vector<RunRecord>& runs) {
-    const bool opens_video = std::exchange(project_opens_video_, false);
-    project_ = project;
-    project_open_ = true;
-    runs_ = runs;
-    emit projectChanged();
-    emit runsChanged();
-    if (opens_video) {
-        if (runs_.empty()) {
-            useRun(std::nullopt);
-            emit problem(tr("%1 holds no runs yet. Open a video to make one.")
-                             .arg(QString::fromStdString(project.filename().string())));
-            return;
-        }
-        const RunRecord& run = runs_.back();
-        current_run_.reset();
-        beginOpening({mediaOfIdentity(run.sequence.path), project, run, false});
-        return;
-    }
-    const RunRecord* shown = newestRun(true);
-    const bool finished = shown != nullptr;
-    if (!finished) shown = newestRun(false);
-    if (shown != nullptr) adoptGsd(*shown);
-    useRun(shown != nullptr ? std::optional(shown->id) : std::nullopt);
-    emit ready(finished);
+void ProjectSession::takeLists(const ProjectLists& lists) {
+    runs_ = lists.runs;
+    removed_runs_ = lists.removed;
+    resumable_runs_ = lists.resumable;
+    sequences_ = lists.sequences;
 }
 
-const RunRecord* ProjectSession::newestRun(bool finished) const {
-    const auto found = std::find_if(runs_.rbegin(), runs_.rend(), [&](const RunRecord& run) {
-        const bool of_this_video = media_ && run.sequence.path == media_->identity;
-        return of_this_video && run.frames_done > 0 && (!finished || run.state == RunState::finished);
-    });
-    return found == runs_.rend() ? nullptr : &*found;
+void ProjectSession::listsRead(const ProjectLists& lists) {
+    if (!project_open_ || lists.project != project_) return;
+    std::optional<RunRecord> before;
+    if (current_run_)
+        if (const RunRecord* run = findRun(*current_run_)) before = *run;
+    takeLists(lists);
+    emit runsChanged();
+    if (!before) return;
+    const RunRecord* now = findRun(before->id);
+    if (now == nullptr || !hasGrown(*before, *now)) return;
+    reader_.readRun(now->id);
+    // Finishing a run changes frames that were shown while it worked.
+    if (before->live && !now->live) loader_.useRun(RunReference{project_, now->id}, kTrailLength);
+    if (!now->live) request();
 }
 
 void ProjectSession::projectFailed(const fs::path&, const QString& message) {
@@ -209,9 +92,40 @@ void ProjectSession::saveProjectCopy(const fs::path& target) {
     if (project_open_) reader_.saveCopy(target);
 }
 
+void ProjectSession::saveProjectAs(const fs::path& target) {
+    if (running()) {
+        emit problem(
+            tr("A run is writing into the project. Stop it, or wait for its end, before saving the project "
+               "under another name."));
+        return;
+    }
+    if (project_open_)
+        reader_.saveAs(target);
+    else if (media_ && video_)
+        reader_.openFor(media_->name, media_->identity, *video_, target);
+}
+
+void ProjectSession::projectMovedTo(const ProjectLists& lists) {
+    project_ = lists.project;
+    takeLists(lists);
+    emit projectChanged();
+    emit runsChanged();
+    useRun(current_run_);
+    emit notice(
+        tr("Saved as %1. What you do from now on goes there.").arg(QString::fromStdString(lists.project.string())));
+}
+
 const RunRecord* ProjectSession::findRun(int run_id) const {
     const auto found = std::find_if(runs_.begin(), runs_.end(), [&](const RunRecord& r) { return r.id == run_id; });
     return found == runs_.end() ? nullptr : &*found;
+}
+
+const RunRecord* ProjectSession::newestRun(bool finished) const {
+    const auto found = std::find_if(runs_.rbegin(), runs_.rend(), [&](const RunRecord& run) {
+        const bool of_this_video = media_ && run.sequence.path == media_->identity;
+        return of_this_video && run.frames_done > 0 && (!finished || run.state == RunState::finished);
+    });
+    return found == runs_.rend() ? nullptr : &*found;
 }
 
 void ProjectSession::showRun(int run_id) {
@@ -219,10 +133,12 @@ void ProjectSession::showRun(int run_id) {
     if (run == nullptr || current_run_ == run_id) return;
     if (running()) setFollowing(false);
     if (media_ && media_->identity != run->sequence.path) {
-        beginOpening({mediaOfIdentity(run->sequence.path), project_, *run, false});
+        const Media media = mediaOfIdentity(run->sequence.path, {.remembered_hz = run->sequence.frame_rate_hz});
+        beginOpening({media, Purpose::of_project, project_, run->sequence, run_id});
         return;
     }
     useRun(run_id);
+    adoptGsd();
 }
 
 void ProjectSession::useRun(std::optional<int> run_id) {
@@ -239,18 +155,24 @@ void ProjectSession::useRun(std::optional<int> run_id) {
     request();
 }
 
+void ProjectSession::adoptGsd() {
+    const RunRecord* run = current_run_ ? findRun(*current_run_) : nullptr;
+    if (run == nullptr) return;
+    settings_.gsd_m_per_px = run->scale.gsd_known ? run->scale.gsd_m_per_px : 0;
+    emit scaleChanged();
+}
+
 void ProjectSession::removeRun(int run_id) {
-    if (running() && current_run_ == run_id) {
+    if (running() && own_run_ == run_id) {
         emit problem(tr("This run is still at work. Stop it before removing it."));
         return;
     }
+    const RunRecord* run = findRun(run_id);
+    if (run == nullptr) return;
+    const RunRecord removed = *run;
     if (current_run_ == run_id) useRun(std::nullopt);
     reader_.removeRun(run_id);
-}
-
-void ProjectSession::runsRead(const std::vector<RunRecord>& runs) {
-    runs_ = runs;
-    emit runsChanged();
+    emit runRemoved(removed);
 }
 
 void ProjectSession::runRead(const std::shared_ptr<const RunData>& run) {
@@ -269,69 +191,6 @@ SceneScale ProjectSession::scale() const {
     scale.gsd_known = settings_.gsd_m_per_px > 0;
     if (scale.gsd_known) scale.gsd_m_per_px = settings_.gsd_m_per_px;
     return scale;
-}
-
-// ---- running --------------------------------------------------------------------------------------------------------
-
-void ProjectSession::startRun() {
-    if (!media_ || running()) return;
-    if (!project_open_) {
-        emit problem(
-            tr("There is no project to store the run in. Save one where you may write (File ▸ Save project as)."));
-        return;
-    }
-    playback_.pause();
-    RunRequest request;
-    request.media = *media_;
-    request.project = project_;
-    request.options = settings_.options;
-    request.preset = settings_.preset;
-    request.gsd_m_per_px = settings_.gsd_m_per_px;
-    request.range = settings_.range;
-    request.trail_length = kTrailLength;
-    run_project_ = project_;
-    controller_.start(std::move(request));
-    emit runPreparing();
-    setFollowing(true);
-}
-
-void ProjectSession::liveRunStarted(const RunRecord& record) {
-    if (project_ != run_project_) return;
-    runs_.push_back(record);
-    emit runsChanged();
-    useRun(record.id);
-    reader_.readRuns();  // its record as it was stored, with the time it began
-    list_refresh_.start();
-    emit runStarted(record);
-}
-
-void ProjectSession::liveFrameCame() {
-    const auto summaries = controller_.takeSummaries();
-    auto frame = controller_.takeFrame();
-    if (project_ != run_project_) return;
-    if (!summaries.empty()) {
-        if (!runs_.empty()) runs_.back().frames_done += static_cast<int>(summaries.size());
-        emit liveFrames(summaries);
-    }
-    if (!frame || !following_) return;
-    current_frame_ = frame->index;
-    emit frameChanged(current_frame_);
-    view_frame_ = std::move(*frame);
-    emit viewFrameChanged(view_frame_);
-}
-
-void ProjectSession::liveRunEnded(const RunSummary& summary, int run_id) {
-    list_refresh_.stop();
-    if (summary.outcome == RunOutcome::failed) emit problem(QString::fromStdString(summary.message));
-    const bool followed = following_;
-    setFollowing(false);
-    if (project_ == run_project_) {
-        reader_.readRuns();
-        // The stored tracks may differ from those seen live: they were finished with knowledge of the whole run.
-        if (current_run_ == run_id && run_id != 0) reader_.readRun(run_id);
-        if (followed) request();
-    }
-    emit runFinished(summary);
 }
 
 }  // namespace eyrie::ui

@@ -29,18 +29,24 @@ class ProjectSession : public QObject {
     explicit ProjectSession(QObject* parent = nullptr);
     ~ProjectSession() override;
 
-    /// Opens a video with its project: the given one, or the one in the user's data folder. Both are created if need
-    /// be.
+    /// Opens a video with its project: the given one, or the one beside it (see projectPlaces()), made if need be.
     void openMedia(Media media, const std::filesystem::path& project = {});
-    /// Opens a project and the video of its newest run.
+    /// Opens a project and the video of its newest run, or its newest video.
     void openProject(const std::filesystem::path& project);
     /// A project file, a video or a folder of images.
     void open(const std::filesystem::path& path);
+    /// Writes a copy; work goes on in the project.
     void saveProjectCopy(const std::filesystem::path& target);
-    /// Reads the video anew with this many frames per second (for folders of images); 0: its own.
+    /// Writes a copy and goes on working in it. Not while a run works.
+    void saveProjectAs(const std::filesystem::path& target);
+    /// Reads the video anew with this many frames per second, and keeps the rate in the project.
     void setFrameRate(double frames_per_second);
     bool opening() const { return pending_.has_value(); }
     void cancelOpening();
+    /// Whether the project's video is not where it should be, nor beside the project.
+    bool videoMissing() const { return missing_.has_value(); }
+    /// The missing video lies here; kept in the project if it is the same.
+    void locateVideo(const std::filesystem::path& path);
 
     const std::optional<Media>& media() const { return media_; }
     /// Nothing when no video is open; a missing video of a project has its size and length from the project.
@@ -48,6 +54,8 @@ class ProjectSession : public QObject {
     const std::vector<std::int64_t>& timesUs() const { return times_us_; }
     const std::filesystem::path& project() const { return project_; }
     const std::vector<RunRecord>& runs() const { return runs_; }
+    /// The run that this window is making, if it is one of runs().
+    const RunRecord* ownRun() const;
     std::optional<int> currentRun() const { return current_run_; }
     /// Lists of the current run; null until they were read.
     const std::shared_ptr<const RunData>& runData() const { return run_data_; }
@@ -56,18 +64,32 @@ class ProjectSession : public QObject {
 
     void showRun(int run_id);
     void renameRun(int run_id, const QString& name) { reader_.renameRun(run_id, name); }
+    /// Takes a run out of the project; until that is closed it can be brought back.
     void removeRun(int run_id);
+    void restoreRun(int run_id) { reader_.restoreRun(run_id); }
+    /// Runs that can be brought back.
+    const std::vector<RunRecord>& removedRuns() const { return removed_runs_; }
 
     RunSettings& settings() { return settings_; }
+    /// A new run with the settings.
     void startRun();
     void stopRun() { controller_.stop(); }
+    /// Whether a run ended early and can be gone on with now: its video is shown, and no run works.
+    bool canContinue(int run_id) const;
+    /// Goes on with it; the result is that of a run that was never stopped.
+    void continueRun(int run_id);
     bool running() const { return controller_.running(); }
+    /// Whether the running run is about to end because somebody stopped it.
+    bool stopping() const { return controller_.stopping(); }
     /// Whether the picture follows the running run.
     bool following() const { return following_; }
     void follow();
 
     Playback& playback() { return playback_; }
+    /// The frame that is wanted. While one plays, scrubs or steps, its picture may still be on its way.
     FrameIndex currentFrame() const { return current_frame_; }
+    /// The frame whose picture is shown: what numbers beside the picture must name.
+    FrameIndex shownFrame() const { return view_frame_.index; }
     /// 0 without a video.
     FrameIndex lastFrame() const { return video_ ? std::max(0, video_->frame_count - 1) : 0; }
     const ViewFrame& viewFrame() const { return view_frame_; }
@@ -96,6 +118,8 @@ class ProjectSession : public QObject {
     void currentRunChanged();
     void runDataChanged();
     void frameChanged(FrameIndex frame);
+    /// The settings took over the GSD of the run shown.
+    void scaleChanged();
     void viewFrameChanged(const ViewFrame& frame);
     void selectionChanged(std::optional<TrackId> track);
     /// All stored states of the selected track; follows selectionChanged() and grows with a running run.
@@ -106,34 +130,57 @@ class ProjectSession : public QObject {
     void runProgress(const RunProgress& progress);
     void liveFrames(const std::vector<FrameSummary>& frames);
     void runFinished(const RunSummary& summary);
+    /// Follows runFinished() when the run was stored: what came of it.
+    void runSummarised(const RunRecord& run, const RunFacts& facts);
+    void runRemoved(const RunRecord& run);
+    /// The project is shown without its video; locateVideo() helps. `message` says so.
+    void videoNotFound(const QString& message);
     void followingChanged(bool following);
     /// Something went wrong; the text names it, the place and the remedy.
     void problem(const QString& message);
     void notice(const QString& message);
 
  private:
+    enum class Purpose {
+        another_video,    ///< with a project of its own
+        of_project,       ///< a video of the project that is open; it may be missing
+        moved,            ///< the same, at a place where it may lie now
+        remembered_rate,  ///< the same video anew, with the frame rate that its project knows
+        other_rate        ///< the same video anew, with a frame rate that a person gave
+    };
     /// A video that is being opened.
     struct Pending {
         Media media;
-        std::filesystem::path project;  ///< empty: the default one
-        std::optional<RunRecord> run;   ///< show this run then; the video may be missing
-        bool keep_place = false;
+        Purpose purpose = Purpose::another_video;
+        std::filesystem::path project = {};           ///< of another video; empty: where it lies by itself
+        std::optional<SequenceRecord> sequence = {};  ///< what the project that is open knows of it
+        std::optional<int> run = {};                  ///< show this run then; else the newest
     };
 
     void beginOpening(Pending pending);
     void mediaOpened(int ticket, const OpenedVideo& video);
     void mediaFailed(int ticket, const QString& message);
-    void projectOpened(const std::filesystem::path& project, const std::vector<RunRecord>& runs);
+    void projectOpened(const ProjectLists& lists);
     void projectFailed(const std::filesystem::path& project, const QString& message);
+    void projectMovedTo(const ProjectLists& lists);
+    void takeLists(const ProjectLists& lists);
+    void openVideoOfProject();
+    void closeVideo();
     void adoptVideo(Media media, const OpenedVideo& video, bool keep_place);
-    void showWithoutVideo(const RunRecord& run);
-    void adoptGsd(const RunRecord& run);
+    void adoptMovedVideo(const SequenceRecord& known, const std::string& identity);
+    void findMovedVideo(const Pending& pending, const QString& message);
+    void showWithoutVideo(const SequenceRecord& sequence, std::optional<int> run_id, const QString& message);
+    void showProject(std::optional<int> run_id);
+    const SequenceRecord* sequenceOfVideo() const;
+    void keepFrameRate();
+    void adoptGsd();
     void useRun(std::optional<int> run_id);
     const RunRecord* findRun(int run_id) const;
     /// The newest run over this video that finished, or that has any frames; null when there is none.
     const RunRecord* newestRun(bool finished) const;
     void runRead(const std::shared_ptr<const RunData>& run);
-    void runsRead(const std::vector<RunRecord>& runs);
+    void listsRead(const ProjectLists& lists);
+    void beginRun(RunRequest request);
     void liveRunStarted(const RunRecord& record);
     void liveFrameCame();
     void liveRunEnded(const RunSummary& summary, int run_id);
@@ -151,16 +198,22 @@ class ProjectSession : public QObject {
     bool project_open_ = false;
     bool project_opens_video_ = false;  ///< the project that is being opened decides which video to show
     std::vector<RunRecord> runs_;
+    std::vector<RunRecord> removed_runs_;
+    std::vector<int> resumable_runs_;
+    std::vector<SequenceRecord> sequences_;
+    std::optional<SequenceRecord> missing_;  ///< the video shown, if it cannot be found
     std::optional<int> current_run_;
     std::shared_ptr<const RunData> run_data_;
     std::filesystem::path run_project_;  ///< the project the running run writes to
+    std::optional<int> own_run_;         ///< the running run, once it has its number
+    bool run_when_open_ = false;         ///< a run was asked for while the frame rate changes
     RunSettings settings_;
     FrameIndex current_frame_ = 0;
     int direction_ = 1;
     ViewFrame view_frame_;
     std::optional<TrackId> selected_track_;
     bool following_ = false;
-    QTimer list_refresh_;  ///< reads the growing lists of a running run
+    QTimer list_refresh_;  ///< reads what runs, here or in other programs, add to the project
     Playback playback_;
     ResultLoader loader_;
     ProjectReader reader_;

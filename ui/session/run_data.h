@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "chain/run_facts.h"
 #include "store/run_store.h"
 
 namespace eyrie::ui {
@@ -14,6 +15,7 @@ struct RunData {
     std::vector<std::pair<std::string, std::string>> parameters;
     std::vector<FrameSummary> frames;  ///< ascending frames
     std::vector<TrackSummary> tracks;  ///< ascending id
+    RunFacts facts;
 };
 
 }  // namespace eyrie::ui

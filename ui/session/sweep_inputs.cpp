@@ -55,7 +55,7 @@ OpenedRuns openRunsForSweep(const std::filesystem::path& project_path, const std
             options.image_size = clip.size;
             truth = plainBoxes(readLabels(wanted.truth_file, "auto", options).boxes);
         }
-        const Media media = mediaOfIdentity(clip.sequence, clip.scale.frame_rate_hz);
+        const Media media = mediaOfIdentity(clip.sequence, {.remembered_hz = clip.scale.frame_rate_hz});
         StageCacheOptions cache;
         cache.all_cores = false;  // the sweep's own threads give way to the window, helpers of OpenCV would not
         SweepInput input = openClip(

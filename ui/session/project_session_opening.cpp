@@ -1,0 +1,276 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "session/project_location.h"
+#include "session/project_session.h"
+#include "store/file_check.h"
+
+namespace eyrie::ui {
+
+// Opening videos and projects, and finding the one that belongs to the other.
+
+namespace fs = std::filesystem;
+
+namespace {
+/// A project keeps rates as they were measured; nearer than this is the same.
+constexpr double kSameRate = 0.005;
+
+Media mediaOf(const SequenceRecord& sequence) {
+    return mediaOfIdentity(sequence.path, {.remembered_hz = sequence.frame_rate_hz});
+}
+}  // namespace
+
+void ProjectSession::open(const fs::path& path) {
+    if (isProject(path))
+        openProject(path);
+    else
+        openMedia(videoMedia(path));
+}
+
+void ProjectSession::openMedia(Media media, const fs::path& project) {
+    beginOpening({std::move(media), Purpose::another_video, project});
+}
+
+void ProjectSession::beginOpening(Pending pending) {
+    pending_ = std::move(pending);
+    project_opens_video_ = false;
+    run_when_open_ = false;
+    emit openingProgress(QString::fromStdString(pending_->media.name), 0);
+    loader_.openMedia(pending_->media, ++ticket_);
+}
+
+void ProjectSession::cancelOpening() {
+    if (!pending_) return;
+    ++ticket_;
+    pending_.reset();
+    run_when_open_ = false;
+    loader_.cancelOpening();
+    emit openingEnded();
+}
+
+void ProjectSession::openProject(const fs::path& project) {
+    cancelOpening();
+    if (running()) stopRun();
+    project_opens_video_ = true;
+    reader_.open(project);
+}
+
+void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
+    if (ticket != ticket_ || !pending_) return;
+    const Pending pending = *std::exchange(pending_, std::nullopt);
+    emit openingEnded();
+    if (pending.purpose == Purpose::moved && !isSameVideo(*pending.sequence, video.info)) {
+        showWithoutVideo(*pending.sequence, pending.run,
+                         tr("%1 is another video: it has %2 frames of %3 × %4; that of the project has %5 of %6 × %7. "
+                            "Locate the video that the runs were made with.")
+                             .arg(QString::fromStdString(pending.media.identity))
+                             .arg(video.info.frame_count)
+                             .arg(video.info.size.width)
+                             .arg(video.info.size.height)
+                             .arg(pending.sequence->frame_count)
+                             .arg(pending.sequence->size.width)
+                             .arg(pending.sequence->size.height));
+        return;
+    }
+    const bool same_video = pending.purpose == Purpose::other_rate || pending.purpose == Purpose::remembered_rate;
+    if (running() && !same_video) stopRun();
+    adoptVideo(pending.media, video, same_video);
+    switch (pending.purpose) {
+        case Purpose::other_rate:
+            keepFrameRate();
+            request();
+            if (std::exchange(run_when_open_, false)) startRun();
+            return;
+        case Purpose::moved:
+            adoptMovedVideo(*pending.sequence, pending.media.identity);
+            showProject(pending.run);
+            return;
+        case Purpose::remembered_rate:
+        case Purpose::of_project:
+            showProject(pending.run);
+            return;
+        case Purpose::another_video:
+            break;
+    }
+    project_open_ = false;
+    takeLists({});
+    useRun(std::nullopt);
+    emit runsChanged();
+    reader_.openFor(pending.media.name, pending.media.identity, video.info, pending.project);
+}
+
+void ProjectSession::mediaFailed(int ticket, const QString& message) {
+    if (ticket != ticket_ || !pending_) return;
+    const Pending pending = *std::exchange(pending_, std::nullopt);
+    run_when_open_ = false;
+    emit openingEnded();
+    if (pending.purpose == Purpose::of_project)
+        findMovedVideo(pending, message);
+    else if (pending.purpose == Purpose::moved)
+        showWithoutVideo(*pending.sequence, pending.run, message);
+    else
+        emit problem(message);
+}
+
+void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep_place) {
+    const FrameIndex place = keep_place ? std::min(current_frame_, std::max(0, video.info.frame_count - 1)) : 0;
+    if (!keep_place) {
+        // A run over the former video may still be stopping: its frames are not of this one.
+        setFollowing(false);
+        run_project_.clear();
+        settings_.gsd_m_per_px = video.gsd_m_per_px;
+        missing_.reset();
+    }
+    settings_.range = {};
+    media_ = std::move(media);
+    video_ = video.info;
+    times_us_ = video.times_us;
+    playback_.setTimes(times_us_);
+    current_frame_ = place;
+    view_frame_ = {};
+    view_frame_.index = place;
+    if (!keep_place) selectTrack(std::nullopt);
+    emit videoChanged();
+    emit frameChanged(current_frame_);
+}
+
+// ---- the project ----------------------------------------------------------------------------------------------------
+
+void ProjectSession::projectOpened(const ProjectLists& lists) {
+    const bool opens_video = std::exchange(project_opens_video_, false);
+    project_ = lists.project;
+    project_open_ = true;
+    takeLists(lists);
+    if (opens_video) {
+        openVideoOfProject();
+        return;
+    }
+    emit projectChanged();
+    emit runsChanged();
+    const SequenceRecord* known = sequenceOfVideo();
+    if (media_->given_rate_hz > 0) {
+        keepFrameRate();
+    } else if (known != nullptr &&
+               std::abs(known->frame_rate_hz - video_->frame_rate_hz) > kSameRate * video_->frame_rate_hz) {
+        beginOpening({mediaOf(*known), Purpose::remembered_rate});
+        return;
+    }
+    showProject(std::nullopt);
+}
+
+void ProjectSession::openVideoOfProject() {
+    current_run_.reset();
+    // The video is on its way before anybody hears of the project: the former one is none of its.
+    if (!runs_.empty()) {
+        const RunRecord& run = runs_.back();
+        beginOpening({mediaOf(run.sequence), Purpose::of_project, project_, run.sequence, run.id});
+    } else if (!sequences_.empty()) {
+        const SequenceRecord& sequence = sequences_.back();
+        beginOpening({mediaOf(sequence), Purpose::of_project, project_, sequence});
+    } else {
+        closeVideo();
+        emit problem(tr("%1 holds neither runs nor labels. Open a video to begin.")
+                         .arg(QString::fromStdString(project_.filename().string())));
+    }
+    emit projectChanged();
+    emit runsChanged();
+}
+
+void ProjectSession::closeVideo() {
+    loader_.closeMedia();
+    media_.reset();
+    video_.reset();
+    missing_.reset();
+    times_us_.clear();
+    playback_.setTimes({});
+    current_frame_ = 0;
+    view_frame_ = {};
+    useRun(std::nullopt);
+    emit videoChanged();
+}
+
+void ProjectSession::showProject(std::optional<int> run_id) {
+    bool finished = true;
+    if (!run_id || findRun(*run_id) == nullptr) {
+        const RunRecord* shown = newestRun(true);
+        finished = shown != nullptr;
+        if (!finished) shown = newestRun(false);
+        run_id = shown != nullptr ? std::optional(shown->id) : std::nullopt;
+    }
+    useRun(run_id);
+    adoptGsd();
+    emit ready(finished);
+}
+
+const SequenceRecord* ProjectSession::sequenceOfVideo() const {
+    const auto found = std::find_if(sequences_.begin(), sequences_.end(), [&](const SequenceRecord& sequence) {
+        return media_ && video_ && sequence.path == media_->identity && sequence.size == video_->size;
+    });
+    return found == sequences_.end() ? nullptr : &*found;
+}
+
+// ---- the frame rate -------------------------------------------------------------------------------------------------
+
+void ProjectSession::setFrameRate(double frames_per_second) {
+    if (!media_ || running() || missing_) return;
+    beginOpening({mediaOfIdentity(media_->identity, {.given_hz = frames_per_second}), Purpose::other_rate});
+}
+
+void ProjectSession::keepFrameRate() {
+    if (!project_open_ || !media_ || !video_) return;
+    SequenceRecord sequence;
+    sequence.path = media_->identity;
+    sequence.size = video_->size;
+    sequence.frame_count = video_->frame_count;
+    sequence.frame_rate_hz = video_->frame_rate_hz;
+    reader_.storeSequence(sequence);
+}
+
+// ---- videos that are not where they were ----------------------------------------------------------------------------
+
+void ProjectSession::findMovedVideo(const Pending& pending, const QString& message) {
+    const auto candidate = movedBeside(project_, *pending.sequence);
+    if (!candidate) {
+        showWithoutVideo(*pending.sequence, pending.run, message);
+        return;
+    }
+    const Media media = videoMedia(*candidate, {.remembered_hz = pending.sequence->frame_rate_hz});
+    beginOpening({media, Purpose::moved, project_, pending.sequence, pending.run});
+}
+
+void ProjectSession::locateVideo(const fs::path& path) {
+    if (!missing_) return;
+    const Media media = videoMedia(path, {.remembered_hz = missing_->frame_rate_hz});
+    beginOpening({media, Purpose::moved, project_, missing_, current_run_});
+}
+
+void ProjectSession::adoptMovedVideo(const SequenceRecord& known, const std::string& identity) {
+    for (SequenceRecord& sequence : sequences_)
+        if (sequence.id == known.id) sequence.path = identity;
+    for (RunRecord& run : runs_)
+        if (run.sequence.id == known.id) run.sequence.path = identity;
+    reader_.relocateSequence(known.id, identity);
+    emit runsChanged();
+    emit notice(tr("The video lies at %1 now; the project remembers it.").arg(QString::fromStdString(identity)));
+}
+
+void ProjectSession::showWithoutVideo(const SequenceRecord& sequence, std::optional<int> run_id,
+                                      const QString& message) {
+    OpenedVideo video;
+    VideoInfo& info = video.info;
+    info.path = sequence.path;
+    info.size = sequence.size;
+    info.frame_count = sequence.frame_count;
+    info.frame_rate_hz = sequence.frame_rate_hz;
+    video.times_us.resize(static_cast<size_t>(std::max(0, info.frame_count)));
+    for (size_t i = 0; i < video.times_us.size(); ++i)
+        video.times_us[i] = std::llround(static_cast<double>(i) * 1e6 / std::max(0.001, info.frame_rate_hz));
+    loader_.closeMedia();
+    adoptVideo(mediaOf(sequence), video, false);
+    missing_ = sequence;
+    showProject(run_id);
+    emit videoNotFound(message);
+}
+
+}  // namespace eyrie::ui
