@@ -2,10 +2,12 @@
 
 #include <QAbstractButton>
 #include <QCoreApplication>
+#include <QLabel>
 #include <QMessageBox>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTest>
+#include <algorithm>
 #include <cstdio>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -118,6 +120,22 @@ inline bool answer(QWidget& window, const QString& button_text) {
         }
     }
     return false;
+}
+
+/// Presses a button by its text; answers whether there is one.
+inline bool press(QWidget& dialog, const QString& button_text) {
+    for (auto* button : dialog.findChildren<QAbstractButton*>()) {
+        if (button->text().remove(QLatin1Char('&')) != button_text || !button->isEnabled()) continue;
+        button->click();
+        return true;
+    }
+    return false;
+}
+
+/// Whether a label of a dialog says something.
+inline bool says(const QWidget& dialog, const QString& part) {
+    const auto labels = dialog.findChildren<QLabel*>();
+    return std::any_of(labels.begin(), labels.end(), [&](const QLabel* label) { return label->text().contains(part); });
 }
 
 inline constexpr int kPatience_ms = 60'000;  ///< for what comes sooner on any machine that works

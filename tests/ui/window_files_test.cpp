@@ -1,6 +1,7 @@
 #include <QDropEvent>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QMenu>
 #include <QMimeData>
 #include <QPushButton>
@@ -9,6 +10,7 @@
 #include <QTableView>
 #include <QTest>
 
+#include "main_window/earlier_state_dialog.h"
 #include "main_window/main_window.h"
 #include "main_window/review_docks.h"
 #include "main_window/run_guard.h"
@@ -17,6 +19,7 @@
 #include "panels/message_bar.h"
 #include "panels/runs_panel.h"
 #include "panels/tracks_panel.h"
+#include "store/project_contents.h"
 #include "ui/session_support.h"
 #include "ui/ui_support.h"
 #include "view/video_view.h"
@@ -244,6 +247,33 @@ class WindowFilesTest : public QObject {
         QVERIFY(std::any_of(buttons.begin(), buttons.end(),
                             [](const QPushButton* button) { return button->text() == QStringLiteral("Locate…"); }));
         QVERIFY(!window.session().running());
+    }
+
+    void anEarlierStateIsRestored() {
+        MainWindow window;
+        QVERIFY(runs(window, images("a", 6)));
+        const auto project = window.session().project();
+        QVERIFY(waitFor([&] { return !listBackups(project).empty() || window.session().runs().size() == 1; }));
+        QCOMPARE(backUp(project, BackupRequest()).outcome, BackupOutcome::made);  // as on another day
+        QSignalSpy finished(&window.session(), &ProjectSession::runFinished);
+        QVERIFY(waitFor([&] { return window.actions().run->isEnabled(); }));
+        window.actions().run->trigger();
+        QVERIFY(finished.wait(kPatience_ms));
+        QVERIFY(waitFor([&] { return window.session().runs().size() == 2; }));
+        window.actions().restore_state->trigger();
+        auto* dialog = window.findChild<EarlierStateDialog*>();
+        QVERIFY(dialog);
+        QVERIFY(waitFor([&] { return dialog->list()->count() > 0; }));
+        QVERIFY(test::says(*dialog, QStringLiteral("run 2")));  // it would be gone
+        QSignalSpy ready(&window.session(), &ProjectSession::ready);
+        QVERIFY(test::press(*dialog, QStringLiteral("Restore")));
+        QVERIFY(ready.wait(kPatience_ms));
+        QCOMPARE(window.session().project(), project);
+        QCOMPARE(window.session().runs().size(), std::size_t(1));
+        const auto kept = listBackups(project);
+        QVERIFY(std::any_of(kept.begin(), kept.end(), [](const ProjectBackup& backup) {
+            return backup.reason == BackupReason::before_restoring && contentsOf(backup.path).runs.size() == 2;
+        }));
     }
 
     void whatWasWrongBeforeIsNotSaidAboutTheNextFile() {

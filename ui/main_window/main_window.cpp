@@ -27,6 +27,7 @@
 #include "panels/message_bar.h"
 #include "panels/parameter_form.h"
 #include "panels/stage_times_chart.h"
+#include "session/earlier_states.h"
 #include "session/inspection.h"
 #include "view/label_timeline.h"
 #include "view/timeline_view.h"
@@ -56,6 +57,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildToolBar();
     resize(kFirstSize);
     guard_ = new RunGuard(session_, *this);
+    earlier_ = new EarlierStates(this);
     inspection_ = new Inspection(session_, this);
     docks_ = new ReviewDocks(session_, *inspection_, *this);
     parameters_ = new ParameterBinding(session_, docks_->parameterForm(), this);
@@ -66,6 +68,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildMenus();
     buildLabelling();
     wireFileActions();
+    wireEarlierStates();
     wirePlaybackActions();
     wireViewActions();
     wireSession();
@@ -160,6 +163,7 @@ void MainWindow::wireFileActions() {
     connect(actions_->open_project, &QAction::triggered, this, &MainWindow::openProject);
     connect(actions_->save_as, &QAction::triggered, this, &MainWindow::saveAs);
     connect(actions_->save_copy, &QAction::triggered, this, &MainWindow::saveCopy);
+    connect(actions_->restore_state, &QAction::triggered, this, &MainWindow::chooseEarlierState);
     connect(actions_->demo, &QAction::triggered, this, &MainWindow::showDemo);
     connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
     connect(welcome_, &WelcomePanel::recentChosen, this, &MainWindow::openRecent);
@@ -302,6 +306,7 @@ void MainWindow::enableActions() {
     actions_->continue_run->setEnabled(session_.currentRun() && session_.canContinue(*session_.currentRun()));
     actions_->follow->setEnabled(running);
     actions_->save_as->setEnabled(has_video && !running);
+    actions_->restore_state->setEnabled(!session_.project().empty());
     actions_->save_copy->setEnabled(!session_.project().empty());
     actions_->restore_run->setEnabled(!session_.removedRuns().empty());
 }

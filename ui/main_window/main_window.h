@@ -14,6 +14,7 @@ class QStackedWidget;
 
 namespace eyrie::ui {
 
+class EarlierStates;
 class EvaluationDocks;
 class Inspection;
 class LabelTimeline;
@@ -86,6 +87,8 @@ class MainWindow : public QMainWindow {
     QString chosenTarget(const QString& title);
     void openPath(const QString& path);
     void openRecent(const RecentProject& project);
+    void wireEarlierStates();
+    void chooseEarlierState();
     void leave(std::function<void()> then);
     void rememberProject();
     void showDemo();
@@ -121,6 +124,8 @@ class MainWindow : public QMainWindow {
     LabelTimeline* label_rows_;
     RunBar* run_bar_;
     RunGuard* guard_;
+    EarlierStates* earlier_;
+    std::filesystem::path restoring_;  ///< the project that was closed to become what it was
     StatusFields* status_;
     Inspection* inspection_;
     ReviewDocks* docks_;

@@ -4,6 +4,7 @@
 #include <QMenu>
 #include <utility>
 
+#include "main_window/earlier_state_dialog.h"
 #include "main_window/main_window.h"
 #include "main_window/run_bar.h"
 #include "main_window/run_guard.h"
@@ -108,6 +109,42 @@ void MainWindow::saveAs() {
 void MainWindow::saveCopy() {
     const QString path = chosenTarget(tr("Save a copy of the project"));
     if (!path.isEmpty()) session_.saveProjectCopy(path.toStdString());
+}
+
+void MainWindow::wireEarlierStates() {
+    connect(&session_, &ProjectSession::projectChanged, this, [this, kept = std::filesystem::path()]() mutable {
+        if (session_.project().empty() || session_.project() == kept) return;
+        kept = session_.project();
+        earlier_->keepIfDue(kept);
+    });
+    connect(earlier_, &EarlierStates::notice, this, &MainWindow::showNotice);
+    connect(earlier_, &EarlierStates::restored, this, [this](const std::filesystem::path& project) {
+        restoring_.clear();
+        leave([this, project] { session_.openProject(project); });
+    });
+    connect(earlier_, &EarlierStates::failed, this, [this](const QString& message) {
+        showProblem(message);
+        if (const auto project = std::exchange(restoring_, {}); !project.empty()) session_.openProject(project);
+    });
+}
+
+void MainWindow::chooseEarlierState() {
+    const std::filesystem::path project = session_.project();
+    auto* dialog = new EarlierStateDialog(*earlier_, project, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &EarlierStateDialog::restoreChosen, this, [this, project](const ProjectBackup& backup) {
+        guard_->beforeEnding(tr("an earlier state is restored"), [this, project, backup] {
+            rememberView();
+            restoring_ = project;
+            session_.closeProject();
+            earlier_->restore(project, backup);
+        });
+    });
+    connect(dialog, &EarlierStateDialog::openChosen, earlier_, [this, project](const ProjectBackup& backup) {
+        const std::string name = project.stem().string() + " " + backup.name() + project.extension().string();
+        earlier_->restoreAsNew(backup, project.parent_path() / name);
+    });
+    dialog->open();
 }
 
 void MainWindow::showDemo() {

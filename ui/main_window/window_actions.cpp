@@ -16,6 +16,8 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                                             {QKeySequence(tr("Ctrl+Shift+S"))},
                                             QT_TR_NOOP("Save under another name, and go on working there")});
     save_copy = add(tr("Save a &copy…"), {"document-save", {}, QT_TR_NOOP("Save a copy, and go on working here")});
+    restore_state = add(tr("Restore an &earlier state…"),
+                        {"document-revert", {}, QT_TR_NOOP("What the project held on earlier days")});
     report = add(tr("Evaluation &report…"), {"document-export",
                                              {QKeySequence(tr("Ctrl+Shift+R"))},
                                              QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});

@@ -168,14 +168,16 @@ class ProjectReader::Worker {
 
     ProjectLists lists() {
         const RunStore store(*project_);
-        ProjectLists lists{project_->path(), store.runs(), store.removedRuns(), {}, sequencesOf(*project_)};
+        ProjectLists lists{project_->path(), store.runs(), store.removedRuns(), {}, sequencesOf(*project_), {}};
         for (const RunRecord& run : resumableRuns(store)) lists.resumable.push_back(run.id);
         any_running_ = std::any_of(lists.runs.begin(), lists.runs.end(), [](const RunRecord& run) { return run.live; });
         return lists;
     }
 
     void tellOpened() {
-        queuedCall(&owner_, [owner = &owner_, lists = lists()] { emit owner->opened(lists); });
+        ProjectLists opened = lists();
+        opened.notice = project_->notice();
+        queuedCall(&owner_, [owner = &owner_, opened = std::move(opened)] { emit owner->opened(opened); });
     }
 
     void openFailed(const std::filesystem::path& path, const std::exception& error) {

@@ -18,6 +18,7 @@ struct ProjectLists {
     std::vector<RunRecord> removed;         ///< runs that can be brought back
     std::vector<int> resumable;             ///< runs that ended early and can be gone on with
     std::vector<SequenceRecord> sequences;  ///< videos, ascending ids
+    std::string notice;                     ///< for people, when it was opened; else empty
 };
 
 /// Reads and edits the lists of a project on its own thread. Signals arrive on the thread of this object.

@@ -142,6 +142,7 @@ void ProjectSession::projectOpened(const ProjectLists& lists) {
     project_ = lists.project;
     project_open_ = true;
     takeLists(lists);
+    if (!lists.notice.empty()) emit notice(QString::fromStdString(lists.notice));
     if (opens_video) {
         openVideoOfProject();
         return;
@@ -188,6 +189,17 @@ void ProjectSession::closeVideo() {
     view_frame_ = {};
     useRun(std::nullopt);
     emit videoChanged();
+}
+
+void ProjectSession::closeProject() {
+    cancelOpening();
+    closeVideo();
+    reader_.close();
+    project_open_ = false;
+    project_.clear();
+    takeLists({});
+    emit projectChanged();
+    emit runsChanged();
 }
 
 void ProjectSession::showProject(std::optional<int> run_id) {
