@@ -26,7 +26,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct BenchArguments {
     std::string input = "scene:seq1";
     double gsd_m_per_px = 0.345;
     int frames = 60;
@@ -250,7 +250,7 @@ void printJson(const std::vector<Column>& columns, const std::vector<Sample>& ba
     std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
-void bench(const Arguments& arguments) {
+void bench(const BenchArguments& arguments) {
     checkGsd(arguments.gsd_m_per_px);
     const ChainOptions options = arguments.preset.options();
     const auto source = openInput(arguments.input, 0, {});
@@ -287,7 +287,7 @@ void bench(const Arguments& arguments) {
 }  // namespace
 
 void addBenchCommand(CLI::App& app, int&) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<BenchArguments>();
     CLI::App* command = app.add_subcommand("bench", "Measure the time of every stage, beside the usual OpenCV means");
     command->add_option("--input", arguments->input, "Video, folder of images or scene:NAME")->capture_default_str();
     command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel")

@@ -10,7 +10,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct ClassifyArguments {
     std::string model;
     std::string patches;
     std::string roc;
@@ -53,7 +53,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void addClassifyCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ClassifyArguments>();
     CLI::App* command = app.add_subcommand("classify", "Measure a trained classifier on patch sheets");
     command->add_option("--model", arguments->model, "A model that eyrie-cli train wrote")->required();
     command->add_option("--patches", arguments->patches, "Folder with pos.png, neg.png and patches.csv")->required();

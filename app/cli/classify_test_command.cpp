@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr int kOthersPerRenderedFrame = 120;
 
-struct Arguments {
+struct ClassifyTestArguments {
     std::vector<std::string> samples;
     std::vector<std::string> train_on;
     std::vector<std::string> descriptors;
@@ -41,7 +41,7 @@ struct Arguments {
 
 using SetsBySource = std::map<std::string, SampleSet>;
 
-SetsBySource readSets(const Arguments& arguments, const std::stop_token& stop) {
+SetsBySource readSets(const ClassifyTestArguments& arguments, const std::stop_token& stop) {
     SetsBySource sets;
     for (Sample& sample : readSampleFolders(arguments.samples)) sets[sample.source].push_back(std::move(sample));
     if (arguments.rendered > 0) {
@@ -85,7 +85,7 @@ std::vector<Kind> chosen(const std::vector<std::string>& names, const std::vecto
 }
 
 /// As in the thesis: about as many others as vehicles, no variations, no further rounds.
-TrainingOptions plainOptions(const Arguments& arguments) {
+TrainingOptions plainOptions(const ClassifyTestArguments& arguments) {
     TrainingOptions options;
     options.seed = arguments.seed;
     options.hard_negative_rounds = 0;
@@ -181,7 +181,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void addClassifyTestCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ClassifyTestArguments>();
     CLI::App* command = app.add_subcommand(
         "classify-test", "Compare descriptors and classifiers over sources of samples (Teutsch table 7.4)");
     command->add_option("--samples", arguments->samples,

@@ -22,7 +22,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
     std::string sequence;
     std::string ground_truth;
     std::optional<double> gsd_m_per_px;
@@ -72,7 +72,7 @@ struct Planned {
     MethodVariant variant;
 };
 
-std::vector<Planned> plan(const Arguments& arguments, std::vector<std::string>& remarks) {
+std::vector<Planned> plan(const CompareArguments& arguments, std::vector<std::string>& remarks) {
     const ChainOptions base = arguments.preset.options();
     const bool chosen = !arguments.methods.empty();
     const std::vector<std::string> words = chosen ? arguments.methods : std::vector<std::string>{"detectors"};
@@ -117,7 +117,7 @@ class Recorders {
     std::vector<std::unique_ptr<RunRecorder>> recorders_;
 };
 
-bool allUpright(const BoxesByFrame& boxes) {
+bool allUprightBoxes(const BoxesByFrame& boxes) {
     for (const auto& entry : boxes) {
         for (const BoxRecord& record : entry.second) {
             if (std::abs(std::sin(2 * record.box.heading)) > 1e-6) return false;
@@ -134,7 +134,7 @@ double laterMs(const StageTimes& times) {
 }
 
 /// Measures every result; the first row is what the others are compared with.
-std::vector<ComparisonRow> rowsAt(double overlap, const Arguments& arguments, const EvaluationOptions& given,
+std::vector<ComparisonRow> rowsAt(double overlap, const CompareArguments& arguments, const EvaluationOptions& given,
                                   const BoxesByFrame& truth, const std::vector<Planned>& planned,
                                   const std::vector<MethodResult>& results, std::pair<FrameIndex, FrameIndex> frames,
                                   double frame_rate_hz) {
@@ -171,7 +171,7 @@ std::vector<ComparisonRow> rowsAt(double overlap, const Arguments& arguments, co
     return rows;
 }
 
-int compare(const Arguments& arguments) {
+int compare(const CompareArguments& arguments) {
     if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
     if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
     const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
@@ -228,7 +228,7 @@ int compare(const Arguments& arguments) {
         report.options.upright = true;
         report.remarks.push_back(truth.format +
                                  ": boxes are upright, so the enclosing boxes of the results are compared");
-    } else if (!report.options.upright && allUpright(truth.boxes)) {
+    } else if (!report.options.upright && allUprightBoxes(truth.boxes)) {
         report.remarks.push_back("the ground truth has upright boxes only; if it has no headings, add --upright");
     }
     if (truth.boxes.empty()) {
@@ -250,7 +250,7 @@ int compare(const Arguments& arguments) {
 }  // namespace
 
 void addCompareCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<CompareArguments>();
     CLI::App* command = app.add_subcommand("compare", "Measure several methods on one sequence with ground truth");
     command->add_option("--sequence", arguments->sequence, "A video file, a folder of images, or scene:NAME")
         ->required();

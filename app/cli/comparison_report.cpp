@@ -27,7 +27,7 @@ std::string left(const std::string& text, std::size_t width) {
 }
 
 /// A measure of the tables; empty where a result has none.
-struct Column {
+struct MeasureColumn {
     const char* title;
     const char* key;
     std::size_t width;
@@ -40,8 +40,8 @@ std::optional<double> ofTracking(const Measures& m, double (*read)(const Trackin
     return read(*m.tracking);
 }
 
-const std::vector<Column>& columns() {
-    static const std::vector<Column> all{
+const std::vector<MeasureColumn>& columns() {
+    static const std::vector<MeasureColumn> all{
         {"TP", "tp", 7, 0, [](const Measures& m) { return std::optional<double>(m.detection.true_positives); }},
         {"FP", "fp", 7, 0, [](const Measures& m) { return std::optional<double>(m.detection.false_positives); }},
         {"FN", "fn", 7, 0, [](const Measures& m) { return std::optional<double>(m.detection.false_negatives); }},
@@ -78,7 +78,7 @@ const std::vector<Column>& columns() {
     return all;
 }
 
-std::string valueText(const Column& column, const Measures& measures) {
+std::string valueText(const MeasureColumn& column, const Measures& measures) {
     const std::optional<double> value = column.value(measures);
     if (!value) return "-";
     return column.decimals == 0 ? number("%.0f", *value) : number("%.3f", *value);
@@ -94,11 +94,11 @@ void addBlock(std::string& text, const std::vector<ComparisonRow>& rows) {
     for (const ComparisonRow& row : rows) width = std::max(width, row.name().size() + 1);
     text += '\n';
     text += left("T_ov " + number("%g", rows.front().measures.overlap), width);
-    for (const Column& column : columns()) text += right(column.title, column.width);
+    for (const MeasureColumn& column : columns()) text += right(column.title, column.width);
     text += right("ms", 8) + "\n";
     for (const ComparisonRow& row : rows) {
         text += left(row.name(), width);
-        for (const Column& column : columns()) text += right(valueText(column, row.measures), column.width);
+        for (const MeasureColumn& column : columns()) text += right(valueText(column, row.measures), column.width);
         text += right(number("%.1f", row.ms_per_frame), 8) + "\n";
     }
     if (rows.size() < 2) return;
@@ -142,7 +142,7 @@ std::string tableText(const ComparisonReport& report) {
 
 std::string csvText(const ComparisonReport& report) {
     std::string text = "method,stacking,tracking,overlap";
-    for (const Column& column : columns()) text += std::string(",") + column.key;
+    for (const MeasureColumn& column : columns()) text += std::string(",") + column.key;
     text +=
         ",ms_per_frame,f_score_low,f_score_high,f_score_difference,f_score_difference_low,f_score_difference_high,"
         "mota_difference,mota_difference_low,mota_difference_high\n";
@@ -153,7 +153,7 @@ std::string csvText(const ComparisonReport& report) {
         for (const ComparisonRow& row : rows) {
             text += row.method + (row.stacking ? ",1" : ",0") + (row.tracking ? ",1" : ",0") +
                     number(",%g", row.measures.overlap);
-            for (const Column& column : columns()) {
+            for (const MeasureColumn& column : columns()) {
                 const std::optional<double> value = column.value(row.measures);
                 text += value ? number(",%.6g", *value) : ",";
             }

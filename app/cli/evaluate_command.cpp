@@ -21,7 +21,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct EvaluateArguments {
     std::string ground_truth;
     std::string result;
     std::string project;
@@ -97,20 +97,20 @@ bool allUpright(const BoxesByFrame& boxes) {
     return true;
 }
 
-std::optional<cv::Size> knownImageSize(const Arguments& arguments, const Result& result) {
+std::optional<cv::Size> knownImageSize(const EvaluateArguments& arguments, const Result& result) {
     if (!arguments.size.empty()) return parseSize(arguments.size);
     if (result.run) return result.run->sequence.size;
     return describedBeside(arguments.ground_truth).image_size;
 }
 
-cv::Size imageSize(const Arguments& arguments, const Result& result) {
+cv::Size imageSize(const EvaluateArguments& arguments, const Result& result) {
     if (const auto known = knownImageSize(arguments, result)) return *known;
     throw Error(ErrorKind::parameter,
                 "--border needs the size of the image, which neither a project nor a file beside " +
                     arguments.ground_truth + " tells; add --size WIDTHxHEIGHT");
 }
 
-RegistrationError registrationErrorOf(const Arguments& arguments, const Result& result) {
+RegistrationError registrationErrorOf(const EvaluateArguments& arguments, const Result& result) {
     TrueHomographies truth;
     for (const Homography& homography : readHomographyCsv(arguments.homographies)) {
         truth[homography.from_frame] = homography.matrix;
@@ -119,7 +119,7 @@ RegistrationError registrationErrorOf(const Arguments& arguments, const Result& 
 }
 
 /// The list of errors at the first T_ov; causes need a stored run.
-void writeErrors(const Arguments& arguments, const BoxesByFrame& truth, const Result& result,
+void writeErrors(const EvaluateArguments& arguments, const BoxesByFrame& truth, const Result& result,
                  EvaluationOptions options) {
     options.overlap = arguments.overlaps.empty() ? options.overlap : arguments.overlaps.front();
     const EvaluationInput input = prepareEvaluation(truth, result.boxes, options);
@@ -193,7 +193,7 @@ void evaluateAndPrint(const Arguments& arguments) {
 }  // namespace
 
 void addEvaluateCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<EvaluateArguments>();
     CLI::App* command = app.add_subcommand("evaluate", "Measure tracks or detections against ground truth");
     command->add_option("--ground-truth", arguments->ground_truth,
                         "True boxes, in any format that import reads (default: the project's labels of the video)");

@@ -16,7 +16,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct ExportArguments {
     std::string project;
     std::optional<int> run;
     bool labels = false;
@@ -33,7 +33,7 @@ struct Arguments {
 };
 
 /// What is to be exported; names the sequence after its video where nobody did.
-LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
+LabelFile gathered(const ExportArguments& arguments, ExportOptions& options) {
     std::string source = arguments.from;
     LabelFile labels;
     if (!arguments.from.empty()) {
@@ -66,7 +66,7 @@ LabelFile gathered(const Arguments& arguments, ExportOptions& options) {
     return labels;
 }
 
-void exportLabels(const Arguments& arguments) {
+void exportLabels(const ExportArguments& arguments) {
     ExportOptions options = arguments.options;
     if (arguments.clip) options.clip = true;
     if (arguments.keep) options.clip = false;
@@ -82,7 +82,7 @@ void exportLabels(const Arguments& arguments) {
 }  // namespace
 
 void addExportCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ExportArguments>();
     arguments->options.sequence.clear();
     CLI::App* command =
         app.add_subcommand("export", "Write labels or tracks for other programs; says what their format cannot carry");

@@ -17,7 +17,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct ImportArguments {
     std::string file;
     LabelArguments labels;
     std::string project;
@@ -57,7 +57,7 @@ std::vector<std::string> doubtsAbout(const LabelFile& labels, ProjectFile& proje
     return doubts;
 }
 
-SequenceRecord sequenceFor(ProjectFile& project, const Arguments& arguments) {
+SequenceRecord sequenceFor(ProjectFile& project, const ImportArguments& arguments) {
     if (arguments.video.empty()) return chosenSequence(project, arguments.sequence);
     const std::unique_ptr<FrameSource> source =
         openInput(arguments.video, 0, {}, rememberedRate(project.path(), arguments.video));
@@ -88,7 +88,7 @@ void printNotes(const std::vector<std::string>& notes) {
     for (const std::string& note : notes) std::printf("  note        %s\n", note.c_str());
 }
 
-void importLabels(const Arguments& arguments) {
+void importLabels(const ImportArguments& arguments) {
     ImportOptions options = importOptionsOf(arguments.labels);
     const LabelFile labels = readLabels(arguments.file, arguments.labels.format, options);
     const LabelReport report = reportOn(labels);
@@ -133,7 +133,7 @@ void importLabels(const Arguments& arguments) {
 }  // namespace
 
 void addImportCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ImportArguments>();
     CLI::App* command = app.add_subcommand(
         "import",
         "Take over labels of other programs, into a project or as our ground truth; shows first what it found");

@@ -4,16 +4,10 @@
 
 #include "chain/chain.h"
 #include "chain/method_variants.h"
+#include "cli/median.h"
 
 namespace eyrie::cli {
 namespace {
-
-double medianOf(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 MethodTimes measure(const MethodVariant& variant, const std::vector<Frame>& frames,
                     const std::vector<FrameMotion>& motions, const SceneScale& scale, int warm_up) {

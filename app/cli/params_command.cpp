@@ -9,7 +9,7 @@
 namespace eyrie::cli {
 namespace {
 
-void printJson(const std::vector<Parameter>& parameters) {
+void printParameterJson(const std::vector<Parameter>& parameters) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const auto& p : parameters) {
         nlohmann::ordered_json entry{{"name", p.name}, {"value", p.value}, {"unit", p.text.unit}};
@@ -26,7 +26,7 @@ void printJson(const std::vector<Parameter>& parameters) {
     std::puts(list.dump(2).c_str());
 }
 
-void printTable(const std::vector<Parameter>& parameters) {
+void printParameterTable(const std::vector<Parameter>& parameters) {
     std::string group;
     for (const auto& p : parameters) {
         const std::string own_group = p.name.substr(0, p.name.find('.'));
@@ -51,7 +51,7 @@ void addParamsCommand(CLI::App& app, int&) {
     command->callback([arguments] {
         ChainOptions options = arguments->preset.options();
         const auto parameters = listParameters(describeOf(options));
-        arguments->json ? printJson(parameters) : printTable(parameters);
+        arguments->json ? printParameterJson(parameters) : printParameterTable(parameters);
     });
 }
 

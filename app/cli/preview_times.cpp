@@ -8,6 +8,7 @@
 
 #include "chain/chain.h"
 #include "chain/preview.h"
+#include "cli/median.h"
 #include "store/project_file.h"
 #include "store/result_writer.h"
 #include "store/run_store.h"
@@ -23,12 +24,6 @@ constexpr int kPositions = 15;  ///< of each slider
 
 double msSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-double medianOf(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 std::vector<Frame> enlarged(const std::vector<Frame>& frames) {

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct RenderArguments {
     std::string scene;
     std::string folder;
     OutputArguments outputs;
@@ -116,7 +116,7 @@ void collectTruth(const RenderedFrame& rendered, bool upright, BoxesByFrame& box
     }
 }
 
-int run(const Arguments& arguments) {
+int run(const RenderArguments& arguments) {
     SceneDescription description = scenePreset(arguments.scene, arguments.seed);
     const int count = arguments.frames.value_or(description.frame_count);
     if (count < 1 || count > description.frame_count) {
@@ -177,7 +177,7 @@ std::string sceneList() {
 }  // namespace
 
 void addRenderCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = app.add_subcommand("render", "Paint an aerial scene with exact ground truth into a folder");
     command->add_option("scene", arguments->scene, "One of " + sceneList())->required();
     command

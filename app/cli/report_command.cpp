@@ -16,7 +16,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct ReportArguments {
     EvaluationRequest request;
     std::string project;
     std::string ground_truth;
@@ -73,7 +73,7 @@ void makeReport(const Arguments& arguments) {
 }  // namespace
 
 void addReportCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ReportArguments>();
     CLI::App* command = app.add_subcommand(
         "report", "Write the evaluation of a run as one HTML file: parameters, measures, curves, errors with pictures");
     command->add_option("--project", arguments->project, "Project that holds the run")->required();

@@ -24,7 +24,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct RunArguments {
     std::string input;
     std::string project;
     std::optional<double> gsd_m_per_px;
@@ -46,7 +46,7 @@ struct Arguments {
 /// Shows progress and, if wanted, writes the annotated video.
 class ConsoleObserver : public ChainObserver {
  public:
-    ConsoleObserver(const Arguments& arguments, const VideoInfo& video) : quiet_(arguments.quiet) {
+    ConsoleObserver(const RunArguments& arguments, const VideoInfo& video) : quiet_(arguments.quiet) {
         if (arguments.annotated.empty()) return;
         const int zoom = annotationZoom(video.size);
         VideoWriterOptions options;
@@ -86,7 +86,7 @@ class ConsoleObserver : public ChainObserver {
     std::unique_ptr<VideoWriter> writer_;
 };
 
-SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const Arguments& arguments,
+SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const RunArguments& arguments,
                    const std::stop_token& stop) {
     ConsoleProgress console("looks");
     return chooseScale(source, range, options, arguments.gsd_m_per_px.value_or(0), stop,
@@ -284,7 +284,7 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 void addRunCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RunArguments>();
     CLI::App* command =
         app.add_subcommand("run", "Find and follow the moving vehicles of a video and store them in a project");
     command->add_option("input", arguments->input,

@@ -22,7 +22,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct SweepArguments {
     SweepSources sources;
     std::vector<std::string> axes;
     std::vector<double> overlaps{0.1, 0.2, 0.3};
@@ -60,7 +60,7 @@ std::vector<int> chosenPositions(const SweepPlan& plan, const std::string& shard
 }
 
 /// Parameters that all points share. Of stored runs they are those of the first, unless a preset is named.
-ChainOptions baseOptions(const Arguments& arguments, const std::vector<StoredRun>& runs) {
+ChainOptions baseOptions(const SweepArguments& arguments, const std::vector<StoredRun>& runs) {
     if (runs.empty() || arguments.preset_given) return arguments.preset.options();
     ChainOptions options = runs.front().options;
     PresetArguments settings = arguments.preset;
@@ -69,7 +69,7 @@ ChainOptions baseOptions(const Arguments& arguments, const std::vector<StoredRun
     return options;
 }
 
-SweepCriterion criterionOf(const Arguments& arguments, const SweepPlan& plan) {
+SweepCriterion criterionOf(const SweepArguments& arguments, const SweepPlan& plan) {
     SweepCriterion criterion = usualCriterion(plan);
     criterion.key = measureText(arguments.criterion).key;
     if (!arguments.of.empty()) criterion.tracks = arguments.of == "tracks";
@@ -90,7 +90,7 @@ void refuseTooMany(const std::vector<std::string>& axes, bool yes) {
 }
 
 /// Runs what is missing; answers whether all was done.
-bool runMissing(const Arguments& arguments, const SweepPlan& plan, const std::vector<SweepInput>& inputs,
+bool runMissing(const SweepArguments& arguments, const SweepPlan& plan, const std::vector<SweepInput>& inputs,
                 std::vector<int> positions, ProjectFile& project, int sweep, const std::stop_token& stop) {
     const std::set<int> done = SweepStore(project).pointsDone(sweep);
     std::erase_if(positions, [&](int position) { return done.count(position) > 0; });
@@ -190,7 +190,7 @@ int sweep(const Arguments& arguments) {
 }  // namespace
 
 void addSweepCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<SweepArguments>();
     CLI::App* command =
         app.add_subcommand("sweep", "Try many values of one or two parameters on sequences with ground truth");
     SweepSources& sources = arguments->sources;

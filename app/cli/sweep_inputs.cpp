@@ -96,7 +96,7 @@ OpenedSources openSequences(const SweepSources& sources, const ChainOptions& opt
         const double rate = sources.frame_rate_hz.value_or(0);
         const auto source = openInput(sequence, rate, stop);
         const BoxesByFrame truth =
-            readTruth(sources, sources.ground_truths[i], source->info().size, clip, opened.remarks);
+            readClipTruth(sources, sources.ground_truths[i], source->info().size, clip, opened.remarks);
         const double gsd = sources.gsds.empty() ? 0 : sources.gsds[sources.gsds.size() == 1 ? 0 : i];
         clip.scale = chooseScale(*source, range, options, gsd, stop);
         opened.inputs.push_back(openClip(clip, opener(clip.sequence, rate), range, truth));
@@ -119,7 +119,7 @@ OpenedSources openStoredRuns(const SweepSources& sources, std::vector<StoredRun>
         const BoxesByFrame truth =
             sources.ground_truths.empty()
                 ? labelsOfProject(sources, run, clip)
-                : readTruth(sources, sources.ground_truths[i], imageSizeOf(sources, run), clip, opened.remarks);
+                : readClipTruth(sources, sources.ground_truths[i], imageSizeOf(sources, run), clip, opened.remarks);
         SweepInput input = openClip(clip, opener(clip.sequence, clip.scale.frame_rate_hz), run.range, truth);
         input.cache->useStoredMotion(run.options, std::move(run.motion));
         if (signatureUpTo(run.options, SweepStage::motion) != signatureUpTo(options, SweepStage::motion))

@@ -20,7 +20,7 @@
 namespace eyrie::cli {
 namespace {
 
-struct Arguments {
+struct TrainArguments {
     std::string descriptor = "chnftrs";
     std::string classifier = "adaboost";
     std::vector<std::string> samples;
@@ -38,7 +38,7 @@ struct Arguments {
     bool quiet = false;
 };
 
-TrainingOptions optionsOf(const Arguments& arguments) {
+TrainingOptions optionsOf(const TrainArguments& arguments) {
     TrainingOptions options;
     options.descriptor = descriptorFromName(arguments.descriptor);
     options.classifier = classifierFromName(arguments.classifier);
@@ -98,7 +98,7 @@ class PhaseProgress {
     std::chrono::steady_clock::time_point start_;
 };
 
-std::vector<LabelledImage> labelledImages(const Arguments& arguments, const TrainingOptions& options,
+std::vector<LabelledImage> labelledImages(const TrainArguments& arguments, const TrainingOptions& options,
                                           const std::stop_token& stop) {
     std::vector<LabelledImage> images;
     for (std::size_t i = 0; i < arguments.inputs.size(); ++i) {
@@ -114,7 +114,7 @@ std::vector<LabelledImage> labelledImages(const Arguments& arguments, const Trai
     return images;
 }
 
-int run(const Arguments& arguments) {
+int run(const TrainArguments& arguments) {
     const TrainingOptions options = optionsOf(arguments);
     if (arguments.samples.empty() && arguments.inputs.empty() && arguments.rendered == 0) {
         throw Error(ErrorKind::parameter, "nothing to train with: give --samples, --images or --rendered");
@@ -178,7 +178,7 @@ std::string namesOf(const Kinds& kinds) {
 }  // namespace
 
 void addTrainCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<TrainArguments>();
     CLI::App* command = app.add_subcommand("train", "Train a classifier of vehicles for the sliding window");
     command->add_option("--descriptor", arguments->descriptor, "One of " + namesOf(allDescriptors()))
         ->capture_default_str();

@@ -12,7 +12,7 @@
 namespace eyrie {
 namespace {
 
-double lengthOf(cv::Point2d v) {
+double stepLength(cv::Point2d v) {
     return std::hypot(v.x, v.y);
 }
 
@@ -110,7 +110,7 @@ class Follower {
 
     /// Likeness less a little for every pixel and turn away from where it starts, so that flat looks do not wander.
     double penalised(const cv::Mat& gray, const OrientedBox& box, const OrientedBox& from) const {
-        const double away = lengthOf(box.centre - from.centre);
+        const double away = stepLength(box.centre - from.centre);
         const double turn = std::abs(turnBetween(from.heading, box.heading));
         return likenessOf(gray, box).score() - 0.004 * away * away - 1.0 * turn * turn;
     }
@@ -125,15 +125,15 @@ class Follower {
         constexpr int kKnownSpeedSteps = 2;
         const cv::Point2d expected = map.applyToVector(box_.centre, velocity_);
         if (steps_ >= kKnownSpeedSteps &&
-            lengthOf(movementTo(step.box, map) - expected) > options_.max_speed_change_px) {
+            stepLength(movementTo(step.box, map) - expected) > options_.max_speed_change_px) {
             return FollowEnd::jump;
         }
         // A vehicle does not stop or set off at once; a box that sticks to the ground does.
         const cv::Point2d usual = map.applyToVector(box_.centre, usual_velocity_);
         constexpr int kUsualSpeedSteps = 6;
-        const double change = lengthOf((movementTo(step.box, map) + expected) * 0.5 - usual);
+        const double change = stepLength((movementTo(step.box, map) + expected) * 0.5 - usual);
         if (steps_ >= kUsualSpeedSteps &&
-            change > std::max(options_.max_speed_change_px * 0.35, 0.5 * lengthOf(usual))) {
+            change > std::max(options_.max_speed_change_px * 0.35, 0.5 * stepLength(usual))) {
             return FollowEnd::jump;
         }
         if (likeness.start < options_.min_start_likeness) return FollowEnd::appearance;

@@ -11,14 +11,6 @@
 namespace eyrie {
 namespace {
 
-double cornerDistance(const OrientedBox& a, const OrientedBox& b) {
-    const auto p = a.corners();
-    const auto q = b.corners();
-    double worst = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) worst = std::max(worst, std::hypot(p[i].x - q[i].x, p[i].y - q[i].y));
-    return worst;
-}
-
 /// Keeps the deviation of every dense box while keyframes come and go, computing anew only what a change can reach.
 class Reducer {
  public:

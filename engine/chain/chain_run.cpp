@@ -205,7 +205,7 @@ class ProgressMeter {
     std::deque<Clock::time_point> recent_;
 };
 
-StageTimes medianOf(const std::vector<StageTimes>& frames) {
+StageTimes medianTimes(const std::vector<StageTimes>& frames) {
     StageTimes median{};
     std::vector<float> values(frames.size());
     for (std::size_t stage = 0; stage < median.size() && !frames.empty(); ++stage) {
@@ -300,7 +300,7 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
         fail(ErrorKind::internal, error.what());
     }
     summary.seconds = secondsSince(start);
-    summary.median_ms = medianOf(times);
+    summary.median_ms = medianTimes(times);
     return summary;
 }
 

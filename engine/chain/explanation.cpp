@@ -11,8 +11,7 @@ namespace eyrie {
 namespace explaining {
 namespace {
 
-constexpr double kCornerMargin = 1;  ///< px; corners lie on outlines
-constexpr double kSamePlace = 0.2;   ///< overlap from which two boxes mean the same thing
+constexpr double kSamePlace = 0.2;  ///< overlap from which two boxes mean the same thing
 
 /// The parameter's value with its unit, "3 vectors".
 std::string settingOf(const ChainOptions& options, const std::string& name) {

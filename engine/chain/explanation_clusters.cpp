@@ -8,8 +8,6 @@
 namespace eyrie::explaining {
 namespace {
 
-constexpr double kCornerMargin = 1;  ///< px; corners lie on outlines
-
 /// How two motion vectors stand to each other, as linkage sees them (eq. of Linkage::joins).
 struct Gap {
     int other = -1;

@@ -8,6 +8,8 @@
 /// What the parts of explain() share. Not for others.
 namespace eyrie::explaining {
 
+constexpr double kCornerMargin = 1;  ///< px; corners lie on outlines
+
 /// Collects steps; the first failed one with a sentence ends the story.
 struct Story {
     void pass(const char* stage, const std::string& text, const std::string& parameter = {});

@@ -8,7 +8,7 @@
 namespace eyrie {
 namespace {
 
-constexpr double kSupportMargin = 1.0;  ///< px; corners lie on the outline, gradients half a pixel beside it
+constexpr double kOutlineMargin = 1.0;  ///< px; corners lie on the outline, gradients half a pixel beside it
 
 cv::Rect2d edgesOf(const cv::Rect& pixels) {
     return {pixels.x - 0.5, pixels.y - 0.5, static_cast<double>(pixels.width), static_cast<double>(pixels.height)};
@@ -94,7 +94,7 @@ cv::Rect2d ComponentBoxes::boxOf(const Region& region, const cv::Mat& labels, co
 }
 
 bool ComponentBoxes::supported(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors) const {
-    const auto inside = static_cast<double>(pointsWithin(box, vectors, kSupportMargin).size());
+    const auto inside = static_cast<double>(pointsWithin(box, vectors, kOutlineMargin).size());
     return inside >= std::max(1.0, options_.support_share * static_cast<double>(vectors.size()));
 }
 
@@ -122,7 +122,7 @@ void ComponentBoxes::join(std::vector<cv::Rect2d>& boxes) const {
 
 cv::Rect2d ComponentBoxes::limited(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors) const {
     if (growth_along_ <= 0 && growth_across_ <= 0) return box;
-    const auto own = pointsWithin(box, vectors, kSupportMargin);
+    const auto own = pointsWithin(box, vectors, kOutlineMargin);
     if (own.empty()) return box;
     const double unlimited = 2 * (std::abs(box.x) + std::abs(box.y) + box.width + box.height) + 1e4;
     return box & grown(boundsOf(own), growth_along_ > 0 ? growth_along_ : unlimited,
@@ -142,7 +142,7 @@ std::vector<cv::Rect2d> ComponentBoxes::select(const std::vector<Region>& region
         if (box.width < 1 || box.height < 1) continue;
         const bool enough = !options_.need_support || supported(box, vectors);
         if (trace != nullptr && options_.need_support) {
-            const auto inside = static_cast<double>(pointsWithin(box, vectors, kSupportMargin).size());
+            const auto inside = static_cast<double>(pointsWithin(box, vectors, kOutlineMargin).size());
             const double needed = std::max(1.0, options_.support_share * static_cast<double>(vectors.size()));
             trace->checks.push_back(
                 {"motion vectors in a component", "gradient.support_share", inside, needed, false, enough, box});
@@ -170,7 +170,7 @@ bool ComponentBoxes::explain(const std::vector<cv::Rect2d>& boxes, const std::ve
     std::size_t held = 0;
     for (const cv::Point2f& p : vectors) {
         held += std::any_of(boxes.begin(), boxes.end(),
-                            [&](const cv::Rect2d& box) { return !pointsWithin(box, {p}, kSupportMargin).empty(); });
+                            [&](const cv::Rect2d& box) { return !pointsWithin(box, {p}, kOutlineMargin).empty(); });
     }
     const double needed = options_.fall_back_share * static_cast<double>(vectors.size());
     const bool explained = static_cast<double>(held) >= needed;

@@ -10,7 +10,7 @@
 namespace eyrie {
 namespace {
 
-constexpr int kSmallestSide = 3;  // px; nothing has an inside and an outside in less
+constexpr int kSmallestMaskSide = 3;  // px; nothing has an inside and an outside in less
 
 /// Only the LBP gradient reaches beyond edges, so only there boxes are to be corrected.
 GradientOptions withoutReach(GradientOptions options) {
@@ -58,7 +58,7 @@ MaskSegmenter::MaskSegmenter(const GradientOptions& components, const SceneScale
       cluster_margin_px_(cluster_margin_px) {}
 
 std::vector<cv::Rect2d> MaskSegmenter::segment(const MotionRoi& roi, DetectionTrace* trace) const {
-    if (std::min(roi.image.cols, roi.image.rows) < kSmallestSide) return {};
+    if (std::min(roi.image.cols, roi.image.rows) < kSmallestMaskSide) return {};
     const cv::Mat pixels = objectPixels(roi, trace) & roi.inside;
     cv::Mat labels;
     const std::vector<Region> regions = findRegions(pixels, components_.min_box_area_px, labels);

@@ -7,8 +7,8 @@
 namespace eyrie {
 namespace {
 
-constexpr int kSmallestArea = 6;  // px²; smaller regions are noise at any scale
-constexpr int kSmallestSide = 5;  // px
+constexpr int kSmallestArea = 6;        // px²; smaller regions are noise at any scale
+constexpr int kSmallestRegionSide = 5;  // px
 
 /// Search areas are larger than vehicles, so what reaches from edge to edge is ground. Regions leave out the outermost
 /// pixels.
@@ -64,7 +64,7 @@ double eccentricityOf(const std::vector<cv::Point>& points) {
 
 cv::Mat MserSegmenter::objectPixels(const MotionRoi& roi, DetectionTrace* trace) const {
     cv::Mat kept = cv::Mat::zeros(roi.image.size(), CV_8UC1);
-    if (std::min(roi.image.cols, roi.image.rows) < kSmallestSide) return kept;
+    if (std::min(roi.image.cols, roi.image.rows) < kSmallestRegionSide) return kept;
     const auto mser =
         cv::MSER::create(options_.delta, min_area_, max_area_, options_.max_variation, options_.min_diversity);
     std::vector<std::vector<cv::Point>> regions;

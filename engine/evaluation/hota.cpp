@@ -14,7 +14,7 @@
 namespace eyrie {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kHotaEpsilon = std::numeric_limits<double>::epsilon();
 
 /// A frame without forgiven results; rows and columns as numbers of tracks.
 struct HotaFrame {
@@ -63,7 +63,7 @@ Alignment alignTracks(const std::vector<HotaFrame>& frames, std::size_t truth_tr
             for (Eigen::Index i = 0; i < frame.overlap.rows(); ++i) {
                 const double shared = frame.overlap(i, j);
                 const double competing = of_truth(i) + of_result(j) - shared;
-                if (competing > kEpsilon) {
+                if (competing > kHotaEpsilon) {
                     alignment.score(frame.truth[static_cast<std::size_t>(i)],
                                     frame.results[static_cast<std::size_t>(j)]) += shared / competing;
                 }
@@ -125,7 +125,7 @@ HotaMeasures hotaMeasures(const EvaluationInput& input) {
     HotaMeasures m;
     for (int k = 0; k < kHotaThresholds; ++k) {
         const auto a = static_cast<std::size_t>(k);
-        const double threshold = hotaThreshold(k) - kEpsilon;
+        const double threshold = hotaThreshold(k) - kHotaEpsilon;
         double found = 0;
         double overlaps = 0;
         double accuracy = 0;

@@ -13,7 +13,7 @@ int idOf(const BoxRecord& record) {
     return record.id.value_or(kNoId);
 }
 
-UnitTally sumOf(const PairedTallies& tallies, const std::vector<int>& counts) {
+UnitTally drawnTally(const PairedTallies& tallies, const std::vector<int>& counts) {
     UnitTally sum;
     for (std::size_t i = 0; i < tallies.units.size(); ++i) {
         const double times = counts[i];
@@ -73,11 +73,13 @@ MethodDifference methodDifference(const PairedTallies& a, const PairedTallies& b
     const int units = static_cast<int>(a.units.size());
     MethodDifference difference;
     difference.f_score = bootstrap(
-        units, [&](const std::vector<int>& counts) { return fScore(sumOf(a, counts)) - fScore(sumOf(b, counts)); },
+        units,
+        [&](const std::vector<int>& counts) { return fScore(drawnTally(a, counts)) - fScore(drawnTally(b, counts)); },
         options);
     if (a.has_switches && b.has_switches) {
         difference.mota = bootstrap(
-            units, [&](const std::vector<int>& counts) { return mota(sumOf(a, counts)) - mota(sumOf(b, counts)); },
+            units,
+            [&](const std::vector<int>& counts) { return mota(drawnTally(a, counts)) - mota(drawnTally(b, counts)); },
             options);
     }
     return difference;
@@ -86,7 +88,7 @@ MethodDifference methodDifference(const PairedTallies& a, const PairedTallies& b
 BootstrapInterval fScoreInterval(const PairedTallies& tallies, const BootstrapOptions& options) {
     return bootstrap(
         static_cast<int>(tallies.units.size()),
-        [&](const std::vector<int>& counts) { return fScore(sumOf(tallies, counts)); }, options);
+        [&](const std::vector<int>& counts) { return fScore(drawnTally(tallies, counts)); }, options);
 }
 
 }  // namespace eyrie

@@ -13,7 +13,7 @@ struct Sums {
 };
 
 /// The first units are the true tracks, the others the result tracks.
-Sums sumOf(const TrackTallies& tallies, const std::vector<int>& counts) {
+Sums drawnSums(const TrackTallies& tallies, const std::vector<int>& counts) {
     Sums sums;
     std::size_t unit = 0;
     for (const TruthTrackTally& track : tallies.truth) {
@@ -35,14 +35,14 @@ TrackBootstrap bootstrapTracks(const TrackTallies& tallies, const BootstrapOptio
     result.f_score = bootstrap(
         units,
         [&](const std::vector<int>& counts) {
-            const Sums s = sumOf(tallies, counts);
+            const Sums s = drawnSums(tallies, counts);
             return 2 * s.matched / std::max(1.0, 2 * s.matched + s.missed + s.false_positives);
         },
         options);
     result.mota = bootstrap(
         units,
         [&](const std::vector<int>& counts) {
-            const Sums s = sumOf(tallies, counts);
+            const Sums s = drawnSums(tallies, counts);
             return 1 - (s.missed + s.false_positives + s.switches) / std::max(1.0, s.matched + s.missed);
         },
         options);

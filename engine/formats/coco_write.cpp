@@ -12,14 +12,14 @@
 namespace eyrie {
 namespace {
 
-constexpr int kDecimals = 4;
+constexpr int kCocoDecimals = 4;
 
 std::string jsonString(const std::string& text) {
     return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string px(double value) {
-    return fixedText(value, kDecimals);
+    return fixedText(value, kCocoDecimals);
 }
 
 std::string imagesText(const LabelFile& labels, int frames, bool video) {

@@ -14,7 +14,7 @@ namespace eyrie {
 namespace {
 
 constexpr double kTolerance = 0.02;  ///< px and degrees, about what two decimals leave
-constexpr int kDecimals = 2;
+constexpr int kCvatDecimals = 2;
 
 /// What is written of a box, rounded as it will be.
 struct Written {
@@ -82,8 +82,8 @@ std::string boxLine(const Written& box, bool outside) {
                        "\" outside=\"" + (outside ? "1" : "0") + "\" occluded=\"" +
                        (box.occlusion == Occlusion::none ? "0" : "1") + "\"";
     const char* names[] = {" xtl=\"", " ytl=\"", " xbr=\"", " ybr=\""};
-    for (std::size_t i = 0; i < 4; ++i) line += names[i] + fixedText(box.edges[i], kDecimals) + "\"";
-    if (box.degrees != 0) line += " rotation=\"" + fixedText(box.degrees, kDecimals) + "\"";
+    for (std::size_t i = 0; i < 4; ++i) line += names[i] + fixedText(box.edges[i], kCvatDecimals) + "\"";
+    if (box.degrees != 0) line += " rotation=\"" + fixedText(box.degrees, kCvatDecimals) + "\"";
     return line + " z_order=\"0\">\n      <attribute name=\"" + cvat::kIgnoreAttribute + "\">" +
            (box.ignore ? "true" : "false") + "</attribute>\n      <attribute name=\"" + cvat::kOcclusionAttribute +
            "\">" + (box.occlusion == Occlusion::fully ? "fully" : "partly") + "</attribute>\n    </box>\n";

@@ -7,7 +7,7 @@
 namespace eyrie {
 namespace {
 
-constexpr const char* kFolder = "labelTxt";
+constexpr const char* kDotaFolder = "labelTxt";
 
 void readMeta(const TextLine& line, LabelFile& labels) {
     const std::string text(line.text(0));
@@ -23,7 +23,7 @@ bool isMeta(const TextLine& line) {
 LabelFile readDota(const std::filesystem::path& path, const ImportOptions&) {
     LabelFile labels;
     int departures = 0, across = 0;
-    for (const ImageText& text : findImageTexts(path, kFolder, labels)) {
+    for (const ImageText& text : findImageTexts(path, kDotaFolder, labels)) {
         int number = 0;
         for (const std::string& content : readTextLines(text.file)) {
             ++number;
@@ -66,7 +66,7 @@ void writeDota(const LabelFile& labels, const std::filesystem::path& path, const
                ExportReport& report) {
     std::optional<cv::Size> clip;
     if (options.clip.value_or(false)) clip = neededSize(labels.image_size, path, "cutting at the border");
-    const std::filesystem::path folder = path / kFolder;
+    const std::filesystem::path folder = path / kDotaFolder;
     makeTextFolder(folder);
     int cut = 0, blanks = 0;
     // Readers know these lines by having fewer words than a box.
@@ -93,10 +93,10 @@ void writeDota(const LabelFile& labels, const std::filesystem::path& path, const
     report.add(LossKind::class_name, blanks, "have a class with blanks or commas, which became \"-\"");
 }
 
-bool looksLike(const FileHead& head) {
+bool looksLikeDota(const FileHead& head) {
     std::string line;
     if (head.folder) {
-        const auto text = firstImageText(head.path, kFolder);
+        const auto text = firstImageText(head.path, kDotaFolder);
         if (!text) return false;
         for (const std::string& content : readTextLines(*text)) {
             if (content.find_first_not_of(" \t\r") != std::string::npos && !content.starts_with("imagesource:") &&
@@ -127,7 +127,7 @@ LabelFormat dotaFormat() {
     format.info.carries = {.rotation = true, .object_class = true, .ignore = true};
     format.read = readDota;
     format.write = writeDota;
-    format.fits = looksLike;
+    format.fits = looksLikeDota;
     return format;
 }
 

@@ -10,7 +10,7 @@
 namespace eyrie {
 namespace {
 
-constexpr int kDecimals = 4;
+constexpr int kKw18Decimals = 4;
 
 LabelFile readKw18(const std::filesystem::path& path, const ImportOptions&) {
     LabelFile labels;
@@ -51,7 +51,7 @@ void writeKw18(const LabelFile& labels, const std::filesystem::path& path, const
         "10-13:Img-bbox(TL_x,TL_y,BR_x,BR_y) 14:Area 15-17:World-loc(x,y,z) 18:timestamp";
     text += scored ? " 19:confidence\n" : "\n";
     const double rate = labels.frame_rate_hz.value_or(25);
-    const auto number = [](double value) { return ' ' + fixedText(value, kDecimals); };
+    const auto number = [](double value) { return ' ' + fixedText(value, kKw18Decimals); };
     for (const auto& [id, track] : tracks) {
         for (const LabelBox* record : track) {
             const BoxEdges e = edgesOf(record->box, 0);

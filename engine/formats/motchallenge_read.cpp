@@ -21,7 +21,7 @@ constexpr std::size_t kClass = 7;
 constexpr std::size_t kVisibility = 8;
 
 /// The columns that ground truth and results share.
-LabelBox readBox(const TextLine& line, const MotOptions& options) {
+LabelBox readMotBox(const TextLine& line, const MotOptions& options) {
     if (line.size() < 6 || line.size() > 10) {
         line.fail(0, std::to_string(line.size()) +
                          " columns, expected 6 to 10: frame,id,left,top,width,height,…; is this MOTChallenge text?");
@@ -52,7 +52,7 @@ LabelBoxes readLines(const std::filesystem::path& file, const MotOptions& option
     for (const std::string& text : readTextLines(file)) {
         const TextLine line(file, ++number, text);
         if (line.blank()) continue;
-        LabelBox record = readBox(line, options);
+        LabelBox record = readMotBox(line, options);
         complete(line, record);
         if (record.id && !record.ignore) {
             const auto [earlier, is_new] = line_of_id.insert({{record.frame, *record.id}, number});

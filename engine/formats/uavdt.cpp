@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 4> kCategories{"", "car", "truck", "bus"};
+constexpr std::array<const char*, 4> kUavdtCategories{"", "car", "truck", "bus"};
 const char* const kWhole = "_gt_whole.txt";
 const char* const kIgnore = "_gt_ignore.txt";
 const char* const kPlain = "_gt.txt";
@@ -31,7 +31,7 @@ std::optional<std::string> stemOf(const fs::path& path) {
     return std::nullopt;
 }
 
-LabelBox boxOf(const TextLine& line) {
+LabelBox uavdtBoxOf(const TextLine& line) {
     if (line.size() != 9) line.fail(0, std::to_string(line.size()) + " columns, expected the 9 of UAVDT");
     LabelBox record;
     record.frame = line.frame(0, 1);
@@ -42,7 +42,7 @@ LabelBox boxOf(const TextLine& line) {
 
 void readPlain(const fs::path& path, LabelFile& labels) {
     forEachLine(path, ',', '\0', [&](const TextLine& line) {
-        LabelBox record = boxOf(line);
+        LabelBox record = uavdtBoxOf(line);
         record.ignore = line.number(6, "score (1 or 0)") == 0;
         labels.boxes[record.frame].push_back(std::move(record));
     });
@@ -51,7 +51,7 @@ void readPlain(const fs::path& path, LabelFile& labels) {
 void readWhole(const fs::path& path, LabelFile& labels) {
     int out_of_view = 0, occluded = 0;
     forEachLine(path, ',', '\0', [&](const TextLine& line) {
-        LabelBox record = boxOf(line);
+        LabelBox record = uavdtBoxOf(line);
         const int occlusion = line.integer(7, "occlusion");
         if (occlusion < 1 || occlusion > 4)
             line.fail(7, "occlusion " + std::to_string(occlusion) + ", expected 1 to 4");
@@ -60,7 +60,7 @@ void readWhole(const fs::path& path, LabelFile& labels) {
         if (occlusion != 1) record.occlusion = Occlusion::partly;
         occluded += occlusion != 1;
         out_of_view += line.integer(6, "out of view") > 1;
-        record.object_class = kCategories[static_cast<std::size_t>(category)];
+        record.object_class = kUavdtCategories[static_cast<std::size_t>(category)];
         labels.boxes[record.frame].push_back(std::move(record));
     });
     if (out_of_view > 0) {
@@ -73,7 +73,7 @@ void readWhole(const fs::path& path, LabelFile& labels) {
 /// The ids of ignored areas are of another count than those of the objects.
 void readAreas(const fs::path& path, LabelFile& labels) {
     forEachLine(path, ',', '\0', [&](const TextLine& line) {
-        LabelBox record = boxOf(line);
+        LabelBox record = uavdtBoxOf(line);
         record.id.reset();
         record.ignore = true;
         labels.boxes[record.frame].push_back(std::move(record));
@@ -142,7 +142,7 @@ void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptio
                 continue;
             }
             std::size_t category = 3;
-            while (category > 0 && record.object_class != kCategories[category]) --category;
+            while (category > 0 && record.object_class != kUavdtCategories[category]) --category;
             strange += category == 0;
             ++objects;
             fully += record.occlusion == Occlusion::fully;

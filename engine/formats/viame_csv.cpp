@@ -53,7 +53,7 @@ void takeAttribute(const TextLine& line, std::size_t field, LabelBox& record, in
     }
 }
 
-LabelBox boxOf(const TextLine& line, int& passed_over) {
+LabelBox viameBoxOf(const TextLine& line, int& passed_over) {
     if (line.size() < 9) {
         line.fail(0, std::to_string(line.size()) +
                          " columns, expected 9 or more: id,image,frame,left,top,right,bottom,confidence,length");

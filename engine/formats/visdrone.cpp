@@ -13,14 +13,14 @@ namespace {
 
 constexpr int kIgnoredRegion = 0;
 constexpr int kOthers = 11;
-constexpr std::array<const char*, 12> kCategories{"",           "person", "person",   "bicycle",         "car",
-                                                  "van",        "truck",  "tricycle", "awning-tricycle", "bus",
-                                                  "motorcycle", "other"};
+constexpr std::array<const char*, 12> kVisDroneCategories{"",           "person", "person",   "bicycle",         "car",
+                                                          "van",        "truck",  "tricycle", "awning-tricycle", "bus",
+                                                          "motorcycle", "other"};
 
 int categoryOf(const std::string& object_class, bool& exact) {
     exact = true;
-    for (std::size_t i = 1; i < kCategories.size(); ++i) {
-        if (object_class == kCategories[i]) return static_cast<int>(i);
+    for (std::size_t i = 1; i < kVisDroneCategories.size(); ++i) {
+        if (object_class == kVisDroneCategories[i]) return static_cast<int>(i);
     }
     exact = false;
     return kOthers;
@@ -52,7 +52,7 @@ LabelFile readVisDrone(const std::filesystem::path& path, const ImportOptions&) 
             line.fail(9, "occlusion " + std::to_string(occlusion) + ", expected 0 to 2");
         record.ignore = category == kIgnoredRegion || score == 0;
         if (id >= 0 && category != kIgnoredRegion) record.id = id;
-        if (category > 0) record.object_class = kCategories[static_cast<std::size_t>(category)];
+        if (category > 0) record.object_class = kVisDroneCategories[static_cast<std::size_t>(category)];
         if (occlusion == 1) record.occlusion = Occlusion::partly;
         if (occlusion == 2) record.occlusion = Occlusion::fully;
         if (score != 0 && score != 1) record.score = score;
@@ -98,7 +98,7 @@ void writeVisDrone(const LabelFile& labels, const std::filesystem::path& path, c
                "ignored areas");
 }
 
-bool looksLike(const FileHead& head) {
+bool looksLikeVisDrone(const FileHead& head) {
     if (head.lines.empty()) return false;
     for (const std::string& line : head.lines) {
         const std::vector<double> n = leadingNumbers(line, ',');
@@ -118,7 +118,7 @@ LabelFormat visDroneFormat() {
     format.needs_id = true;
     format.read = readVisDrone;
     format.write = writeVisDrone;
-    format.fits = looksLike;
+    format.fits = looksLikeVisDrone;
     return format;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFolder = "labels";
+constexpr const char* kYoloFolder = "labels";
 
 /// What we need of data.yaml: one level of keys, lists in brackets, by dashes or by numbers.
 struct DataYaml {
@@ -96,7 +96,7 @@ OrientedBox uprightBox(const TextLine& line, cv::Size image) {
 
 LabelFile readYolo(const fs::path& path, const ImportOptions& options) {
     LabelFile labels;
-    const std::vector<ImageText> texts = findImageTexts(path, kFolder, labels);
+    const std::vector<ImageText> texts = findImageTexts(path, kYoloFolder, labels);
     DataYaml yaml;
     if (const auto file = yamlFor(path)) {
         yaml = readYaml(*file);
@@ -173,7 +173,7 @@ void writeYolo(const LabelFile& labels, const fs::path& path, const ExportOption
     }
     for (const std::string& name : sorted) numberOf(name);
 
-    makeTextFolder(path / kFolder);
+    makeTextFolder(path / kYoloFolder);
     int cut = 0;
     const int frames = imagesToWrite(labels, path);
     for (FrameIndex frame = 0; frame < frames; ++frame) {
@@ -188,7 +188,7 @@ void writeYolo(const LabelFile& labels, const fs::path& path, const ExportOption
                 text += '\n';
             }
         }
-        writePlainFile(path / kFolder / (imageStem(labels, frame) + ".txt"), text);
+        writePlainFile(path / kYoloFolder / (imageStem(labels, frame) + ".txt"), text);
     }
     // Without a key "path" trainers start from this file's own folder; "." would be the one they were called in.
     std::string yaml = "train: images\nval: images\nimage_size: [" + std::to_string(size.width) + ", " +
@@ -196,15 +196,15 @@ void writeYolo(const LabelFile& labels, const fs::path& path, const ExportOption
     for (std::size_t i = 0; i < names.size(); ++i)
         yaml += "  " + std::to_string(i) + ": " + yamlString(names[i]) + '\n';
     writeFileAtomically(path / "data.yaml", yaml);
-    report.files = {path / kFolder, path / "data.yaml"};
+    report.files = {path / kYoloFolder, path / "data.yaml"};
     report.notes.push_back("for training, put the images into " + (path / "images").string() + ", named as the texts");
     report.add(LossKind::clipped, cut, "were cut at the image's border and are no rectangles any more");
 }
 
-bool looksLike(const FileHead& head) {
+bool looksLikeYolo(const FileHead& head) {
     std::vector<std::string> lines = head.lines;
     if (head.folder) {
-        const auto text = firstImageText(head.path, kFolder);
+        const auto text = firstImageText(head.path, kYoloFolder);
         if (!text) return false;
         lines = readTextLines(*text);
     }

@@ -59,10 +59,6 @@ cv::Mat decode(const std::filesystem::path& file) {
     return image;
 }
 
-std::string sizeText(cv::Size size) {
-    return std::to_string(size.width) + "×" + std::to_string(size.height);
-}
-
 std::vector<std::filesystem::path> imagesIn(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
     for (const std::filesystem::path& file : entriesOf(folder))

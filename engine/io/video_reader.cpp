@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "io/index_cache.h"
+#include "io/size_text.h"
 
 namespace eyrie {
 
@@ -19,10 +20,6 @@ constexpr std::size_t kStartsToTry = 4;
 constexpr std::size_t kStartsToRefresh = 2;
 /// Decoding on is cheaper than seeking when the key frame is this few packets ahead.
 constexpr int kPacketsWorthDecoding = 8;
-
-std::string sizeText(cv::Size size) {
-    return std::to_string(size.width) + "×" + std::to_string(size.height);
-}
 
 void turn(cv::Mat& image, int quarter_turns) {
     if (image.empty() || quarter_turns == 0) return;

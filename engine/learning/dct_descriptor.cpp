@@ -9,17 +9,18 @@
 namespace eyrie {
 namespace {
 
-constexpr int kBlock = 8;
+constexpr int kDctBlock = 8;
 constexpr int kStride = 4;
 constexpr int kKept = 6;  // frequencies 0 … 5 in each direction can occur among the first 21
 
-using Basis = std::array<std::array<double, kBlock>, kKept>;
+using Basis = std::array<std::array<double, kDctBlock>, kKept>;
 
 Basis makeBasis() {
     Basis basis{};
     for (int u = 0; u < kKept; ++u) {
-        for (int x = 0; x < kBlock; ++x) {
-            basis[u][x] = std::sqrt((u == 0 ? 1.0 : 2.0) / kBlock) * std::cos((2 * x + 1) * u * kPi / (2 * kBlock));
+        for (int x = 0; x < kDctBlock; ++x) {
+            basis[u][x] =
+                std::sqrt((u == 0 ? 1.0 : 2.0) / kDctBlock) * std::cos((2 * x + 1) * u * kPi / (2 * kDctBlock));
         }
     }
     return basis;
@@ -45,18 +46,18 @@ void DctDescriptor::compute(const cv::Mat& window, std::span<float> values) cons
     static const auto zigzag = makeZigzag();
     requireWindow(window);
     auto out = values.begin();
-    for (int top = 0; top + kBlock <= kWindowHeight; top += kStride) {
-        for (int left = 0; left + kBlock <= kWindowWidth; left += kStride) {
-            double rows[kKept][kBlock] = {};  // transformed along x
-            for (int y = 0; y < kBlock; ++y) {
+    for (int top = 0; top + kDctBlock <= kWindowHeight; top += kStride) {
+        for (int left = 0; left + kDctBlock <= kWindowWidth; left += kStride) {
+            double rows[kKept][kDctBlock] = {};  // transformed along x
+            for (int y = 0; y < kDctBlock; ++y) {
                 const uchar* pixels = window.ptr<uchar>(top + y) + left;
                 for (int u = 0; u < kKept; ++u) {
-                    for (int x = 0; x < kBlock; ++x) rows[u][y] += basis[u][x] * pixels[x];
+                    for (int x = 0; x < kDctBlock; ++x) rows[u][y] += basis[u][x] * pixels[x];
                 }
             }
             for (const auto& [u, v] : zigzag) {
                 double sum = 0;
-                for (int y = 0; y < kBlock; ++y) sum += basis[v][y] * rows[u][y];
+                for (int y = 0; y < kDctBlock; ++y) sum += basis[v][y] * rows[u][y];
                 *out++ = static_cast<float>(sum);
             }
         }

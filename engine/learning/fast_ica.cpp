@@ -10,7 +10,7 @@
 namespace eyrie {
 namespace {
 
-constexpr int kMostSteps = 100;
+constexpr int kMostIterations = 100;
 constexpr double kSettled = 1e-5;
 
 /// The nearest orthogonal matrix: (W Wᵀ)^(−1/2) W.
@@ -41,7 +41,7 @@ Unmixing fastIca(const Eigen::MatrixXd& samples, std::uint64_t seed, double leas
         for (Eigen::Index j = 0; j < dimension; ++j) w(i, j) = random.between(-1, 1);
     }
     w = orthogonalised(w);
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostIterations; ++step) {
         const Eigen::MatrixXd g = (white * w.transpose()).array().tanh();  // samples × components
         const Eigen::VectorXd slope = (1 - g.array().square()).colwise().mean().transpose();
         const Eigen::MatrixXd next = orthogonalised(g.transpose() * white / count - slope.asDiagonal() * w);

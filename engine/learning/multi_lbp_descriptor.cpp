@@ -7,7 +7,7 @@
 namespace eyrie {
 namespace {
 
-constexpr int kBlock = 8;
+constexpr int kLbpBlock = 8;
 constexpr int kPatterns = 256;
 constexpr int kQuantisations = 4;
 constexpr int kAcross[8] = {1, 1, 0, -1, -1, -1, 0, 1};
@@ -18,7 +18,7 @@ constexpr int kDown[8] = {0, 1, 1, 1, 0, -1, -1, -1};
 void MultiLbpDescriptor::compute(const cv::Mat& window, std::span<float> values) const {
     requireWindow(window);
     std::fill(values.begin(), values.end(), 0.F);
-    constexpr float share = 1.F / (kBlock * kBlock);
+    constexpr float share = 1.F / (kLbpBlock * kLbpBlock);
     for (int y = 0; y < kWindowHeight; ++y) {
         const uchar* rows[3] = {window.ptr<uchar>(std::max(y - 1, 0)), window.ptr<uchar>(y),
                                 window.ptr<uchar>(std::min(y + 1, kWindowHeight - 1))};
@@ -33,7 +33,7 @@ void MultiLbpDescriptor::compute(const cv::Mat& window, std::span<float> values)
                 const bool bits[kQuantisations] = {difference >= 0, above, not_below, above || below};
                 for (int q = 0; q < kQuantisations; ++q) patterns[q] |= static_cast<unsigned>(bits[q]) << p;
             }
-            const int block = y / kBlock * (kWindowWidth / kBlock) + x / kBlock;
+            const int block = y / kLbpBlock * (kWindowWidth / kLbpBlock) + x / kLbpBlock;
             for (int q = 0; q < kQuantisations; ++q) {
                 values[static_cast<std::size_t>((block * kQuantisations + q) * kPatterns) + patterns[q]] += share;
             }

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 
+#include "motion/upper_median.h"
+
 namespace eyrie {
 namespace {
 
 constexpr double kRayleighMedian = 1.17741;  ///< median of a Rayleigh distribution with σ = 1
 constexpr std::size_t kEnoughCorners = 60;
-
-float medianOf(std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 }  // namespace
 
@@ -29,9 +25,9 @@ void BackgroundNoise::finish() {
         for (const float speed : speeds_[n]) displacements.push_back(speed * static_cast<float>(n));
     }
     if (displacements.empty()) return;
-    const double pooled = medianOf(displacements) / kRayleighMedian;
+    const double pooled = upperMedianOf(displacements) / kRayleighMedian;
     for (std::size_t n = 1; n < speeds_.size(); ++n) {
-        sigma_[n] = speeds_[n].size() >= kEnoughCorners ? medianOf(speeds_[n]) / kRayleighMedian
+        sigma_[n] = speeds_[n].size() >= kEnoughCorners ? upperMedianOf(speeds_[n]) / kRayleighMedian
                                                         : pooled / static_cast<double>(n);
     }
 }

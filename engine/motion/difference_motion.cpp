@@ -30,7 +30,7 @@ int depthOf(const DifferenceOptions& options) {
     }
 }
 
-double medianOf(std::vector<double>& values) {
+double lowerMedianOf(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -142,7 +142,7 @@ MotionCluster DifferenceMotion::clusterOf(const std::vector<cv::Point>& pixels, 
     }
     double heading = 0;
     if (!vx.empty()) {
-        cluster.velocity = {medianOf(vx), medianOf(vy)};
+        cluster.velocity = {lowerMedianOf(vx), lowerMedianOf(vy)};
         heading = std::atan2(cluster.velocity.y, cluster.velocity.x);
         for (cv::Point2f& point : points) point += cv::Point2f(cluster.velocity * static_cast<double>(delay()));
     } else {

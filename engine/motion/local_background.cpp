@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/upper_median.h"
+
 namespace eyrie {
-namespace {
-
-double medianOf(std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-}  // namespace
 
 void LocalBackgroundOptions::describe(ParameterVisitor& visitor) {
     visitor.flag("motion.local_background", enabled,
@@ -49,7 +42,7 @@ void LocalBackground::add(cv::Point2f position, cv::Point2d velocity) {
 void LocalBackground::finish() {
     for (Cell& cell : cells_) {
         if (static_cast<int>(cell.x.size()) < options_.min_corners) continue;
-        cell.median = {medianOf(cell.x), medianOf(cell.y)};
+        cell.median = {upperMedianOf(cell.x), upperMedianOf(cell.y)};
     }
 }
 

@@ -9,7 +9,7 @@ namespace eyrie {
 namespace {
 
 constexpr double kStrong = 3;        ///< deviations from which a residual tells a direction
-constexpr double kAcross = 2.5;      ///< deviations off the epipolar line
+constexpr double kOffTheLine = 2.5;  ///< deviations off the epipolar line
 constexpr std::size_t kFewest = 30;  ///< strong residuals, of each side too
 constexpr std::size_t kMost = 600;   ///< strong residuals that vote
 constexpr int kTrials = 150;
@@ -91,7 +91,7 @@ cv::Vec3d ParallaxTest::refined(const cv::Vec3d& epipole, const std::vector<Resi
 }
 
 void ParallaxTest::finish(double sigma) {
-    across_ = kAcross * sigma;
+    across_ = kOffTheLine * sigma;
     std::vector<Residual> strong;
     for (const Residual& residual : residuals_) {
         if (std::hypot(residual.velocity.x, residual.velocity.y) > kStrong * sigma) strong.push_back(residual);

@@ -10,7 +10,7 @@ namespace eyrie {
 namespace {
 
 constexpr std::size_t kOwnerVectors = 4;
-constexpr double kVelocityShare = 0.05;
+constexpr double kOwnerVelocityShare = 0.05;
 constexpr double kOwnerAlike = 2.5;  ///< shadow and owner may differ by this many times what members may
 constexpr double kOwnMargin = 0.5;   ///< px; dark corners within the owner's box are its own
 
@@ -49,7 +49,7 @@ std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vec
     }
     if (lit.size() < kOwnerVectors || dark.empty()) return cast;
 
-    Linkage linkage = vehicleLinkage(scale_, background_speed_sigma, kVelocityShare);
+    Linkage linkage = vehicleLinkage(scale_, background_speed_sigma, kOwnerVelocityShare);
     std::vector<VectorGroup> owners = groupVectors(vectors, lit, linkage);
     std::erase_if(owners, [&](const VectorGroup& group) {
         return group.members.size() < kOwnerVectors || group.box.length < owner_length_ ||

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "registration/normal_equations.h"
+#include "registration/scaled_to_one.h"
 
 namespace eyrie {
 namespace {
@@ -31,10 +32,6 @@ HomographyParameters parametersOf(const cv::Matx33d& m) {
 
 cv::Matx33d matrixOf(const HomographyParameters& h) {
     return {h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1};
-}
-
-cv::Matx33d scaledToOne(const cv::Matx33d& m) {
-    return m * (1.0 / m(2, 2));
 }
 
 Matrix8 matrixFrom(const NormalSums& s) {

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "registration/local_map.h"
 #include "registration/noise_level.h"
+#include "registration/scaled_to_one.h"
 
 namespace eyrie {
 namespace {
@@ -30,10 +31,6 @@ class StageTimer {
     Stage stage_;
     Clock::time_point start_;
 };
-
-cv::Matx33d scaledToOne(const cv::Matx33d& m) {
-    return m * (1.0 / m(2, 2));
-}
 
 cv::Matx33d powerOf(const cv::Matx33d& m, int exponent) {
     cv::Matx33d result = cv::Matx33d::eye();

@@ -13,7 +13,7 @@
 namespace eyrie {
 namespace {
 
-std::uint32_t packed(cv::Vec3f colour, std::uint32_t sun) {
+std::uint32_t packedWithSun(cv::Vec3f colour, std::uint32_t sun) {
     const auto byte = [](float value) { return static_cast<std::uint32_t>(std::clamp(value + 0.5F, 0.0F, 255.0F)); };
     return byte(colour[0]) | (byte(colour[1]) << 8) | (byte(colour[2]) << 16) | (sun << 24);
 }
@@ -108,7 +108,7 @@ void GroundMap::paintRows(const Surface& base, const std::vector<Job>& jobs, int
         for (int x = 0; x < width_; ++x) {
             const cv::Point2d ground = origin_ + cv::Point2d(x, y) * texel_;
             texels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
-                packed(colourOf(base, ground), 255);
+                packedWithSun(colourOf(base, ground), 255);
         }
     }
     for (const Job& next : jobs) {
@@ -132,7 +132,7 @@ void GroundMap::paint(const Job& job, cv::Rect bounds) {
             // The sun reaches every roof, whatever shadow lies on the ground that it hides.
             const std::uint32_t sun = is_roof && share > 0.5F ? 255U : row[x] >> 24;
             share *= opacityOf(job.surface, ground);
-            row[x] = packed(unpacked(row[x]) * (1 - share) + colourOf(job.surface, ground) * share, sun);
+            row[x] = packedWithSun(unpacked(row[x]) * (1 - share) + colourOf(job.surface, ground) * share, sun);
         }
     });
 }

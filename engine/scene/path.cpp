@@ -15,7 +15,7 @@ double norm(cv::Point2d v) {
     return std::sqrt(v.x * v.x + v.y * v.y);
 }
 
-cv::Point2d unit(cv::Point2d v) {
+cv::Point2d unitOf(cv::Point2d v) {
     const double length = norm(v);
     return length > 0 ? v * (1 / length) : cv::Point2d(1, 0);
 }
@@ -45,7 +45,7 @@ Path::Path(std::vector<cv::Point2d> points) {
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const cv::Point2d before = points_[i == 0 ? 0 : i - 1];
         const cv::Point2d after = points_[std::min(i + 1, points_.size() - 1)];
-        directions_.push_back(unit(after - before));
+        directions_.push_back(unitOf(after - before));
     }
 }
 
@@ -53,8 +53,8 @@ Path Path::rounded(const std::vector<cv::Point2d>& waypoints, double radius) {
     std::vector<cv::Point2d> points;
     appendLine(points, waypoints.front());
     for (std::size_t i = 1; i + 1 < waypoints.size(); ++i) {
-        const cv::Point2d in = unit(waypoints[i] - waypoints[i - 1]);
-        const cv::Point2d out = unit(waypoints[i + 1] - waypoints[i]);
+        const cv::Point2d in = unitOf(waypoints[i] - waypoints[i - 1]);
+        const cv::Point2d out = unitOf(waypoints[i + 1] - waypoints[i]);
         const double turn = portable::arcTangent(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
         if (std::abs(turn) < 1e-6) continue;
         const double half_tangent = portable::tangent(std::abs(turn) / 2);
@@ -109,7 +109,7 @@ cv::Point2d Path::position(double s) const {
 cv::Point2d Path::direction(double s) const {
     const std::size_t i = pieceAt(s);
     const double share = std::clamp((s - lengths_[i]) / (lengths_[i + 1] - lengths_[i]), 0.0, 1.0);
-    return unit(directions_[i] * (1 - share) + directions_[i + 1] * share);
+    return unitOf(directions_[i] * (1 - share) + directions_[i + 1] * share);
 }
 
 cv::Point2d Path::beside(double s, double right) const {

@@ -216,7 +216,7 @@ void addPerson(Mesh& mesh, const ObjectLook& look, Random& random) {
 
 /// Curved glass and chrome: mirrors that face nearly, not quite, upwards. Each flashes when the camera passes the one
 /// direction it throws the sun to.
-void addGlints(Mesh& mesh, const ObjectLook& look, Random& random) {
+void addGlintFaces(Mesh& mesh, const ObjectLook& look, Random& random) {
     const int count = isVehicle(look.kind) ? 24 : 2;
     for (int i = 0; i < count; ++i) {
         cv::Point3d mirror{random.normal() * 0.28, random.normal() * 0.28, 1};
@@ -254,7 +254,7 @@ Mesh bodyOf(const ObjectLook& look) {
             addPerson(mesh, look, random);
             break;
     }
-    addGlints(mesh, look, random);
+    addGlintFaces(mesh, look, random);
     orient(mesh);
     return mesh;
 }

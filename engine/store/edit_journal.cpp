@@ -15,8 +15,8 @@ constexpr std::size_t kLargestStep = 900'000'000;
 const char* kNewestDone = "WHERE sequence_id = ? AND undone = 0 ORDER BY id DESC LIMIT 1";
 const char* kOldestUndone = "WHERE sequence_id = ? AND undone = 1 ORDER BY id LIMIT 1";
 
-std::optional<AnnotationEdit> read(ProjectFile& project, int sequence_id, const char* which, const AnnotationSet& set,
-                                   bool done) {
+std::optional<AnnotationEdit> readEdit(ProjectFile& project, int sequence_id, const char* which,
+                                       const AnnotationSet& set, bool done) {
     return guarded(project.path(), "reading a step of work on the labels", [&]() -> std::optional<AnnotationEdit> {
         SQLite::Statement statement(project.database(), std::string("SELECT name, data FROM edit_journal ") + which);
         statement.bind(1, sequence_id);
@@ -83,11 +83,11 @@ void EditJournal::add(const AnnotationEdit& edit, const std::string& when_utc) {
 }
 
 std::optional<AnnotationEdit> EditJournal::lastDone(const AnnotationSet& set) const {
-    return read(project_, sequence_id_, kNewestDone, set, true);
+    return readEdit(project_, sequence_id_, kNewestDone, set, true);
 }
 
 std::optional<AnnotationEdit> EditJournal::firstUndone(const AnnotationSet& set) const {
-    return read(project_, sequence_id_, kOldestUndone, set, false);
+    return readEdit(project_, sequence_id_, kOldestUndone, set, false);
 }
 
 void EditJournal::markUndone() {

@@ -9,7 +9,7 @@
 namespace eyrie {
 namespace {
 
-std::vector<PresetRecord> read(ProjectFile& project, const std::string& which) {
+std::vector<PresetRecord> readPresets(ProjectFile& project, const std::string& which) {
     SQLite::Statement statement(project.database(),
                                 "SELECT preset.name, saved_utc, preset_value.name, value FROM preset LEFT JOIN "
                                 "preset_value ON preset_value.preset = preset.name WHERE ?1 = '' OR preset.name = ?1 "
@@ -36,13 +36,13 @@ void refuseEmpty(const std::string& name) {
 }  // namespace
 
 std::vector<PresetRecord> presets(ProjectFile& project) {
-    return guarded(project.path(), "reading the presets", [&] { return read(project, ""); });
+    return guarded(project.path(), "reading the presets", [&] { return readPresets(project, ""); });
 }
 
 std::optional<PresetRecord> preset(ProjectFile& project, const std::string& name) {
     if (name.empty()) return std::nullopt;
     return guarded(project.path(), "reading a preset", [&]() -> std::optional<PresetRecord> {
-        auto found = read(project, name);
+        auto found = readPresets(project, name);
         if (found.empty()) return std::nullopt;
         return std::move(found.front());
     });
@@ -78,7 +78,7 @@ void renamePreset(ProjectFile& project, const std::string& from, const std::stri
     if (from == to) return;
     guarded(project.path(), "renaming a preset", [&] {
         SQLite::Transaction transaction(project.database(), SQLite::TransactionBehavior::IMMEDIATE);
-        if (!read(project, to).empty())
+        if (!readPresets(project, to).empty())
             throw Error(ErrorKind::parameter, "the project has a preset \"" + to + "\" already");
         SQLite::Statement rename(project.database(), "UPDATE preset SET name = ? WHERE name = ?");
         rename.bind(1, to);

@@ -6,16 +6,13 @@
 #include <cmath>
 
 #include "store/frame_rows.h"
+#include "store/of_run.h"
 #include "store/rows.h"
 #include "store/run_lock.h"
 #include "store/sequence_rows.h"
 
 namespace eyrie {
 namespace {
-
-std::string ofRun(int run_id) {
-    return " of run " + std::to_string(run_id);
-}
 
 /// What the rest of Eyrie divides by and counts up to.
 void check(const RunRecord& run) {

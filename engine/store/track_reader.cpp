@@ -1,15 +1,12 @@
 // The part of RunStore that reads tracks and whole results.
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "store/of_run.h"
 #include "store/rows.h"
 #include "store/run_store.h"
 
 namespace eyrie {
 namespace {
-
-std::string ofRun(int run_id) {
-    return " of run " + std::to_string(run_id);
-}
 
 std::vector<TrackFrame> readStates(SQLite::Statement& statement) {
     std::vector<TrackFrame> states;

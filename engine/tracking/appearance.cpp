@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kContrast = 5;     ///< grey levels, deviation of a chip that can be recognised
 constexpr double kLargestZoom = 2;  ///< between remembering and finding
-constexpr int kSmallestSide = 4;    ///< px
+constexpr int kSmallestChip = 4;    ///< px
 constexpr double kLargestReach = 64;
 
 double contrast(const cv::Mat& chip) {
@@ -43,7 +43,7 @@ bool whole(const UprightPatch& patch) {
 }  // namespace
 
 void AppearanceMemory::remember(TrackId track, const cv::Mat& gray, const OrientedBox& box) {
-    if (gray.empty() || !(std::min(box.length, box.width) >= kSmallestSide)) return;
+    if (gray.empty() || !(std::min(box.length, box.width) >= kSmallestChip)) return;
     if (areaInImage(box, gray.size()) < 0.999 * box.area()) return;
     UprightPatch patch = cutUpright(gray, box);
     if (!whole(patch) || contrast(patch.image) < kContrast) return;
@@ -57,8 +57,8 @@ std::optional<OrientedBox> AppearanceMemory::find(TrackId track, const cv::Mat& 
     const double zoom = std::sqrt(expected.area() / known->second.box.area());
     if (!(zoom < kLargestZoom && zoom * kLargestZoom > 1)) return std::nullopt;
     cv::Mat chip = known->second.chip;
-    const cv::Size size(std::max(kSmallestSide, cvRound(chip.cols * zoom)),
-                        std::max(kSmallestSide, cvRound(chip.rows * zoom)));
+    const cv::Size size(std::max(kSmallestChip, cvRound(chip.cols * zoom)),
+                        std::max(kSmallestChip, cvRound(chip.rows * zoom)));
     if (size != chip.size()) cv::resize(chip, chip, size, 0, 0, zoom < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
 
     const int margin = std::max(1, static_cast<int>(std::ceil(std::clamp(reach, 1.0, kLargestReach))));

@@ -6,10 +6,10 @@
 namespace eyrie {
 namespace {
 
-constexpr double kInImage = 0.5;  ///< share of the box an extension must have in the image
+constexpr double kExtensionInImage = 0.5;  ///< share of the box an extension must have in the image
 
 bool inImage(const OrientedBox& box, cv::Size image) {
-    return image.area() > 0 && areaInImage(box, image) >= kInImage * box.area();
+    return image.area() > 0 && areaInImage(box, image) >= kExtensionInImage * box.area();
 }
 
 /// The frames to extend by: back to the border where the track came in, when that is not longer ago than

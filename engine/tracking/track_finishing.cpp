@@ -4,13 +4,14 @@
 #include <cmath>
 #include <map>
 
+#include "tracking/frames_of.h"
 #include "tracking/ground_motion.h"
 #include "tracking/track_paths.h"
 
 namespace eyrie {
 namespace {
 
-bool usable(const TrackState& state) {
+bool usableForFinishing(const TrackState& state) {
     const OrientedBox& box = state.box;
     return std::isfinite(box.centre.x) && std::isfinite(box.centre.y) && std::isfinite(box.heading) &&
            std::isfinite(box.area()) && box.length > 0 && box.width > 0 && std::isfinite(state.velocity.x) &&
@@ -20,7 +21,7 @@ bool usable(const TrackState& state) {
 std::vector<TrackPath> groupedById(std::vector<TimedState> states) {
     std::map<TrackId, TrackPath> by_id;
     for (TimedState& state : states) {
-        if (!usable(state.second)) continue;
+        if (!usableForFinishing(state.second)) continue;
         TrackPath& path = by_id[state.second.id];
         path.id = state.second.id;
         path.states.push_back(state);
@@ -58,10 +59,6 @@ void trimPredictedEnd(TrackPath& path, const GroundMotion& ground, double stop_s
         if (std::hypot(velocity.x, velocity.y) < stop_speed) return;
     }
     path.states.resize(seen);
-}
-
-int framesOf(double seconds, const SceneScale& scale) {
-    return static_cast<int>(std::lround(std::min(seconds * scale.frame_rate_hz, 1e6)));
 }
 
 }  // namespace

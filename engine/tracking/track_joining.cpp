@@ -9,12 +9,12 @@
 namespace eyrie {
 namespace {
 
-constexpr double kAcceleration = 3;   ///< m/s² by which a vehicle may change its motion unseen
-constexpr double kSizeRatio = 2.2;    ///< between the areas of fragments of one vehicle
-constexpr double kSpeedShare = 0.4;   ///< difference of velocities, as a share of the speed
-constexpr double kSpeedFloor = 0.3;   ///< px/frame
-constexpr double kMaxTurn = kPi / 3;  ///< between the directions of fast fragments
-constexpr double kFastSpeed = 1;      ///< px/frame from which directions are compared
+constexpr double kAcceleration = 3;        ///< m/s² by which a vehicle may change its motion unseen
+constexpr double kSizeRatio = 2.2;         ///< between the areas of fragments of one vehicle
+constexpr double kJoinedSpeedShare = 0.4;  ///< difference of velocities, as a share of the speed
+constexpr double kJoinedSpeedFloor = 0.3;  ///< px/frame
+constexpr double kMaxTurn = kPi / 3;       ///< between the directions of fast fragments
+constexpr double kFastSpeed = 1;           ///< px/frame from which directions are compared
 
 /// The last frame an earlier track may keep when a later one continues it; its unseen states from there on are cut.
 FrameIndex usableEnd(const TrackPath& earlier, const TrackPath& later) {
@@ -69,7 +69,7 @@ class Joiner {
         }
         const cv::Point2d faster = found.velocity - expected->velocity;
         const double speed_allowed =
-            std::max(kSpeedFloor, kSpeedShare * std::max(speed, found_speed)) + acceleration_ * gap;
+            std::max(kJoinedSpeedFloor, kJoinedSpeedShare * std::max(speed, found_speed)) + acceleration_ * gap;
         const double speed_cost = std::hypot(faster.x, faster.y) / speed_allowed;
         const cv::Point2d apart = found.box.centre - expected->box.centre;
         const double distance_cost = std::hypot(apart.x, apart.y) / (distance_ + acceleration_ * gap * gap / 2);

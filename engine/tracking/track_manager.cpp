@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "tracking/frames_of.h"
+
 namespace eyrie {
 namespace {
 
@@ -16,10 +18,6 @@ constexpr double kAlikeSpeeds = 0.3;   ///< difference of velocities that move a
 int hitsWithin(std::uint64_t history, int frames) {
     const std::uint64_t mask = frames >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << frames) - 1;
     return std::popcount(history & mask);
-}
-
-int framesOf(double seconds, const SceneScale& scale) {
-    return static_cast<int>(std::lround(std::min(seconds * scale.frame_rate_hz, 1e6)));
 }
 
 /// How far in front a track is when one of two must go.

@@ -12,10 +12,10 @@ namespace eyrie {
 namespace {
 
 constexpr double kSharedSeconds = 0.8;    ///< two tracks must be seen together this long
-constexpr double kSharedOfShorter = 0.5;  ///< … and over this share of the shorter one's life
+constexpr double kPartOfShorter = 0.5;    ///< … and over this share of the shorter one's life
 constexpr double kTravelled = 8;          ///< m over the ground meanwhile: standing things say nothing
-constexpr double kSlowest = 2.5;          ///< m/s; in slower traffic cars drive bumper to bumper
-constexpr double kGap = 0.6;              ///< m between parts
+constexpr double kSlowestForParts = 2.5;  ///< m/s; in slower traffic cars drive bumper to bumper
+constexpr double kPartGap = 0.6;          ///< m between parts
 constexpr double kAside = 1.0;            ///< m between the axes of parts
 constexpr double kLoose = 0.35;           ///< m by which the distance of parts scatters
 constexpr double kMostTurn = 0.35;        ///< radians
@@ -75,9 +75,9 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     });
     const auto frames = static_cast<double>(along.size());
     const auto shorter = static_cast<double>(std::min(leader.states.size(), other.states.size()));
-    if (frames < std::max(5.0, kSharedSeconds * scale.frame_rate_hz) || frames < kSharedOfShorter * shorter) return {};
-    if (travelled < scale.px(kTravelled) || travelled / frames < scale.pxPerFrame(kSlowest)) return {};
-    if (medianOf(gaps) > scale.px(kGap) + kPixel || medianOf(across) > scale.px(kAside) + kPixel) return {};
+    if (frames < std::max(5.0, kSharedSeconds * scale.frame_rate_hz) || frames < kPartOfShorter * shorter) return {};
+    if (travelled < scale.px(kTravelled) || travelled / frames < scale.pxPerFrame(kSlowestForParts)) return {};
+    if (medianOf(gaps) > scale.px(kPartGap) + kPixel || medianOf(across) > scale.px(kAside) + kPixel) return {};
     if (medianOf(parts) > scale.px(kPart)) return {};
     if (spreadOf(along) > scale.px(kLoose) + kPixel / 2) return {};
     if (medianOf(lengths) > scale.px(kLongest) || medianOf(widths) > scale.px(kWidest) + 2 * kPixel) return {};

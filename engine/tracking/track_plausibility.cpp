@@ -17,7 +17,7 @@ constexpr double kFixedShare = 0.35;      ///< … are one vehicle when they sha
 constexpr int kFewestShared = 5;          ///< frames two tracks must share to be compared
 constexpr double kSharedOfShorter = 0.3;  ///< … and this share of the shorter one's life
 constexpr double kWidestVehicle = 3.2;    ///< m
-constexpr double kBoxMargin = 1;          ///< px
+constexpr double kPlaceMargin = 1;        ///< px
 constexpr double kSureSeconds = 0.4;      ///< a track detected for so long altogether is not doubted
 constexpr double kSizeQuantile = 0.75;    ///< boxes miss parts more often than they exceed the vehicle
 
@@ -119,7 +119,7 @@ void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const S
 
 void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale, DropList& dropped) {
     if (!(max_sharing < 1)) return;
-    const double widest = scale.px(kWidestVehicle) + kBoxMargin;
+    const double widest = scale.px(kWidestVehicle) + kPlaceMargin;
     std::vector<std::size_t> order(paths.size());
     std::vector<int> strength;
     for (std::size_t i = 0; i < paths.size(); ++i) {

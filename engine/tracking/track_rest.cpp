@@ -15,7 +15,7 @@ constexpr double kShortestWay = 1;         ///< px; what moved less says nothing
 constexpr int kRounds = 8;                 ///< of reweighting
 constexpr double kSmallestResidual = 0.1;  ///< px; smaller ones weigh alike
 constexpr double kFastest = 3.5;           ///< m/s at which a vehicle that starts from rest is found at the latest
-constexpr double kInImage = 0.9;           ///< share of the box that must lie in the image
+constexpr double kRestInImage = 0.9;       ///< share of the box that must lie in the image
 
 /// A place along the way at some frame after the first.
 struct Station {
@@ -116,7 +116,7 @@ void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int
             state.origin = StateOrigin::predicted;
             state.hits = 0;
             if (!taken.isFree(frame, state.box) ||
-                areaInImage(state.box, ground.imageSize(frame)) < kInImage * state.box.area())
+                areaInImage(state.box, ground.imageSize(frame)) < kRestInImage * state.box.area())
                 break;
             taken.take(frame, state.box);
             extension.emplace_back(frame, state);

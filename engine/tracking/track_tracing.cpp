@@ -17,7 +17,7 @@ constexpr double kVelocityGain = 0.3;  ///< of a frame's vectors on the track's 
 constexpr std::size_t kNewcomers = 2;  ///< vectors of other corners that together support the track
 constexpr double kInImage = 0.5;       ///< share of a traced box that must lie in the image
 
-cv::Point2d median(const std::vector<cv::Point2d>& points) {
+cv::Point2d medianPoint(const std::vector<cv::Point2d>& points) {
     std::vector<double> x, y;
     for (const cv::Point2d& point : points) {
         x.push_back(point.x);
@@ -66,7 +66,7 @@ class Trace {
         if (!mapped || !moved) return std::nullopt;
         const std::vector<MotionVector>& vectors = vectors_.at(to);
         const auto followed = shiftsOf(vectors, to);
-        if (!followed.empty()) moved->box.centre = mapped->box.centre + median(followed);
+        if (!followed.empty()) moved->box.centre = mapped->box.centre + medianPoint(followed);
         if (areaInImage(moved->box, ground_.imageSize(to)) < kInImage * moved->box.area()) return std::nullopt;
         if (!taken.isFree(to, moved->box)) return std::nullopt;
         fitting_ = fittingVectors(vectors, *moved, taken.in(to));
@@ -76,7 +76,7 @@ class Trace {
         if (!fitting_.empty()) {
             std::vector<cv::Point2d> velocities;
             for (const MotionVector& vector : fitting_) velocities.emplace_back(vector.velocity);
-            moved->velocity += (median(velocities) - moved->velocity) * kVelocityGain;
+            moved->velocity += (medianPoint(velocities) - moved->velocity) * kVelocityGain;
         }
         state_.box = moved->box;
         state_.velocity = moved->velocity;

@@ -25,7 +25,7 @@ constexpr double kCloseUp = 4;  ///< screen px per image px at most, when a diff
 constexpr int kRateWindow_ms = 1000;
 constexpr int kSettle_ms = 250;  ///< after the last change of a parameter
 
-QTableWidget* table(const QStringList& columns) {
+QTableWidget* differenceTable(const QStringList& columns) {
     auto* made = new QTableWidget(0, static_cast<int>(columns.size()));
     made->setHorizontalHeaderLabels(columns);
     made->verticalHeader()->hide();
@@ -148,8 +148,8 @@ QWidget* ComparisonWindow::buildTransport() {
 }
 
 QWidget* ComparisonWindow::buildLists() {
-    differences_ = table({tr("Size"), tr("Frames"), tr("What"), tr("A"), tr("B")});
-    parameters_ = table({tr("Parameter"), tr("A"), tr("B")});
+    differences_ = differenceTable({tr("Size"), tr("Frames"), tr("What"), tr("A"), tr("B")});
+    parameters_ = differenceTable({tr("Parameter"), tr("A"), tr("B")});
     detections_ = new QCheckBox(tr("Detections instead of tracks"));
     auto* page = new QWidget;
     auto* layout = new QVBoxLayout(page);

@@ -26,7 +26,7 @@ namespace {
 constexpr double kShareOfView = 0.14;  ///< how large an error is shown, of the view's shorter side
 constexpr double kMostZoom = 8;
 
-QString idText(const std::vector<int>& ids, const QString& between) {
+QString idsText(const std::vector<int>& ids, const QString& between) {
     QStringList texts;
     for (const int id : ids) texts << QString::number(id);
     return texts.join(between);
@@ -49,10 +49,10 @@ ErrorRow rowOf(const DiagnosedMistake& one, int id) {
     row.first_frame = mistake.first_frame;
     row.last_frame = mistake.last_frame;
     row.count = mistake.count();
-    row.objects = idText(mistake.objects, QStringLiteral(", "));
+    row.objects = idsText(mistake.objects, QStringLiteral(", "));
     row.object_order = mistake.objects.empty() ? 0 : mistake.objects.front();
     row.tracks =
-        idText(mistake.tracks, mistake.kind == MistakeKind::id_switch ? QStringLiteral(" → ") : QStringLiteral(", "));
+        idsText(mistake.tracks, mistake.kind == MistakeKind::id_switch ? QStringLiteral(" → ") : QStringLiteral(", "));
     return row;
 }
 

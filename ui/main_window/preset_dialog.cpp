@@ -19,7 +19,7 @@ namespace eyrie::ui {
 
 namespace {
 
-QTableWidget* table(const QStringList& columns) {
+QTableWidget* presetTable(const QStringList& columns) {
     auto* made = new QTableWidget(0, static_cast<int>(columns.size()));
     made->setHorizontalHeaderLabels(columns);
     made->verticalHeader()->hide();
@@ -44,10 +44,10 @@ PresetDialog::PresetDialog(PresetLibrary& presets, ChainOptions present, QWidget
     : QDialog(parent), presets_(presets), present_(std::move(present)) {
     setWindowTitle(tr("Presets"));
     resize(900, 520);
-    list_ = table({tr("Preset"), tr("Kept in"), tr("Saved")});
+    list_ = presetTable({tr("Preset"), tr("Kept in"), tr("Saved")});
     other_ = new QComboBox;
     other_->setAccessibleName(tr("Compare with"));
-    differences_ = table({tr("Parameter"), tr("Preset"), tr("Compared with")});
+    differences_ = presetTable({tr("Parameter"), tr("Preset"), tr("Compared with")});
     message_ = new QLabel;
     message_->setWordWrap(true);
     auto* right = new QWidget;

@@ -26,8 +26,8 @@ QToolButton* buttonOf(QAction* action, QWidget* parent) {
 
 RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* parent)
     : QWidget(parent), session_(session) {
-    run_button_ = buttonOf(actions.run, this);
-    stop_button_ = buttonOf(actions.stop, this);
+    run_button_ = toolButtonOf(actions.run, this);
+    stop_button_ = toolButtonOf(actions.stop, this);
     stop_button_->setToolButtonStyle(Qt::ToolButtonIconOnly);
     auto* continue_button = buttonOf(actions.continue_run, this);
     continue_button->setText(tr("Continue"));

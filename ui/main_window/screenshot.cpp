@@ -11,7 +11,7 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr int kSettle_ms = 400;  ///< lists and charts follow the picture
+constexpr int kPictureSettle_ms = 400;  ///< lists and charts follow the picture
 
 class Photographer : public QObject {
  public:
@@ -30,7 +30,7 @@ class Photographer : public QObject {
     void shootSoon() {
         if (shooting_) return;
         shooting_ = true;
-        QTimer::singleShot(kSettle_ms, this, [this] {
+        QTimer::singleShot(kPictureSettle_ms, this, [this] {
             if (!window_.grab().save(QString::fromStdString(file_.string()))) {
                 std::fprintf(stderr, "eyrie: cannot write %s\n", file_.c_str());
                 QApplication::exit(1);

@@ -15,16 +15,16 @@ namespace {
 
 constexpr int kHistogramBins = 64;
 
-QString tr(const char* text) {
+QString translated(const char* text) {
     return QCoreApplication::translate("StageChips", text);
 }
 
-QString number(double value) {
+QString numberText(double value) {
     return QLocale().toString(value, 'f', std::abs(value) < 10 ? 2 : 0);
 }
 
 /// The thesis' words for a step of a detector.
-QString titleOf(const std::string& layer) {
+QString layerTitle(const std::string& layer) {
     struct Title {
         std::string_view layer;
         const char* title;
@@ -53,10 +53,10 @@ QString titleOf(const std::string& layer) {
         {"clustered", QT_TRANSLATE_NOOP("StageChips", "Clustered")},
     };
     for (const Title& title : kTitles)
-        if (title.layer == layer) return tr(title.title);
+        if (title.layer == layer) return translated(title.title);
     static const std::string kDecision = "decision ";
     if (layer.starts_with(kDecision))
-        return tr("Decision %1").arg(QString::fromStdString(layer.substr(kDecision.size())));
+        return translated("Decision %1").arg(QString::fromStdString(layer.substr(kDecision.size())));
     return QString::fromStdString(layer);
 }
 
@@ -91,7 +91,7 @@ Chip greyChip(const QString& title, const cv::Mat& gray) {
     chip.values = gray;
     if (gray.empty()) return chip;
     chip.image = wrapImage(gray);
-    chip.unit = tr("grey");
+    chip.unit = translated("grey");
     return chip;
 }
 
@@ -111,7 +111,7 @@ Chip realChip(const QString& title, const cv::Mat& values) {
         values.convertTo(gray, CV_8U, largest > 0 ? 255 / largest : 0);
         chip.image = wrapImage(gray);
     }
-    chip.note = QStringLiteral("%1 … %2").arg(number(std::min(0.0, least)), number(largest));
+    chip.note = QStringLiteral("%1 … %2").arg(numberText(std::min(0.0, least)), numberText(largest));
     return chip;
 }
 
@@ -120,7 +120,7 @@ QRectF rectangle(const cv::Rect2d& box) {
 }
 
 Chip layerChip(const DetectionTrace::Layer& layer) {
-    const QString title = titleOf(layer.name);
+    const QString title = layerTitle(layer.name);
     Chip chip;
     if (layer.image.type() == CV_32FC1) {
         chip = realChip(title, layer.image);
@@ -133,8 +133,9 @@ Chip layerChip(const DetectionTrace::Layer& layer) {
     }
     for (const cv::Rect2d& box : layer.boxes) chip.boxes.push_back(rectangle(box));
     if (!layer.boxes.empty())
-        chip.note = layer.boxes.size() == 1 ? tr("1 box") : tr("%1 boxes").arg(layer.boxes.size());
-    if (layer.name.starts_with("decision") && cv::countNonZero(layer.image) == 0) chip.note = tr("all given up early");
+        chip.note = layer.boxes.size() == 1 ? translated("1 box") : translated("%1 boxes").arg(layer.boxes.size());
+    if (layer.name.starts_with("decision") && cv::countNonZero(layer.image) == 0)
+        chip.note = translated("all given up early");
     return chip;
 }
 
@@ -150,7 +151,7 @@ std::optional<Chip> quantileChip(const DetectionTrace& trace) {
     const cv::Mat* area = layerNamed(trace, "quantile area");
     if (gradient == nullptr || area == nullptr || gradient->empty()) return std::nullopt;
     Chip chip;
-    chip.title = tr("Histogram");
+    chip.title = translated("Histogram");
     chip.values = *gradient;
     ChipHistogram histogram;
     double largest = 0;
@@ -169,7 +170,7 @@ std::optional<Chip> quantileChip(const DetectionTrace& trace) {
         double threshold = 0;
         cv::minMaxLoc(*gradient, &threshold, nullptr, nullptr, nullptr, *binary);
         histogram.threshold = threshold;
-        chip.note = tr("quantile %1").arg(number(threshold));
+        chip.note = translated("quantile %1").arg(numberText(threshold));
     }
     chip.histogram = std::move(histogram);
     return chip;
@@ -205,7 +206,7 @@ ChipCard card(Chip chip) {
 }
 
 QString referenceTitle(MotionMethod method) {
-    return method == MotionMethod::median_background ? tr("Background") : tr("Earlier frame");
+    return method == MotionMethod::median_background ? translated("Background") : translated("Earlier frame");
 }
 
 void addDifferences(std::vector<ChipCard>& cards, const ReplayView& view, const MotionRoi* roi) {
@@ -213,23 +214,23 @@ void addDifferences(std::vector<ChipCard>& cards, const ReplayView& view, const 
     if (result.difference.values.empty()) return;
     const auto cut = [roi](const cv::Mat& picture) { return roi != nullptr ? cutLike(*roi, picture) : picture; };
     cards.push_back(card(greyChip(referenceTitle(view.options.difference.method), cut(result.difference.reference))));
-    Chip difference = realChip(tr("Difference"), cut(result.difference.values));
-    difference.unit = tr("grey");
+    Chip difference = realChip(translated("Difference"), cut(result.difference.values));
+    difference.unit = translated("grey");
     cards.push_back(card(std::move(difference)));
-    Chip moving = greyChip(tr("Moving pixels"), cut(result.moving));
+    Chip moving = greyChip(translated("Moving pixels"), cut(result.moving));
     moving.unit.clear();
-    moving.note = tr("difference > %1").arg(number(result.threshold));
+    moving.note = translated("difference > %1").arg(numberText(result.threshold));
     cards.push_back(card(std::move(moving)));
 }
 
 Chip keptChip(const ReplayView& view, const SearchTrace& traced) {
-    Chip chip = greyChip(tr("Kept"), traced.roi.image);
+    Chip chip = greyChip(translated("Kept"), traced.roi.image);
     std::vector<OrientedBox> kept;
     for (const Detection& detection : view.result.detections)
         if (detection.cluster == view.wish.cluster && detection.rejection == Rejection::none)
             kept.push_back(detection.box);
     chip.boxes = inRoi(traced.roi, kept);
-    chip.note = tr("%1 of %2").arg(kept.size()).arg(traced.detections.size());
+    chip.note = translated("%1 of %2").arg(kept.size()).arg(traced.detections.size());
     return chip;
 }
 
@@ -241,13 +242,13 @@ std::vector<ChipCard> stageChips(const ReplayView& view, std::size_t trace) {
     const SearchTrace& traced = view.traces[trace];
     if (view.differences) addDifferences(cards, view, &traced.raw);
     const bool stacked = traced.roi.stack_layers > 0;
-    if (stacked) cards.push_back(card(greyChip(tr("Raw chip"), traced.raw.image)));
+    if (stacked) cards.push_back(card(greyChip(translated("Raw chip"), traced.raw.image)));
     for (const auto& layer : traced.trace.layers) {
         if (layer.image.empty()) continue;
         Chip chip = layerChip(layer);
         if (stacked && layer.name == "raw") {
-            chip.title = tr("Stacked image");
-            chip.note = tr("%1 layers").arg(traced.roi.stack_layers);
+            chip.title = translated("Stacked image");
+            chip.note = translated("%1 layers").arg(traced.roi.stack_layers);
         }
         if (layer.name == "binary")
             if (auto histogram = quantileChip(traced.trace)) cards.push_back(card(std::move(*histogram)));
@@ -262,9 +263,9 @@ std::vector<ChipCard> stageChips(const ReplayView& view, std::size_t trace) {
             if (!drawn.empty()) chip.image = wrapImage(drawn);
             cards.push_back(card(std::move(chip)));
         };
-        add(tr("SLIC superpixels"), view.general->superpixels);
-        add(tr("Watershed"), view.general->watershed);
-        add(tr("Graph cut"), view.general->graph_cut);
+        add(translated("SLIC superpixels"), view.general->superpixels);
+        add(translated("Watershed"), view.general->watershed);
+        add(translated("Graph cut"), view.general->graph_cut);
     }
     return cards;
 }
@@ -275,7 +276,7 @@ std::vector<ChipCard> differenceChips(const ReplayView& view) {
     addDifferences(cards, view, nullptr);
     if (cards.empty()) return cards;
     Chip over;
-    over.title = tr("Over the frame");
+    over.title = translated("Over the frame");
     over.values = differenceView(view.frame.gray, view.differences->difference);
     over.image = wrapImage(over.values);
     cards.insert(cards.begin(), card(std::move(over)));
@@ -288,14 +289,15 @@ std::vector<ChipCard> stackChips(const ReplayView& view) {
         ChipCard made;
         made.id = stack.id;
         made.colour = stackColour(stack.id);
-        made.heading = tr("Stack %1").arg(stack.id);
-        made.chips.push_back(greyChip(tr("Raw chip"), stack.raw));
+        made.heading = translated("Stack %1").arg(stack.id);
+        made.chips.push_back(greyChip(translated("Raw chip"), stack.raw));
         made.chips.back().note =
-            stack.related.size() == 1 ? tr("1 vector") : tr("%1 vectors").arg(stack.related.size());
+            stack.related.size() == 1 ? translated("1 vector") : translated("%1 vectors").arg(stack.related.size());
         const bool used = stack.height >= view.options.stacking.min_height;
-        made.chips.push_back(greyChip(tr("Stacked image"), stack.stacked));
-        made.chips.back().note = used ? tr("height %1").arg(stack.height)
-                                      : tr("height %1 of %2").arg(stack.height).arg(view.options.stacking.min_height);
+        made.chips.push_back(greyChip(translated("Stacked image"), stack.stacked));
+        made.chips.back().note =
+            used ? translated("height %1").arg(stack.height)
+                 : translated("height %1 of %2").arg(stack.height).arg(view.options.stacking.min_height);
         cards.push_back(std::move(made));
     }
     return cards;

@@ -11,13 +11,13 @@ namespace eyrie::ui {
 
 namespace {
 
-QString text(const std::string& value) {
+QString valueText(const std::string& value) {
     return QString::fromStdString(value);
 }
 
 QString axisLabel(const std::string& name, const std::function<QString(const std::string&)>& unit_of) {
     const QString unit = unit_of(name);
-    return unit.isEmpty() ? text(name) : QObject::tr("%1 (%2)").arg(text(name), unit);
+    return unit.isEmpty() ? valueText(name) : QObject::tr("%1 (%2)").arg(valueText(name), unit);
 }
 
 /// The values of an axis as numbers, or 0, 1, 2 … where one of them is a word.
@@ -27,7 +27,7 @@ std::vector<double> placesOf(const SweepAxis& axis, QStringList& words) {
         const auto number = parseReal(value);
         if (!number) {
             words.clear();
-            for (const std::string& word : axis.values) words << text(word);
+            for (const std::string& word : axis.values) words << valueText(word);
             places.clear();
             for (std::size_t i = 0; i < axis.values.size(); ++i) places.push_back(static_cast<double>(i));
             return places;
@@ -76,9 +76,9 @@ SweepChartData mapOf(const SweepTable& table, const SweepCriterion& criterion,
     const SweepAxis& across = table.plan.axes[1];
     data.y_label = axisLabel(down.name, unit_of);
     data.x_label = axisLabel(across.name, unit_of);
-    for (const std::string& value : down.values) data.rows << text(value);
-    for (const std::string& value : across.values) data.columns << text(value);
-    data.value_label = text(measureText(criterion.key).label);
+    for (const std::string& value : down.values) data.rows << valueText(value);
+    for (const std::string& value : across.values) data.columns << valueText(value);
+    data.value_label = valueText(measureText(criterion.key).label);
     data.decimals = measureText(criterion.key).decimals;
     for (int position = 0; position < table.plan.pointCount(); ++position)
         data.cells.push_back(valueAt(table, position, criterion).value_or(std::nan("")));
@@ -114,9 +114,9 @@ SweepChartData tradeOffOf(const SweepTable& table, SweepView view, const SweepCr
         // A line for each value of the second parameter, as fig. 7.8 has one for each T_dov.
         const double overlap = criterion.overlap.value_or(table.plan.overlaps.front());
         const std::string& name = table.plan.axes[1].name;
-        const QString short_name = text(name.substr(name.find('.') + 1));
+        const QString short_name = valueText(name.substr(name.find('.') + 1));
         for (int other = 0; other < others; ++other) {
-            const QString value = text(table.plan.axes[1].values[static_cast<std::size_t>(other)]);
+            const QString value = valueText(table.plan.axes[1].values[static_cast<std::size_t>(other)]);
             add(other == 0 ? short_name + QLatin1Char(' ') + value : value, overlap, other);
         }
     } else {
@@ -151,7 +151,7 @@ SweepChartData chartOf(const SweepTable& table, SweepView view, const SweepCrite
         for (const char* key : {"precision", "recall", "f_score"}) {
             SweepCriterion one = criterion;
             one.key = key;
-            data.series.push_back(curveOf(table, one, places, text(measureText(key).label), colour++, false));
+            data.series.push_back(curveOf(table, one, places, valueText(measureText(key).label), colour++, false));
         }
         data.series.back().bold = true;
         SweepCriterion f_score = criterion;
@@ -160,7 +160,7 @@ SweepChartData chartOf(const SweepTable& table, SweepView view, const SweepCrite
         return data;
     }
     const MeasureText& measure = measureText(criterion.key);
-    data.y_label = text(measure.label);
+    data.y_label = valueText(measure.label);
     data.decimals = measure.decimals;
     data.share = measure.decimals == 4;
     int colour = 0;
@@ -180,7 +180,7 @@ QString pointText(const SweepTable& table, int position, const SweepCriterion& c
     const auto value = valueAt(table, position, criterion);
     const QString shown =
         value ? QLocale::c().toString(*value, 'f', measureText(criterion.key).decimals) : QObject::tr("not done");
-    return QObject::tr("<b>%1</b>: %2").arg(text(table.plan.describe(position)).toHtmlEscaped(), shown);
+    return QObject::tr("<b>%1</b>: %2").arg(valueText(table.plan.describe(position)).toHtmlEscaped(), shown);
 }
 
 QString bestPointText(const SweepTable& table, const SweepCriterion& criterion) {
@@ -190,13 +190,13 @@ QString bestPointText(const SweepTable& table, const SweepCriterion& criterion) 
     for (std::size_t a = 0; a < table.plan.axes.size(); ++a) {
         const SweepAxis& axis = table.plan.axes[a];
         const auto [first, last] = best->neighbourhood[a];
-        const QString from = text(axis.values[static_cast<std::size_t>(first)]);
-        const QString to = text(axis.values[static_cast<std::size_t>(last)]);
-        reach << (first == last ? QObject::tr("%1 %2 only").arg(text(axis.name), from)
-                                : QObject::tr("%1 %2 to %3").arg(text(axis.name), from, to));
+        const QString from = valueText(axis.values[static_cast<std::size_t>(first)]);
+        const QString to = valueText(axis.values[static_cast<std::size_t>(last)]);
+        reach << (first == last ? QObject::tr("%1 %2 only").arg(valueText(axis.name), from)
+                                : QObject::tr("%1 %2 to %3").arg(valueText(axis.name), from, to));
     }
     return QObject::tr("Best %1, %2. Within 1 % of it: %3.")
-        .arg(pointText(table, best->position, criterion), text(describe(criterion, table.plan)),
+        .arg(pointText(table, best->position, criterion), valueText(describe(criterion, table.plan)),
              reach.join(QStringLiteral(", ")));
 }
 

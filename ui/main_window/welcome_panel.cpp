@@ -12,7 +12,7 @@
 namespace eyrie::ui {
 
 namespace {
-constexpr int kMostRecent = 6;
+constexpr int kMostShown = 6;
 constexpr int kWidth = 620;
 
 QPushButton* buttonOf(QAction* action, QWidget* parent) {

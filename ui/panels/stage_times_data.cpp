@@ -9,7 +9,7 @@ namespace eyrie::ui {
 namespace {
 
 constexpr double kShareInsideAxis = 0.98;
-constexpr double kHeadroom = 1.2;
+constexpr double kBarHeadroom = 1.2;
 constexpr std::size_t kStagesDescribed = 4;
 
 /// The value that `share` of all lie at or below; 0 of none.
@@ -64,7 +64,7 @@ double StageTimesData::median(Stage stage) const {
 double StageTimesData::axisMaximum() const {
     std::vector<double> totals;
     for (std::size_t i = 0; i < size(); ++i) totals.push_back(totalAt(i));
-    return std::max(1.0, quantile(std::move(totals), kShareInsideAxis) * kHeadroom);
+    return std::max(1.0, quantile(std::move(totals), kShareInsideAxis) * kBarHeadroom);
 }
 
 std::optional<std::size_t> StageTimesData::positionOf(FrameIndex frame) const {

@@ -7,7 +7,7 @@ namespace eyrie::ui {
 
 namespace {
 
-QString numberOf(double value) {
+QString numberText(double value) {
     return std::isfinite(value) ? QString::number(value, 'g', 10) : QString();
 }
 
@@ -17,7 +17,7 @@ QString mapText(const SweepChartData& data) {
     for (qsizetype r = 0; r < data.rows.size(); ++r) {
         QStringList fields{data.rows[r]};
         for (qsizetype c = 0; c < data.columns.size(); ++c)
-            fields << numberOf(data.cells[static_cast<std::size_t>(r * data.columns.size() + c)]);
+            fields << numberText(data.cells[static_cast<std::size_t>(r * data.columns.size() + c)]);
         lines << fields.join(QLatin1Char('\t'));
     }
     return lines.join(QLatin1Char('\n'));
@@ -41,8 +41,8 @@ QString SweepChartData::text() const {
     QStringList text{heading.join(QLatin1Char('\t'))};
     for (const auto& [x, values] : lines) {
         const auto word = static_cast<qsizetype>(x);
-        QStringList fields{!x_words.isEmpty() && word < x_words.size() ? x_words[word] : numberOf(x)};
-        for (const double value : values) fields << numberOf(value);
+        QStringList fields{!x_words.isEmpty() && word < x_words.size() ? x_words[word] : numberText(x)};
+        for (const double value : values) fields << numberText(value);
         text << fields.join(QLatin1Char('\t'));
     }
     return text.join(QLatin1Char('\n'));

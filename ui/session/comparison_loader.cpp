@@ -15,9 +15,9 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr std::size_t kPictureBudget = std::size_t{256} << 20U;
-constexpr int kTrailLength = 40;  ///< frames
-constexpr int kReadAhead = 8;     ///< frames
+constexpr std::size_t kSidePictureBudget = std::size_t{256} << 20U;
+constexpr int kTrailLength = 40;   ///< frames
+constexpr int kSideReadAhead = 8;  ///< frames
 
 /// Where the frames of one side come from.
 struct SideFrames {
@@ -57,7 +57,7 @@ class ComparisonLoader::Worker {
             auto source = pair.media.open({}, stop);
             if (stop.stop_requested()) return;
             FrameCacheOptions options;
-            options.max_bytes = kPictureBudget;
+            options.max_bytes = kSidePictureBudget;
             pictures_ = std::make_unique<FrameCache>(std::move(source), options);
         } catch (const std::exception& error) {
             report(error, stop);
@@ -83,7 +83,7 @@ class ComparisonLoader::Worker {
             queuedCall(&owner_, [owner = &owner_, one = std::move(one), other = std::move(other), stop] {
                 if (!stop.stop_requested()) emit owner->loaded(one, other);
             });
-            readAhead(frame + 1, kReadAhead);
+            readAhead(frame + 1, kSideReadAhead);
         } catch (const std::exception& error) {
             report(error, stop);
         }

@@ -14,7 +14,7 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr std::size_t kBudget_bytes = 256U * 1024 * 1024;  ///< pictures kept while several objects are fitted
+constexpr std::size_t kFittingBudget_bytes = 256U * 1024 * 1024;  ///< pictures kept while several objects are fitted
 
 bool hasBoth(const LabelledObject& object) {
     const auto& keyframes = object.keyframes;
@@ -73,7 +73,7 @@ void LabelFitting::start() {
             const std::stop_callback on_request(request, [&] { either.request_stop(); });
             const std::stop_callback on_end(stop, [&] { either.request_stop(); });
             const auto source = media.open({}, either.get_token());
-            LruCache<FrameIndex, cv::Mat> kept(kBudget_bytes);
+            LruCache<FrameIndex, cv::Mat> kept(kFittingBudget_bytes);
             const GrayFrames frames = [&](FrameIndex frame) {
                 if (const cv::Mat* known = kept.find(frame)) return *known;
                 cv::Mat picture;

@@ -10,8 +10,8 @@
 namespace eyrie::ui {
 
 namespace {
-constexpr int kWait_ms = 120;                             ///< while keys are held nothing is made
-constexpr std::size_t kBudget_bytes = 96U * 1024 * 1024;  ///< 25 grey frames of 2560×1440
+constexpr int kWait_ms = 120;                                  ///< while keys are held nothing is made
+constexpr std::size_t kStackBudget_bytes = 96U * 1024 * 1024;  ///< 25 grey frames of 2560×1440
 /// An object that was just drawn lives in this frame only: for its stack it is followed a little to either side.
 LabelledObject livedOn(LabelledObject object, FrameIndex frame, const GrayFrames& gray, const CameraMotion& camera,
                        const std::stop_token& stop) {
@@ -47,7 +47,7 @@ class LabelStacks::Pictures {
  private:
     std::string identity_;
     std::unique_ptr<FrameSource> source_;
-    LruCache<FrameIndex, cv::Mat> kept_{kBudget_bytes};
+    LruCache<FrameIndex, cv::Mat> kept_{kStackBudget_bytes};
 };
 
 LabelStacks::LabelStacks(ProjectSession& session, LabelSession& labels, QObject* parent)

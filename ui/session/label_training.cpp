@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kHeldOut = 0.25;        ///< share of the vehicles that whole held-out sequences have at least
 constexpr double kHeldOutEnd = 1 / 3.0;  ///< of a single sequence
-constexpr auto kProgressInterval = std::chrono::milliseconds(80);
+constexpr auto kTrainingProgressInterval = std::chrono::milliseconds(80);
 
 using Say = std::function<void(const QString&, double)>;
 
@@ -154,7 +154,7 @@ void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) 
     auto told = std::chrono::steady_clock::time_point{};
     const Say say = [&](const QString& phase, double share) {
         const auto now = std::chrono::steady_clock::now();
-        if (now - told < kProgressInterval) return;
+        if (now - told < kTrainingProgressInterval) return;
         told = now;
         queuedCall(this, [this, phase, share] { emit progress(phase, share); });
     };

@@ -9,7 +9,7 @@ namespace eyrie::ui {
 
 namespace {
 using Clock = std::chrono::steady_clock;
-constexpr auto kProgressInterval = std::chrono::milliseconds(120);
+constexpr auto kPreviewProgressInterval = std::chrono::milliseconds(120);
 }  // namespace
 
 /// What lives on the loader's thread.
@@ -36,7 +36,7 @@ class PreviewLoader::Worker {
             if (final || wish_stop.stop_requested()) return;
             Clock::time_point told = Clock::now();
             auto whole = preview_->withTracks(frame, options, range, wish_stop, [&](int left) {
-                if (Clock::now() - told < kProgressInterval) return;
+                if (Clock::now() - told < kPreviewProgressInterval) return;
                 told = Clock::now();
                 queuedCall(&owner_, [owner = &owner_, frame, left] { emit owner->tracksProgress(frame, left); });
             });

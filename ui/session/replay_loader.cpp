@@ -12,7 +12,7 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr auto kProgressInterval = std::chrono::milliseconds(100);
+constexpr auto kReplayProgressInterval = std::chrono::milliseconds(100);
 
 GeneralSegmentation generalSegmentation(const MotionRoi& roi, const SceneScale& scale) {
     return {drawSegments(roi.image, superpixelSegments(roi, scale)), drawSegments(roi.image, watershedSegments(roi)),
@@ -77,7 +77,7 @@ class ReplayLoader::Worker {
 
     void tell(FrameIndex frame) {
         const auto now = std::chrono::steady_clock::now();
-        if (frame >= wanted_ || now - told_ < kProgressInterval) return;
+        if (frame >= wanted_ || now - told_ < kReplayProgressInterval) return;
         told_ = now;
         queuedCall(&owner_,
                    [owner = &owner_, wanted = wanted_, left = wanted_ - frame] { emit owner->working(wanted, left); });

@@ -8,6 +8,7 @@
 
 #include "view/edged_painter.h"
 #include "view/label_placer.h"
+#include "view/upright_in_view.h"
 
 namespace eyrie::ui {
 
@@ -16,13 +17,6 @@ namespace {
 const QColor kEdge(12, 12, 14);
 constexpr double kWidth = 1.6;
 constexpr double kSelectedWidth = 2.4;
-
-QRectF uprightInView(const OrientedBox& box, const ViewTransform& transform) {
-    const OrientedBox upright = box.upright();
-    const QPointF half(upright.length / 2, upright.width / 2);
-    const QPointF centre(upright.centre.x, upright.centre.y);
-    return {transform.viewFromImage(centre - half), transform.viewFromImage(centre + half)};
-}
 
 Qt::PenStyle styleOf(const LabelMark& mark) {
     switch (mark.kind) {
@@ -84,7 +78,7 @@ void paintBoxes(QPainter& painter, const LabelScene& scene, const ViewTransform&
     }
 }
 
-void paintTexts(QPainter& painter, const LabelScene& scene, const ViewTransform& transform, const QRectF& view) {
+void paintLabelTexts(QPainter& painter, const LabelScene& scene, const ViewTransform& transform, const QRectF& view) {
     struct Labelled {
         const LabelMark* mark;
         QRectF object;
@@ -143,7 +137,7 @@ void paintLabels(QPainter& painter, const LabelScene& scene, const ViewTransform
                  bool with_text) {
     paintRegions(painter, scene, transform);
     paintBoxes(painter, scene, transform, view);
-    if (with_text) paintTexts(painter, scene, transform, view);
+    if (with_text) paintLabelTexts(painter, scene, transform, view);
 }
 
 const LabelMark* markAt(const LabelScene& scene, QPointF image_point, double margin) {

@@ -7,7 +7,7 @@
 namespace eyrie::ui {
 
 namespace {
-constexpr double kGap = 3;
+constexpr double kLabelGap = 3;
 }  // namespace
 
 LabelPlacer::LabelPlacer(const QRectF& view, std::vector<QRectF> objects) : view_(view), objects_(std::move(objects)) {}
@@ -16,8 +16,8 @@ std::optional<QRectF> LabelPlacer::place(const QRectF& object, QSizeF label) {
     const double centred_x = object.center().x() - label.width() / 2;
     const double centred_y = object.center().y() - label.height() / 2;
     const std::array<QPointF, 4> places{
-        QPointF(centred_x, object.top() - kGap - label.height()), QPointF(centred_x, object.bottom() + kGap),
-        QPointF(object.right() + kGap, centred_y), QPointF(object.left() - kGap - label.width(), centred_y)};
+        QPointF(centred_x, object.top() - kLabelGap - label.height()), QPointF(centred_x, object.bottom() + kLabelGap),
+        QPointF(object.right() + kLabelGap, centred_y), QPointF(object.left() - kLabelGap - label.width(), centred_y)};
     for (const QPointF& top_left : places) {
         const QRectF rectangle(top_left, label);
         if (!isFree(rectangle, object)) continue;

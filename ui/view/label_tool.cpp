@@ -13,11 +13,11 @@
 namespace eyrie::ui {
 
 namespace {
-const QColor kEdge(12, 12, 14);
+const QColor kToolEdge(12, 12, 14);
 const QColor kRegionColour(255, 160, 40);
-constexpr double kHitMargin = 4;      ///< logical px
-constexpr double kDragThreshold = 4;  ///< logical px
-constexpr double kLoupeFactor = 2;    ///< of the canvas' own scale …
+constexpr double kHandleHitMargin = 4;    ///< logical px
+constexpr double kToolDragThreshold = 4;  ///< logical px
+constexpr double kLoupeFactor = 2;        ///< of the canvas' own scale …
 constexpr double kLeastMagnification = 6;
 constexpr double kMostMagnification = 16;
 constexpr int kNudged_ms = 1500;
@@ -160,7 +160,7 @@ bool LabelTool::move(const QMouseEvent& event, const CanvasPlace& place) {
         return true;
     }
     const QPointF point = place.transform.imageFromView(event.position());
-    if (pressed_view_ && QLineF(*pressed_view_, event.position()).length() >= kDragThreshold) dragging_ = true;
+    if (pressed_view_ && QLineF(*pressed_view_, event.position()).length() >= kToolDragThreshold) dragging_ = true;
     if (drawing_) {
         if (pressed_view_ && dragging_ && !rear_)
             draft_ = boxFromCorners(pressed_image_, point, place.transform.rotation());
@@ -227,7 +227,7 @@ bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
             emit boxChanged(*scene_.selected, scene_.frame, *box, turned, resized);
         } else if (!dragging_) {
             // A click inside the selected box may mean a smaller one in it.
-            const LabelMark* hit = markAt(scene_, point, kHitMargin / place.transform.scale());
+            const LabelMark* hit = markAt(scene_, point, kHandleHitMargin / place.transform.scale());
             if (hit != nullptr && isObject(hit->kind))
                 emit objectClicked(hit->id, event.modifiers() & (Qt::ControlModifier | Qt::ShiftModifier));
         }
@@ -236,7 +236,7 @@ bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
         return true;
     }
     if (!was_pressed || dragging_) return false;
-    const LabelMark* hit = markAt(scene_, point, kHitMargin / place.transform.scale());
+    const LabelMark* hit = markAt(scene_, point, kHandleHitMargin / place.transform.scale());
     const bool add = (event.modifiers() & (Qt::ControlModifier | Qt::ShiftModifier)) != 0;
     if (hit != nullptr && hit->kind == LabelKind::proposal)
         emit proposalClicked(hit->id, add);
@@ -254,7 +254,7 @@ bool LabelTool::doubleClick(const QMouseEvent& event, const CanvasPlace& place) 
     // Two quick clicks draw as two slow ones do; on an object they do not zoom.
     if (drawing_) return press(event, place);
     const QPointF point = place.transform.imageFromView(event.position());
-    return markAt(scene_, point, kHitMargin / place.transform.scale()) != nullptr;
+    return markAt(scene_, point, kHandleHitMargin / place.transform.scale()) != nullptr;
 }
 
 void LabelTool::leave() {
@@ -291,11 +291,11 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
         const OrientedBox& box = draft_ ? *draft_ : selected->box;
         const auto handles = boxHandles(box, place.transform);
         QVector<QLineF> arm{{handles[static_cast<std::size_t>(BoxHandle::front)].second, handles.back().second}};
-        drawEdgedLines(painter, arm, {selected->colour, kEdge, 1.2});
+        drawEdgedLines(painter, arm, {selected->colour, kToolEdge, 1.2});
         for (const auto& [handle, at] : handles) {
             const bool hot = handle == (handle_ ? handle_ : hovered_);
             const double size = hot ? 5 : handle == BoxHandle::centre ? 2.5 : 3.5;
-            painter.setPen(QPen(kEdge, 1.2));
+            painter.setPen(QPen(kToolEdge, 1.2));
             painter.setBrush(hot ? QColor(255, 255, 255) : selected->colour);
             if (handle == BoxHandle::turn || handle == BoxHandle::centre)
                 painter.drawEllipse(at, size + 0.5, size + 0.5);
@@ -308,7 +308,7 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
         QVector<QLineF> lines;
         appendBox(lines, *draft_, place.transform, place.view);
         appendHeading(lines, *draft_, place.transform, place.view);
-        drawEdgedLines(painter, lines, {scene_.drawn_colour, kEdge, 2});
+        drawEdgedLines(painter, lines, {scene_.drawn_colour, kToolEdge, 2});
     }
     if (region_) {
         QPolygonF corners;

@@ -6,6 +6,7 @@
 
 #include "view/edged_painter.h"
 #include "view/label_placer.h"
+#include "view/upright_in_view.h"
 
 namespace eyrie::ui {
 
@@ -13,13 +14,6 @@ namespace {
 
 bool isShown(const TrackState& state, const OverlayScene& scene) {
     return state.status != TrackStatus::tentative || scene.style.tentative_tracks || scene.selected_track == state.id;
-}
-
-QRectF uprightInView(const OrientedBox& box, const ViewTransform& transform) {
-    const OrientedBox upright = box.upright();
-    const QPointF half(upright.length / 2, upright.width / 2);
-    const QPointF centre(upright.centre.x, upright.centre.y);
-    return {transform.viewFromImage(centre - half), transform.viewFromImage(centre + half)};
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace eyrie::ui {
 
 namespace {
 constexpr int kHandleWidth = 9;  ///< logical px that take the mouse
-constexpr int kGap = 3;          ///< between the views
+constexpr int kWipeGap = 3;      ///< between the views
 }  // namespace
 
 /// The border between the views, to be dragged.
@@ -80,7 +80,7 @@ void WipeSplit::arrange() {
         handle_->raise();
         second_->setBadgeOnRight(true);
     } else {
-        const int half = (width() - kGap) / 2;
+        const int half = (width() - kWipeGap) / 2;
         first_->clearMask();
         second_->clearMask();
         first_->setGeometry(0, 0, half, height());
