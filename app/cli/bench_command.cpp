@@ -36,7 +36,7 @@ struct BenchArguments {
 };
 
 /// Times of one stage over all frames, ms.
-struct Sample {
+struct TimeSample {
     std::vector<double> ms;
     double at(double share) const {
         if (ms.empty()) return 0;
@@ -54,7 +54,7 @@ struct Column {
     int wanted_corners = 0;
     int corners = 0;         ///< median of those tracked
     int motion_vectors = 0;  ///< median
-    std::map<std::string, Sample> stages;
+    std::map<std::string, TimeSample> stages;
 };
 
 /// Frames that nothing is learnt from: corners must age and tracks form first.
@@ -82,7 +82,7 @@ class ScratchProject {
     std::filesystem::path folder_;
 };
 
-std::vector<Frame> readFrames(FrameSource& source, int count, Sample& read) {
+std::vector<Frame> readFrames(FrameSource& source, int count, TimeSample& read) {
     std::vector<Frame> frames;
     const int available = std::min(count + kWarmUpFrames, source.info().frame_count);
     ConsoleProgress progress("frames read");
@@ -134,14 +134,14 @@ Column measureChain(const std::vector<Frame>& frames, ChainOptions options, cons
         }
         writer.finish(RunState::finished, "");
     }
-    column.corners = static_cast<int>(Sample{counts}.median());
-    column.motion_vectors = static_cast<int>(Sample{vectors}.median());
+    column.corners = static_cast<int>(TimeSample{counts}.median());
+    column.motion_vectors = static_cast<int>(TimeSample{vectors}.median());
     return column;
 }
 
 /// The same work by the usual means: OpenCV's corner detector, pyramidal Lucas–Kanade and RANSAC homography.
-Sample measureBaseline(const std::vector<Frame>& frames, int corners) {
-    Sample sample;
+TimeSample measureBaseline(const std::vector<Frame>& frames, int corners) {
+    TimeSample sample;
     for (std::size_t i = 1; i < frames.size() && i <= 12; ++i) {
         const auto start = std::chrono::steady_clock::now();
         std::vector<cv::Point2f> from, to;
@@ -185,7 +185,7 @@ void printPreview(const PreviewTimes& times) {
     std::printf("  %-50s%10.1f\n", "the first of all", times.first_ms);
 }
 
-void printTable(const VideoInfo& video, const std::vector<Column>& columns, const std::vector<Sample>& baseline) {
+void printTable(const VideoInfo& video, const std::vector<Column>& columns, const std::vector<TimeSample>& baseline) {
     std::printf("%s, %dx%d; median (10th percentile) ms per frame, one frame after the other\n\n%-28s",
                 video.path.string().c_str(), video.size.width, video.size.height, "stage");
     for (const auto& column : columns) std::printf("%9d corners", column.corners);
@@ -197,7 +197,7 @@ void printTable(const VideoInfo& video, const std::vector<Column>& columns, cons
         if (name == nameOf(Stage::read)) continue;
         std::printf("%-28s", name.c_str());
         for (const auto& column : columns) {
-            const Sample& sample = column.stages.at(name);
+            const TimeSample& sample = column.stages.at(name);
             std::printf("%9.2f (%5.2f)", sample.median(), sample.p10());
         }
         std::printf("\n");
@@ -217,7 +217,7 @@ void printTable(const VideoInfo& video, const std::vector<Column>& columns, cons
     std::printf("\n");
 }
 
-void printJson(const std::vector<Column>& columns, const std::vector<Sample>& baseline, const Sample& read,
+void printJson(const std::vector<Column>& columns, const std::vector<TimeSample>& baseline, const TimeSample& read,
                const std::vector<MethodTimes>& methods, const SweepTimes& sweep, const PreviewTimes& preview) {
     nlohmann::ordered_json json;
     json["read_ms"] = read.median();
@@ -258,14 +258,14 @@ void bench(const BenchArguments& arguments) {
     scale.gsd_m_per_px = arguments.gsd_m_per_px;
     scale.gsd_known = true;
     scale.frame_rate_hz = source->info().frame_rate_hz;
-    Sample read;
+    TimeSample read;
     const std::vector<Frame> frames = readFrames(*source, arguments.frames, read);
     if (static_cast<int>(frames.size()) <= kWarmUpFrames) {
         throw Error(ErrorKind::input, arguments.input + " is too short to measure: more than " +
                                           std::to_string(kWarmUpFrames) + " frames are needed");
     }
     std::vector<Column> columns;
-    std::vector<Sample> baseline;
+    std::vector<TimeSample> baseline;
     for (const int corners : arguments.corners) {
         columns.push_back(measureChain(frames, options, scale, corners));
         baseline.push_back(measureBaseline(frames, corners));

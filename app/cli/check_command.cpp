@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct CheckArguments {
     std::string project;
     std::string repair;
     bool json = false;
@@ -34,7 +34,7 @@ const char* nameOf(Health health) {
     return "";
 }
 
-void printReport(const Arguments& arguments, const HealthReport& report) {
+void printReport(const CheckArguments& arguments, const HealthReport& report) {
     for (const HealthItem& item : report.items) {
         std::printf("%-15s %-8s %s\n", item.subject.c_str(), nameOf(item.health), item.words.c_str());
     }
@@ -58,7 +58,7 @@ Json jsonOf(const HealthReport& report) {
     return {{"healthy", report.healthy()}, {"items", items}};
 }
 
-void printRepair(const Arguments& arguments, const RepairReport& repair) {
+void printRepair(const CheckArguments& arguments, const RepairReport& repair) {
     std::printf("saved in %s\n", arguments.repair.c_str());
     for (const std::string& line : repair.saved) std::printf("  %s\n", line.c_str());
     if (repair.saved.empty()) std::printf("  nothing\n");
@@ -66,7 +66,7 @@ void printRepair(const Arguments& arguments, const RepairReport& repair) {
     for (const std::string& line : repair.lost) std::printf("  %s\n", line.c_str());
 }
 
-int check(const Arguments& arguments) {
+int check(const CheckArguments& arguments) {
     const InterruptGuard interrupt;
     const CopyWatch watch{{}, interrupt.token()};
     const HealthReport report = checkProject(arguments.project, watch);
@@ -93,7 +93,7 @@ int check(const Arguments& arguments) {
 }  // namespace
 
 void addCheckCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<CheckArguments>();
     CLI::App* command = app.add_subcommand("check", "Tell the health of a project, and save what can be read of it");
     command->add_option("PROJECT", arguments->project, "Project (.eyrie); it is only read")->required();
     command->add_option("--repair", arguments->repair, "Write all that can be read into this new project");

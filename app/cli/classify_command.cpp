@@ -18,7 +18,7 @@ struct ClassifyArguments {
     bool json = false;
 };
 
-int run(const Arguments& arguments) {
+int classifyPatches(const ClassifyArguments& arguments) {
     arguments.outputs.check({{arguments.roc, FileKind::text}}, {arguments.model, arguments.patches});
     const VehicleModel model = loadModel(arguments.model);
     const SampleSet samples = readPatchSheets(arguments.patches);
@@ -60,7 +60,7 @@ void addClassifyCommand(CLI::App& app, int& exit_code) {
     command->add_option("--roc", arguments->roc, "Also write the ROC curve to this CSV file");
     arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
-    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+    command->callback([arguments, &exit_code] { exit_code = classifyPatches(*arguments); });
 }
 
 }  // namespace eyrie::cli

@@ -102,14 +102,14 @@ TrainingOptions plainOptions(const ClassifyTestArguments& arguments) {
     return options;
 }
 
-fs::path curveFile(const Arguments& arguments, DescriptorKind descriptor, ClassifierKind classifier,
+fs::path curveFile(const ClassifyTestArguments& arguments, DescriptorKind descriptor, ClassifierKind classifier,
                    const std::string& trained_on, const std::string& tested_on) {
     return fs::path(arguments.out) / (std::string(nameOf(descriptor)) + "_" + nameOf(classifier) + "_" + trained_on +
                                       "_on_" + tested_on + ".csv");
 }
 
 /// The folder for the curves, if any is wanted; nothing in it is replaced unasked.
-void prepareFolder(const Arguments& arguments, const std::vector<DescriptorKind>& descriptors,
+void prepareFolder(const ClassifyTestArguments& arguments, const std::vector<DescriptorKind>& descriptors,
                    const std::vector<ClassifierKind>& classifiers, const SetsBySource& sets,
                    const std::set<std::string>& train_on) {
     if (arguments.out.empty()) return;
@@ -132,7 +132,7 @@ void prepareFolder(const Arguments& arguments, const std::vector<DescriptorKind>
     if (error) throw Error(ErrorKind::output, arguments.out + ": the folder cannot be made: " + error.message());
 }
 
-int run(const Arguments& arguments) {
+int run(const ClassifyTestArguments& arguments) {
     const auto descriptors = chosen(arguments.descriptors, allDescriptors(), descriptorFromName);
     const auto classifiers = chosen(arguments.classifiers, allClassifiers(), classifierFromName);
     TrainingOptions options = plainOptions(arguments);

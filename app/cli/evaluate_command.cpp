@@ -59,7 +59,7 @@ std::vector<Registration> registrationsOf(const RunStore& store, int run_id) {
     return registrations;
 }
 
-Result readResult(const Arguments& arguments) {
+Result readResult(const EvaluateArguments& arguments) {
     Result result;
     if (arguments.project.empty()) {
         result.boxes = readResultBoxes(arguments.result, arguments.mot_origin).boxes;
@@ -138,7 +138,7 @@ void writeErrors(const EvaluateArguments& arguments, const BoxesByFrame& truth, 
 }
 
 /// The file that was named, else what people labelled in the project.
-BoxFile readTruth(const Arguments& arguments, const Result& result) {
+BoxFile readTruth(const EvaluateArguments& arguments, const Result& result) {
     BoxFile truth;
     if (!arguments.ground_truth.empty()) {
         truth = readTruthBoxes(arguments.ground_truth, arguments.mot_origin, knownImageSize(arguments, result));
@@ -151,7 +151,7 @@ BoxFile readTruth(const Arguments& arguments, const Result& result) {
     return truth;
 }
 
-void evaluateAndPrint(const Arguments& arguments) {
+void evaluateAndPrint(const EvaluateArguments& arguments) {
     arguments.outputs.check({{arguments.errors, FileKind::text}},
                             {arguments.ground_truth, arguments.result, arguments.project, arguments.homographies});
     EvaluationReport report;

@@ -77,7 +77,7 @@ bool isThere(const std::string& project) {
 }
 
 /// A project can be made here only where its video is named.
-void refuseAbsent(const Arguments& arguments) {
+void refuseAbsent(const ImportArguments& arguments) {
     if (!arguments.video.empty() || isThere(arguments.project)) return;
     throw Error(ErrorKind::project, "there is no project " + arguments.project +
                                         "; check the name, or make it here by naming the video of the labels "

@@ -3,22 +3,16 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "cli/console_progress.h"
+#include "cli/number_text.h"
 #include "core/error.h"
 #include "scene/scene_source.h"
 #include "store/annotation_store.h"
 
 namespace eyrie::cli {
 namespace {
-
-std::string numberText(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
-}
 
 bool readFrameNumber(const std::string& text, FrameIndex& value) {
     const char* end = text.data() + text.size();

@@ -58,7 +58,7 @@ std::vector<fs::path> staleFrames(const fs::path& frames, int frame_count) {
 }
 
 /// Makes the folder for the frames; what lies in it is replaced or removed only when that is agreed to.
-fs::path prepareFolder(const Arguments& arguments, int frame_count) {
+fs::path prepareFolder(const RenderArguments& arguments, int frame_count) {
     std::error_code error;
     const fs::path folder = arguments.folder;
     const fs::path frames = folder / "frames";

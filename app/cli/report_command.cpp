@@ -37,7 +37,7 @@ std::string nowUtcText() {
     return text;
 }
 
-void makeReport(const Arguments& arguments) {
+void makeReport(const ReportArguments& arguments) {
     arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, arguments.ground_truth});
     EvaluationRequest request = arguments.request;
     request.project = arguments.project;

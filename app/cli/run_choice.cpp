@@ -1,20 +1,14 @@
 #include "cli/run_choice.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "chain/run_resume.h"
+#include "cli/number_text.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
 
 namespace eyrie::cli {
 namespace {
-
-std::string numberText(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
-}
 
 /// What a run was begun with otherwise than is wished; empty when nothing.
 std::string differenceOf(const RunStore& store, const RunRecord& run, const ResumeWishes& wishes) {

@@ -104,7 +104,7 @@ void checkRange(FrameRange range, const VideoInfo& video) {
     throw Error(ErrorKind::parameter, "--frames: " + video.path.string() + " has frames 0 to " + std::to_string(end));
 }
 
-std::filesystem::path projectPath(const Arguments& arguments) {
+std::filesystem::path projectPath(const RunArguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
     const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
     const auto stem = std::filesystem::path(input).lexically_normal().stem().string();
@@ -118,7 +118,7 @@ struct EndedRun {
     bool has_video = false;  ///< the annotated video was written
 };
 
-EndedRun runAnew(const Arguments& arguments, FrameSource& source, const std::filesystem::path& project,
+EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
                  const InterruptGuard& interrupt) {
     const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
     const FrameRange range{frames.first, frames.last};
@@ -160,7 +160,7 @@ void tellWhereItGoesOn(const ResumedRun& resumed) {
 }
 
 /// A finished run: there is nothing to do but the outputs.
-EndedRun asItIs(const Arguments& arguments, const RunRecord& run, FrameSource& source,
+EndedRun asItIs(const RunArguments& arguments, const RunRecord& run, FrameSource& source,
                 const std::filesystem::path& project, const InterruptGuard& interrupt) {
     if (!arguments.quiet) std::fprintf(stderr, "run %d is finished: nothing is left to do\n", run.id);
     EndedRun ended;
@@ -179,7 +179,7 @@ EndedRun asItIs(const Arguments& arguments, const RunRecord& run, FrameSource& s
     return ended;
 }
 
-EndedRun goOn(const Arguments& arguments, const RunRecord& run, FrameSource& source,
+EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& source,
               const std::filesystem::path& project, const InterruptGuard& interrupt) {
     const ResumedRun resumed = resumedRun(project, run.id, source);
     if (!arguments.quiet) tellWhereItGoesOn(resumed);
@@ -199,7 +199,7 @@ EndedRun goOn(const Arguments& arguments, const RunRecord& run, FrameSource& sou
 }
 
 /// Which run --resume is about; `source` is the input, if one was given.
-ResumeChoice choiceOf(const Arguments& arguments, const FrameSource* source, const std::filesystem::path& project) {
+ResumeChoice choiceOf(const RunArguments& arguments, const FrameSource* source, const std::filesystem::path& project) {
     if (source != nullptr && !arguments.run_id && !isFile(project)) return {};
     ResumeWishes wishes;
     if (source != nullptr) wishes.video = source->info().path.string();
@@ -213,7 +213,7 @@ ResumeChoice choiceOf(const Arguments& arguments, const FrameSource* source, con
 }
 
 /// Before a long video is indexed, not after a long run.
-void checkOutputs(const Arguments& arguments, const std::filesystem::path& project,
+void checkOutputs(const RunArguments& arguments, const std::filesystem::path& project,
                   const std::filesystem::path& video) {
     OutputArguments outputs = arguments.outputs;
     outputs.force = outputs.force || arguments.resume;  // the same command again replaces what it wrote
@@ -225,7 +225,7 @@ void checkOutputs(const Arguments& arguments, const std::filesystem::path& proje
                   {video, arguments.preset.preset});
 }
 
-int run(const Arguments& arguments) {
+int run(const RunArguments& arguments) {
     if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
     if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
     if (!arguments.frames.empty()) parseFrames(arguments.frames);

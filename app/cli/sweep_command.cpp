@@ -122,7 +122,7 @@ void savePreset(const std::string& file, const SweepTable& table, const SweepCri
     writePreset(file, {"best of " + table.plan.describe(best->position), parameterValues(options)});
 }
 
-void checkOutputs(const Arguments& arguments) {
+void checkOutputs(const SweepArguments& arguments) {
     const SweepSources& sources = arguments.sources;
     std::vector<std::filesystem::path> inputs(sources.sequences.begin(), sources.sequences.end());
     inputs.insert(inputs.end(), sources.ground_truths.begin(), sources.ground_truths.end());
@@ -135,7 +135,7 @@ void checkOutputs(const Arguments& arguments) {
                   inputs);
 }
 
-int sweep(const Arguments& arguments) {
+int sweep(const SweepArguments& arguments) {
     if (arguments.sources.sequences.empty() == arguments.sources.project.empty()) {
         throw Error(ErrorKind::parameter,
                     "sweep needs what to work on: either --sequence with --ground-truth, or --project");

@@ -32,8 +32,8 @@ std::string absolutePath(const std::string& path) {
 }
 
 /// Reads the truth of a clip and decides how boxes are compared.
-BoxesByFrame readTruth(const SweepSources& sources, const std::string& file, cv::Size image_size, SweepClip& clip,
-                       std::vector<std::string>& remarks) {
+BoxesByFrame readClipTruth(const SweepSources& sources, const std::string& file, cv::Size image_size, SweepClip& clip,
+                           std::vector<std::string>& remarks) {
     BoxFile truth = readTruthBoxes(file, sources.mot_origin, image_size);
     remarks.insert(remarks.end(), truth.remarks.begin(), truth.remarks.end());
     clip.ground_truth = absolutePath(file);

@@ -67,7 +67,7 @@ std::string nowUtc() {
     return text;
 }
 
-std::vector<std::filesystem::path> inputsOf(const Arguments& arguments) {
+std::vector<std::filesystem::path> inputsOf(const TrainArguments& arguments) {
     std::vector<std::filesystem::path> inputs(arguments.inputs.begin(), arguments.inputs.end());
     inputs.insert(inputs.end(), arguments.ground_truths.begin(), arguments.ground_truths.end());
     const auto folders = sampleFolders(arguments.samples);

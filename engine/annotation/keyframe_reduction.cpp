@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "annotation/carried_boxes.h"
+#include "annotation/corner_distance.h"
 #include "annotation/dense_boxes.h"
 #include "annotation/keyframe_thinning.h"
 

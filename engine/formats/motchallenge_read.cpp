@@ -6,6 +6,7 @@
 #include "formats/mot_classes.h"
 #include "formats/motchallenge.h"
 #include "formats/text_fields.h"
+#include "io/number_text.h"
 
 namespace eyrie {
 namespace {
@@ -77,12 +78,6 @@ Number iniNumber(const std::filesystem::path& file, int line, const std::string&
     return number;
 }
 
-std::string trimmed(const std::string& text) {
-    const std::size_t first = text.find_first_not_of(" \t\r");
-    if (first == std::string::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 }  // namespace
 
 LabelBoxes readMotTruthLabels(const std::filesystem::path& file, const MotOptions& options) {
@@ -118,8 +113,8 @@ MotSequence readMotSequence(const std::filesystem::path& file) {
         ++number;
         const std::size_t equals = line.find('=');
         if (equals == std::string::npos) continue;
-        const std::string key = trimmed(line.substr(0, equals));
-        const std::string value = trimmed(line.substr(equals + 1));
+        const std::string key(trimmed(std::string_view(line).substr(0, equals)));
+        const std::string value(trimmed(std::string_view(line).substr(equals + 1)));
         if (key == "imWidth") width = iniNumber<int>(file, number, key, value);
         if (key == "imHeight") height = iniNumber<int>(file, number, key, value);
         if (key == "seqLength") sequence.frame_count = iniNumber<int>(file, number, key, value);

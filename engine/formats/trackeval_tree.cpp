@@ -83,7 +83,7 @@ struct TreePlaces {
     fs::path result;  ///< of a tracker
 };
 
-std::vector<ExportFile> filesOf(const fs::path& root, const ExportOptions& options) {
+std::vector<ExportFile> trackEvalFiles(const fs::path& root, const ExportOptions& options) {
     const TreePlaces places(root, options);
     if (!options.tracker.empty()) return {{places.result}};
     return {{places.truth}, {orientedSidecar(places.truth)}, {places.seqinfo}, {places.seqmap, FileKind::text, true}};
@@ -211,7 +211,7 @@ LabelFormat trackEvalFormat() {
     format.needs_id = true;
     format.read = readTree;
     format.write = writeTree;
-    format.files = filesOf;
+    format.files = trackEvalFiles;
     format.fits = [](const FileHead& head) { return head.folder && !sequencesOf(head.path).empty(); };
     return format;
 }

@@ -121,7 +121,7 @@ fs::path textOf(const fs::path& path, const char* ending) {
     return path.parent_path() / (stemOf(path).value_or(path.stem().string()) + ending);
 }
 
-std::vector<ExportFile> filesOf(const fs::path& path, const ExportOptions&) {
+std::vector<ExportFile> uavdtFiles(const fs::path& path, const ExportOptions&) {
     return {{textOf(path, kPlain)}, {textOf(path, kWhole)}, {textOf(path, kIgnore)}};
 }
 
@@ -179,7 +179,7 @@ LabelFormat uavdtFormat() {
     format.needs_id = true;
     format.read = readUavdt;
     format.write = writeUavdt;
-    format.files = filesOf;
+    format.files = uavdtFiles;
     format.fits = [](const FileHead& head) {
         return !head.folder && stemOf(head.path) && !head.lines.empty() &&
                leadingNumbers(head.lines.front(), ',').size() == 9;

@@ -22,7 +22,7 @@ constexpr double kLeastRotation = 0.001;  ///< smaller ones are not written
 constexpr std::size_t kClassField = 9;
 
 /// "(atr) key value" → key and value; false for anything else.
-bool attributeIn(std::string_view text, std::string_view& key, std::string_view& value) {
+bool viameAttributeIn(std::string_view text, std::string_view& key, std::string_view& value) {
     constexpr std::string_view kMark = "(atr)";
     if (!text.starts_with(kMark)) return false;
     text = trimmed(text.substr(kMark.size()));
@@ -32,9 +32,9 @@ bool attributeIn(std::string_view text, std::string_view& key, std::string_view&
     return true;
 }
 
-void takeAttribute(const TextLine& line, std::size_t field, LabelBox& record, int& passed_over) {
+void takeViameAttribute(const TextLine& line, std::size_t field, LabelBox& record, int& passed_over) {
     std::string_view key, value;
-    if (!attributeIn(line.text(field), key, value)) {
+    if (!viameAttributeIn(line.text(field), key, value)) {
         ++passed_over;
         return;
     }
@@ -69,7 +69,7 @@ LabelBox viameBoxOf(const TextLine& line, int& passed_over) {
     for (std::size_t field = kClassField; field < line.size(); ++field) {
         if (line.text(field).empty()) continue;
         if (line.text(field).front() == '(') {
-            takeAttribute(line, field, record, passed_over);
+            takeViameAttribute(line, field, record, passed_over);
             continue;
         }
         const std::string name = withoutFormulaGuard(line.word(field, "class"));
@@ -145,7 +145,7 @@ std::vector<Row> readRows(const std::filesystem::path& path, LabelFile& labels, 
         }
         try {
             TextLine line(path, number, text);
-            LabelBox record = boxOf(line, passed_over);
+            LabelBox record = viameBoxOf(line, passed_over);
             std::string image = withoutFormulaGuard(line.word(1, "image"));
             rows.push_back({std::move(line), std::move(record), std::move(image)});
         } catch (const Error& reason) {

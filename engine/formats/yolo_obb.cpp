@@ -230,7 +230,7 @@ LabelFormat yoloObbFormat() {
     format.files = [](const fs::path& path, const ExportOptions&) {
         return std::vector<ExportFile>{{path / "data.yaml"}};
     };
-    format.fits = looksLike;
+    format.fits = looksLikeYolo;
     return format;
 }
 

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
+#include "io/size_text.h"
 
 namespace eyrie {
 

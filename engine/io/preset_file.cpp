@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+[[noreturn]] void refusePreset(const std::filesystem::path& path, const std::string& reason) {
     throw Error(ErrorKind::input, path.string() + ": " + reason);
 }
 
@@ -36,15 +36,15 @@ Json parse(const std::filesystem::path& path, const std::string& text) {
         if (event == Event::object_start) names.emplace_back();
         if (event == Event::object_end) names.pop_back();
         if (event == Event::key && !names.back().insert(value.get<std::string>()).second)
-            refuse(path, "\"" + value.get<std::string>() + "\" is there twice");
+            refusePreset(path, "\"" + value.get<std::string>() + "\" is there twice");
         return true;
     };
     try {
         return Json::parse(text, watch);
     } catch (const nlohmann::json::parse_error& error) {
-        refuse(path, placeOf(text, error.byte) + ": this is not JSON; look for a missing comma, quote or bracket");
+        refusePreset(path, placeOf(text, error.byte) + ": this is not JSON; look for a missing comma, quote or bracket");
     } catch (const nlohmann::json::exception&) {
-        refuse(path, "a number of this file is out of range");
+        refusePreset(path, "a number of this file is out of range");
     }
 }
 
@@ -53,7 +53,7 @@ std::string valueText(const std::filesystem::path& path, const std::string& name
     if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
     if (value.is_number_integer()) return value.dump();
     if (value.is_number()) return shortestText(value.get<double>());
-    refuse(path, "parameters: " + name + " = " + value.dump() + ", expected a number, true, false or a text");
+    refusePreset(path, "parameters: " + name + " = " + value.dump() + ", expected a number, true, false or a text");
 }
 
 /// Numbers and truth values as such, if they read back as the same text.
@@ -70,20 +70,20 @@ Json jsonOf(const std::string& text) {
 Preset readPreset(const std::filesystem::path& path) {
     const Json root = parse(path, readWholeFile(path));
     if (!root.is_object() || !root.contains("eyrie_preset"))
-        refuse(path, "this is not a preset: \"eyrie_preset\" is missing");
+        refusePreset(path, "this is not a preset: \"eyrie_preset\" is missing");
     const Json& format = root["eyrie_preset"];
     if (!format.is_number_integer() || format.get<std::int64_t>() < 1)
-        refuse(path, "eyrie_preset = " + format.dump() + ", expected " + std::to_string(kFormat));
+        refusePreset(path, "eyrie_preset = " + format.dump() + ", expected " + std::to_string(kFormat));
     if (format.get<std::int64_t>() > kFormat)
-        refuse(path, "eyrie_preset = " + format.dump() + " is newer than this program knows; update Eyrie");
+        refusePreset(path, "eyrie_preset = " + format.dump() + " is newer than this program knows; update Eyrie");
 
     Preset preset;
     if (root.contains("name")) {
-        if (!root["name"].is_string()) refuse(path, "name = " + root["name"].dump() + ", expected a text");
+        if (!root["name"].is_string()) refusePreset(path, "name = " + root["name"].dump() + ", expected a text");
         preset.name = root["name"].get<std::string>();
     }
     if (!root.contains("parameters") || !root["parameters"].is_object())
-        refuse(path, "\"parameters\" is missing or no object of names and values");
+        refusePreset(path, "\"parameters\" is missing or no object of names and values");
     for (const auto& [name, value] : root["parameters"].items())
         preset.values.emplace_back(name, valueText(path, name, value));
     return preset;

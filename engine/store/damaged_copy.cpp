@@ -21,9 +21,7 @@ using Path = std::filesystem::path;
 constexpr std::size_t kBlock = 1 << 20;
 constexpr std::uint32_t kOurPageSize = 8192;
 
-// The layout of the first 100 bytes is documented by SQLite ("Database File Format", §1.3) and frozen.
 using Header = std::array<unsigned char, 100>;
-constexpr char kMagic[] = "SQLite format 3";
 
 std::uint32_t get(const Header& header, std::size_t at, int bytes) {
     std::uint32_t value = 0;
@@ -100,14 +98,14 @@ bool mendHeader(const Path& copy, bool with_log) {
     file.read(reinterpret_cast<char*>(header.data()), header.size());
     file.clear();
     const std::uint64_t size = std::filesystem::file_size(copy);
-    const bool sound = std::memcmp(header.data(), kMagic, sizeof kMagic) == 0 && isPageSize(get(header, 16, 2)) &&
+    const bool sound = std::memcmp(header.data(), kSqliteMagic, sizeof kSqliteMagic) == 0 && isPageSize(get(header, 16, 2)) &&
                        header[18] <= 2 && header[19] <= 2 && header[18] > 0 && header[19] > 0 && header[20] == 0 &&
                        get(header, 21, 3) == 0x402020 && get(header, 44, 4) == 4 && get(header, 52, 4) == 0 &&
                        get(header, 56, 4) == 1;
     if (!sound) {
         const std::uint32_t page_size = isPageSize(get(header, 16, 2)) ? get(header, 16, 2) : likelyPageSize(copy);
         header.fill(0);
-        std::memcpy(header.data(), kMagic, sizeof kMagic);
+        std::memcpy(header.data(), kSqliteMagic, sizeof kSqliteMagic);
         put(header, 16, 2, page_size);
         header[18] = header[19] = with_log ? 2 : 1;
         put(header, 21, 3, 0x402020);  // fractions of a page, which are fixed

@@ -13,16 +13,14 @@
 namespace eyrie {
 namespace {
 
-// The layout of the first 100 bytes is documented by SQLite ("Database File Format", §1.3) and frozen.
 constexpr std::size_t kHeaderBytes = 100;
-constexpr char kMagic[] = "SQLite format 3";  // with its terminating zero: 16 bytes
 
 struct Beginning {
     std::array<unsigned char, kHeaderBytes> bytes{};
     std::uint64_t file_size = 0;
 
     bool isDatabase() const {
-        return file_size >= sizeof kMagic && std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
+        return file_size >= sizeof kSqliteMagic && std::memcmp(bytes.data(), kSqliteMagic, sizeof kSqliteMagic) == 0;
     }
 };
 

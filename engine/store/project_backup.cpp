@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "store/backup_name.h"
+#include "store/busy_timeout.h"
 #include "store/database_error.h"
 #include "store/schema.h"
 #include "store/stop_handler.h"
@@ -18,7 +19,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr int kBusyTimeoutMs = 5000;
 constexpr char kPartial[] = ".partial-";
 constexpr auto kMigrationPatience = std::chrono::seconds(60);
 

@@ -178,7 +178,7 @@ HealthItem lookAtBackups(const Path& path) {
 }
 
 /// What is no project of ours is nothing to be examined.
-void refuseForeign(const Path& path, SQLite::Database& database) {
+void refuseForeignToCheck(const Path& path, SQLite::Database& database) {
     int application = 0;
     int number = 0;
     try {
@@ -212,7 +212,7 @@ HealthReport checkProject(const Path& path, const CopyWatch& watch) {
     Examination examination(path, report);
     examination.add("file", [&] { return lookAtFile(path); });
     const auto database = guarded(path, "opening", [&] { return openUntouched(path); });
-    refuseForeign(path, *database);
+    refuseForeignToCheck(path, *database);
     addRowFunctions(*database);
     const StopHandler handler(*database, watch.stop);
     SchemaCheck schema;

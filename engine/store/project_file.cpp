@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "store/backup_name.h"
+#include "store/busy_timeout.h"
 #include "store/database_error.h"
 #include "store/database_uri.h"
 #include "store/file_check.h"
@@ -21,7 +22,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr int kBusyTimeoutMs = 5000;
 // A frame's arrays are 100 kB and more; small pages would chain dozens of them.
 constexpr int kPageSize = 8192;
 constexpr int kLongestValue = 1 << 28;  // bytes of one text or array; a frame's arrays have some hundred thousand

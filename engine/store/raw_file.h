@@ -9,6 +9,10 @@ struct sqlite3_file;
 
 namespace eyrie {
 
+/// What a database begins with, with its terminating zero: the layout of the first 100 bytes is documented by SQLite
+/// ("Database File Format", §1.3) and frozen.
+inline constexpr char kSqliteMagic[] = "SQLite format 3";
+
 /// The bytes of a database file in whatever state it is, read through SQLite's own layer: opened any other way, closing
 /// it would drop the locks that connections of this process hold on it.
 class RawFile {

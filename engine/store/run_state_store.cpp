@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "store/of_run.h"
 #include "store/rows.h"
 
 namespace eyrie {
@@ -11,10 +12,6 @@ namespace {
 
 /// SQLite takes a billion bytes; so much would be slow to keep, too.
 constexpr std::size_t kMostBytes = 500'000'000;
-
-std::string ofRun(int run_id) {
-    return " of run " + std::to_string(run_id);
-}
 
 void runFor(SQLite::Database& database, const std::string& command, int run_id) {
     SQLite::Statement statement(database, command);

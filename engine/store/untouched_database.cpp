@@ -5,13 +5,12 @@
 #include <unistd.h>
 
 #include "store/backup_name.h"
+#include "store/busy_timeout.h"
 #include "store/database_uri.h"
 #include "store/file_check.h"
 
 namespace eyrie {
 namespace {
-
-constexpr int kBusyTimeoutMs = 5000;
 
 std::unique_ptr<SQLite::Database> careful(std::unique_ptr<SQLite::Database> database) {
     database->exec("PRAGMA query_only = ON");

@@ -15,7 +15,7 @@
 namespace eyrie::ui {
 
 namespace {
-QToolButton* buttonOf(QAction* action, QWidget* parent) {
+QToolButton* toolButtonOf(QAction* action, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setDefaultAction(action);
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -29,7 +29,7 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     run_button_ = toolButtonOf(actions.run, this);
     stop_button_ = toolButtonOf(actions.stop, this);
     stop_button_->setToolButtonStyle(Qt::ToolButtonIconOnly);
-    auto* continue_button = buttonOf(actions.continue_run, this);
+    auto* continue_button = toolButtonOf(actions.continue_run, this);
     continue_button->setText(tr("Continue"));
     const auto offer = [continue_button, action = actions.continue_run] {
         continue_button->setText(tr("Continue"));

@@ -1,5 +1,6 @@
 #include "main_window/run_guard.h"
 
+#include <QLocale>
 #include <QWidget>
 #include <algorithm>
 #include <utility>

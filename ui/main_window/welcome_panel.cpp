@@ -15,7 +15,7 @@ namespace {
 constexpr int kMostShown = 6;
 constexpr int kWidth = 620;
 
-QPushButton* buttonOf(QAction* action, QWidget* parent) {
+QPushButton* welcomeButtonOf(QAction* action, QWidget* parent) {
     auto* button = new QPushButton(action->icon(), action->text().remove(QLatin1Char('&')), parent);
     button->setToolTip(action->toolTip());
     button->setMinimumHeight(34);
@@ -38,9 +38,9 @@ WelcomePanel::WelcomePanel(const WindowActions& actions, QWidget* parent) : QWid
     text->setAlignment(Qt::AlignCenter);
     text->setMinimumHeight(text->heightForWidth(kWidth - 48) + 4);
     auto* buttons = new QHBoxLayout;
-    buttons->addWidget(buttonOf(actions.open_video, this));
-    buttons->addWidget(buttonOf(actions.open_folder, this));
-    buttons->addWidget(buttonOf(actions.demo, this));
+    buttons->addWidget(welcomeButtonOf(actions.open_video, this));
+    buttons->addWidget(welcomeButtonOf(actions.open_folder, this));
+    buttons->addWidget(welcomeButtonOf(actions.demo, this));
 
     recent_box_ = new QWidget(this);
     recent_layout_ = new QVBoxLayout(recent_box_);
@@ -81,7 +81,7 @@ void WelcomePanel::setRecent(const QList<RecentProject>& projects) {
     auto* heading = new QLabel(tr("Recent projects"), recent_box_);
     heading->setForegroundRole(QPalette::PlaceholderText);
     recent_layout_->addWidget(heading);
-    for (const RecentProject& project : projects.mid(0, kMostRecent)) {
+    for (const RecentProject& project : projects.mid(0, kMostShown)) {
         auto* button = new QToolButton(recent_box_);
         const QString full =
             project.folder().isEmpty() ? project.name() : tr("%1  –  %2").arg(project.name(), project.folder());
