@@ -42,5 +42,6 @@ void addExportCommand(CLI::App& app, int& exit_code);
 void addCheckCommand(CLI::App& app, int& exit_code);
 void addBackupsCommand(CLI::App& app, int& exit_code);
 void addRestoreCommand(CLI::App& app, int& exit_code);
+void addManualCommand(CLI::App& app, int& exit_code);
 
 }  // namespace eyrie::cli

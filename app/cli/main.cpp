@@ -62,6 +62,7 @@ int commandOf(int argc, char** argv) {
     eyrie::cli::addCheckCommand(app, exit_code);
     eyrie::cli::addBackupsCommand(app, exit_code);
     eyrie::cli::addRestoreCommand(app, exit_code);
+    eyrie::cli::addManualCommand(app, exit_code);
     try {
         app.parse(argc, argv);
         return exit_code;

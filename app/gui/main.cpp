@@ -1,5 +1,6 @@
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QIcon>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -126,6 +127,7 @@ int main(int argc, char** argv) {
     eyrie::EndingSignals ending;
     QApplication application(argc, argv);
     nameProgram();
+    QApplication::setWindowIcon(QIcon(QStringLiteral(":/icons/eyrie.svg")));
     QApplication::setDesktopFileName(QStringLiteral("eyrie"));
     const StartOptions options = readOptions(application, argc, argv);
     eyrie::ui::Theme theme(application);

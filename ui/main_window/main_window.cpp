@@ -45,7 +45,6 @@ const QString kVideoTopic = QStringLiteral("video");
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     setObjectName(QStringLiteral("main_window"));
-    setWindowIcon(QIcon::fromTheme(QStringLiteral("camera-video")));
     setAcceptDrops(true);
     setDockNestingEnabled(true);
     setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
