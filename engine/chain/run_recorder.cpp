@@ -29,21 +29,12 @@ RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun&
       finishing_(resumed.options.finishing),
       scale_(resumed.run.scale),
       writer_(project, resumed.run.id, resumed.last_done),
-      also_(also) {
-    ProjectFile file = ProjectFile::open(project);
-    const RunStore store(file);
-    for (const TrackFrame& state : store.trackStatesUpTo(resumed.run.id, resumed.last_done, resumed.last_done + 1)) {
-        states_.emplace_back(state.frame, state.state);
-    }
-    for (const Registration& registration : store.registrations(resumed.run.id)) {
-        motions_.push_back({registration.current_from_previous.to_frame, registration, resumed.run.sequence.size});
-    }
-}
+      also_(also),
+      image_size_(resumed.run.sequence.size) {}
 
 void RunRecorder::onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
     writer_.write(*result);
-    for (const auto& state : result->tracks) states_.emplace_back(result->motion.frame, state);
-    motions_.push_back({result->motion.frame, result->motion.registration, result->motion.image_size});
+    image_size_ = result->motion.image_size;
     if (also_) also_->onFrame(result, frame);
 }
 
@@ -64,15 +55,18 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     if (state != RunState::finished) writer_.finish(state, summary.message);
     ProjectFile project = ProjectFile::open(project_);
     RunStore store(project);
-    std::vector<TrackFrame> finished;
+    // Nothing of the frames is held while the run goes on: an hour of them would not fit beside the chain.
+    std::vector<FrameMotionSummary> motions;
+    for (const Registration& registration : store.registrations(writer_.runId())) {
+        motions.push_back({registration.current_from_previous.to_frame, registration, image_size_});
+    }
+    const StatesOfRun followed = [&](const StateVisitor& visitor) { store.visitTrackStates(writer_.runId(), visitor); };
     const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
     std::vector<TimedDrop> dropped;
-    for (auto& [frame, track_state] :
-         finishTracks(std::move(states_), motions_, finishing_, scale_, vectors_at, &dropped)) {
-        finished.push_back({frame, track_state});
-    }
+    const FinishedTracks finished = finishRun(followed, motions, finishing_, scale_, vectors_at, &dropped);
     RunStateStore(project).keepTracks(writer_.runId());
-    store.replaceTrackStates(writer_.runId(), finished, dropped);
+    store.replaceTracks(
+        writer_.runId(), [&](const StateVisitor& visitor) { finished.visit(visitor); }, dropped);
     if (state == RunState::finished) writer_.finish(state, summary.message);
     return store.run(writer_.runId()).value();
 }

@@ -28,7 +28,7 @@ class RunRecorder : public ChainObserver {
     void onState(const ChainState& state) override;
 
     int runId() const { return writer_.runId(); }
-    /// Finishes the tracks (see finishTracks), closes the run with the summary's outcome and returns its record.
+    /// Finishes the tracks (see finishRun), closes the run with the summary's outcome and returns its record.
     RunRecord finish(const RunSummary& summary);
 
  private:
@@ -37,8 +37,7 @@ class RunRecorder : public ChainObserver {
     SceneScale scale_;
     ResultWriter writer_;
     ChainObserver* also_;
-    std::vector<std::pair<FrameIndex, TrackState>> states_;
-    std::vector<FrameMotionSummary> motions_;
+    cv::Size image_size_;
 };
 
 /// Version of the engine as stored with every run, e.g. "0.1.0".

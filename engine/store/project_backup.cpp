@@ -204,8 +204,14 @@ std::vector<ProjectBackup> listBackups(const Path& project) {
         backup->bytes = sizeOf(backup->path);
         backups.push_back(*std::move(backup));
     }
-    std::sort(backups.begin(), backups.end(), [](const ProjectBackup& a, const ProjectBackup& b) {
-        return std::pair(a.made, a.path) > std::pair(b.made, b.path);
+    // Names tell seconds; of two within one the file system knows which came later.
+    const auto written = [](const ProjectBackup& backup) {
+        std::error_code unknown;
+        const auto time = std::filesystem::last_write_time(backup.path, unknown);
+        return unknown ? std::filesystem::file_time_type::min() : time;
+    };
+    std::sort(backups.begin(), backups.end(), [&](const ProjectBackup& a, const ProjectBackup& b) {
+        return a.made != b.made ? a.made > b.made : std::pair(written(a), a.path) > std::pair(written(b), b.path);
     });
     return backups;
 }

@@ -166,6 +166,14 @@ std::vector<FrameSummary> RunStore::frameSummaries(int run_id) const {
 
 void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
                                   const std::vector<std::pair<FrameIndex, DroppedState>>& dropped) {
+    const auto all = [&](const StateVisitor& visitor) {
+        for (const TrackFrame& state : states) visitor(state.frame, state.state);
+    };
+    replaceTracks(run_id, all, dropped);
+}
+
+void RunStore::replaceTracks(int run_id, const std::function<void(const StateVisitor&)>& states,
+                             const std::vector<std::pair<FrameIndex, DroppedState>>& dropped) {
     guarded(project_.path(), "replacing the tracks" + ofRun(run_id), [&] {
         SQLite::Database& database = project_.database();
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
@@ -175,7 +183,7 @@ void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& sta
             RowWriter(statement).integer(run_id).run();
         }
         TrackRows rows(database);
-        for (const TrackFrame& state : states) rows.insert(run_id, state.frame, state.state);
+        states([&](FrameIndex frame, const TrackState& state) { rows.insert(run_id, frame, state); });
         SQLite::Statement left_out(database,
                                    "INSERT OR REPLACE INTO dropped_state (run_id, frame, track_id, x, y, length, "
                                    "width, heading_rad, reason, beside) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");

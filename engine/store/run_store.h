@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -105,6 +106,8 @@ class RunStore {
     std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;  ///< ascending frames
     std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame,
                                             int trail) const;  ///< states of frames (frame − trail, frame], for trails
+    /// Every state of every track, one by one, ordered by frame, then track.
+    void visitTrackStates(int run_id, const std::function<void(FrameIndex, const TrackState&)>& visitor) const;
     /// The run's result as boxes: every state of the confirmed tracks, or the kept detections (id empty).
     BoxesByFrame trackBoxes(int run_id) const;
     BoxesByFrame detectionBoxes(int run_id) const;
@@ -113,6 +116,10 @@ class RunStore {
     /// tracks of a run are finished).
     void replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
                             const std::vector<std::pair<FrameIndex, DroppedState>>& dropped = {});
+    /// The same with states one by one: `states` hands them to the visitor it is given, ordered by frame.
+    using StateVisitor = std::function<void(FrameIndex, const TrackState&)>;
+    void replaceTracks(int run_id, const std::function<void(const StateVisitor&)>& states,
+                       const std::vector<std::pair<FrameIndex, DroppedState>>& dropped);
     void rename(int run_id, const std::string& name);
     /// Takes a run out of all lists; it can be brought back until it is purged. Throws Error(project) naming the
     /// program that writes the run at this moment.

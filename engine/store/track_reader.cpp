@@ -8,15 +8,17 @@
 namespace eyrie {
 namespace {
 
-std::vector<TrackFrame> readStates(SQLite::Statement& statement) {
-    std::vector<TrackFrame> states;
+void visitStates(SQLite::Statement& statement, const RunStore::StateVisitor& visitor) {
     while (statement.executeStep()) {
         RowReader row(statement);
-        TrackFrame state;
-        state.frame = row.integer();
-        state.state = readTrackState(row);
-        states.push_back(state);
+        const FrameIndex frame = row.integer();
+        visitor(frame, readTrackState(row));
     }
+}
+
+std::vector<TrackFrame> readStates(SQLite::Statement& statement) {
+    std::vector<TrackFrame> states;
+    visitStates(statement, [&](FrameIndex frame, const TrackState& state) { states.push_back({frame, state}); });
     return states;
 }
 
@@ -67,6 +69,16 @@ std::vector<TrackFrame> RunStore::trackStatesUpTo(int run_id, FrameIndex frame, 
         statement.bind(2, static_cast<std::int64_t>(frame) - trail);
         statement.bind(3, frame);
         return readStates(statement);
+    });
+}
+
+void RunStore::visitTrackStates(int run_id, const StateVisitor& visitor) const {
+    guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
+        SQLite::Statement statement(project_.database(), std::string("SELECT frame, ") + kTrackStateColumns +
+                                                             " FROM track_state WHERE run_id = ? ORDER BY frame, "
+                                                             "track_id");
+        statement.bind(1, run_id);
+        visitStates(statement, visitor);
     });
 }
 

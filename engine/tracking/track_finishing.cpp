@@ -18,14 +18,14 @@ bool usableForFinishing(const TrackState& state) {
            std::isfinite(state.velocity.y);
 }
 
-std::vector<TrackPath> groupedById(std::vector<TimedState> states) {
+std::vector<TrackPath> groupedById(const StatesOfRun& states) {
     std::map<TrackId, TrackPath> by_id;
-    for (TimedState& state : states) {
-        if (!usableForFinishing(state.second)) continue;
-        TrackPath& path = by_id[state.second.id];
-        path.id = state.second.id;
-        path.states.push_back(state);
-    }
+    states([&](FrameIndex frame, const TrackState& state) {
+        if (!usableForFinishing(state)) return;
+        TrackPath& path = by_id[state.id];
+        path.id = state.id;
+        path.states.emplace_back(frame, state);
+    });
     std::vector<TrackPath> paths;
     for (auto& [id, path] : by_id) {
         auto& all = path.states;
@@ -34,6 +34,7 @@ std::vector<TrackPath> groupedById(std::vector<TimedState> states) {
         all.erase(std::unique(all.begin(), all.end(),
                               [](const TimedState& a, const TimedState& b) { return a.first == b.first; }),
                   all.end());
+        all.shrink_to_fit();
         paths.push_back(std::move(path));
     }
     return paths;
@@ -153,12 +154,39 @@ VectorsAt vectorsIn(const VectorsByFrame& kept) {
     };
 }
 
-std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::vector<FrameMotionSummary>& motion,
-                                     const FinishingOptions& options, const SceneScale& scale,
-                                     const VectorsAt& vectors_at, std::vector<TimedDrop>* dropped) {
+void FinishedTracks::visit(const StateVisitor& visitor) const {
+    // Tracks in the order in which they begin, and of those alive where each stands.
+    std::vector<const TrackPath*> waiting;
+    for (const TrackPath& path : paths) waiting.push_back(&path);
+    std::sort(waiting.begin(), waiting.end(), [](const TrackPath* a, const TrackPath* b) {
+        return a->firstFrame() != b->firstFrame() ? a->firstFrame() < b->firstFrame() : a->id < b->id;
+    });
+    std::map<TrackId, std::vector<TimedState>::const_iterator> alive;
+    std::map<TrackId, const TrackPath*> path_of;
+    std::size_t next = 0;
+    for (FrameIndex frame = 0; next < waiting.size() || !alive.empty(); ++frame) {
+        if (alive.empty()) frame = waiting[next]->firstFrame();
+        for (; next < waiting.size() && waiting[next]->firstFrame() == frame; ++next) {
+            alive[waiting[next]->id] = waiting[next]->states.begin();
+            path_of[waiting[next]->id] = waiting[next];
+        }
+        for (auto each = alive.begin(); each != alive.end();) {
+            auto& [id, state] = *each;
+            if (state->first == frame) {
+                visitor(frame, state->second);
+                ++state;
+            }
+            each = state == path_of[id]->states.end() ? alive.erase(each) : std::next(each);
+        }
+    }
+}
+
+FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotionSummary>& motion,
+                         const FinishingOptions& options, const SceneScale& scale, const VectorsAt& vectors_at,
+                         std::vector<TimedDrop>* dropped) {
     const GroundMotion ground(motion);
     DropList drops(dropped);
-    std::vector<TrackPath> paths = groupedById(std::move(states));
+    std::vector<TrackPath> paths = groupedById(states);
     std::erase_if(paths, [&](const TrackPath& path) {
         if (everConfirmed(path)) return false;
         drops.add(path, TrackDrop::unconfirmed);
@@ -185,18 +213,26 @@ std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
 
-    std::vector<TimedState> result;
-    for (const TrackPath& path : paths) {
-        for (auto [frame, state] : path.states) {
+    for (TrackPath& path : paths) {
+        for (auto& [frame, state] : path.states) {
             state.id = path.id;
             state.age = frame - path.firstFrame();
             if (state.status == TrackStatus::tentative) state.status = TrackStatus::confirmed;
-            result.emplace_back(frame, state);
         }
     }
-    std::sort(result.begin(), result.end(), [](const TimedState& a, const TimedState& b) {
-        return a.first != b.first ? a.first < b.first : a.second.id < b.second.id;
-    });
+    return {std::move(paths)};
+}
+
+std::vector<TimedState> finishTracks(const std::vector<TimedState>& states,
+                                     const std::vector<FrameMotionSummary>& motion, const FinishingOptions& options,
+                                     const SceneScale& scale, const VectorsAt& vectors_at,
+                                     std::vector<TimedDrop>* dropped) {
+    const StatesOfRun all = [&](const StateVisitor& visitor) {
+        for (const auto& [frame, state] : states) visitor(frame, state);
+    };
+    std::vector<TimedState> result;
+    finishRun(all, motion, options, scale, vectors_at, dropped)
+        .visit([&](FrameIndex frame, const TrackState& state) { result.emplace_back(frame, state); });
     return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <opencv2/core/types.hpp>
 #include <unordered_map>
@@ -54,6 +55,33 @@ struct FinishingOptions {
 /// A state of a track and the frame it belongs to.
 using TimedState = std::pair<FrameIndex, TrackState>;
 
+/// One track: its states in ascending frames, never empty.
+struct TrackPath {
+    TrackId id = 0;
+    std::vector<TimedState> states;
+
+    FrameIndex firstFrame() const { return states.front().first; }
+    FrameIndex lastFrame() const { return states.back().first; }
+    int statesOf(StateOrigin origin) const {
+        return static_cast<int>(std::count_if(
+            states.begin(), states.end(), [origin](const TimedState& state) { return state.second.origin == origin; }));
+    }
+};
+
+/// Takes the states of a run one by one.
+using StateVisitor = std::function<void(FrameIndex, const TrackState&)>;
+
+/// Hands all states of a run to a visitor, in any order.
+using StatesOfRun = std::function<void(const StateVisitor&)>;
+
+/// The result of a run, track by track.
+struct FinishedTracks {
+    std::vector<TrackPath> paths;
+
+    /// All states, ordered by frame, then id.
+    void visit(const StateVisitor& visitor) const;
+};
+
 /// A state that was left out and the frame it belongs to.
 using TimedDrop = std::pair<FrameIndex, DroppedState>;
 
@@ -72,7 +100,13 @@ VectorsAt vectorsIn(const VectorsByFrame& kept);
 /// those. Without `vectors_at` no track is traced back. What is left out although the tracker followed it goes to
 /// `dropped`, if given; predicted ends that are trimmed and fragments that are joined do not count. Clean tracks come
 /// out as they went in, so finishing twice is finishing once.
-std::vector<TimedState> finishTracks(std::vector<TimedState> states, const std::vector<FrameMotionSummary>& motion,
+/// An hour of traffic is millions of states: they are held once.
+FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotionSummary>& motion,
+                         const FinishingOptions& options, const SceneScale& scale, const VectorsAt& vectors_at = {},
+                         std::vector<TimedDrop>* dropped = nullptr);
+
+/// The same for states that are at hand.
+std::vector<TimedState> finishTracks(const std::vector<TimedState>& states, const std::vector<FrameMotionSummary>& motion,
                                      const FinishingOptions& options, const SceneScale& scale,
                                      const VectorsAt& vectors_at = {}, std::vector<TimedDrop>* dropped = nullptr);
 

@@ -1,25 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "tracking/ground_motion.h"
 #include "tracking/track_finishing.h"
 
 namespace eyrie {
-
-/// One track of a finished run: its states in ascending frames, never empty.
-struct TrackPath {
-    TrackId id = 0;
-    std::vector<TimedState> states;
-
-    FrameIndex firstFrame() const { return states.front().first; }
-    FrameIndex lastFrame() const { return states.back().first; }
-    int statesOf(StateOrigin origin) const {
-        return static_cast<int>(std::count_if(
-            states.begin(), states.end(), [origin](const TimedState& state) { return state.second.origin == origin; }));
-    }
-};
 
 /// Collects what is left out; `into` may be null.
 class DropList {

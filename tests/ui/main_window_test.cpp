@@ -393,7 +393,7 @@ class MainWindowTest : public QObject {
         window.actions().stop->trigger();
         QVERIFY(finished.wait(kPatience_ms));
         QVERIFY(waitFor([&] { return window.actions().run->isEnabled(); }));
-        QVERIFY(!window.messages().texts().isEmpty());
+        QVERIFY(waitFor([&] { return !window.messages().texts().isEmpty(); }));
     }
 };
 

@@ -176,6 +176,8 @@ class WindowFilesTest : public QObject {
             [&] { return !window.session().runs().empty() && window.session().runs().back().frames_done >= 8; }));
         QMimeData data;
         data.setUrls({QUrl::fromLocalFile(QString::fromStdString(folder.string()))});
+        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &enter);
         QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
         QApplication::sendEvent(&window, &drop);
         QVERIFY(asks(window));
@@ -284,6 +286,8 @@ class WindowFilesTest : public QObject {
         const auto folder = images("a", 4);
         QMimeData data;
         data.setUrls({QUrl::fromLocalFile(QString::fromStdString(folder.string()))});
+        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &enter);
         QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
         QSignalSpy ready(&window.session(), &ProjectSession::ready);
         QApplication::sendEvent(&window, &drop);

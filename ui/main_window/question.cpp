@@ -28,6 +28,7 @@ void ask(QWidget& window, const QString& question, const QString& details, const
         });
     }
     box->addButton(QMessageBox::Cancel);
+    QObject::connect(box, &QDialog::finished, box, [box] { box->setObjectName(QString()); });
     box->open();
 }
 
