@@ -242,7 +242,10 @@ void MainWindow::wireSession() {
     connect(canvas_, &VideoView::trackClicked, &session_, &ProjectSession::selectTrack);
     connect(&session_, &ProjectSession::problem, this, &MainWindow::showProblem);
     connect(&session_, &ProjectSession::notice, this, &MainWindow::showNotice);
-    connect(&session_, &ProjectSession::ready, this, &MainWindow::becameReady);
+    connect(&session_, &ProjectSession::ready, this, [this](bool has_results) {
+        messages_->dismissTopic(kRunTopic);  // a run of the former video may have been summarised meanwhile
+        becameReady(has_results);
+    });
     connect(&session_, &ProjectSession::runFinished, this, &MainWindow::runEnded);
     connect(&session_, &ProjectSession::runStarted, this, &MainWindow::enableActions);
     connect(&session_, &ProjectSession::runsChanged, this, &MainWindow::enableActions);
