@@ -137,6 +137,9 @@ class WindowFilesTest : public QObject {
         QVERIFY(test::answer(window, QStringLiteral("Remove")));
         QVERIFY(waitFor([&] { return window.session().runs().empty(); }));
         QVERIFY(waitFor([&] { return window.actions().restore_run->isEnabled(); }));
+        QVERIFY(!window.session().currentRun());
+        QVERIFY(!says(window, QStringLiteral("has no run")));
+        QVERIFY(waitFor([&] { return window.canvas().frame().result == nullptr; }));
         window.actions().restore_run->trigger();
         QVERIFY(waitFor([&] { return window.session().runs().size() == 1; }));
         QCOMPARE(window.session().runs().front().id, id);

@@ -52,6 +52,8 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
     for (const auto signal : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved}) {
         connect(proxy_, signal, this, &TablePanel::keepSelection);
     }
+    // The proxy lets go of rows before the model does.
+    connect(model_, &QAbstractItemModel::rowsRemoved, this, &TablePanel::showTableOrEmptyState);
     connect(proxy_, &QAbstractItemModel::modelReset, this, &TablePanel::keepSelection);
     connect(proxy_, &QAbstractItemModel::layoutChanged, this, &TablePanel::showTableOrEmptyState);
     showTableOrEmptyState();

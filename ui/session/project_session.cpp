@@ -142,6 +142,7 @@ void ProjectSession::showRun(int run_id) {
 }
 
 void ProjectSession::useRun(std::optional<int> run_id) {
+    if (run_id && findRun(*run_id) == nullptr) run_id.reset();
     current_run_ = run_id;
     run_data_.reset();
     selectTrack(std::nullopt);
@@ -170,6 +171,9 @@ void ProjectSession::removeRun(int run_id) {
     const RunRecord* run = findRun(run_id);
     if (run == nullptr) return;
     const RunRecord removed = *run;
+    // Out of the list first, so that nobody chooses it again while it goes.
+    std::erase_if(runs_, [run_id](const RunRecord& each) { return each.id == run_id; });
+    emit runsChanged();
     if (current_run_ == run_id) useRun(std::nullopt);
     reader_.removeRun(run_id);
     emit runRemoved(removed);
