@@ -26,7 +26,8 @@ class Result:
 
     def told(self):
         """The last words, for reports."""
-        words = (self.err.strip() or self.out.strip()).splitlines()
+        refusals = [line for line in self.out.splitlines() if line.startswith("refused")]  # of the window's driver
+        words = refusals or (self.err.strip() or self.out.strip()).splitlines()
         return words[-1][:300] if words else ""
 
     def __str__(self):

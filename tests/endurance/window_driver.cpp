@@ -61,7 +61,7 @@ class Driver : public QObject {
         opening([&] { session_.openMedia(eyrie::ui::videoMedia(clip), project); });
     }
     void label(int count, const std::string& name) {
-        if (!session_.video()) return;
+        if (!session_.video() || session_.project().empty()) return;
         const int before = refusals_;
         window_.actions().label_workspace->trigger();
         auto& labels = window_.labelling().labels();

@@ -1,4 +1,6 @@
+extern "C" {
 #include <libavutil/log.h>
+}
 
 #include "fuzz/input_file.h"
 #include "io/frame_source.h"
