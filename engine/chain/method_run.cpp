@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "chain/chain.h"
+#include "chain/classified_vehicles.h"
 #include "chain/stopwatch.h"
 #include "core/error.h"
 #include "detection/global_sliding_window.h"
@@ -41,7 +42,8 @@ class Method {
 
     MethodResult finish(const std::vector<FrameMotionSummary>& motions, const VectorsByFrame& vectors) {
         for (const auto& [frame, state] :
-             finishTracks(std::move(states_), motions, variant_.options.finishing, scale_, vectorsIn(vectors))) {
+             finishTracks(states_, motions, variant_.options.finishing, scale_,
+                          {vectorsIn(vectors), classifiedVehicles(variant_.options, vehiclesIn(vehicles_))})) {
             BoxRecord record;
             record.frame = frame;
             record.id = state.id;
@@ -73,6 +75,7 @@ class Method {
             result_.detections[record.frame].push_back(record);
         }
         for (const TrackState& state : found.tracks) states_.emplace_back(found.motion.frame, state);
+        vehicles_[found.motion.frame] = vehiclesOf(found.detections);
         times_.push_back(found.stage_ms);
     }
 
@@ -82,6 +85,7 @@ class Method {
     std::optional<WindowScanner> scanner_;
     MethodResult result_;
     std::vector<TimedState> states_;
+    VehiclesByFrame vehicles_;
     std::vector<StageTimes> times_;
 };
 

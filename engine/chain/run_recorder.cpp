@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "chain/classified_vehicles.h"
 #include "store/project_file.h"
 #include "store/run_state_store.h"
 
@@ -19,14 +20,14 @@ const std::filesystem::path& prepared(const std::filesystem::path& project) {
 RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
                          ChainObserver* also)
     : project_(prepared(project)),
-      finishing_(options.finishing),
+      options_(options),
       scale_(run.scale),
       writer_(project, std::move(run), parameterValues(options)),
       also_(also) {}
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also)
     : project_(project),
-      finishing_(resumed.options.finishing),
+      options_(resumed.options),
       scale_(resumed.run.scale),
       writer_(project, resumed.run.id, resumed.last_done),
       also_(also),
@@ -63,7 +64,10 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     const StatesOfRun followed = [&](const StateVisitor& visitor) { store.visitTrackStates(writer_.runId(), visitor); };
     const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
     std::vector<TimedDrop> dropped;
-    const FinishedTracks finished = finishRun(followed, motions, finishing_, scale_, vectors_at, &dropped);
+    const BoxesAt vehicles_at = [&](FrameIndex frame) { return store.vehicleBoxes(writer_.runId(), frame); };
+    const FinishedTracks finished =
+        finishRun(followed, motions, options_.finishing, scale_,
+                  {vectors_at, classifiedVehicles(options_, vehicles_at)}, &dropped);
     RunStateStore(project).keepTracks(writer_.runId());
     store.replaceTracks(
         writer_.runId(), [&](const StateVisitor& visitor) { finished.visit(visitor); }, dropped);

@@ -33,7 +33,7 @@ class RunRecorder : public ChainObserver {
 
  private:
     std::filesystem::path project_;
-    FinishingOptions finishing_;
+    ChainOptions options_;
     SceneScale scale_;
     ResultWriter writer_;
     ChainObserver* also_;

@@ -16,6 +16,8 @@ std::string textOf(const DroppedState& dropped) {
             return track + " drives beside " + other + " as if fixed to it, as its shadow or side would";
         case TrackDrop::hardly_detected:
             return track + " was guessed rather than detected";
+        case TrackDrop::could_stand:
+            return track + " moves no faster than a standing thing would seem to, and was never taken for a vehicle";
     }
     return track;
 }
@@ -32,6 +34,8 @@ const char* parameterOf(TrackDrop why) {
             return "finishing.drop_shadows";
         case TrackDrop::hardly_detected:
             return "finishing.min_detected";
+        case TrackDrop::could_stand:
+            return "finishing.standing_height";
     }
     return "";
 }

@@ -13,7 +13,8 @@ enum class TrackDrop {
     too_small,       ///< its boxes stayed smaller than any vehicle
     shares_place,    ///< it lies on a track that was detected more often
     shadow,          ///< it drives beside a vehicle as if fixed to it
-    hardly_detected  ///< guessed rather than detected
+    hardly_detected,  ///< guessed rather than detected
+    could_stand       ///< parallax alone may have moved it, and it does not look like a vehicle
 };
 
 /// One state of a track that was left out when the tracks of a run were finished.

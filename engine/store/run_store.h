@@ -102,6 +102,8 @@ class RunStore {
     std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
     /// Its motion vectors alone, by ascending id; none when the run has no such frame.
     std::vector<MotionVector> motionVectors(int run_id, FrameIndex frame) const;
+    /// Boxes of its kept detections that a classifier took for whole vehicles.
+    std::vector<OrientedBox> vehicleBoxes(int run_id, FrameIndex frame) const;
     std::vector<TrackSummary> tracks(int run_id) const;                    ///< ascending id
     std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;  ///< ascending frames
     std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame,

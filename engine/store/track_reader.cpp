@@ -104,6 +104,19 @@ BoxesByFrame RunStore::trackBoxes(int run_id) const {
     });
 }
 
+std::vector<OrientedBox> RunStore::vehicleBoxes(int run_id, FrameIndex frame) const {
+    return guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
+        SQLite::Statement statement(project_.database(),
+                                    "SELECT x, y, length, width, heading_rad FROM detection WHERE run_id = ? AND "
+                                    "frame = ? AND rejection = 'none' AND complete ORDER BY number");
+        statement.bind(1, run_id);
+        statement.bind(2, frame);
+        std::vector<OrientedBox> boxes;
+        while (statement.executeStep()) boxes.push_back(RowReader(statement).box());
+        return boxes;
+    });
+}
+
 BoxesByFrame RunStore::detectionBoxes(int run_id) const {
     return guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(),

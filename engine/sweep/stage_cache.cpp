@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "chain/chain.h"
+#include "chain/classified_vehicles.h"
 #include "core/error.h"
 #include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
@@ -284,6 +285,7 @@ std::shared_ptr<const std::vector<TimedState>> StageCache::states(const ChainOpt
 }
 
 std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& options, const Motion& motion,
+                                                       const std::vector<std::vector<Detection>>& detections,
                                                        const std::vector<TimedState>& states) {
     return tracks_.get(signatureUpTo(options, SweepStage::finishing), [&] {
         count(SweepStage::finishing);
@@ -295,8 +297,17 @@ std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& optio
             const bool there = found != motion.end() && found->frame == frame;
             return there ? found->motion_vectors : std::vector<MotionVector>{};
         };
+        const BoxesAt vehicles_at = [&](FrameIndex frame) {
+            const auto found =
+                std::lower_bound(motion.begin(), motion.end(), frame,
+                                 [](const FrameMotion& candidate, FrameIndex at) { return candidate.frame < at; });
+            const auto place = static_cast<std::size_t>(found - motion.begin());
+            const bool there = found != motion.end() && found->frame == frame && place < detections.size();
+            return there ? vehiclesOf(detections[place]) : std::vector<OrientedBox>{};
+        };
         for (const auto& [frame, state] :
-             finishTracks(states, summariesOf(motion), options.finishing, scale_, vectors_at))
+             finishTracks(states, summariesOf(motion), options.finishing, scale_,
+                          {vectors_at, classifiedVehicles(options, vehicles_at)}))
             (*boxes)[frame].push_back(recordOf(frame, state));
         return boxes;
     });
@@ -309,7 +320,7 @@ std::optional<ClipResult> StageCache::run(const ChainOptions& options, const std
         const auto states = this->states(options, *motion, detected->frames, stop);
         ClipResult result;
         result.detections = std::shared_ptr<const BoxesByFrame>(detected, &detected->boxes);
-        result.tracks = tracks(options, *motion, *states);
+        result.tracks = tracks(options, *motion, detected->frames, *states);
         return result;
     } catch (const Stopped&) {
         return std::nullopt;

@@ -80,6 +80,7 @@ class StageCache {
     std::shared_ptr<const std::vector<TimedState>> states(const ChainOptions& options, const Motion& motion,
                                                           const Detections& detections, const std::stop_token& stop);
     std::shared_ptr<const BoxesByFrame> tracks(const ChainOptions& options, const Motion& motion,
+                                               const std::vector<std::vector<Detection>>& detections,
                                                const std::vector<TimedState>& states);
 
     std::shared_ptr<Motion> computeMotion(const ChainOptions& options, const std::stop_token& stop);

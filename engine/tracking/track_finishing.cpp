@@ -120,6 +120,15 @@ void FinishingOptions::describe(ParameterVisitor& v) {
             "Tracks detected in less than this share of their frames, not counting predicted ones, and in less than "
             "0.4 s altogether, are dropped. 0: none.",
             ""});
+    v.real("finishing.standing_height", standing_height, 0, 0.9,
+           {"",
+            "A track that goes along the camera's flow no faster than a standing thing of this share of the flight "
+            "height would seem to, and that the classifier never took for a vehicle, stands and is dropped. 0: never.",
+            ""});
+    v.real("finishing.standing_depth", standing_depth, 0, 0.9,
+           {"",
+            "The same against the flow: over relief the plane of the registration may lie above the ground. 0: never.",
+            ""});
     v.flag(
         "finishing.join_parts", join_parts,
         {"",
@@ -144,7 +153,24 @@ FinishingOptions FinishingOptions::thesis() {
     options.drop_shadows = false;
     options.min_detected = 0;
     options.join_parts = false;
+    options.standing_height = 0;
+    options.standing_depth = 0;
     return options;
+}
+
+std::vector<OrientedBox> vehiclesOf(const std::vector<Detection>& detections) {
+    std::vector<OrientedBox> boxes;
+    for (const Detection& detection : detections) {
+        if (detection.complete && detection.rejection == Rejection::none) boxes.push_back(detection.box);
+    }
+    return boxes;
+}
+
+BoxesAt vehiclesIn(const VehiclesByFrame& kept) {
+    return [&kept](FrameIndex frame) {
+        const auto found = kept.find(frame);
+        return found == kept.end() ? std::vector<OrientedBox>{} : found->second;
+    };
 }
 
 VectorsAt vectorsIn(const VectorsByFrame& kept) {
@@ -182,7 +208,7 @@ void FinishedTracks::visit(const StateVisitor& visitor) const {
 }
 
 FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotionSummary>& motion,
-                         const FinishingOptions& options, const SceneScale& scale, const VectorsAt& vectors_at,
+                         const FinishingOptions& options, const SceneScale& scale, const FoundInFrames& found,
                          std::vector<TimedDrop>* dropped) {
     const GroundMotion ground(motion);
     DropList drops(dropped);
@@ -208,8 +234,9 @@ FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotio
         if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));
     }
     if (options.drop_shadows) dropShadows(paths, scale, drops);
-    traceBack(paths, ground, vectors_at, framesOf(options.trace_back_s, scale));
+    traceBack(paths, ground, found.vectors_at, framesOf(options.trace_back_s, scale));
     dropHardlyDetected(paths, options.min_detected, scale, drops);
+    dropStanding(paths, ground, found.vehicles_at, options, drops);
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
 
@@ -225,13 +252,13 @@ FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotio
 
 std::vector<TimedState> finishTracks(const std::vector<TimedState>& states,
                                      const std::vector<FrameMotionSummary>& motion, const FinishingOptions& options,
-                                     const SceneScale& scale, const VectorsAt& vectors_at,
+                                     const SceneScale& scale, const FoundInFrames& found,
                                      std::vector<TimedDrop>* dropped) {
     const StatesOfRun all = [&](const StateVisitor& visitor) {
         for (const auto& [frame, state] : states) visitor(frame, state);
     };
     std::vector<TimedState> result;
-    finishRun(all, motion, options, scale, vectors_at, dropped)
+    finishRun(all, motion, options, scale, found, dropped)
         .visit([&](FrameIndex frame, const TrackState& state) { result.emplace_back(frame, state); });
     return result;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/corner.h"
+#include "core/detection.h"
 #include "core/dropped_state.h"
 #include "core/ids.h"
 #include "core/motion_vector.h"
@@ -45,6 +46,8 @@ struct FinishingOptions {
     double max_sharing = 0.5;
     bool drop_shadows = true;
     double min_detected = 0.4;
+    double standing_height = 0.33;
+    double standing_depth = 0.2;
     bool join_parts = true;
 
     void describe(ParameterVisitor& visitor);
@@ -88,6 +91,25 @@ using TimedDrop = std::pair<FrameIndex, DroppedState>;
 /// The motion vectors of a frame of the run, by ascending id; none for frames it does not have.
 using VectorsAt = std::function<std::vector<MotionVector>(FrameIndex)>;
 
+/// Boxes that a classifier took for whole vehicles in a frame of the run; none for frames it does not have.
+using BoxesAt = std::function<std::vector<OrientedBox>(FrameIndex)>;
+
+/// What was found in the frames of a run, as far as finishing looks at it. A source that is not there says nothing.
+struct FoundInFrames {
+    FoundInFrames() = default;
+    FoundInFrames(VectorsAt vectors, BoxesAt vehicles = {})
+        : vectors_at(std::move(vectors)), vehicles_at(std::move(vehicles)) {}
+    VectorsAt vectors_at;
+    BoxesAt vehicles_at;  ///< only of runs in which a classifier takes part
+};
+
+/// The boxes of those detections that were kept and that a classifier took for whole vehicles.
+std::vector<OrientedBox> vehiclesOf(const std::vector<Detection>& detections);
+
+/// The boxes that were kept of frames; it must outlive the result.
+using VehiclesByFrame = std::unordered_map<FrameIndex, std::vector<OrientedBox>>;
+BoxesAt vehiclesIn(const VehiclesByFrame& kept);
+
 /// The vectors that were kept of frames; it must outlive the result.
 using VectorsByFrame = std::unordered_map<FrameIndex, std::vector<MotionVector>>;
 VectorsAt vectorsIn(const VectorsByFrame& kept);
@@ -97,17 +119,17 @@ VectorsAt vectorsIn(const VectorsByFrame& kept);
 /// its own; gives every track a steady size on the ground and a smooth path; extends tracks back to where their motion
 /// vectors began or the vehicle stood. States come in any
 /// order and leave ordered by frame, then id, one per frame and id. `motion` may lack frames; nothing is carried across
-/// those. Without `vectors_at` no track is traced back. What is left out although the tracker followed it goes to
+/// those. Without vectors no track is traced back. What is left out although the tracker followed it goes to
 /// `dropped`, if given; predicted ends that are trimmed and fragments that are joined do not count. Clean tracks come
 /// out as they went in, so finishing twice is finishing once.
 /// An hour of traffic is millions of states: they are held once.
 FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotionSummary>& motion,
-                         const FinishingOptions& options, const SceneScale& scale, const VectorsAt& vectors_at = {},
+                         const FinishingOptions& options, const SceneScale& scale, const FoundInFrames& found = {},
                          std::vector<TimedDrop>* dropped = nullptr);
 
 /// The same for states that are at hand.
 std::vector<TimedState> finishTracks(const std::vector<TimedState>& states, const std::vector<FrameMotionSummary>& motion,
                                      const FinishingOptions& options, const SceneScale& scale,
-                                     const VectorsAt& vectors_at = {}, std::vector<TimedDrop>* dropped = nullptr);
+                                     const FoundInFrames& found = {}, std::vector<TimedDrop>* dropped = nullptr);
 
 }  // namespace eyrie

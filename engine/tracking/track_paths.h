@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tracking/ground_motion.h"
@@ -55,6 +56,13 @@ void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropLis
 /// Drops tracks that were guessed rather than seen: detected in less than `min_share` of their frames, not counting
 /// predicted ones, and in less than 0.4 s altogether.
 void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale, DropList& dropped);
+
+/// Drops tracks that need not move at all: over windows of 24 frames they go along the camera's flow no faster than a
+/// standing thing of `standing_height` would seem to, or against it no faster than one of `standing_depth` below the
+/// plane of the registration, and the classifier never took them for a vehicle. Nothing is dropped where the camera hardly moves, nor without
+/// `vehicles_at`, since then nothing speaks for a vehicle.
+void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const BoxesAt& vehicles_at,
+                  const FinishingOptions& options, DropList& dropped);
 
 /// Follows tracks back in time by the motion vectors in their boxes, by at most `frames`: where a vehicle starts slowly
 /// or hardly stands out, single vectors show it long before there are enough for a detection.

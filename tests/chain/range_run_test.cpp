@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "chain/classified_vehicles.h"
 #include "chain/chain.h"
 #include "chain/run_recorder.h"
 #include "support/moving_scene.h"
@@ -24,15 +25,19 @@ class RangeRun : public testing::Test {
         std::vector<TimedState> states;
         std::vector<FrameMotionSummary> motions;
         VectorsByFrame vectors;
+        VehiclesByFrame vehicles;
         for (FrameIndex f = 0; f < scene_.frames; ++f) {
             results.push_back(chain.next(source_.read(f, false)));
             for (const TrackState& state : results.back().tracks) states.emplace_back(f, state);
             const FrameMotion& motion = results.back().motion;
             motions.push_back({f, motion.registration, motion.image_size});
             vectors[f] = motion.motion_vectors;
+            vehicles[f] = vehiclesOf(results.back().detections);
             results.back().tracks.clear();
         }
-        for (const auto& [frame, state] : finishTracks(states, motions, options.finishing, scale_, vectorsIn(vectors)))
+        for (const auto& [frame, state] :
+             finishTracks(states, motions, options.finishing, scale_,
+                          {vectorsIn(vectors), classifiedVehicles(options, vehiclesIn(vehicles))}))
             results[static_cast<std::size_t>(frame)].tracks.push_back(state);
         return results;
     }

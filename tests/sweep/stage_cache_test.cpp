@@ -6,6 +6,7 @@
 
 #include "chain/chain.h"
 #include "chain/chain_run.h"
+#include "chain/classified_vehicles.h"
 #include "core/error.h"
 #include "sweep/sweep_scene.h"
 
@@ -27,7 +28,8 @@ class OwnRun : public ChainObserver {
         const RunSummary summary = ChainRun(options, kScale).run(*source, {}, *this, {});
         EXPECT_EQ(summary.outcome, RunOutcome::finished) << summary.message;
         for (const auto& [frame, state] :
-             finishTracks(states_, motions_, options.finishing, kScale, vectorsIn(vectors_)))
+             finishTracks(states_, motions_, options.finishing, kScale,
+                          {vectorsIn(vectors_), classifiedVehicles(options, vehiclesIn(vehicles_))}))
             tracks_.emplace_back(frame, state.id, state.box, state.velocity, state.score);
     }
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
@@ -37,6 +39,7 @@ class OwnRun : public ChainObserver {
         }
         for (const TrackState& state : result->tracks) states_.emplace_back(frame, state);
         vectors_[frame] = result->motion.motion_vectors;
+        vehicles_[frame] = vehiclesOf(result->detections);
         motions_.push_back({frame, result->motion.registration, result->motion.image_size});
     }
     struct Box {
@@ -57,6 +60,7 @@ class OwnRun : public ChainObserver {
     std::vector<TimedState> states_;
     std::vector<FrameMotionSummary> motions_;
     VectorsByFrame vectors_;
+    VehiclesByFrame vehicles_;
 };
 
 void expectSame(const std::vector<OwnRun::Box>& expected, const BoxesByFrame& found, const std::string& what) {
