@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <charconv>
 #include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -74,6 +75,24 @@ std::filesystem::path throughLinks(const std::filesystem::path& path) {
     if (!std::filesystem::is_symlink(path, failed)) return path;
     const std::filesystem::path target = std::filesystem::canonical(path, failed);
     return failed ? path : target;
+}
+
+void removeAbandonedParts(const std::filesystem::path& path) {
+    const std::filesystem::path folder = path.parent_path();
+    const std::string name = path.filename().string();
+    std::error_code failed;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, failed)) {
+        const std::string other = entry.path().filename().string();
+        if (!other.starts_with(name + ".") || !other.ends_with(".part")) continue;
+        long process = 0;
+        const char* begin = other.data() + name.size() + 1;
+        const auto read = std::from_chars(begin, other.data() + other.size(), process);
+        if (read.ec != std::errc() || *read.ptr != '-' || process <= 0) continue;
+        if (::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH) {
+            std::error_code stays;
+            std::filesystem::remove(entry.path(), stays);
+        }
+    }
 }
 
 std::filesystem::path temporaryBeside(const std::filesystem::path& path) {

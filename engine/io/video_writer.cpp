@@ -72,6 +72,7 @@ struct VideoWriter::Implementation {
         if (std::filesystem::is_directory(path, ignored)) fail("is a folder");
         in_place = isOwnStream(path) ||
                    (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored));
+        if (!in_place) removeAbandonedParts(throughLinks(path));
         part = in_place ? path : temporaryBeside(throughLinks(path));
         AVFormatContext* raw = nullptr;
         const std::string url = "file:" + part.string();

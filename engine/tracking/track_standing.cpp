@@ -19,6 +19,7 @@ constexpr double kFlowNoise = 0.05;     ///< px/frame that registration may err 
 /// How a track moved over the ground, beside how the ground itself moved through the picture.
 struct AgainstFlow {
     double ratio = 0;      ///< own motion to the ground's
+    double fastest = 0;    ///< the same in the window of its fastest motion
     double alignment = 0;  ///< cosine of the angle between both
     double flow = 0;       ///< px/frame of the ground
 };
@@ -42,7 +43,8 @@ std::optional<AgainstFlow> againstFlow(const TrackPath& path, const GroundMotion
         flows.push_back(flow_length / frames);
     }
     if (ratios.empty()) return std::nullopt;
-    return AgainstFlow{medianOf(std::move(ratios)), medianOf(std::move(alignments)), medianOf(std::move(flows))};
+    const double fastest = *std::max_element(ratios.begin(), ratios.end());
+    return AgainstFlow{medianOf(std::move(ratios)), fastest, medianOf(std::move(alignments)), medianOf(std::move(flows))};
 }
 
 /// A thing that rises to `height` of the flight height moves this much of the ground's own motion more than the ground.
@@ -72,7 +74,8 @@ void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, con
         if (!motion || motion->flow < kLeastFlow) return false;
         const bool above = motion->alignment > kAlongFlow && motion->ratio < parallaxAt(options.standing_height);
         const bool below = motion->alignment < -kAlongFlow && motion->ratio < parallaxAt(options.standing_depth);
-        if (!(above || below) || wasTakenForVehicle(path, vehicles_at)) return false;
+        const bool never_moved = motion->fastest < parallaxAt(options.standing_depth);
+        if (!(above || below || never_moved) || wasTakenForVehicle(path, vehicles_at)) return false;
         dropped.add(path, TrackDrop::could_stand);
         return true;
     });

@@ -100,7 +100,8 @@ class Kills(Part):
         left = [
             path.name
             for path in folder.iterdir()
-            if ".new-" in path.name or path.name.endswith((".part", ".tmp", "-journal"))
+            # The unfinished part of a video that was killed stays, under its own name, until that video is written anew.
+            if ".new-" in path.name or path.name.endswith((".tmp", "-journal"))
         ]
         if left:
             raise Failure(f"left lying about beside {project.name}: {', '.join(sorted(left))}")

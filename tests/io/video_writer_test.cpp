@@ -1,6 +1,10 @@
 #include "io/video_writer.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
 
 #include "io/numbered_video.h"
 #include "support/temporary_folder.h"
@@ -40,6 +44,21 @@ TEST_F(VideoWriterTest, TheFileAppearsWhenItIsComplete) {
     writer.finish();
     EXPECT_TRUE(std::filesystem::exists(folder_ / "a.mp4"));
     EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(VideoWriterTest, WhatAKilledProcessLeftOfTheSameVideoIsRemoved) {
+    const pid_t gone = ::fork();
+    if (gone == 0) ::_exit(0);
+    ::waitpid(gone, nullptr, 0);
+    const std::string live = std::to_string(::getppid());
+    for (const std::string& name : {"a.mp4." + std::to_string(gone) + "-1.part", "a.mp4." + live + "-1.part",
+                                    "b.mp4." + std::to_string(gone) + "-1.part"}) {
+        std::ofstream(folder_ / name) << "half a video";
+    }
+    test::writeNumberedVideo(folder_ / "a.mp4", 3);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / ("a.mp4." + std::to_string(gone) + "-1.part")));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / ("a.mp4." + live + "-1.part"))) << "its process works";
+    EXPECT_TRUE(std::filesystem::exists(folder_ / ("b.mp4." + std::to_string(gone) + "-1.part"))) << "another video";
 }
 
 TEST_F(VideoWriterTest, FoldersThatCannotBeWrittenAreRefused) {

@@ -149,7 +149,10 @@ class SessionProjectsTest : public QObject {
         QVERIFY(shows(session, 0));
         QVERIFY(session.currentRun());
         ProjectSession again;
-        QVERIFY(waitFor([&] { return session.runs().front().sequence.path == elsewhere.string(); }));
+        QVERIFY(waitFor([&] {
+            ProjectFile file = ProjectFile::open(project(), ProjectFile::Mode::read_only);
+            return RunStore(file).runs().front().sequence.path == elsewhere.string();
+        }));
         QVERIFY(open(again, project()));
         QVERIFY(!again.videoMissing());
     }

@@ -263,7 +263,7 @@ class SessionRunsTest : public QObject {
         QVERIFY(
             QTest::qWaitFor([&] { return session.runData() && session.runData()->frames.size() == 60; }, kPatience_ms));
         if (session.runData()->tracks.empty()) QSKIP("the chain found no track in the toy scene");
-        const TrackSummary& track = session.runData()->tracks.front();
+        const TrackSummary track = session.runData()->tracks.front();  // the run may be read anew meanwhile
         std::vector<TrackFrame> states;
         connect(&session, &ProjectSession::trackStatesRead, this,
                 [&](TrackId, const std::vector<TrackFrame>& read) { states = read; });
