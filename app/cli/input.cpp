@@ -52,10 +52,10 @@ std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_ra
 }
 
 void checkGsd(double gsd) {
-    if (!(std::isfinite(gsd) && gsd > 0 && gsd <= 100)) {
+    if (!(gsd >= 0.001 && gsd <= 100)) {
         throw Error(ErrorKind::parameter,
                     "--gsd " + numberText(gsd) +
-                        ": expected metres per pixel above 0 and up to 100, e.g. 0.3; leave it out when unknown");
+                        ": expected metres per pixel from 0.001 to 100, e.g. 0.3; leave it out when unknown");
     }
 }
 

@@ -17,7 +17,8 @@ namespace {
 /// What the rest of Eyrie divides by and counts up to.
 void check(const RunRecord& run) {
     const auto refuse = [&](const char* what) { throw MalformedRow{"run " + std::to_string(run.id) + " has " + what}; };
-    if (!(run.scale.gsd_m_per_px > 0 && std::isfinite(run.scale.gsd_m_per_px))) refuse("a scale that is not above 0");
+    constexpr double kFinest = 1e-4, kCoarsest = 1e4;  // m/px; beyond them a vehicle has no size in whole pixels
+    if (!(run.scale.gsd_m_per_px >= kFinest && run.scale.gsd_m_per_px <= kCoarsest)) refuse("an impossible scale");
     if (!(run.scale.frame_rate_hz > 0 && std::isfinite(run.scale.frame_rate_hz)))
         refuse("a frame rate that is not above 0");
     if (run.first_frame < 0 || run.last_frame > kLastFrame) refuse("frames outside every video");
@@ -148,7 +149,7 @@ std::vector<FrameSummary> RunStore::frameSummaries(int run_id) const {
         while (statement.executeStep()) {
             RowReader row(statement);
             FrameSummary summary;
-            summary.frame = row.integer();
+            summary.frame = readFrameNumber(row);
             summary.time_us = row.wide();
             summary.state = row.word(stored::kRegistrationStates);
             summary.inliers = row.integer();

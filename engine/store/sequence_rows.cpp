@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "store/database_error.h"
+#include "store/rows.h"
 
 namespace eyrie {
 
@@ -17,6 +18,12 @@ std::string nowUtc() {
     char text[32];
     std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
     return text;
+}
+
+FrameIndex readFrameNumber(RowReader& row) {
+    const FrameIndex frame = row.integer();
+    if (frame < 0 || frame > kLastFrame) throw MalformedRow{"a frame " + std::to_string(frame) + " that no video has"};
+    return frame;
 }
 
 void checkSequence(const SequenceRecord& sequence) {

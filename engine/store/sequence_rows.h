@@ -16,6 +16,10 @@ std::string nowUtc();
 /// No video is longer: a day at 230 frames a second.
 inline constexpr FrameIndex kLastFrame = 20'000'000;
 
+class RowReader;
+/// The next column as the number of a frame. Throws MalformedRow for one that no video has.
+FrameIndex readFrameNumber(RowReader& row);
+
 /// Throws MalformedRow for a video that cannot be.
 void checkSequence(const SequenceRecord& sequence);
 

@@ -4,6 +4,7 @@
 #include "store/of_run.h"
 #include "store/rows.h"
 #include "store/run_store.h"
+#include "store/sequence_rows.h"
 
 namespace eyrie {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 void visitStates(SQLite::Statement& statement, const RunStore::StateVisitor& visitor) {
     while (statement.executeStep()) {
         RowReader row(statement);
-        const FrameIndex frame = row.integer();
+        const FrameIndex frame = readFrameNumber(row);
         visitor(frame, readTrackState(row));
     }
 }

@@ -157,9 +157,10 @@ bool RunBar::takeGsd() {
     const auto value = gsdFromText(gsd_->text());
     if (!value) {
         emit gsdRefused(
-            tr("GSD “%1” is not a number of metres per pixel above 0 and up to %2. Leave the field empty if "
+            tr("GSD “%1” is not a number of metres per pixel from %2 to %3. Leave the field empty if "
                "it is not known.")
                 .arg(gsd_->text().trimmed())
+                .arg(kSmallestGsd)
                 .arg(kLargestGsd));
         return false;
     }

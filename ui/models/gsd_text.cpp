@@ -17,7 +17,7 @@ std::optional<double> gsdFromText(const QString& text) {
     if (plain.isEmpty()) return 0;
     bool understood = false;
     const double value = QLocale::c().toDouble(plain, &understood);
-    if (!understood || !std::isfinite(value) || value <= 0 || value > kLargestGsd) return std::nullopt;
+    if (!understood || !std::isfinite(value) || value < kSmallestGsd || value > kLargestGsd) return std::nullopt;
     return value;
 }
 
