@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <opencv2/core/matx.hpp>
 #include <opencv2/core/types.hpp>
 #include <optional>
@@ -13,7 +14,7 @@ namespace eyrie {
 struct HomographyOptions {
     double inlier_distance_px = 1.0;
     int min_inliers = 16;
-    double min_inlier_share = 0.3;
+    double min_inlier_share = 0.12;
 
     void describe(ParameterVisitor& visitor);
 };
@@ -53,7 +54,11 @@ class HomographyEstimator {
 
     /// Whether enough points agree.
     bool trustworthy(const HomographyFit& fit) const {
-        return fit.inliers >= options_.min_inliers && fit.inlier_share >= options_.min_inlier_share;
+        // A thousand corners do not agree by chance, however many others there are; a few dozen may.
+        constexpr int kSure = 300;
+        constexpr double kShareOfFew = 0.3;
+        const double share = fit.inliers >= kSure ? options_.min_inlier_share : std::max(options_.min_inlier_share, kShareOfFew);
+        return fit.inliers >= options_.min_inliers && fit.inlier_share >= share;
     }
 
  private:

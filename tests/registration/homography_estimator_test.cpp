@@ -181,4 +181,18 @@ TEST(HomographyEstimator, knowsWhatACameraCannotDo) {
     EXPECT_FALSE(plausibleMotion({1, 0, 1000, 0, 1, 0, 0, 0, 1}, kSize));    // out of sight
 }
 
+TEST(HomographyEstimator, manyThatAgreeAreTrustedHoweverManyDoNot) {
+    const HomographyEstimator estimator({}, kSize);
+    const auto trusted = [&](int inliers, double share) {
+        HomographyFit fit;
+        fit.inliers = inliers;
+        fit.inlier_share = share;
+        return estimator.trustworthy(fit);
+    };
+    EXPECT_TRUE(trusted(1138, 1138.0 / 4842)) << "a turning camera at night";
+    EXPECT_FALSE(trusted(100, 0.24)) << "so few may agree by chance";
+    EXPECT_TRUE(trusted(100, 0.4));
+    EXPECT_FALSE(trusted(1138, 0.05));
+}
+
 }  // namespace eyrie
