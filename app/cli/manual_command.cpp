@@ -46,7 +46,8 @@ std::string spelling(const CLI::Option& option) {
     for (const char c : option.get_name(option.get_positional() && !option.nonpositional(), true)) {
         text.append(1, c).append(c == ',' ? " " : "");
     }
-    if (!option.get_positional() && option.get_items_expected_max() > 0) text.append(" ").append(option.get_type_name());
+    if (!option.get_positional() && option.get_items_expected_max() > 0)
+        text.append(" ").append(option.get_type_name());
     return text;
 }
 
@@ -60,7 +61,8 @@ void printOptions(const CLI::App& command) {
 void printManual(const CLI::App& app) {
     std::printf(".TH EYRIE\\-CLI 1 \"\" \"Eyrie %s\" \"Eyrie\"\n.SH NAME\n", engineVersion().c_str());
     std::printf("eyrie\\-cli \\- finds, outlines and follows small moving vehicles in aerial video\n");
-    std::printf(".SH SYNOPSIS\n.B eyrie\\-cli\n.I COMMAND\n[options]\n.SH DESCRIPTION\n%s\n", troff(app.get_description()).c_str());
+    std::printf(".SH SYNOPSIS\n.B eyrie\\-cli\n.I COMMAND\n[options]\n.SH DESCRIPTION\n%s\n",
+                troff(app.get_description()).c_str());
     std::printf("The window program is\n.BR eyrie (1).\n.SH COMMANDS\n");
     for (const CLI::App* command : commandsOf(app)) {
         std::printf(".SS eyrie\\-cli %s\n%s.\n", troff(command->get_name()).c_str(),
@@ -86,7 +88,11 @@ void printCompletion(const CLI::App& app) {
         for (const CLI::Option* option : command->get_options()) {
             for (const std::string& name : option->get_lnames()) known.insert(std::string("--").append(name));
         }
-        options.append("        ").append(command->get_name()).append(") options=").append(words(known)).append(" ;;\n");
+        options.append("        ")
+            .append(command->get_name())
+            .append(") options=")
+            .append(words(known))
+            .append(" ;;\n");
     }
     std::set<std::string> parameters;
     ChainOptions chain;
@@ -121,7 +127,8 @@ void printCompletion(const CLI::App& app) {
 
 void addManualCommand(CLI::App& app, int&) {
     // In no group, so that --help does not list what only the build and packagers need.
-    CLI::App* command = app.add_subcommand("manual", "Print the manual page, or the completion of the shell")->group("");
+    CLI::App* command =
+        app.add_subcommand("manual", "Print the manual page, or the completion of the shell")->group("");
     const auto completion = std::make_shared<bool>(false);
     command->add_flag("--completion", *completion, "Print the completion for bash");
     command->callback([&app, completion] { *completion ? printCompletion(app) : printManual(app); });

@@ -65,9 +65,8 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
     std::vector<TimedDrop> dropped;
     const BoxesAt vehicles_at = [&](FrameIndex frame) { return store.vehicleBoxes(writer_.runId(), frame); };
-    const FinishedTracks finished =
-        finishRun(followed, motions, options_.finishing, scale_,
-                  {vectors_at, classifiedVehicles(options_, vehicles_at)}, &dropped);
+    const FinishedTracks finished = finishRun(followed, motions, options_.finishing, scale_,
+                                              {vectors_at, classifiedVehicles(options_, vehicles_at)}, &dropped);
     RunStateStore(project).keepTracks(writer_.runId());
     store.replaceTracks(
         writer_.runId(), [&](const StateVisitor& visitor) { finished.visit(visitor); }, dropped);

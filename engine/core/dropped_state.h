@@ -9,10 +9,10 @@ namespace eyrie {
 
 /// Why what the tracker followed is not among the finished tracks of a run.
 enum class TrackDrop {
-    unconfirmed,     ///< never confirmed
-    too_small,       ///< its boxes stayed smaller than any vehicle
-    shares_place,    ///< it lies on a track that was detected more often
-    shadow,          ///< it drives beside a vehicle as if fixed to it
+    unconfirmed,      ///< never confirmed
+    too_small,        ///< its boxes stayed smaller than any vehicle
+    shares_place,     ///< it lies on a track that was detected more often
+    shadow,           ///< it drives beside a vehicle as if fixed to it
     hardly_detected,  ///< guessed rather than detected
     could_stand       ///< parallax alone may have moved it, and it does not look like a vehicle
 };

@@ -23,8 +23,8 @@ bool isOwnStream(const std::filesystem::path& path);
 /// as long as names may be.
 std::filesystem::path temporaryBeside(const std::filesystem::path& path);
 
-/// Removes what processes that were killed left of earlier attempts at `path`. Looks through the whole folder: for files
-/// that take long to write.
+/// Removes what processes that were killed left of earlier attempts at `path`. Looks through the whole folder: for
+/// files that take long to write.
 void removeAbandonedParts(const std::filesystem::path& path);
 
 /// Where a rename must lead so that a link stays a link: its target, or the path itself.

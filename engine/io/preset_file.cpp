@@ -42,7 +42,8 @@ Json parse(const std::filesystem::path& path, const std::string& text) {
     try {
         return Json::parse(text, watch);
     } catch (const nlohmann::json::parse_error& error) {
-        refusePreset(path, placeOf(text, error.byte) + ": this is not JSON; look for a missing comma, quote or bracket");
+        refusePreset(path,
+                     placeOf(text, error.byte) + ": this is not JSON; look for a missing comma, quote or bracket");
     } catch (const nlohmann::json::exception&) {
         refusePreset(path, "a number of this file is out of range");
     }

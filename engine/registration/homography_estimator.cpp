@@ -168,8 +168,11 @@ void HomographyOptions::describe(ParameterVisitor& visitor) {
     visitor.integer("registration.min_inliers", min_inliers, 6, 10000,
                     {"", "Fewer agreeing corners than this, and a frame counts as not registered.", ""});
     visitor.real("registration.min_inlier_share", min_inlier_share, 0.05, 0.95,
-                 {"", "A smaller share of agreeing corners than this, and a frame counts as not registered; of less than 300 agreeing "
-                  "corners at least 0.3.", ""});
+                 {"",
+                  "A smaller share of agreeing corners than this, and a frame counts as not registered; of less than "
+                  "300 agreeing "
+                  "corners at least 0.3.",
+                  ""});
 }
 
 HomographyEstimator::HomographyEstimator(const HomographyOptions& options, cv::Size image)

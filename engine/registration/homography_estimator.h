@@ -57,7 +57,8 @@ class HomographyEstimator {
         // A thousand corners do not agree by chance, however many others there are; a few dozen may.
         constexpr int kSure = 300;
         constexpr double kShareOfFew = 0.3;
-        const double share = fit.inliers >= kSure ? options_.min_inlier_share : std::max(options_.min_inlier_share, kShareOfFew);
+        const double share =
+            fit.inliers >= kSure ? options_.min_inlier_share : std::max(options_.min_inlier_share, kShareOfFew);
         return fit.inliers >= options_.min_inliers && fit.inlier_share >= share;
     }
 

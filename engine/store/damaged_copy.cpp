@@ -98,10 +98,10 @@ bool mendHeader(const Path& copy, bool with_log) {
     file.read(reinterpret_cast<char*>(header.data()), header.size());
     file.clear();
     const std::uint64_t size = std::filesystem::file_size(copy);
-    const bool sound = std::memcmp(header.data(), kSqliteMagic, sizeof kSqliteMagic) == 0 && isPageSize(get(header, 16, 2)) &&
-                       header[18] <= 2 && header[19] <= 2 && header[18] > 0 && header[19] > 0 && header[20] == 0 &&
-                       get(header, 21, 3) == 0x402020 && get(header, 44, 4) == 4 && get(header, 52, 4) == 0 &&
-                       get(header, 56, 4) == 1;
+    const bool sound = std::memcmp(header.data(), kSqliteMagic, sizeof kSqliteMagic) == 0 &&
+                       isPageSize(get(header, 16, 2)) && header[18] <= 2 && header[19] <= 2 && header[18] > 0 &&
+                       header[19] > 0 && header[20] == 0 && get(header, 21, 3) == 0x402020 && get(header, 44, 4) == 4 &&
+                       get(header, 52, 4) == 0 && get(header, 56, 4) == 1;
     if (!sound) {
         const std::uint32_t page_size = isPageSize(get(header, 16, 2)) ? get(header, 16, 2) : likelyPageSize(copy);
         header.fill(0);

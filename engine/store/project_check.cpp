@@ -232,7 +232,8 @@ HealthReport checkProject(const Path& path, const CopyWatch& watch) {
     });
     add("structure", [&] { return lookAtStructure(path, *database); });
     // Where a table of ours is something else, asking it may never end.
-    const bool ours = schema.tables.contains("sequence") && schema.tables.contains("run") && schema.tables.contains("frame");
+    const bool ours =
+        schema.tables.contains("sequence") && schema.tables.contains("run") && schema.tables.contains("frame");
     const HealthItem not_looked{"", Health::damaged, "not looked at, since tables are not as Eyrie makes them"};
     add("references", [&] { return ours ? lookAtReferences(*database) : not_looked; });
     add("values", [&] { return lookAtValues(*database, schema.tables); });

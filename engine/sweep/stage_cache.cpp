@@ -305,9 +305,8 @@ std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& optio
             const bool there = found != motion.end() && found->frame == frame && place < detections.size();
             return there ? vehiclesOf(detections[place]) : std::vector<OrientedBox>{};
         };
-        for (const auto& [frame, state] :
-             finishTracks(states, summariesOf(motion), options.finishing, scale_,
-                          {vectors_at, classifiedVehicles(options, vehicles_at)}))
+        for (const auto& [frame, state] : finishTracks(states, summariesOf(motion), options.finishing, scale_,
+                                                       {vectors_at, classifiedVehicles(options, vehicles_at)}))
             (*boxes)[frame].push_back(recordOf(frame, state));
         return boxes;
     });

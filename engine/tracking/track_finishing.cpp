@@ -125,10 +125,10 @@ void FinishingOptions::describe(ParameterVisitor& v) {
             "A track that goes along the camera's flow no faster than a standing thing of this share of the flight "
             "height would seem to, and that the classifier never took for a vehicle, stands and is dropped. 0: never.",
             ""});
-    v.real("finishing.standing_depth", standing_depth, 0, 0.9,
-           {"",
-            "The same against the flow: over relief the plane of the registration may lie above the ground. 0: never.",
-            ""});
+    v.real(
+        "finishing.standing_depth", standing_depth, 0, 0.9,
+        {"", "The same against the flow: over relief the plane of the registration may lie above the ground. 0: never.",
+         ""});
     v.flag(
         "finishing.join_parts", join_parts,
         {"",
@@ -258,8 +258,9 @@ std::vector<TimedState> finishTracks(const std::vector<TimedState>& states,
         for (const auto& [frame, state] : states) visitor(frame, state);
     };
     std::vector<TimedState> result;
-    finishRun(all, motion, options, scale, found, dropped)
-        .visit([&](FrameIndex frame, const TrackState& state) { result.emplace_back(frame, state); });
+    finishRun(all, motion, options, scale, found, dropped).visit([&](FrameIndex frame, const TrackState& state) {
+        result.emplace_back(frame, state);
+    });
     return result;
 }
 

@@ -128,8 +128,9 @@ FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotio
                          std::vector<TimedDrop>* dropped = nullptr);
 
 /// The same for states that are at hand.
-std::vector<TimedState> finishTracks(const std::vector<TimedState>& states, const std::vector<FrameMotionSummary>& motion,
-                                     const FinishingOptions& options, const SceneScale& scale,
-                                     const FoundInFrames& found = {}, std::vector<TimedDrop>* dropped = nullptr);
+std::vector<TimedState> finishTracks(const std::vector<TimedState>& states,
+                                     const std::vector<FrameMotionSummary>& motion, const FinishingOptions& options,
+                                     const SceneScale& scale, const FoundInFrames& found = {},
+                                     std::vector<TimedDrop>* dropped = nullptr);
 
 }  // namespace eyrie

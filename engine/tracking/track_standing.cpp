@@ -9,12 +9,12 @@
 namespace eyrie {
 namespace {
 
-constexpr int kWindow = 24;             ///< frames over which motion is compared with the camera's …
-constexpr int kShortestWindow = 8;      ///< … and at least that many
-constexpr int kWindowStep = 6;          ///< frames from one window to the next
-constexpr double kLeastFlow = 0.2;      ///< px/frame; below that the camera does not move enough to tell
-constexpr double kAlongFlow = 0.8;      ///< cosine of the angle to the flow
-constexpr double kFlowNoise = 0.05;     ///< px/frame that registration may err by
+constexpr int kWindow = 24;          ///< frames over which motion is compared with the camera's …
+constexpr int kShortestWindow = 8;   ///< … and at least that many
+constexpr int kWindowStep = 6;       ///< frames from one window to the next
+constexpr double kLeastFlow = 0.2;   ///< px/frame; below that the camera does not move enough to tell
+constexpr double kAlongFlow = 0.8;   ///< cosine of the angle to the flow
+constexpr double kFlowNoise = 0.05;  ///< px/frame that registration may err by
 
 /// How a track moved over the ground, beside how the ground itself moved through the picture.
 struct AgainstFlow {
@@ -44,7 +44,8 @@ std::optional<AgainstFlow> againstFlow(const TrackPath& path, const GroundMotion
     }
     if (ratios.empty()) return std::nullopt;
     const double fastest = *std::max_element(ratios.begin(), ratios.end());
-    return AgainstFlow{medianOf(std::move(ratios)), fastest, medianOf(std::move(alignments)), medianOf(std::move(flows))};
+    return AgainstFlow{medianOf(std::move(ratios)), fastest, medianOf(std::move(alignments)),
+                       medianOf(std::move(flows))};
 }
 
 /// A thing that rises to `height` of the flight height moves this much of the ground's own motion more than the ground.

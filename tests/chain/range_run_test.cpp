@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "chain/classified_vehicles.h"
 #include "chain/chain.h"
+#include "chain/classified_vehicles.h"
 #include "chain/run_recorder.h"
 #include "support/moving_scene.h"
 

@@ -95,8 +95,8 @@ TEST(IncludeRules, viewsAndModelsSeeOnlyValues) {
         if (include.room != "view" && include.room != "models") continue;
         const std::string target = include.included.substr(0, include.included.find('/'));
         const bool engine_room = allowed.count(target) && include.included.find('/') != std::string::npos;
-        const bool value_header = target == "core" || include.included == "store/run_store.h" ||
-                                  include.included == "chain/run_facts.h";
+        const bool value_header =
+            target == "core" || include.included == "store/run_store.h" || include.included == "chain/run_facts.h";
         EXPECT_TRUE(!engine_room || value_header) << include.file.string() << " includes " << include.included;
     }
 }

@@ -156,12 +156,11 @@ bool RunBar::takeGsd() {
     if (refreshing_) return true;
     const auto value = gsdFromText(gsd_->text());
     if (!value) {
-        emit gsdRefused(
-            tr("GSD “%1” is not a number of metres per pixel from %2 to %3. Leave the field empty if "
-               "it is not known.")
-                .arg(gsd_->text().trimmed())
-                .arg(kSmallestGsd)
-                .arg(kLargestGsd));
+        emit gsdRefused(tr("GSD “%1” is not a number of metres per pixel from %2 to %3. Leave the field empty if "
+                           "it is not known.")
+                            .arg(gsd_->text().trimmed())
+                            .arg(kSmallestGsd)
+                            .arg(kLargestGsd));
         return false;
     }
     emit gsdTouched();
