@@ -19,7 +19,7 @@ class RunRecorder : public ChainObserver {
     /// planned frames. `also`, if given, sees every frame after it was stored; it must outlive the recorder.
     RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
                 ChainObserver* also = nullptr);
-    /// Goes on with a run that ended early: takes the project's run back to where `resumed` begins.
+    /// Goes on with a run that ended early: its frames stay until each is done again.
     RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also = nullptr);
 
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override;

@@ -41,7 +41,16 @@ TrackRows::TrackRows(SQLite::Database& database)
                            "excluded.length_sum, width_sum = width_sum + excluded.width_sum"),
       state_(database, insertInto("track_state",
                                   "run_id, frame, track_id, x, y, length, width, heading_rad, vx, vy, status, origin, "
-                                  "age, hits, score")) {}
+                                  "age, hits, score")),
+      forget_states_(database, "DELETE FROM track_state WHERE run_id = ? AND frame = ?"),
+      forget_tracks_(database,
+                     "DELETE FROM track WHERE run_id = ?1 AND frames = 1 AND id IN (SELECT track_id FROM track_state "
+                     "WHERE run_id = ?1 AND frame = ?2)"),
+      subtract_(database,
+                "UPDATE track SET frames = frames - 1, speed_sum = speed_sum - sqrt(gone.vx * gone.vx + gone.vy * "
+                "gone.vy), length_sum = length_sum - gone.length, width_sum = width_sum - gone.width "
+                "FROM track_state AS gone WHERE track.run_id = ?1 AND gone.run_id = ?1 AND gone.frame = ?2 AND "
+                "gone.track_id = track.id") {}
 
 void TrackRows::insert(int run_id, FrameIndex frame, const TrackState& state) {
     RowWriter(track_)
@@ -69,6 +78,12 @@ void TrackRows::insert(int run_id, FrameIndex frame, const TrackState& state) {
         .run();
 }
 
+void TrackRows::erase(int run_id, FrameIndex frame) {
+    RowWriter(forget_tracks_).integer(run_id).integer(frame).run();
+    RowWriter(subtract_).integer(run_id).integer(frame).run();
+    RowWriter(forget_states_).integer(run_id).integer(frame).run();
+}
+
 FrameRows::FrameRows(SQLite::Database& database)
     : frame_(database, insertInto("frame", frameColumns())),
       vectors_(database, insertInto("motion_vectors", "run_id, frame, data")),
@@ -79,7 +94,12 @@ FrameRows::FrameRows(SQLite::Database& database)
       detection_(database, insertInto("detection",
                                       "run_id, frame, number, x, y, length, width, heading_rad, vx, vy, score, "
                                       "cluster, rejection, vectors, complete")),
-      tracks_(database) {}
+      tracks_(database) {
+    for (const char* table :
+         {"frame", "motion_vectors", "stationary_corners", "roi", "motion_cluster", "detection"}) {
+        forget_.emplace_back(database, std::string("DELETE FROM ") + table + " WHERE run_id = ? AND frame = ?");
+    }
+}
 
 void FrameRows::insert(int run_id, const FrameResult& result) {
     const FrameMotion& motion = result.motion;
@@ -146,6 +166,11 @@ void FrameRows::insert(int run_id, const FrameResult& result) {
             .run();
     }
     for (const TrackState& state : result.tracks) tracks_.insert(run_id, frame, state);
+}
+
+void FrameRows::erase(int run_id, FrameIndex frame) {
+    tracks_.erase(run_id, frame);
+    for (SQLite::Statement& statement : forget_) RowWriter(statement).integer(run_id).integer(frame).run();
 }
 
 }  // namespace eyrie

@@ -53,6 +53,7 @@ struct ResultWriter::Implementation {
     FrameRows rows;
     std::unique_ptr<FileLock> lock;
     int run_id = 0;
+    FrameIndex replaced_up_to = -1;  ///< frames up to here may be stored already
 };
 
 ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
@@ -85,7 +86,7 @@ ResultWriter::ResultWriter(const std::filesystem::path& project, int run_id, Fra
     }
     implementation_->lock = std::move(attempt.lock);
     implementation_->run_id = run_id;
-    RunStateStore(implementation_->project).rewind(run_id, last);
+    implementation_->replaced_up_to = RunStateStore(implementation_->project).takeUp(run_id, last);
 }
 
 ResultWriter::~ResultWriter() = default;
@@ -99,6 +100,9 @@ void ResultWriter::write(const FrameResult& result) {
     implementation_->project.checkInPlace();
     guarded(implementation_->project.path(), doing, [&] {
         SQLite::Transaction transaction(implementation_->project.database(), SQLite::TransactionBehavior::IMMEDIATE);
+        if (result.motion.frame <= implementation_->replaced_up_to) {
+            implementation_->rows.erase(implementation_->run_id, result.motion.frame);
+        }
         implementation_->rows.insert(implementation_->run_id, result);
         transaction.commit();
     });

@@ -19,7 +19,7 @@ class ResultWriter {
     /// `run.sequence.id`, `run.started_utc` (when empty) are filled in. Throws Error(project | output).
     ResultWriter(const std::filesystem::path& project, RunRecord run,
                  const std::vector<std::pair<std::string, std::string>>& parameters);
-    /// Goes on with a run that ended early, from the frame after `last`; see RunStateStore::rewind. Throws
+    /// Goes on with a run that ended early, from the frame after `last`; see RunStateStore::takeUp. Throws
     /// Error(project | output), also when another program writes it.
     ResultWriter(const std::filesystem::path& project, int run_id, FrameIndex last);
     /// Leaves the state `running` unless finish() was called.
@@ -28,7 +28,7 @@ class ResultWriter {
     ResultWriter& operator=(const ResultWriter&) = delete;
 
     int runId() const;
-    /// Every frame once. Throws Error(output) when the disk is full, Error(project) when the run was removed meanwhile;
+    /// Every frame once; one that is left from before the run was taken up is replaced. Throws Error(output) when the disk is full, Error(project) when the run was removed meanwhile;
     /// frames written before stay.
     void write(const FrameResult& result);
     /// Keeps what the chain remembers after a frame that was written, for going on with the run. The same errors.

@@ -65,6 +65,7 @@ std::vector<RowRule> rowRules() {
     const std::string frame = "frame" + frames;
     const std::string range = "first_frame" + frames + " AND last_frame" + frames;
     // Labels may end where nothing ends: there the video's length was unknown.
+    static_assert(kFinestGsd == 1e-4 && kCoarsestGsd == 1e4);  // written out below: no locale may turn their points
     const std::string life = "first_frame >= 0 AND last_frame >= first_frame";
     return {
         {"sequence",
@@ -72,7 +73,7 @@ std::vector<RowRule> rowRules() {
              kRate + " AND " + areShort("path"),
          "size, length or frame rate of a video is impossible"},
         {"run",
-         range + " AND gsd_m_per_px BETWEEN 1e-9 AND 1e9 AND frame_rate_hz" + kRate + " AND " +
+         range + " AND gsd_m_per_px BETWEEN 1e-4 AND 1e4 AND frame_rate_hz" + kRate + " AND " +
              isOneOf("state", stored::kRunStates) + " AND " +
              areShort("name, started_utc, engine_version, preset, message"),
          "range, scale or state of a run is impossible"},

@@ -2,8 +2,6 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <array>
-
 #include "store/of_run.h"
 #include "store/rows.h"
 
@@ -31,16 +29,6 @@ void claim(ProjectFile& project, int run_id, FrameIndex last) {
                                         "again");
 }
 
-void restoreTracks(SQLite::Database& database, int run_id) {
-    SQLite::Statement any(database, "SELECT EXISTS (SELECT 1 FROM unfinished_track_state WHERE run_id = ?)");
-    any.bind(1, run_id);
-    any.executeStep();
-    if (any.getColumn(0).getInt() == 0) return;  // they were never finished
-    runFor(database, "DELETE FROM track_state WHERE run_id = ?", run_id);
-    runFor(database, "INSERT INTO track_state SELECT * FROM unfinished_track_state WHERE run_id = ?", run_id);
-    runFor(database, "DELETE FROM unfinished_track_state WHERE run_id = ?", run_id);
-}
-
 /// What tables and lists sum up of the tracks.
 void sumUpTracks(SQLite::Database& database, int run_id) {
     runFor(database, "DELETE FROM dropped_state WHERE run_id = ?", run_id);
@@ -53,6 +41,17 @@ void sumUpTracks(SQLite::Database& database, int run_id) {
            "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE track_state.run_id = frame.run_id "
            "AND track_state.frame = frame.frame AND status <> 'tentative') WHERE run_id = ?",
            run_id);
+}
+
+void restoreTracks(SQLite::Database& database, int run_id) {
+    SQLite::Statement any(database, "SELECT EXISTS (SELECT 1 FROM unfinished_track_state WHERE run_id = ?)");
+    any.bind(1, run_id);
+    any.executeStep();
+    if (any.getColumn(0).getInt() == 0) return;  // they were never finished
+    runFor(database, "DELETE FROM track_state WHERE run_id = ?", run_id);
+    runFor(database, "INSERT INTO track_state SELECT * FROM unfinished_track_state WHERE run_id = ?", run_id);
+    runFor(database, "DELETE FROM unfinished_track_state WHERE run_id = ?", run_id);
+    sumUpTracks(database, run_id);
 }
 
 }  // namespace
@@ -93,22 +92,19 @@ void RunStateStore::keepTracks(int run_id) {
     });
 }
 
-void RunStateStore::rewind(int run_id, FrameIndex last) {
-    guarded(project_.path(), "going back" + ofRun(run_id) + " to frame " + std::to_string(last), [&] {
+FrameIndex RunStateStore::takeUp(int run_id, FrameIndex last) {
+    return guarded(project_.path(), "taking up" + ofRun(run_id) + " after frame " + std::to_string(last), [&] {
         SQLite::Database& database = project_.database();
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         claim(project_, run_id, last);
         restoreTracks(database, run_id);
-        constexpr std::array<const char*, 8> kByFrame{"frame",     "motion_vectors", "stationary_corners",
-                                                      "roi",       "motion_cluster", "detection",
-                                                      "run_state", "track_state"};
-        for (const char* table : kByFrame) {
-            SQLite::Statement statement(database,
-                                        std::string("DELETE FROM ") + table + " WHERE run_id = ? AND frame > ?");
-            RowWriter(statement).integer(run_id).integer(last).run();
-        }
-        sumUpTracks(database, run_id);
+        SQLite::Statement stored(database, "SELECT ifnull(max(frame), ?) FROM frame WHERE run_id = ?");
+        stored.bind(1, last);
+        stored.bind(2, run_id);
+        stored.executeStep();
+        const FrameIndex last_stored = stored.getColumn(0).getInt();
         transaction.commit();
+        return last_stored;
     });
 }
 

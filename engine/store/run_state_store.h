@@ -26,10 +26,10 @@ class RunStateStore {
     void keep(int run_id, FrameIndex frame, const std::string& bytes);
     /// Keeps the tracks as they are; to be called before they are finished.
     void keepTracks(int run_id);
-    /// Takes a run back to how it was after `last`, with its tracks unfinished and its state `running`, in one step.
-    /// `last` before its first frame: nothing stays of the run but itself. Throws Error(project), too, when the run is
-    /// finished, removed or lacks a frame up to there.
-    void rewind(int run_id, FrameIndex last);
+    /// Makes an ended run one that is being written again, with its tracks unfinished, in one step. Its frames after
+    /// `last` stay until each is done again: whatever happens meanwhile, what was shown as done is there. Returns the
+    /// last frame stored. Throws Error(project), too, when the run is finished, removed or lacks a frame up to `last`.
+    FrameIndex takeUp(int run_id, FrameIndex last);
 
  private:
     ProjectFile& project_;

@@ -17,8 +17,8 @@ namespace {
 /// What the rest of Eyrie divides by and counts up to.
 void check(const RunRecord& run) {
     const auto refuse = [&](const char* what) { throw MalformedRow{"run " + std::to_string(run.id) + " has " + what}; };
-    constexpr double kFinest = 1e-4, kCoarsest = 1e4;  // m/px; beyond them a vehicle has no size in whole pixels
-    if (!(run.scale.gsd_m_per_px >= kFinest && run.scale.gsd_m_per_px <= kCoarsest)) refuse("an impossible scale");
+    if (!(run.scale.gsd_m_per_px >= kFinestGsd && run.scale.gsd_m_per_px <= kCoarsestGsd))
+        refuse("an impossible scale");
     if (!(run.scale.frame_rate_hz > 0 && std::isfinite(run.scale.frame_rate_hz)))
         refuse("a frame rate that is not above 0");
     if (run.first_frame < 0 || run.last_frame > kLastFrame) refuse("frames outside every video");

@@ -290,20 +290,20 @@ std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& optio
     return tracks_.get(signatureUpTo(options, SweepStage::finishing), [&] {
         count(SweepStage::finishing);
         auto boxes = std::make_shared<BoxesByFrame>();
-        const VectorsAt vectors_at = [&motion](FrameIndex frame) {
+        const auto placeOf = [&motion](FrameIndex frame) -> std::optional<std::size_t> {
             const auto found =
                 std::lower_bound(motion.begin(), motion.end(), frame,
                                  [](const FrameMotion& candidate, FrameIndex at) { return candidate.frame < at; });
-            const bool there = found != motion.end() && found->frame == frame;
-            return there ? found->motion_vectors : std::vector<MotionVector>{};
+            if (found == motion.end() || found->frame != frame) return std::nullopt;
+            return static_cast<std::size_t>(found - motion.begin());
+        };
+        const VectorsAt vectors_at = [&](FrameIndex frame) {
+            const auto place = placeOf(frame);
+            return place ? motion[*place].motion_vectors : std::vector<MotionVector>{};
         };
         const BoxesAt vehicles_at = [&](FrameIndex frame) {
-            const auto found =
-                std::lower_bound(motion.begin(), motion.end(), frame,
-                                 [](const FrameMotion& candidate, FrameIndex at) { return candidate.frame < at; });
-            const auto place = static_cast<std::size_t>(found - motion.begin());
-            const bool there = found != motion.end() && found->frame == frame && place < detections.size();
-            return there ? vehiclesOf(detections[place]) : std::vector<OrientedBox>{};
+            const auto place = placeOf(frame);
+            return place && *place < detections.size() ? vehiclesOf(detections[*place]) : std::vector<OrientedBox>{};
         };
         for (const auto& [frame, state] : finishTracks(states, summariesOf(motion), options.finishing, scale_,
                                                        {vectors_at, classifiedVehicles(options, vehicles_at)}))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "tracking/frames_of.h"
 #include "tracking/ground_motion.h"
@@ -19,12 +20,18 @@ bool usableForFinishing(const TrackState& state) {
 }
 
 std::vector<TrackPath> groupedById(const StatesOfRun& states) {
+    // Counted first: vectors that grow hold up to twice as much as they need.
+    std::map<TrackId, std::size_t> counts;
+    states([&](FrameIndex, const TrackState& state) {
+        if (usableForFinishing(state)) ++counts[state.id];
+    });
     std::map<TrackId, TrackPath> by_id;
+    for (const auto& [id, count] : counts) {
+        by_id[id].id = id;
+        by_id[id].states.reserve(count);
+    }
     states([&](FrameIndex frame, const TrackState& state) {
-        if (!usableForFinishing(state)) return;
-        TrackPath& path = by_id[state.id];
-        path.id = state.id;
-        path.states.emplace_back(frame, state);
+        if (usableForFinishing(state)) by_id[state.id].states.emplace_back(frame, state);
     });
     std::vector<TrackPath> paths;
     for (auto& [id, path] : by_id) {
@@ -34,7 +41,6 @@ std::vector<TrackPath> groupedById(const StatesOfRun& states) {
         all.erase(std::unique(all.begin(), all.end(),
                               [](const TimedState& a, const TimedState& b) { return a.first == b.first; }),
                   all.end());
-        all.shrink_to_fit();
         paths.push_back(std::move(path));
     }
     return paths;
@@ -166,18 +172,24 @@ std::vector<OrientedBox> vehiclesOf(const std::vector<Detection>& detections) {
     return boxes;
 }
 
-BoxesAt vehiclesIn(const VehiclesByFrame& kept) {
+namespace {
+
+template <class Value>
+std::function<std::vector<Value>(FrameIndex)> askFor(const std::unordered_map<FrameIndex, std::vector<Value>>& kept) {
     return [&kept](FrameIndex frame) {
         const auto found = kept.find(frame);
-        return found == kept.end() ? std::vector<OrientedBox>{} : found->second;
+        return found == kept.end() ? std::vector<Value>{} : found->second;
     };
 }
 
+}  // namespace
+
+BoxesAt vehiclesIn(const VehiclesByFrame& kept) {
+    return askFor(kept);
+}
+
 VectorsAt vectorsIn(const VectorsByFrame& kept) {
-    return [&kept](FrameIndex frame) {
-        const auto found = kept.find(frame);
-        return found == kept.end() ? std::vector<MotionVector>{} : found->second;
-    };
+    return askFor(kept);
 }
 
 void FinishedTracks::visit(const StateVisitor& visitor) const {
@@ -187,22 +199,20 @@ void FinishedTracks::visit(const StateVisitor& visitor) const {
     std::sort(waiting.begin(), waiting.end(), [](const TrackPath* a, const TrackPath* b) {
         return a->firstFrame() != b->firstFrame() ? a->firstFrame() < b->firstFrame() : a->id < b->id;
     });
-    std::map<TrackId, std::vector<TimedState>::const_iterator> alive;
-    std::map<TrackId, const TrackPath*> path_of;
+    std::map<TrackId, std::span<const TimedState>> alive;  // what each has still to tell
     std::size_t next = 0;
     for (FrameIndex frame = 0; next < waiting.size() || !alive.empty(); ++frame) {
         if (alive.empty()) frame = waiting[next]->firstFrame();
         for (; next < waiting.size() && waiting[next]->firstFrame() == frame; ++next) {
-            alive[waiting[next]->id] = waiting[next]->states.begin();
-            path_of[waiting[next]->id] = waiting[next];
+            alive[waiting[next]->id] = waiting[next]->states;
         }
         for (auto each = alive.begin(); each != alive.end();) {
-            auto& [id, state] = *each;
-            if (state->first == frame) {
-                visitor(frame, state->second);
-                ++state;
+            auto& rest = each->second;
+            if (rest.front().first == frame) {
+                visitor(frame, rest.front().second);
+                rest = rest.subspan(1);
             }
-            each = state == path_of[id]->states.end() ? alive.erase(each) : std::next(each);
+            each = rest.empty() ? alive.erase(each) : std::next(each);
         }
     }
 }

@@ -74,7 +74,7 @@ struct TrackPath {
 /// Takes the states of a run one by one.
 using StateVisitor = std::function<void(FrameIndex, const TrackState&)>;
 
-/// Hands all states of a run to a visitor, in any order.
+/// Hands all states of a run to a visitor, in any order; the same ones whenever it is asked.
 using StatesOfRun = std::function<void(const StateVisitor&)>;
 
 /// The result of a run, track by track.

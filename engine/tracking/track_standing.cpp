@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "tracking/spread.h"
@@ -53,16 +55,40 @@ double parallaxAt(double height) {
     return height / (1 - height);
 }
 
-bool wasTakenForVehicle(const TrackPath& path, const BoxesAt& vehicles_at) {
-    return std::any_of(path.states.begin(), path.states.end(), [&](const TimedState& timed) {
-        const auto& [frame, state] = timed;
-        if (state.origin != StateOrigin::detected) return false;
-        const double reach = std::max(state.box.length, state.box.width) / 2;
+/// Whether a track cannot be told from something that stands, by its motion alone.
+bool movesLikeStanding(const TrackPath& path, const GroundMotion& ground, const FinishingOptions& options) {
+    const auto motion = againstFlow(path, ground);
+    if (!motion || motion->flow < kLeastFlow) return false;
+    const bool above = motion->alignment > kAlongFlow && motion->ratio < parallaxAt(options.standing_height);
+    const bool below = motion->alignment < -kAlongFlow && motion->ratio < parallaxAt(options.standing_depth);
+    const bool never_moved = motion->fastest < parallaxAt(options.standing_depth);
+    return above || below || never_moved;
+}
+
+bool isAt(const OrientedBox& vehicle, const OrientedBox& box) {
+    const cv::Point2d off = vehicle.centre - box.centre;
+    return std::hypot(off.x, off.y) < std::max(box.length, box.width) / 2;
+}
+
+/// Those of the doubted tracks that were once taken for a vehicle. Frame by frame, so that each is asked for once.
+std::set<TrackId> takenForVehicles(const std::vector<const TrackPath*>& doubted, const BoxesAt& vehicles_at) {
+    std::map<FrameIndex, std::vector<std::pair<TrackId, const OrientedBox*>>> by_frame;
+    for (const TrackPath* path : doubted) {
+        for (const auto& [frame, state] : path->states) {
+            if (state.origin == StateOrigin::detected) by_frame[frame].emplace_back(path->id, &state.box);
+        }
+    }
+    std::set<TrackId> taken;
+    for (const auto& [frame, boxes] : by_frame) {
         const std::vector<OrientedBox> vehicles = vehicles_at(frame);
-        return std::any_of(vehicles.begin(), vehicles.end(), [&](const OrientedBox& box) {
-            return std::hypot(box.centre.x - state.box.centre.x, box.centre.y - state.box.centre.y) < reach;
-        });
-    });
+        for (const auto& [id, box] : boxes) {
+            const OrientedBox& place = *box;
+            if (std::any_of(vehicles.begin(), vehicles.end(),
+                            [&](const OrientedBox& vehicle) { return isAt(vehicle, place); }))
+                taken.insert(id);
+        }
+    }
+    return taken;
 }
 
 }  // namespace
@@ -70,13 +96,15 @@ bool wasTakenForVehicle(const TrackPath& path, const BoxesAt& vehicles_at) {
 void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const BoxesAt& vehicles_at,
                   const FinishingOptions& options, DropList& dropped) {
     if (!vehicles_at) return;
+    std::vector<const TrackPath*> doubted;
+    for (const TrackPath& path : paths) {
+        if (movesLikeStanding(path, ground, options)) doubted.push_back(&path);
+    }
+    std::set<TrackId> standing;
+    for (const TrackPath* path : doubted) standing.insert(path->id);
+    for (const TrackId id : takenForVehicles(doubted, vehicles_at)) standing.erase(id);
     std::erase_if(paths, [&](const TrackPath& path) {
-        const auto motion = againstFlow(path, ground);
-        if (!motion || motion->flow < kLeastFlow) return false;
-        const bool above = motion->alignment > kAlongFlow && motion->ratio < parallaxAt(options.standing_height);
-        const bool below = motion->alignment < -kAlongFlow && motion->ratio < parallaxAt(options.standing_depth);
-        const bool never_moved = motion->fastest < parallaxAt(options.standing_depth);
-        if (!(above || below || never_moved) || wasTakenForVehicle(path, vehicles_at)) return false;
+        if (!standing.contains(path.id)) return false;
         dropped.add(path, TrackDrop::could_stand);
         return true;
     });

@@ -50,28 +50,57 @@ TEST_F(RunStates, KeepTheNewestAlone) {
     EXPECT_EQ(states.newest(run)->bytes, bytes);
 }
 
-TEST_F(RunStates, GoingBackLeavesTheRunAsItWasThen) {
-    const int longer = write(9, RunState::failed);
-    const int shorter = write(5, RunState::running);
-    { ResultWriter writer(path, longer, 4); }
-    EXPECT_EQ(rowsOf(path, longer), rowsOf(path, shorter));
+TEST_F(RunStates, ARunTakenUpKeepsWhatWasDone) {
+    const int run = write(9, RunState::failed);
+    const auto before = rowsOf(path, run);
+    { const ResultWriter writer(path, run, 4); }
+    EXPECT_EQ(rowsOf(path, run), before) << "also what comes after the frame to go on from";
     ProjectFile project = ProjectFile::open(path);
-    const auto run = RunStore(project).run(longer);
-    EXPECT_EQ(run->state, RunState::running);
-    EXPECT_EQ(run->message, "");
+    const auto record = RunStore(project).run(run);
+    EXPECT_EQ(record->state, RunState::running);
+    EXPECT_EQ(record->message, "");
 }
 
-TEST_F(RunStates, GoingBackUndoesFinishedTracks) {
+TEST_F(RunStates, FramesDoneAgainReplaceThoseBefore) {
+    const int run = write(9, RunState::failed);
+    const auto before = rowsOf(path, run);
+    {
+        ResultWriter writer(path, run, 4);
+        FrameResult other = test::sampleFrame(5);
+        other.tracks.resize(1);
+        other.tracks[0].id = 4711;
+        other.clusters.clear();
+        other.detections.clear();
+        other.motion.motion_vectors.clear();
+        writer.write(other);
+    }
+    ProjectFile project = ProjectFile::open(path);
+    const RunStore store(project);
+    const FrameResult read = store.frameResult(run, 5).value();
+    EXPECT_TRUE(read.detections.empty());
+    EXPECT_TRUE(read.motion.motion_vectors.empty());
+    ASSERT_EQ(read.tracks.size(), 1U);
+    EXPECT_EQ(store.run(run)->frames_done, 9);
+    for (const TrackSummary& track : store.tracks(run)) {
+        EXPECT_EQ(static_cast<std::size_t>(track.frames), store.trackStates(run, track.id).size());
+    }
+    {
+        ResultWriter writer(path, run, 4);
+        for (int frame = 5; frame < 9; ++frame) writer.write(test::sampleFrame(frame));
+    }
+    EXPECT_EQ(rowsOf(path, run), before) << "nothing stays of the track that was there for a while";
+    for (const TrackSummary& track : store.tracks(run)) EXPECT_NE(track.id, 4711);
+}
+
+TEST_F(RunStates, TakingUpUndoesFinishedTracks) {
     const int run = write(5, RunState::stopped);
     const auto before = rowsOf(path, run);
     ProjectFile project = ProjectFile::open(path);
     RunStateStore(project).keepTracks(run);
     RunStore(project).replaceTrackStates(run, {}, {{2, {}}});
     EXPECT_NE(rowsOf(path, run), before);
-    { ResultWriter writer(path, run, 4); }
+    { const ResultWriter writer(path, run, 4); }
     EXPECT_EQ(rowsOf(path, run), before);
-    { ResultWriter writer(path, run, -1); }
-    EXPECT_TRUE(test::rowsOf(path, run).empty()) << "to before the first frame";
 }
 
 TEST_F(RunStates, AFinishedRunNeedsNothing) {

@@ -5,7 +5,7 @@
 
 namespace eyrie::ui {
 
-/// The largest ground sampling distance that is taken for one, metres per pixel.
+/// The smallest and the largest ground sampling distance that are taken for one, metres per pixel.
 inline constexpr double kSmallestGsd = 0.001;
 inline constexpr double kLargestGsd = 100;
 
