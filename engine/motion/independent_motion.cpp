@@ -34,6 +34,7 @@ IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, co
       local_background_(options.local_background, scale),
       parallax_test_(options.parallax),
       silhouettes_(options.silhouettes, scale),
+      areas_(options.areas, scale),
       history_(std::max(options.baseline, options.find_slow ? options.slow_baseline : 0)) {
     options_.baseline = std::max(options_.baseline, options_.min_age);
     if (options_.baseline > history_.depth()) history_ = CornerHistory(options_.baseline);
@@ -44,6 +45,7 @@ void IndependentMotion::reset() {
     last_frame_.reset();
     last_motion_ = {};
     silhouettes_.clear();
+    areas_.clear();
 }
 
 void IndependentMotion::restart() {
@@ -232,6 +234,8 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     std::vector<char> looks_like_shadow = shadowLooks(frame, motion.motion_vectors);
     inferRoofs(motion, looks_like_shadow);
     if (options_.shadow.enabled) leaveOutShadows(motion, looks_like_shadow, verdicts);
+    const std::vector<MotionVector> starved = areas_.infer(motion, min_speed_);
+    motion.motion_vectors.insert(motion.motion_vectors.end(), starved.begin(), starved.end());
 }
 
 std::vector<char> IndependentMotion::shadowLooks(const Frame& frame, const std::vector<MotionVector>& vectors) {
@@ -285,6 +289,7 @@ bool IndependentMotion::follow(const RegisteredFrame& registered) {
 
 void IndependentMotion::remember(const RegisteredFrame& registered, const Frame& frame) {
     silhouettes_.add(frame, registered.registration);
+    areas_.add(frame, registered.registration);
     const RegistrationState state = registered.registration.state;
     const bool repeats = follow(registered) && state == RegistrationState::frozen;
     if (!repeats && state != RegistrationState::failed) takePicture(registered);
@@ -302,6 +307,7 @@ FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Fra
     motion.corner_count = static_cast<int>(registered.corners.size());
 
     silhouettes_.add(frame, registered.registration);
+    areas_.add(frame, registered.registration);
     const RegistrationState state = registered.registration.state;
     const bool follows = follow(registered);
     if (state == RegistrationState::frozen && follows) {

@@ -79,6 +79,7 @@ class IndependentMotion {
     LocalBackground local_background_;
     ParallaxTest parallax_test_;
     Silhouettes silhouettes_;
+    MovingAreas areas_;
     CornerHistory history_;
     std::deque<Path> paths_;  ///< [n − 1]: from n usable pictures before the newest
     Path newest_;             ///< from the newest usable picture to the last frame

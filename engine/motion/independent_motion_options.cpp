@@ -11,6 +11,7 @@ IndependentMotionOptions IndependentMotionOptions::thesis() {
     options.sigma_factor = 0;
     options.shadow.enabled = false;
     options.silhouettes.enabled = false;
+    options.areas.enabled = false;
     options.parallax.enabled = false;
     options.local_background.enabled = false;
     return options;
@@ -56,6 +57,7 @@ void IndependentMotionOptions::describe(ParameterVisitor& visitor) {
     visitor.real("motion.slow_min_speed", slow_min_speed_m_s, 0, 50, {"m/s", "Lowest speed in the slow test.", ""});
     shadow.describe(visitor);
     silhouettes.describe(visitor);
+    areas.describe(visitor);
     local_background.describe(visitor);
     parallax.describe(visitor);
 }

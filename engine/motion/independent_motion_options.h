@@ -2,6 +2,7 @@
 
 #include "core/parameter.h"
 #include "motion/local_background.h"
+#include "motion/moving_areas.h"
 #include "motion/parallax_test.h"
 #include "motion/shadow_test.h"
 #include "motion/silhouettes.h"
@@ -23,6 +24,7 @@ struct IndependentMotionOptions {
     double slow_min_speed_m_s = 0.7;
     ShadowTestOptions shadow;
     SilhouetteOptions silhouettes;
+    MovingAreaOptions areas;
     LocalBackgroundOptions local_background;
     ParallaxTestOptions parallax;
 

@@ -52,6 +52,11 @@ void Silhouettes::transfer(Archive& archive) {
 }
 
 template <class Archive>
+void MovingAreas::transfer(Archive& archive) {
+    archive(frames_, next_id_);
+}
+
+template <class Archive>
 void IndependentMotion::Path::transfer(Archive& archive) {
     archive(current_from_past, frames);
     archive.require(frames >= 0, "a way of negative length");
@@ -59,7 +64,7 @@ void IndependentMotion::Path::transfer(Archive& archive) {
 
 template <class Archive>
 void IndependentMotion::transfer(Archive& archive) {
-    archive(silhouettes_, history_, paths_, newest_, any_picture_, last_frame_, last_motion_);
+    archive(silhouettes_, areas_, history_, paths_, newest_, any_picture_, last_frame_, last_motion_);
     if (!any_picture_) return;
     const auto arrives = [&](const Path& path) {
         return last_frame_ && path.current_from_past.to_frame == *last_frame_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/corner_density.h"
 #include "removal/vector_support.h"
 
 namespace eyrie {
@@ -51,7 +52,7 @@ void OutlierRemovalOptions::describe(ParameterVisitor& visitor) {
 }
 
 int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& options, const SceneScale& scale) {
-    const double expected = cornerDensity(motion) * carArea(scale);
+    const double expected = cornersOnCar(motion, scale);
     const auto by_density = static_cast<int>(
         std::min(std::round(options.min_density_share * expected), static_cast<double>(options.max_min_vectors)));
     return std::max(options.min_vectors, by_density);

@@ -32,13 +32,4 @@ void measureSupport(Detection& detection, const FrameMotion& motion, const Suppo
     if (!detection.vectors.empty()) detection.velocity = sum / static_cast<double>(detection.vectors.size());
 }
 
-double cornerDensity(const FrameMotion& motion) {
-    const double area = static_cast<double>(motion.image_size.area());
-    return area > 0 ? motion.corner_count / area : 0;
-}
-
-double carArea(const SceneScale& scale) {
-    return scale.px(4.5) * scale.px(1.8);
-}
-
 }  // namespace eyrie

@@ -20,10 +20,4 @@ void measureSupport(Detection& detection, const FrameMotion& motion, const Suppo
 /// Whether two velocities differ by no more than a floor (px/frame) or a share of the faster speed.
 bool similarVelocity(cv::Point2d a, cv::Point2d b, double floor, double share);
 
-/// Tracked corners per px² of the image; 0 when nothing is known.
-double cornerDensity(const FrameMotion& motion);
-
-/// What a car covers seen from above, px².
-double carArea(const SceneScale& scale);
-
 }  // namespace eyrie
