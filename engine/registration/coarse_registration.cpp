@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "registration/feature_search.h"
 #include "registration/local_map.h"
 #include "registration/thumbnail_search.h"
 
@@ -140,6 +141,11 @@ std::optional<HomographyFit> CoarseRegistration::find(const CornerSet& corners, 
     }
     if (const auto searched = searchThumbnails(from, to))
         attempt(std::max(2, from.levels() - 2), kWideWindow, *searched);
+    if (!best) {
+        // Over relief few corners agree to half a pixel; then what features agree on is the best start there is.
+        const auto searched = searchFeatures(from, to, estimator_);
+        if (searched && !attempt(1, kWideWindow, searched->matrix) && !best) best = searched;
+    }
     return best;
 }
 
