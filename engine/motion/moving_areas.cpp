@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/corner_density.h"
+#include "core/local_map.h"
 #include "motion/area_matching.h"
 
 namespace eyrie {
@@ -15,14 +16,15 @@ namespace {
 constexpr CornerId kFirstInferred = CornerId{1} << 41;  ///< far above any corner's and any silhouette's
 constexpr double kVectorSpacing = 0.6;                  ///< m between inferred vectors …
 constexpr double kVectorSpacingPx = 2;                  ///< … px at least
-constexpr int kAround = 2;            ///< px that an area grows by before it is looked for: outlines tell most
-constexpr int kPictureMargin = 4;     ///< px; interpolation and blur at the edge of a picture answer to nothing
-constexpr double kMaxSpeed = 40;      ///< m/s
-constexpr int kLongestReach = 40;     ///< px
-constexpr int kReturnReach = 2;       ///< px by which the way back may differ from the way on
-constexpr std::size_t kEnough = 3;    ///< vectors with which a vehicle needs no more
-constexpr double kAlike = 0.3;        ///< difference of velocities, as a share of the speed …
-constexpr double kAlikePx = 0.4;      ///< … and px/frame
+constexpr int kAround = 2;  ///< px that an area grows by before it is looked for: outlines tell most
+constexpr int kPictureMargin =
+    3;  ///< px of the halved picture; interpolation and blur at the edge of a picture answer to nothing
+constexpr double kMaxSpeed = 40;    ///< m/s
+constexpr int kLongestReach = 40;   ///< px
+constexpr int kReturnReach = 2;     ///< px by which the way back may differ from the way on
+constexpr std::size_t kEnough = 3;  ///< vectors with which a vehicle needs no more
+constexpr double kAlike = 0.3;      ///< difference of velocities, as a share of the speed …
+constexpr double kAlikePx = 0.4;    ///< … and px/frame
 
 cv::Mat smoothed(const cv::Mat& gray) {
     cv::Mat smooth;
@@ -51,38 +53,45 @@ double noiseOf(const cv::Mat& difference) {
     return 0;
 }
 
-/// What the picture shows, in another's coordinates, without its margin.
-void leaveOutBeyond(cv::Mat& binary, const Homography& to_it, cv::Size size) {
-    const double m = kPictureMargin;
-    std::vector<cv::Point> corners;
-    for (const cv::Point2d& corner : {cv::Point2d(m, m), cv::Point2d(size.width - 1 - m, m),
-                                      cv::Point2d(size.width - 1 - m, size.height - 1 - m),
-                                      cv::Point2d(m, size.height - 1 - m)}) {
-        const cv::Point2d at = to_it.apply(corner);
-        corners.emplace_back(cvRound(std::clamp(at.x, -1e6, 1e6)), cvRound(std::clamp(at.y, -1e6, 1e6)));
-    }
-    cv::Mat inside = cv::Mat::zeros(binary.size(), CV_8UC1);
-    cv::fillConvexPoly(inside, corners, cv::Scalar(255));
-    binary &= inside;
+/// Half the size; pixel (x, y) lies at (2x + ½, 2y + ½).
+cv::Mat halved(const cv::Mat& gray) {
+    cv::Mat half;
+    cv::resize(gray, half, {gray.cols / 2, gray.rows / 2}, 0, 0, cv::INTER_AREA);
+    return half;
 }
 
-struct Area {
-    std::vector<cv::Point> pixels;
-    cv::Rect bounds;
-};
+/// The map between halved pictures that a map between the whole ones is.
+cv::Matx33d forHalves(const cv::Matx33d& map) {
+    const cv::Matx33d whole_from_half(2, 0, 0.5, 0, 2, 0.5, 0, 0, 1);
+    return whole_from_half.inv() * map * whole_from_half;
+}
 
-std::vector<Area> areasOf(const cv::Mat& binary, int fewest_pixels, double longest) {
+/// A part of the newest picture's area as an earlier picture shows it, which is so small that the map's first order
+/// will do.
+cv::Mat partOf(const cv::Mat& earlier, const Homography& earlier_from_newest, const cv::Rect& part) {
+    const cv::Point2d middle((part.width - 1) / 2.0, (part.height - 1) / 2.0);
+    const LocalMap map(earlier_from_newest.matrix, cv::Point2d(part.tl()) + middle);
+    const cv::Point2d x = map.vector({1, 0});
+    const cv::Point2d y = map.vector({0, 1});
+    const cv::Point2d corner = map.point() - map.vector(middle);
+    cv::Mat shown;
+    cv::warpAffine(earlier, shown, cv::Matx23d(x.x, y.x, corner.x, x.y, y.y, corner.y), part.size(),
+                   cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+    return shown;
+}
+
+std::vector<DifferingArea> areasOf(const cv::Mat& binary, int fewest_pixels, double longest) {
     cv::Mat labels;
     cv::Mat stats;
     cv::Mat centroids;
     const int count = cv::connectedComponentsWithStats(binary, labels, stats, centroids, 8, CV_32S);
-    std::vector<Area> areas;
+    std::vector<DifferingArea> areas;
     for (int label = 1; label < count; ++label) {
         const cv::Rect bounds(stats.at<int>(label, cv::CC_STAT_LEFT), stats.at<int>(label, cv::CC_STAT_TOP),
                               stats.at<int>(label, cv::CC_STAT_WIDTH), stats.at<int>(label, cv::CC_STAT_HEIGHT));
         if (stats.at<int>(label, cv::CC_STAT_AREA) < fewest_pixels) continue;
         if (std::hypot(bounds.width, bounds.height) > longest) continue;
-        Area area;
+        DifferingArea area;
         area.bounds = bounds;
         for (int y = bounds.y; y < bounds.br().y; ++y) {
             for (int x = bounds.x; x < bounds.br().x; ++x) {
@@ -94,27 +103,28 @@ std::vector<Area> areasOf(const cv::Mat& binary, int fewest_pixels, double longe
     return areas;
 }
 
-std::vector<cv::Point> grown(const Area& area, cv::Size size) {
-    const cv::Rect bounds = cv::Rect(area.bounds.x - kAround, area.bounds.y - kAround, area.bounds.width + 2 * kAround,
-                                     area.bounds.height + 2 * kAround) &
-                            cv::Rect({0, 0}, size);
+/// The pixels of the whole picture that an area of the halved one and its surroundings are, from the corner of
+/// `bounds` on.
+std::vector<cv::Point> grownPixels(const DifferingArea& area, const cv::Rect& bounds) {
     cv::Mat1b mask = cv::Mat1b::zeros(bounds.size());
-    for (const cv::Point& p : area.pixels) mask(p - bounds.tl()) = 255;
+    for (const cv::Point& p : area.pixels) mask(cv::Rect(2 * p - bounds.tl(), cv::Size(2, 2))) = 255;
     cv::dilate(mask, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kAround + 1, 2 * kAround + 1}));
     std::vector<cv::Point> pixels;
-    for (int y = 0; y < mask.rows; ++y) {
-        for (int x = 0; x < mask.cols; ++x) {
-            if (mask(y, x) != 0) pixels.push_back(bounds.tl() + cv::Point(x, y));
-        }
-    }
+    cv::findNonZero(mask, pixels);
     return pixels;
 }
 
-/// Places among the pixels, at least so far apart.
-std::vector<cv::Point> spread(const Area& area, double spacing) {
-    std::vector<cv::Point> chosen;
-    for (const cv::Point& p : area.pixels) {
-        const bool free = std::none_of(chosen.begin(), chosen.end(), [&](const cv::Point& other) {
+cv::Rect grownBounds(const DifferingArea& area) {
+    return {2 * area.bounds.x - kAround, 2 * area.bounds.y - kAround, 2 * (area.bounds.width + kAround),
+            2 * (area.bounds.height + kAround)};
+}
+
+/// Places in the whole picture among the pixels of an area, at least so far apart.
+std::vector<cv::Point2d> spread(const DifferingArea& area, double spacing) {
+    std::vector<cv::Point2d> chosen;
+    for (const cv::Point& half : area.pixels) {
+        const cv::Point2d p = cv::Point2d(half) * 2 + cv::Point2d(0.5, 0.5);
+        const bool free = std::none_of(chosen.begin(), chosen.end(), [&](const cv::Point2d& other) {
             return std::hypot(p.x - other.x, p.y - other.y) < spacing;
         });
         if (free) chosen.push_back(p);
@@ -164,44 +174,75 @@ void MovingAreas::add(const Frame& frame, const Registration& registration) {
         frames_.add(frame, registration);
 }
 
+std::vector<DifferingArea> MovingAreas::differingAreas() const {
+    const cv::Mat now = halved(frames_.newest());
+    const auto earlier = [&](int back, cv::Mat& inside) {
+        const cv::Mat half = halved(frames_.picture(back));
+        const cv::Matx33d map = forHalves(frames_.pathTo(back).inverse().matrix);
+        cv::Mat warped;
+        cv::warpPerspective(smoothed(half), warped, map, now.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+        // Without the margin, where interpolation and blur answer to nothing.
+        const cv::Rect2d shown(kPictureMargin, kPictureMargin, half.cols - 1 - 2 * kPictureMargin,
+                               half.rows - 1 - 2 * kPictureMargin);
+        std::vector<cv::Point> corners;
+        for (const cv::Point2d& corner :
+             {shown.tl(), cv::Point2d(shown.br().x, shown.y), shown.br(), cv::Point2d(shown.x, shown.br().y)}) {
+            const cv::Point2d at = LocalMap(map, corner).point();
+            corners.emplace_back(cvRound(std::clamp(at.x, -1e6, 1e6)), cvRound(std::clamp(at.y, -1e6, 1e6)));
+        }
+        inside = cv::Mat::zeros(now.size(), CV_8UC1);
+        cv::fillConvexPoly(inside, corners, cv::Scalar(255));
+        return warped;
+    };
+    cv::Mat in_before;
+    cv::Mat in_long_before;
+    const cv::Mat before = earlier(gap_, in_before);
+    const cv::Mat long_before = earlier(2 * gap_, in_long_before);
+    cv::Mat difference;
+    cv::Mat earlier_difference;
+    cv::absdiff(smoothed(now), before, difference);
+    cv::absdiff(before, long_before, earlier_difference);
+    cv::min(difference, earlier_difference, difference);
+    const double threshold = std::max(options_.noise_factor * noiseOf(difference), options_.min_contrast);
+    const cv::Mat differs = (difference > threshold) & in_before & in_long_before;
+    const double half_px_per_m = scale_.px(1) / 2;
+    const int fewest =
+        std::max(options_.min_area_px / 4, cvRound(options_.min_area_m2 * half_px_per_m * half_px_per_m));
+    return areasOf(differs, fewest, scale_.px(options_.max_length_m) / 2);
+}
+
+std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area) const {
+    const cv::Rect bounds = grownBounds(area);
+    const std::vector<cv::Point> pixels = grownPixels(area, bounds);
+    const cv::Mat before = partOf(frames_.picture(gap_), frames_.pathTo(gap_), bounds);
+    const int reach = std::clamp(static_cast<int>(std::ceil(scale_.pxPerFrame(kMaxSpeed) * gap_)), 4, kLongestReach);
+    const auto on = matchArea(pixels, before, frames_.newest(), bounds.tl(), reach);
+    if (!on || on->correlation < options_.min_correlation) return std::nullopt;
+    const cv::Point2d shift = on->shift - cv::Point2d(bounds.tl());
+
+    const cv::Point back(-cvRound(shift.x), -cvRound(shift.y));
+    const int margin = kReturnReach + 4;
+    const cv::Rect whence(bounds.x + back.x - margin, bounds.y + back.y - margin, bounds.width + 2 * margin,
+                          bounds.height + 2 * margin);
+    const cv::Mat long_before = partOf(frames_.picture(2 * gap_), frames_.pathTo(2 * gap_), whence);
+    const auto came = matchArea(pixels, before, long_before, {margin, margin}, kReturnReach);
+    if (!came || came->correlation < options_.min_correlation) return std::nullopt;
+    return shift;
+}
+
 std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double min_speed) {
     std::vector<MotionVector> inferred;
     if (!options_.enabled || frames_.count() < 2 * gap_) return inferred;
     if (cornersOnCar(motion, scale_) >= options_.max_corners) return inferred;
-    const cv::Mat& now = frames_.newest();
-    const cv::Mat before = frames_.past(gap_).gray;
-    const cv::Mat long_before = frames_.past(2 * gap_).gray;
-    cv::Mat difference;
-    {
-        const cv::Mat middle = smoothed(before);
-        cv::Mat earlier;
-        cv::absdiff(smoothed(now), middle, difference);
-        cv::absdiff(middle, smoothed(long_before), earlier);
-        cv::min(difference, earlier, difference);
-    }
-    const double threshold = std::max(options_.noise_factor * noiseOf(difference), options_.min_contrast);
-    cv::Mat binary = difference > threshold;
-    leaveOutBeyond(binary, frames_.pathTo(gap_).inverse(), now.size());
-    leaveOutBeyond(binary, frames_.pathTo(2 * gap_).inverse(), now.size());
-
-    const double px_per_m = scale_.px(1);
-    const int fewest = std::max(options_.min_area_px, cvRound(options_.min_area_m2 * px_per_m * px_per_m));
-    const std::vector<Area> areas = areasOf(binary, fewest, scale_.px(options_.max_length_m));
-    const int reach = std::clamp(static_cast<int>(std::ceil(scale_.pxPerFrame(kMaxSpeed) * gap_)), 4, kLongestReach);
+    const std::vector<DifferingArea> areas = differingAreas();
     std::vector<std::optional<cv::Point2d>> shifts(areas.size());
     // Written by index, so that the result does not depend on the number of threads.
     cv::parallel_for_(cv::Range(0, static_cast<int>(areas.size())), [&](const cv::Range& range) {
         for (int i = range.start; i < range.end; ++i) {
             const auto at = static_cast<std::size_t>(i);
-            const std::vector<cv::Point> pixels = grown(areas[at], now.size());
-            const auto on = matchArea(pixels, before, now, {0, 0}, reach);
-            if (!on || on->correlation < options_.min_correlation) continue;
-            const cv::Point back(-cvRound(on->shift.x), -cvRound(on->shift.y));
-            const auto came = matchArea(pixels, before, long_before, back, kReturnReach);
-            if (!came || came->correlation < options_.min_correlation) continue;
-            const cv::Point2d shift = (on->shift - came->shift) / 2;
-            const double length = std::hypot(shift.x, shift.y);
-            if (length >= std::max(options_.min_shift_px, min_speed * gap_)) shifts[at] = on->shift;
+            const auto shift = shiftOf(areas[at]);
+            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.min_shift_px, min_speed * gap_))
+                shifts[at] = shift;
         }
     });
 
@@ -210,8 +251,7 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double m
         if (!shifts[i]) continue;
         const cv::Point2d velocity = *shifts[i] / gap_;
         const double alike = std::max(kAlikePx, kAlike * std::hypot(velocity.x, velocity.y));
-        const cv::Rect2d place(areas[i].bounds.x + shifts[i]->x - kAround, areas[i].bounds.y + shifts[i]->y - kAround,
-                               areas[i].bounds.width + 2 * kAround, areas[i].bounds.height + 2 * kAround);
+        const cv::Rect2d place = cv::Rect2d(grownBounds(areas[i])) + *shifts[i];
         std::size_t known = 0;
         for (const MotionVector& vector : motion.motion_vectors) {
             const cv::Point2d difference_of = cv::Point2d(vector.velocity) - velocity;
@@ -219,8 +259,8 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double m
                 ++known;
         }
         if (known >= kEnough) continue;
-        for (const cv::Point& p : spread(areas[i], spacing))
-            inferred.push_back({next_id_++, cv::Point2d(p) + *shifts[i], velocity, 0});
+        for (const cv::Point2d& p : spread(areas[i], spacing))
+            inferred.push_back({next_id_++, p + *shifts[i], velocity, 0});
     }
     return inferred;
 }

@@ -7,11 +7,11 @@
 namespace eyrie {
 namespace {
 
-constexpr int kLongestSide = 1100;      ///< px of the level on which features are looked for
-constexpr float kThreshold = 1e-4F;     ///< of AKAZE's response; a tenth of the usual, for night and haze
-constexpr int kMostFeatures = 3000;     ///< the strongest of a picture
-constexpr float kRatio = 0.85F;         ///< to the second best match
-constexpr double kTolerancePx = 3;      ///< of a match that agrees, on its level
+constexpr int kLongestSide = 1100;   ///< px of the level on which features are looked for
+constexpr float kThreshold = 1e-4F;  ///< of AKAZE's response; a tenth of the usual, for night and haze
+constexpr int kMostFeatures = 3000;  ///< the strongest of a picture
+constexpr float kRatio = 0.85F;      ///< to the second best match
+constexpr double kTolerancePx = 3;   ///< of a match that agrees, on its level
 constexpr int kFewestAgreeing = 20;
 constexpr double kFewestShare = 0.35;  ///< of the matches; by chance, or on one large vehicle, up to .33 were seen
 constexpr double kMostSpreadPx = 2.5;  ///< deviation of those that agree, on their level
@@ -60,7 +60,7 @@ std::vector<cv::DMatch> matched(const Features& from, const Features& to) {
 }  // namespace
 
 std::optional<HomographyFit> searchFeatures(const ImagePyramid& from, const ImagePyramid& to,
-                                          const HomographyEstimator& estimator) {
+                                            const HomographyEstimator& estimator) {
     const int level = levelFor(from);
     const Features before = featuresOf(from.level(level));
     const Features now = featuresOf(to.level(level));

@@ -2,6 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "registration/feature_search.h"
 #include "registration/flight.h"
 
 namespace eyrie {
@@ -32,6 +33,39 @@ TEST(RegistrarTrouble, survivesDroppedFramesAndJumps) {
     const RegisteredFrame wild = watch.see(flight);
     ASSERT_EQ(wild.registration.state, RegistrationState::registered) << wild.registration.reason;
     EXPECT_LT(watch.error(wild), 0.1);
+}
+
+TEST(RegistrarTrouble, findsItsWayAfterATurnByFeatures) {
+    for (const double degrees : {35.0, -20.0}) {
+        Watch watch;
+        Flight flight;
+        watch.see(flight);
+        flight.move(drift());
+        watch.see(flight);
+        // Too far for predictions, and turned more than thumbnails are searched.
+        flight.move(test::cameraMotion(kSize, 22, -15, degrees));
+        const RegisteredFrame turned = watch.see(flight);
+        ASSERT_EQ(turned.registration.state, RegistrationState::registered) << turned.registration.reason;
+        EXPECT_LT(watch.error(turned), 0.3) << degrees;
+    }
+}
+
+TEST(RegistrarTrouble, featuresDoNotFindAWayBetweenDifferentPlaces) {
+    const HomographyEstimator estimator({}, kSize);
+    Flight here;
+    Flight there;
+    there.move(test::cameraMotion(kSize, 2000, 0, 0));
+    ImagePyramid from;
+    ImagePyramid to;
+    from.build(here.picture());
+    to.build(there.picture());
+    EXPECT_FALSE(searchFeatures(from, to, estimator));
+    const cv::Matx33d turn = test::cameraMotion(kSize, 30, 0, 40);
+    here.move(turn);
+    to.build(here.picture());
+    const auto found = searchFeatures(from, to, estimator);
+    ASSERT_TRUE(found);
+    EXPECT_LT(test::gridError(found->matrix, turn, kSize), 2);
 }
 
 TEST(RegistrarTrouble, repeatedPicturesAreFrozenAndAStandingCameraIsNot) {

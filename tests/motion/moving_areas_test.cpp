@@ -1,0 +1,198 @@
+#include "motion/moving_areas.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <opencv2/imgproc.hpp>
+
+#include "core/oriented_box.h"
+#include "motion/area_matching.h"
+
+namespace eyrie {
+namespace {
+
+using testing::Each;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+constexpr SceneScale kScale{0.32, 25, true};
+constexpr int kFrames = 12;
+
+/// A car of 14×6 px on a road with little texture, under a camera that pans. Axis-aligned pixels, drawn to a fraction.
+struct CarScene {
+    cv::Point2d velocity{2, 0};  ///< px/frame over the ground
+    cv::Size size{320, 240};
+    cv::Point2d camera_per_frame{1.3, 0.6};
+
+    cv::Point2d carAt(int frame) const { return cv::Point2d(150, 120) + (velocity - camera_per_frame) * frame; }
+    cv::Mat draw(int frame) const {
+        const cv::Mat image = sampled(textureOf({400, 320}, 1, 110, 5), camera_per_frame * frame, size);
+        cv::Mat body = textureOf({14, 6}, 7, 190, 35);
+        cv::rectangle(body, {0, 0, body.cols, body.rows}, cv::Scalar(235), 1);
+        const cv::Point2d corner = carAt(frame) - cv::Point2d(6.5, 2.5);
+        const cv::Matx23d place(1, 0, corner.x, 0, 1, corner.y);
+        cv::warpAffine(body, image, place, size, cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
+        return image;
+    }
+
+ private:
+    static cv::Mat textureOf(cv::Size size, std::uint64_t seed, double mean, double deviation) {
+        cv::Mat texture(size, CV_8UC1);
+        cv::RNG(seed).fill(texture, cv::RNG::NORMAL, mean, 2.5 * deviation);
+        cv::GaussianBlur(texture, texture, {}, 0.8);
+        return texture;
+    }
+    static cv::Mat sampled(const cv::Mat& ground, cv::Point2d corner, cv::Size size) {
+        cv::Mat image;
+        cv::warpAffine(ground, image, cv::Matx23d(1, 0, corner.x, 0, 1, corner.y), size,
+                       cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+        return image;
+    }
+};
+
+CarScene sceneWith(cv::Point2d velocity) {
+    CarScene scene;
+    scene.velocity = velocity;
+    return scene;
+}
+
+Registration panned(const CarScene& scene, int index) {
+    Registration registration;
+    registration.state = index == 0 ? RegistrationState::first : RegistrationState::registered;
+    registration.current_from_previous.from_frame = std::max(0, index - 1);
+    registration.current_from_previous.to_frame = index;
+    if (index > 0) {
+        registration.current_from_previous.matrix(0, 2) = -scene.camera_per_frame.x;
+        registration.current_from_previous.matrix(1, 2) = -scene.camera_per_frame.y;
+    }
+    return registration;
+}
+
+/// A frame in which hardly a corner could be tracked.
+FrameMotion starved(const CarScene& scene) {
+    FrameMotion motion;
+    motion.image_size = scene.size;
+    motion.corner_count = 500;
+    return motion;
+}
+
+/// What is inferred in the last frame. `change` alters the pictures.
+std::vector<MotionVector> inferred(const CarScene& scene, const FrameMotion& motion,
+                                   const std::function<void(int, cv::Mat&)>& change = {}) {
+    MovingAreas areas({}, kScale);
+    for (int index = 0; index < kFrames; ++index) {
+        cv::Mat gray = scene.draw(index);
+        if (change) change(index, gray);
+        areas.add({index, index * 40000, gray, {}}, panned(scene, index));
+    }
+    return areas.infer(motion, kScale.pxPerFrame(1));
+}
+
+}  // namespace
+
+class MovingAreasOfACar : public testing::TestWithParam<cv::Point2d> {};
+
+TEST_P(MovingAreasOfACar, MoveLikeItAndLieOnItWhereItIsNow) {
+    const CarScene scene = sceneWith(GetParam());
+    const std::vector<MotionVector> vectors = inferred(scene, starved(scene));
+    ASSERT_THAT(vectors, Not(IsEmpty()));
+    const cv::Point2d centre = scene.carAt(kFrames - 1);
+    const OrientedBox car{centre, 14, 6, 0};
+    for (const MotionVector& vector : vectors) {
+        EXPECT_TRUE(car.contains(vector.position, 3)) << vector.position << " is not on the car at " << centre;
+        EXPECT_NEAR(vector.velocity.x, GetParam().x, 0.3);
+        EXPECT_NEAR(vector.velocity.y, GetParam().y, 0.3);
+        EXPECT_TRUE(vector.isInferred());
+    }
+    EXPECT_TRUE(std::is_sorted(vectors.begin(), vectors.end(), [](auto& a, auto& b) { return a.id < b.id; }));
+    EXPECT_GT(vectors.front().id, CornerId{1} << 40) << "above corners and silhouettes";
+}
+
+INSTANTIATE_TEST_SUITE_P(Directions, MovingAreasOfACar,
+                         testing::Values(cv::Point2d(2, 0), cv::Point2d(-1.5, 1), cv::Point2d(0, -3),
+                                         cv::Point2d(1.1, 0.4)));
+
+TEST(MovingAreas, AreNotSeenWhereNothingMoves) {
+    const CarScene scene = sceneWith({0, 0});
+    EXPECT_THAT(inferred(scene, starved(scene)), IsEmpty());
+}
+
+TEST(MovingAreas, AreNotLightsThatFlicker) {
+    const CarScene scene = sceneWith({0, 0});
+    const auto flicker = [&](int index, cv::Mat& gray) {
+        const cv::Point2d at = scene.carAt(index);
+        cv::circle(gray, at, 5, cv::Scalar(index / 3 % 2 == 0 ? 255 : 60), -1);
+    };
+    EXPECT_THAT(inferred(scene, starved(scene), flicker), IsEmpty());
+}
+
+TEST(MovingAreas, AreLookedForOnlyWhereCornersStarve) {
+    const CarScene scene = sceneWith({2, 0});
+    FrameMotion motion = starved(scene);
+    motion.corner_count = 320 * 240 / 20;  // four on a car
+    EXPECT_THAT(inferred(scene, motion), IsEmpty());
+}
+
+TEST(MovingAreas, LeaveCarsAloneThatHaveVectors) {
+    const CarScene scene = sceneWith({2, 0});
+    const cv::Point2f centre = scene.carAt(kFrames - 1);
+    const auto covered = [&](float spacing, cv::Point2f velocity) {
+        FrameMotion motion = starved(scene);
+        for (float y = -2; y <= 2; y += spacing) {
+            for (float x = -6; x <= 6; x += spacing)
+                motion.motion_vectors.push_back({CornerId(x * 100 + y), centre + cv::Point2f(x, y), velocity, 9});
+        }
+        return motion;
+    };
+    EXPECT_THAT(inferred(scene, covered(1, {2, 0})), IsEmpty());
+    EXPECT_THAT(inferred(scene, covered(12, {2, 0})), Not(IsEmpty())) << "two are not enough";
+    EXPECT_THAT(inferred(scene, covered(1, {-2, 0})), Not(IsEmpty())) << "those of something else do not count";
+}
+
+TEST(MovingAreas, AreForgottenAtACut) {
+    const CarScene scene = sceneWith({2, 0});
+    MovingAreas areas({}, kScale);
+    for (int index = 0; index < kFrames; ++index) {
+        Registration registration = panned(scene, index);
+        if (index == 8) registration.current_from_previous.from_frame = 3;
+        areas.add({index, index * 40000, scene.draw(index), {}}, registration);
+    }
+    EXPECT_THAT(areas.infer(starved(scene), 0.1), IsEmpty());
+    MovingAreas off({.enabled = false}, kScale);
+    off.add({0, 0, scene.draw(0), {}}, panned(scene, 0));
+    EXPECT_THAT(off.infer(starved(scene), 0.1), IsEmpty());
+}
+
+TEST(AreaMatching, FindsTheShiftToAFractionOfAPixel) {
+    const CarScene scene = sceneWith({0, 0});
+    const cv::Mat from = scene.draw(0);
+    cv::Mat to;
+    const cv::Matx23d shift(1, 0, 6.3, 0, 1, -4.6);
+    cv::warpAffine(from, to, shift, from.size(), cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+    std::vector<cv::Point> pixels;
+    for (int y = 100; y < 110; ++y) {
+        for (int x = 200; x < 215; ++x) pixels.emplace_back(x, y);
+    }
+    const auto found = matchArea(pixels, from, to, {0, 0}, 12);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->shift.x, 6.3, 0.15);
+    EXPECT_NEAR(found->shift.y, -4.6, 0.15);
+    EXPECT_GT(found->correlation, 0.85);
+    const auto near = matchArea(pixels, from, to, {6, -5}, 2);
+    ASSERT_TRUE(near);
+    EXPECT_NEAR(near->shift.x, 6.3, 0.15);
+}
+
+TEST(AreaMatching, HasNoAnswerForPlainAreasOrAtTheBorder) {
+    const cv::Mat plain(100, 100, CV_8UC1, cv::Scalar(90));
+    std::vector<cv::Point> pixels{{50, 50}, {53, 50}, {50, 53}, {53, 53}};
+    EXPECT_FALSE(matchArea(pixels, plain, plain, {0, 0}, 5));
+    const cv::Mat textured = sceneWith({0, 0}).draw(0);
+    EXPECT_TRUE(matchArea(pixels, textured, textured, {0, 0}, 5));
+    EXPECT_FALSE(matchArea(pixels, textured, textured, {0, 0}, 60));
+    EXPECT_FALSE(matchArea({}, textured, textured, {0, 0}, 5));
+}
+
+}  // namespace eyrie
