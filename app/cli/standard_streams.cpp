@@ -23,8 +23,10 @@ bool finishOutput() {
     errno = 0;
     std::cout.flush();
     const bool flushed = std::fflush(stdout) == 0;
-    const int reason = errno;
+    int reason = errno;
     if (flushed && std::cout.good() && std::ferror(stdout) == 0) return true;
+    // What was printed last may have gone wrong long before; then only another attempt tells why.
+    if (reason == 0 && ::write(STDOUT_FILENO, "\n", 1) < 0) reason = errno;
     std::fprintf(stderr, "eyrie-cli: standard output cannot be written%s%s%s; what was printed is not complete\n",
                  reason == 0 ? "" : " (", reason == 0 ? "" : std::strerror(reason), reason == 0 ? "" : ")");
     return false;

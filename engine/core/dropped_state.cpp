@@ -18,6 +18,8 @@ std::string textOf(const DroppedState& dropped) {
             return track + " was guessed rather than detected";
         case TrackDrop::could_stand:
             return track + " moves no faster than a standing thing would seem to, and was never taken for a vehicle";
+        case TrackDrop::unlikely:
+            return track + " is unlikely to be a vehicle that moves: seldom detected, unlike a vehicle, or short";
     }
     return track;
 }
@@ -36,6 +38,8 @@ const char* parameterOf(TrackDrop why) {
             return "finishing.min_detected";
         case TrackDrop::could_stand:
             return "finishing.standing_height";
+        case TrackDrop::unlikely:
+            return "finishing.min_score";
     }
     return "";
 }

@@ -14,7 +14,8 @@ enum class TrackDrop {
     shares_place,     ///< it lies on a track that was detected more often
     shadow,           ///< it drives beside a vehicle as if fixed to it
     hardly_detected,  ///< guessed rather than detected
-    could_stand       ///< parallax alone may have moved it, and it does not look like a vehicle
+    could_stand,      ///< parallax alone may have moved it, and it does not look like a vehicle
+    unlikely          ///< all in all its evidence hardly speaks for a vehicle that moves
 };
 
 /// One state of a track that was left out when the tracks of a run were finished.

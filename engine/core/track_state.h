@@ -28,9 +28,11 @@ struct TrackState {
     cv::Point2d velocity{0, 0};  ///< px/frame relative to the ground, in current image axes
     TrackStatus status = TrackStatus::tentative;
     StateOrigin origin = StateOrigin::detected;
-    int age = 0;       ///< frames since the first detection
-    int hits = 0;      ///< frames with a real detection
-    double score = 0;  ///< share of its last frames that were detected, 0 … 1
+    int age = 0;   ///< frames since the first detection
+    int hits = 0;  ///< frames with a real detection
+    /// 0 … 1. While a run works: share of the last frames that were detected. In its result: the probability that the
+    /// track is a vehicle that moves, the same in all its states; where no classifier takes part, the former.
+    double score = 0;
 };
 
 /// The word used in files and on screen.

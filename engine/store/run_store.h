@@ -75,6 +75,7 @@ struct TrackSummary {
     double mean_speed_px = 0;  ///< px/frame relative to the ground
     double mean_length_px = 0;
     double mean_width_px = 0;
+    double score = 0;  ///< of its first state; in a result the same in all: the probability of a vehicle that moves
 };
 
 /// One state of a track in a frame.

@@ -36,12 +36,13 @@ inline constexpr std::array<Word<Rejection>, 4> kRejections{{{Rejection::none, "
 inline constexpr std::array<Word<TrackStatus>, 3> kTrackStatuses{{{TrackStatus::tentative, "tentative"},
                                                                   {TrackStatus::confirmed, "confirmed"},
                                                                   {TrackStatus::coasting, "coasting"}}};
-inline constexpr std::array<Word<TrackDrop>, 6> kTrackDrops{{{TrackDrop::unconfirmed, "unconfirmed"},
+inline constexpr std::array<Word<TrackDrop>, 7> kTrackDrops{{{TrackDrop::unconfirmed, "unconfirmed"},
                                                              {TrackDrop::too_small, "too small"},
                                                              {TrackDrop::shares_place, "shares place"},
                                                              {TrackDrop::shadow, "shadow"},
                                                              {TrackDrop::hardly_detected, "hardly detected"},
-                                                             {TrackDrop::could_stand, "could stand"}}};
+                                                             {TrackDrop::could_stand, "could stand"},
+                                                             {TrackDrop::unlikely, "unlikely"}}};
 inline constexpr std::array<Word<StateOrigin>, 3> kStateOrigins{{{StateOrigin::detected, "detected"},
                                                                  {StateOrigin::reconstructed, "reconstructed"},
                                                                  {StateOrigin::predicted, "predicted"}}};

@@ -29,7 +29,9 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
     return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(),
                                     "SELECT id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
-                                    "width_sum FROM track WHERE run_id = ? ORDER BY id");
+                                    "width_sum, ifnull((SELECT score FROM track_state WHERE track_state.run_id = "
+                                    "track.run_id AND frame = first_frame AND track_id = track.id), 0) "
+                                    "FROM track WHERE run_id = ? ORDER BY id");
         statement.bind(1, run_id);
         std::vector<TrackSummary> tracks;
         while (statement.executeStep()) {
@@ -44,6 +46,7 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
             track.mean_speed_px = row.real() / track.frames;
             track.mean_length_px = row.real() / track.frames;
             track.mean_width_px = row.real() / track.frames;
+            track.score = row.real();
             tracks.push_back(track);
         }
         return tracks;

@@ -135,6 +135,11 @@ void FinishingOptions::describe(ParameterVisitor& v) {
         "finishing.standing_depth", standing_depth, 0, 0.9,
         {"", "The same against the flow: over relief the plane of the registration may lie above the ground. 0: never.",
          ""});
+    v.real("finishing.min_score", min_score, 0, 1,
+           {"",
+            "Tracks whose probability of being a vehicle that moves, gathered along their life, is lower are dropped. "
+            "Needs a method with a classifier. 0: none; larger: fewer false tracks, unsure vehicles are lost.",
+            ""});
     v.flag(
         "finishing.join_parts", join_parts,
         {"",
@@ -161,6 +166,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.join_parts = false;
     options.standing_height = 0;
     options.standing_depth = 0;
+    options.min_score = 0;
     return options;
 }
 
@@ -192,29 +198,37 @@ VectorsAt vectorsIn(const VectorsByFrame& kept) {
     return askFor(kept);
 }
 
-void FinishedTracks::visit(const StateVisitor& visitor) const {
-    // Tracks in the order in which they begin, and of those alive where each stands.
+void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visitor) {
+    // Tracks in the order in which they begin, and of those alive what each has still to tell.
+    struct Alive {
+        const TrackPath* path;
+        std::span<const TimedState> rest;
+    };
     std::vector<const TrackPath*> waiting;
     for (const TrackPath& path : paths) waiting.push_back(&path);
     std::sort(waiting.begin(), waiting.end(), [](const TrackPath* a, const TrackPath* b) {
         return a->firstFrame() != b->firstFrame() ? a->firstFrame() < b->firstFrame() : a->id < b->id;
     });
-    std::map<TrackId, std::span<const TimedState>> alive;  // what each has still to tell
+    std::map<TrackId, Alive> alive;
     std::size_t next = 0;
     for (FrameIndex frame = 0; next < waiting.size() || !alive.empty(); ++frame) {
         if (alive.empty()) frame = waiting[next]->firstFrame();
         for (; next < waiting.size() && waiting[next]->firstFrame() == frame; ++next) {
-            alive[waiting[next]->id] = waiting[next]->states;
+            alive[waiting[next]->id] = {waiting[next], waiting[next]->states};
         }
         for (auto each = alive.begin(); each != alive.end();) {
-            auto& rest = each->second;
+            auto& [path, rest] = each->second;
             if (rest.front().first == frame) {
-                visitor(frame, rest.front().second);
+                visitor(frame, *path, rest.front().second);
                 rest = rest.subspan(1);
             }
             each = rest.empty() ? alive.erase(each) : std::next(each);
         }
     }
+}
+
+void FinishedTracks::visit(const StateVisitor& visitor) const {
+    visitByFrame(paths, [&](FrameIndex frame, const TrackPath&, const TrackState& state) { visitor(frame, state); });
 }
 
 FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotionSummary>& motion,
@@ -246,9 +260,13 @@ FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotio
     if (options.drop_shadows) dropShadows(paths, scale, drops);
     traceBack(paths, ground, found.vectors_at, framesOf(options.trace_back_s, scale));
     dropHardlyDetected(paths, options.min_detected, scale, drops);
-    dropStanding(paths, ground, found.vehicles_at, options, drops);
+    // Without a classifier nothing is known of looks, and nothing is judged by them.
+    const bool judged = static_cast<bool>(found.vehicles_at);
+    const VehicleLooks looks = judged ? lookedLikeVehicle(paths, found.vehicles_at) : VehicleLooks{};
+    if (judged) dropStanding(paths, ground, looks, options, drops);
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
+    if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, drops);
 
     for (TrackPath& path : paths) {
         for (auto& [frame, state] : path.states) {

@@ -4,6 +4,7 @@
 
 #include "tracking/ground_motion.h"
 #include "tracking/track_finishing.h"
+#include "tracking/vehicle_looks.h"
 
 namespace eyrie {
 
@@ -21,6 +22,11 @@ class DropList {
  private:
     std::vector<TimedDrop>* into_;
 };
+
+/// Takes the states of tracks one by one.
+using PathVisitor = std::function<void(FrameIndex, const TrackPath&, const TrackState&)>;
+/// All states, ordered by frame, then the tracks' ids.
+void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visitor);
 
 /// Joins the fragments of one vehicle: where a track ends and another starts soon after at the predicted place with
 /// similar velocity and size, the later one continues the earlier one. Gaps are filled by interpolation.
@@ -59,10 +65,13 @@ void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const S
 /// Drops tracks that need not move at all: over windows of 24 frames they go along the camera's flow no faster than a
 /// standing thing of `standing_height` would seem to, or against it no faster than one of `standing_depth` below the
 /// plane of the registration, or never faster than that in any direction, and the classifier never took them for a
-/// vehicle. Nothing is dropped where the camera hardly moves, nor without `vehicles_at`, since then nothing speaks for
-/// a vehicle.
-void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const BoxesAt& vehicles_at,
+/// vehicle. Nothing is dropped where the camera hardly moves.
+void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
                   const FinishingOptions& options, DropList& dropped);
+
+/// Gives every state the probability that its track is a vehicle that moves, and drops tracks below `min_score`.
+void scoreTracks(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks, double min_score,
+                 const SceneScale& scale, DropList& dropped);
 
 /// Follows tracks back in time by the motion vectors in their boxes, by at most `frames`: where a vehicle starts slowly
 /// or hardly stands out, single vectors show it long before there are enough for a detection.

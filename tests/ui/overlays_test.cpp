@@ -186,6 +186,21 @@ class OverlaysTest : public QObject {
         settings_.setTentativeTracks(false);
     }
 
+    void unsureTracksAreHiddenUnlessSelected() {
+        auto result = empty();
+        result->tracks.push_back(track(5, TrackStatus::confirmed));
+        result->tracks.back().score = 0.6;
+        showOnly(OverlayKind::tracks);
+        const QImage shown = paint(result);
+        settings_.setMinScore(0.7);
+        QVERIFY(shown != paint(result));
+        QVERIFY(!trackAt(*result, settings_.style(), {200, 150}, 0));
+        settings_.setMinScore(0.6);
+        QCOMPARE(paint(result), shown);
+        QVERIFY(trackAt(*result, settings_.style(), {200, 150}, 0));
+        settings_.setMinScore(0);
+    }
+
     void theSmallestOfNestedTracksIsHit() {
         FrameResult result;
         result.tracks = {track(1, TrackStatus::confirmed), track(2, TrackStatus::confirmed)};

@@ -2,6 +2,7 @@
 #include <QHeaderView>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QSlider>
 #include <QTableView>
 #include <QTest>
 #include <memory>
@@ -92,6 +93,37 @@ class TablesTest : public QObject {
         QCOMPARE(activated.count(), 3);
         panel.setTentativeShown(true);
         QCOMPARE(panel.table()->model()->rowCount(), 5);
+    }
+
+    void sensitivityHidesUnsureTracks() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        std::vector<TrackSummary> tracks;
+        for (const double score : {0.3, 0.62, 0.97}) {
+            tracks.push_back(sampleTrack(static_cast<int>(tracks.size()) + 1));
+            tracks.back().confirmed = true;
+            tracks.back().score = score;
+        }
+        model.setTracks(tracks, {});
+        panel.show();
+        QCOMPARE(panel.countText(), QStringLiteral("3 of 3"));
+        QCOMPARE(model.index(1, TracksModel::score_column).data().toString(), QStringLiteral("0.62"));
+        QSignalSpy changed(&panel, &TracksPanel::minScoreChanged);
+        panel.sensitivity()->setValue(40);
+        QCOMPARE(panel.table()->model()->rowCount(), 2);
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 3"));
+        QCOMPARE(changed.last()[0].toDouble(), 0.6);
+        panel.sensitivity()->setFocus();
+        QTest::keyClick(panel.sensitivity(), Qt::Key_Home);
+        QCOMPARE(panel.table()->model()->rowCount(), 0);
+        QTest::keyClick(panel.sensitivity(), Qt::Key_End);
+        QCOMPARE(panel.table()->model()->rowCount(), 3);
+        QCOMPARE(changed.last()[0].toDouble(), 0.0);
+        // Those of another run, too.
+        panel.sensitivity()->setValue(10);
+        tracks[0].score = 0.95;
+        model.setTracks(tracks, {});
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 3"));
     }
 
     void theSelectionSurvivesNewContentsWithoutBeingTold() {

@@ -181,6 +181,7 @@ void MainWindow::wireFileActions() {
     connect(actions_->restore_run, &QAction::triggered, &session_, [this] {
         if (!session_.removedRuns().empty()) session_.restoreRun(session_.removedRuns().back().id);
     });
+    connect(docks_, &ReviewDocks::minScoreChanged, &overlays_, &OverlaySettings::setMinScore);
     connect(docks_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
     connect(docks_, &ReviewDocks::removeRequested, guard_, &RunGuard::remove);
     connect(docks_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);

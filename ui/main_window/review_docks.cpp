@@ -143,6 +143,7 @@ void ReviewDocks::wireTracks() {
     connect(&session_, &ProjectSession::runDataChanged, this, &ReviewDocks::showTracks);
     connect(&session_, &ProjectSession::selectionChanged, this,
             [this](std::optional<TrackId> track) { tracks_->selectId(track.value_or(0)); });
+    connect(tracks_, &TracksPanel::minScoreChanged, this, &ReviewDocks::minScoreChanged);
     connect(tracks_, &TracksPanel::trackSelected, &session_, &ProjectSession::goToTrack);
     connect(tracks_, &TracksPanel::trackActivated, this, [this](int track, int frame) {
         session_.selectTrack(track);

@@ -52,6 +52,8 @@ class ReviewDocks : public QObject {
     void removeRequested(int run_id);
     void continueRequested(int run_id);
     void parametersRequested();
+    /// Tracks with a lower score are not to be shown.
+    void minScoreChanged(double score);
 
  private:
     QDockWidget* dock(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area);

@@ -58,6 +58,8 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
             return numberText(shownLength(track.mean_width_px, scale_), 1);
         case status_column:
             return track.confirmed ? tr("confirmed") : tr("tentative");
+        case score_column:
+            return numberText(track.score, 2);
         default:
             return {};
     }
@@ -79,12 +81,16 @@ QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
             return track.mean_length_px;
         case width_column:
             return track.mean_width_px;
+        case score_column:
+            return track.score;
         default:
             return textOf(track, column);
     }
 }
 
 QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation == Qt::Horizontal && role == Qt::ToolTipRole && section == score_column)
+        return tr("Probability that the track is a vehicle that moves, from all its evidence");
     if (orientation != Qt::Horizontal || role != Qt::DisplayRole) {
         return RecordModel::headerData(section, orientation, role);
     }
@@ -105,6 +111,8 @@ QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int r
             return tr("Width (%1)").arg(lengthUnit(scale_));
         case status_column:
             return tr("Status");
+        case score_column:
+            return tr("Score");
         default:
             return {};
     }

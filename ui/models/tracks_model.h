@@ -21,6 +21,7 @@ class TracksModel : public RecordModel<TrackSummary> {
         length_column,
         width_column,
         status_column,
+        score_column,
         column_count
     };
 

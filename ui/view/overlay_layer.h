@@ -26,6 +26,7 @@ struct OverlayStyle {
     bool trails = true;
     bool rejected_detections = false;
     bool tentative_tracks = false;
+    double min_score = 0;     ///< tracks of a lower score are not shown
     double line_width = 1.6;  ///< logical px, whatever the zoom
 };
 

@@ -39,4 +39,8 @@ void OverlaySettings::setTentativeTracks(bool shown) {
     adopt(style_.tentative_tracks, shown);
 }
 
+void OverlaySettings::setMinScore(double score) {
+    adopt(style_.min_score, score);
+}
+
 }  // namespace eyrie::ui

@@ -25,6 +25,7 @@ class OverlaySettings : public QObject {
     void setTrails(bool shown);
     void setRejectedDetections(bool shown);
     void setTentativeTracks(bool shown);
+    void setMinScore(double score);
 
  signals:
     void changed();

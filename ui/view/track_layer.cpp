@@ -12,8 +12,12 @@ namespace eyrie::ui {
 
 namespace {
 
+bool isShown(const TrackState& state, const OverlayStyle& style) {
+    return (state.status != TrackStatus::tentative || style.tentative_tracks) && state.score >= style.min_score;
+}
+
 bool isShown(const TrackState& state, const OverlayScene& scene) {
-    return state.status != TrackStatus::tentative || scene.style.tentative_tracks || scene.selected_track == state.id;
+    return isShown(state, scene.style) || scene.selected_track == state.id;
 }
 
 }  // namespace
@@ -117,7 +121,7 @@ std::optional<TrackId> trackAt(const FrameResult& result, const OverlayStyle& st
     std::optional<TrackId> hit;
     double smallest_area = 0;
     for (const TrackState& state : result.tracks) {
-        if (state.status == TrackStatus::tentative && !style.tentative_tracks) continue;
+        if (!isShown(state, style)) continue;
         if (!state.box.contains({image_point.x(), image_point.y()}, margin)) continue;
         if (hit && state.box.area() >= smallest_area) continue;
         hit = state.id;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "tracking/ground_motion.h"
+
+namespace eyrie {
+
+/// What speaks for a track to be a vehicle that moves, and against it, gathered along its life.
+struct TrackEvidence {
+    double detected = 0;      ///< share of its states that were detected
+    double looked_alike = 0;  ///< share of its detected states in which the classifier took it for a whole vehicle
+    double life_s = 0;        ///< s
+    double flow_px = 0;       ///< px/frame by which the ground moved through the picture there; 0: not known
+    double flow_ratio = 0;    ///< own motion over the ground, to that
+    double alignment = 0;     ///< cosine of the angle between both; −1: it sticks to the image
+};
+
+/// `looks`: detected states in which the classifier took it for a vehicle.
+TrackEvidence evidenceOf(const TrackPath& path, int looks, const GroundMotion& ground, const SceneScale& scale);
+
+/// Probability that a track of this evidence is a vehicle that moves. A logistic regression over ten figures of the
+/// evidence, learned by tests/learn_track_score from real clips and rendered scenes; see the README.
+double probabilityOf(const TrackEvidence& evidence);
+
+}  // namespace eyrie

@@ -1,0 +1,142 @@
+#include "tracking/track_score.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tracking/track_finishing.h"
+
+namespace eyrie {
+namespace {
+
+/// A vehicle as most are seen from a camera that flies on.
+TrackEvidence vehicle() {
+    TrackEvidence evidence;
+    evidence.detected = 0.9;
+    evidence.looked_alike = 0.3;
+    evidence.life_s = 3;
+    evidence.flow_px = 1.5;
+    evidence.flow_ratio = 1.2;
+    evidence.alignment = 0.1;
+    return evidence;
+}
+
+TrackEvidence with(double TrackEvidence::*what, double value, TrackEvidence evidence = vehicle()) {
+    evidence.*what = value;
+    return evidence;
+}
+
+constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
+constexpr int kFrames = 60;
+
+/// Under a camera whose ground goes 3 px/frame to the right: a car that overtakes it, and a cloud that hardly moves in
+/// the picture and is found in every third frame.
+struct CarAndCloud {
+    std::vector<FrameMotionSummary> motion;
+    std::vector<TimedState> states;
+    std::vector<TimedDrop> dropped;
+
+    CarAndCloud() {
+        for (FrameIndex frame = 0; frame < kFrames; ++frame) {
+            FrameMotionSummary summary;
+            summary.frame = frame;
+            summary.image_size = {1000, 600};
+            summary.registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
+            summary.registration.current_from_previous.matrix(0, 2) = frame == 0 ? 0 : 3;
+            motion.push_back(summary);
+            states.emplace_back(frame, stateOf(1, {200.0 + 7 * frame, 300}, {4, 0}, StateOrigin::detected));
+            states.emplace_back(frame, stateOf(2, {500.0 + 0.2 * frame, 40}, {-2.8, 0},
+                                               frame % 3 == 0 ? StateOrigin::detected : StateOrigin::reconstructed));
+        }
+    }
+    static TrackState stateOf(TrackId id, cv::Point2d centre, cv::Point2d velocity, StateOrigin origin) {
+        TrackState state;
+        state.id = id;
+        state.box = {centre, 20, 10, 0};
+        state.velocity = velocity;
+        state.status = TrackStatus::confirmed;
+        state.origin = origin;
+        state.score = 0.5;
+        return state;
+    }
+    static std::vector<OrientedBox> car(FrameIndex frame) { return {{{200.0 + 7 * frame, 300}, 22, 11, 0}}; }
+
+    std::vector<TimedState> finished(const BoxesAt& vehicles_at, const FinishingOptions& options = {}) {
+        dropped.clear();
+        return finishTracks(states, motion, options, kScale, {{}, vehicles_at}, &dropped);
+    }
+};
+
+bool has(const std::vector<TimedState>& states, TrackId id) {
+    return std::any_of(states.begin(), states.end(), [&](const TimedState& state) { return state.second.id == id; });
+}
+
+}  // namespace
+
+TEST(TrackScore, IsAProbabilityThatIsHighForAVehicle) {
+    EXPECT_GT(probabilityOf(vehicle()), 0.9);
+    EXPECT_LE(probabilityOf(vehicle()), 1);
+    TrackEvidence nothing;
+    EXPECT_GE(probabilityOf(nothing), 0);
+    EXPECT_LT(probabilityOf(nothing), 0.1);
+}
+
+TEST(TrackScore, RisesWithWhatSpeaksForAVehicle) {
+    EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::detected, 0.4)));
+    EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::looked_alike, 0)));
+    EXPECT_GT(probabilityOf(with(&TrackEvidence::looked_alike, 0.8)), probabilityOf(vehicle()));
+    EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::life_s, 0.3)));
+    EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::flow_ratio, 0.3)));
+}
+
+TEST(TrackScore, DoubtsWhatSticksToTheImageUnlessItLookedLikeAVehicle) {
+    TrackEvidence sticks = vehicle();
+    sticks.looked_alike = 0;
+    sticks.detected = 0.5;
+    sticks.flow_px = 5;
+    sticks.flow_ratio = 1;
+    sticks.alignment = -1;
+    EXPECT_LT(probabilityOf(sticks), 0.25);
+    EXPECT_GT(probabilityOf(with(&TrackEvidence::looked_alike, 0.3, sticks)), 0.5) << "a car that the camera follows";
+    EXPECT_GT(probabilityOf(with(&TrackEvidence::alignment, 0, sticks)), probabilityOf(sticks));
+    EXPECT_GT(probabilityOf(with(&TrackEvidence::flow_px, 0, sticks)), 2 * probabilityOf(sticks))
+        << "a camera that hovers tells nothing";
+}
+
+TEST(TrackScore, DropsTheCloudAndKeepsTheCar) {
+    CarAndCloud scene;
+    const auto result = scene.finished(CarAndCloud::car);
+    EXPECT_TRUE(has(result, 1));
+    EXPECT_FALSE(has(result, 2));
+    ASSERT_FALSE(scene.dropped.empty());
+    for (const auto& [frame, state] : scene.dropped) {
+        EXPECT_EQ(state.id, 2);
+        EXPECT_EQ(state.why, TrackDrop::unlikely);
+    }
+}
+
+TEST(TrackScore, IsTheSameInAllStatesOfATrack) {
+    CarAndCloud scene;
+    FinishingOptions options;
+    options.min_score = 0;
+    const auto result = scene.finished(CarAndCloud::car, options);
+    EXPECT_TRUE(has(result, 2)) << "0 drops nothing";
+    double of_car = -1;
+    double of_cloud = -1;
+    for (const auto& [frame, state] : result) {
+        double& known = state.id == 1 ? of_car : of_cloud;
+        if (known < 0) known = state.score;
+        EXPECT_EQ(state.score, known);
+    }
+    EXPECT_GT(of_car, 0.9);
+    EXPECT_LT(of_cloud, 0.25);
+}
+
+TEST(TrackScore, NeedsAClassifier) {
+    CarAndCloud scene;
+    const auto result = scene.finished({});
+    EXPECT_TRUE(has(result, 2));
+    for (const auto& [frame, state] : result) EXPECT_EQ(state.score, 0.5) << "as the tracker left it";
+}
+
+}  // namespace eyrie
