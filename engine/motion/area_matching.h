@@ -12,9 +12,9 @@ struct AreaMatch {
     double correlation = -1;  ///< −1 … 1, normalised, over the area's pixels
 };
 
-/// Looks for the best correlation of `pixels` of the picture `from` in the picture `to` (both CV_8UC1 and of the same
-/// size) within `reach` px around a shift by `around`. To a fraction of a pixel. Nothing where the area lies within
-/// `reach` of the border, or is plain.
+/// Looks for the best correlation of `pixels` of the picture `from` in the picture `to` (both CV_8UC1) within `reach`
+/// px around a shift by `around`. To a fraction of a pixel. Nothing where the area lies within `reach` of the border,
+/// or is plain.
 std::optional<AreaMatch> matchArea(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& to,
                                    cv::Point around, int reach);
 

@@ -16,15 +16,15 @@ namespace {
 constexpr CornerId kFirstInferred = CornerId{1} << 41;  ///< far above any corner's and any silhouette's
 constexpr double kVectorSpacing = 0.6;                  ///< m between inferred vectors …
 constexpr double kVectorSpacingPx = 2;                  ///< … px at least
-constexpr int kAround = 2;  ///< px that an area grows by before it is looked for: outlines tell most
-constexpr int kPictureMargin =
-    3;  ///< px of the halved picture; interpolation and blur at the edge of a picture answer to nothing
-constexpr double kMaxSpeed = 40;    ///< m/s
-constexpr int kLongestReach = 40;   ///< px
-constexpr int kReturnReach = 2;     ///< px by which the way back may differ from the way on
-constexpr std::size_t kEnough = 3;  ///< vectors with which a vehicle needs no more
-constexpr double kAlike = 0.3;      ///< difference of velocities, as a share of the speed …
-constexpr double kAlikePx = 0.4;    ///< … and px/frame
+constexpr int kAround = 2;                ///< px that an area grows by before it is looked for: outlines tell most
+constexpr int kPictureMargin = 3;         ///< px of the halved picture, where interpolation and blur answer to nothing
+constexpr std::size_t kMostAreas = 1500;  ///< the largest; more are waves or flicker
+constexpr double kMaxSpeed = 40;          ///< m/s
+constexpr int kLongestReach = 40;         ///< px
+constexpr int kReturnReach = 2;           ///< px by which the way back may differ from the way on
+constexpr std::size_t kEnough = 3;        ///< vectors with which a vehicle needs no more
+constexpr double kAlike = 0.3;            ///< difference of velocities, as a share of the speed …
+constexpr double kAlikePx = 0.4;          ///< … and px/frame
 
 cv::Mat smoothed(const cv::Mat& gray) {
     cv::Mat smooth;
@@ -66,6 +66,18 @@ cv::Matx33d forHalves(const cv::Matx33d& map) {
     return whole_from_half.inv() * map * whole_from_half;
 }
 
+/// Whether a map over several frames keeps the whole picture on one side of the horizon and somewhere near.
+bool isSane(const Homography& map, cv::Size size) {
+    for (const cv::Point2d& corner : {cv::Point2d(0, 0), cv::Point2d(size.width, 0), cv::Point2d(0, size.height),
+                                      cv::Point2d(size.width, size.height)}) {
+        const double w = map.matrix(2, 0) * corner.x + map.matrix(2, 1) * corner.y + map.matrix(2, 2);
+        if (!(w > 0.2)) return false;
+        const cv::Point2d at = map.apply(corner);
+        if (!(std::abs(at.x) < 10.0 * size.width && std::abs(at.y) < 10.0 * size.height)) return false;
+    }
+    return true;
+}
+
 /// A part of the newest picture's area as an earlier picture shows it, which is so small that the map's first order
 /// will do.
 cv::Mat partOf(const cv::Mat& earlier, const Homography& earlier_from_newest, const cv::Rect& part) {
@@ -99,6 +111,11 @@ std::vector<DifferingArea> areasOf(const cv::Mat& binary, int fewest_pixels, dou
             }
         }
         areas.push_back(std::move(area));
+    }
+    if (areas.size() > kMostAreas) {
+        std::stable_sort(areas.begin(), areas.end(),
+                         [](const auto& a, const auto& b) { return a.pixels.size() > b.pixels.size(); });
+        areas.resize(kMostAreas);
     }
     return areas;
 }
@@ -188,7 +205,7 @@ std::vector<DifferingArea> MovingAreas::differingAreas() const {
         for (const cv::Point2d& corner :
              {shown.tl(), cv::Point2d(shown.br().x, shown.y), shown.br(), cv::Point2d(shown.x, shown.br().y)}) {
             const cv::Point2d at = LocalMap(map, corner).point();
-            corners.emplace_back(cvRound(std::clamp(at.x, -1e6, 1e6)), cvRound(std::clamp(at.y, -1e6, 1e6)));
+            corners.emplace_back(cvRound(at.x), cvRound(at.y));
         }
         inside = cv::Mat::zeros(now.size(), CV_8UC1);
         cv::fillConvexPoly(inside, corners, cv::Scalar(255));
@@ -234,6 +251,11 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double m
     std::vector<MotionVector> inferred;
     if (!options_.enabled || frames_.count() < 2 * gap_) return inferred;
     if (cornersOnCar(motion, scale_) >= options_.max_corners) return inferred;
+    const cv::Size size = frames_.newest().size();
+    for (const int back : {gap_, 2 * gap_}) {
+        const Homography path = frames_.pathTo(back);
+        if (!isSane(path, size) || !isSane(path.inverse(), size)) return inferred;
+    }
     const std::vector<DifferingArea> areas = differingAreas();
     std::vector<std::optional<cv::Point2d>> shifts(areas.size());
     // Written by index, so that the result does not depend on the number of threads.

@@ -7,6 +7,7 @@
 namespace eyrie {
 namespace {
 
+constexpr int kShortestSide = 64;    ///< px; smaller pictures have no scale space to speak of
 constexpr int kLongestSide = 1100;   ///< px of the level on which features are looked for
 constexpr float kThreshold = 1e-4F;  ///< of AKAZE's response; a tenth of the usual, for night and haze
 constexpr int kMostFeatures = 3000;  ///< the strongest of a picture
@@ -62,6 +63,8 @@ std::vector<cv::DMatch> matched(const Features& from, const Features& to) {
 std::optional<HomographyFit> searchFeatures(const ImagePyramid& from, const ImagePyramid& to,
                                             const HomographyEstimator& estimator) {
     const int level = levelFor(from);
+    const PaddedPicture& picture = from.level(level);
+    if (std::min(picture.width(), picture.height()) < kShortestSide) return std::nullopt;
     const Features before = featuresOf(from.level(level));
     const Features now = featuresOf(to.level(level));
     if (before.points.size() < kFewestAgreeing || now.points.size() < kFewestAgreeing) return std::nullopt;
