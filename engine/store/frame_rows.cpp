@@ -95,8 +95,7 @@ FrameRows::FrameRows(SQLite::Database& database)
                                       "run_id, frame, number, x, y, length, width, heading_rad, vx, vy, score, "
                                       "cluster, rejection, vectors, complete")),
       tracks_(database) {
-    for (const char* table :
-         {"frame", "motion_vectors", "stationary_corners", "roi", "motion_cluster", "detection"}) {
+    for (const char* table : {"frame", "motion_vectors", "stationary_corners", "roi", "motion_cluster", "detection"}) {
         forget_.emplace_back(database, std::string("DELETE FROM ") + table + " WHERE run_id = ? AND frame = ?");
     }
 }

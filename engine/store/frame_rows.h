@@ -30,7 +30,8 @@ class TrackRows {
     SQLite::Statement subtract_;
 };
 
-/// The prepared statements that add a frame to a run or take it out. The caller owns the transaction. `database` must outlive it.
+/// The prepared statements that add a frame to a run or take it out. The caller owns the transaction. `database` must
+/// outlive it.
 class FrameRows {
  public:
     explicit FrameRows(SQLite::Database& database);

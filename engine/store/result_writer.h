@@ -28,8 +28,8 @@ class ResultWriter {
     ResultWriter& operator=(const ResultWriter&) = delete;
 
     int runId() const;
-    /// Every frame once; one that is left from before the run was taken up is replaced. Throws Error(output) when the disk is full, Error(project) when the run was removed meanwhile;
-    /// frames written before stay.
+    /// Every frame once; one that is left from before the run was taken up is replaced. Throws Error(output) when the
+    /// disk is full, Error(project) when the run was removed meanwhile; frames written before stay.
     void write(const FrameResult& result);
     /// Keeps what the chain remembers after a frame that was written, for going on with the run. The same errors.
     void keepState(FrameIndex frame, const std::string& bytes);
