@@ -84,7 +84,8 @@ std::vector<Kind> chosen(const std::vector<std::string>& names, const std::vecto
     return kinds;
 }
 
-/// As in the thesis: about as many others as vehicles, no variations, no further rounds.
+/// As in the thesis: about as many others as vehicles, no variations, no further rounds; AdaBoost sees all features and
+/// all samples for every tree.
 TrainingOptions plainOptions(const ClassifyTestArguments& arguments) {
     TrainingOptions options;
     options.seed = arguments.seed;
@@ -92,6 +93,7 @@ TrainingOptions plainOptions(const ClassifyTestArguments& arguments) {
     options.mirrored = false;
     options.varied_copies = 0;
     options.misfit_copies = 0;
+    options.classifier_options = ClassifierOptions::thesis();
     for (const std::string& setting : arguments.settings) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "chain/method_run.h"
 #include "chain/scale_estimation.h"
@@ -16,6 +17,7 @@
 #include "cli/preset_arguments.h"
 #include "core/error.h"
 #include "detection/model_location.h"
+#include "evaluation/published_figures.h"
 #include "io/atomic_file.h"
 #include "store/comparison_store.h"
 
@@ -37,6 +39,7 @@ struct CompareArguments {
     PresetArguments preset;
     std::string project;
     std::string csv;
+    std::string published;
     OutputArguments outputs;
     bool json = false;
     bool quiet = false;
@@ -117,15 +120,6 @@ class Recorders {
     std::vector<std::unique_ptr<RunRecorder>> recorders_;
 };
 
-bool allUprightBoxes(const BoxesByFrame& boxes) {
-    for (const auto& entry : boxes) {
-        for (const BoxRecord& record : entry.second) {
-            if (std::abs(std::sin(2 * record.box.heading)) > 1e-6) return false;
-        }
-    }
-    return true;
-}
-
 double laterMs(const StageTimes& times) {
     double sum = 0;
     for (const Stage stage : {Stage::clustering, Stage::stacking, Stage::detection, Stage::removal, Stage::tracking})
@@ -171,6 +165,40 @@ std::vector<ComparisonRow> rowsAt(double overlap, const CompareArguments& argume
     return rows;
 }
 
+/// The report with the rows that the thesis publishes for a sequence.
+std::string withPublished(const std::string& report, const std::string& sequence) {
+    using Json = nlohmann::ordered_json;
+    const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(); };
+    Json json = Json::parse(report);
+    json["published"] = Json::array();
+    for (const PublishedFigures& row : publishedFigures(sequence)) {
+        json["published"].push_back({{"name", row.method},
+                                     {"source", row.source},
+                                     {"overlap", 0.1},
+                                     {"tp", orNull(row.true_positives)},
+                                     {"fp", orNull(row.false_positives)},
+                                     {"fn", orNull(row.false_negatives)},
+                                     {"precision", row.precision},
+                                     {"recall", row.recall},
+                                     {"f_score", row.f_score},
+                                     {"n_moda", orNull(row.n_moda)},
+                                     {"n_modp", orNull(row.n_modp)},
+                                     {"mota", orNull(row.mota)},
+                                     {"motp", orNull(row.motp)},
+                                     {"mostly_tracked", orNull(row.mostly_tracked)},
+                                     {"partially_tracked", orNull(row.partially_tracked)},
+                                     {"mostly_lost", orNull(row.mostly_lost)},
+                                     {"fragments", orNull(row.fragments)}});
+    }
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string printedText(const ComparisonReport& report, const CompareArguments& arguments) {
+    if (arguments.published.empty()) return arguments.json ? jsonText(report) : tableText(report);
+    return arguments.json ? withPublished(jsonText(report), arguments.published)
+                          : tableText(report) + "\n" + publishedText(arguments.published);
+}
+
 int compare(const CompareArguments& arguments) {
     if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
     if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
@@ -181,7 +209,8 @@ int compare(const CompareArguments& arguments) {
     report.options = arguments.options;
     const std::vector<Planned> planned = plan(arguments, report.remarks);
     const InterruptGuard interrupt;
-    const auto source = openInput(arguments.sequence, arguments.frame_rate_hz.value_or(0), interrupt.token());
+    const auto source = openInput(arguments.sequence, arguments.frame_rate_hz.value_or(0), interrupt.token(),
+                                  rememberedRate(arguments.project, arguments.sequence));
     const VideoInfo& video = source->info();
     BoxFile truth = readTruthBoxes(arguments.ground_truth, arguments.mot_origin, video.size);
     if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
@@ -194,7 +223,7 @@ int compare(const CompareArguments& arguments) {
     for (const Planned& method : planned) methods.push_back(method.variant);
     std::optional<Recorders> recorders;
     if (!arguments.project.empty()) {
-        keepEarlierState(arguments.project);
+        if (!keepEarlierState(arguments.project, interrupt.token())) return exit_stopped;
         recorders.emplace(arguments.project, planned, plannedRun(video, scale, range, arguments.preset.preset));
     }
     ConsoleProgress console("frames");
@@ -228,7 +257,7 @@ int compare(const CompareArguments& arguments) {
         report.options.upright = true;
         report.remarks.push_back(truth.format +
                                  ": boxes are upright, so the enclosing boxes of the results are compared");
-    } else if (!report.options.upright && allUprightBoxes(truth.boxes)) {
+    } else if (!report.options.upright && allUpright(truth.boxes)) {
         report.remarks.push_back("the ground truth has upright boxes only; if it has no headings, add --upright");
     }
     if (truth.boxes.empty()) {
@@ -243,7 +272,7 @@ int compare(const CompareArguments& arguments) {
         addComparison(project, video.path.string(), jsonText(report));
     }
     if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(report));
-    std::fputs((arguments.json ? jsonText(report) : tableText(report)).c_str(), stdout);
+    std::fputs(printedText(report, arguments).c_str(), stdout);
     return whole ? exit_ok : exit_stopped;
 }
 
@@ -284,6 +313,10 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     command->add_option("--project", arguments->project,
                         "Store every method as a run of this project, and the figures beside them");
     command->add_option("--csv", arguments->csv, "Write the figures as CSV, too");
+    command
+        ->add_option("--published", arguments->published,
+                     "Print what the thesis publishes for this sequence below: seq1, seq2, egtest01")
+        ->check(CLI::IsMember(publishedSequences()));
     arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--quiet", arguments->quiet, "No progress");

@@ -34,6 +34,12 @@ void ConsoleProgress::show(int done, int total, double per_second, double second
     }
 }
 
+void ConsoleProgress::showShare(double share) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (seconds <= 1 || !(share > 0)) return;
+    show(static_cast<int>(share * 100), 100, share * 100 / seconds, seconds * (1 - share) / share);
+}
+
 std::string clockText(double seconds) {
     const int whole = static_cast<int>(std::max(seconds, 0.0) + 0.5);
     char text[32];

@@ -15,11 +15,15 @@ class ConsoleProgress {
     ConsoleProgress& operator=(const ConsoleProgress&) = delete;
 
     void show(int done, int total, double per_second, double seconds_left);
+    /// For work that has no frames to count, of which `share` is done: shown in per cent once it takes longer than a
+    /// second. The unit says what of, e.g. "% copied".
+    void showShare(double share);
 
  private:
     std::string unit_;
     bool terminal_;
     bool drawn_ = false;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point last_{};
 };
 

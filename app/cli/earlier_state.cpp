@@ -2,7 +2,9 @@
 
 #include <cstdio>
 #include <string>
+#include <utility>
 
+#include "cli/console_progress.h"
 #include "store/project_backup.h"
 
 namespace eyrie::cli {
@@ -20,11 +22,17 @@ ProjectFile openForReading(const std::filesystem::path& project) {
     return file;
 }
 
-void keepEarlierState(const std::filesystem::path& project) {
+bool keepEarlierState(const std::filesystem::path& project, std::stop_token stop) {
     std::error_code missing;
-    if (!std::filesystem::exists(project, missing)) return;
+    if (!std::filesystem::exists(project, missing)) return true;
     tell(ProjectFile::open(project).notice());
-    tell(backUpIfDue(project).notice);
+    ConsoleProgress progress("% of today's state kept");
+    const BackupResult result =
+        backUpIfDue(project, {[&](double share) { progress.showShare(share); }, std::move(stop)});
+    tell(result.notice);
+    if (result.outcome != BackupOutcome::stopped) return true;
+    std::fprintf(stderr, "stopped; nothing was changed\n");
+    return false;
 }
 
 }  // namespace eyrie::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 
 #include "store/project_file.h"
 
@@ -10,8 +11,9 @@ namespace eyrie::cli {
 ProjectFile openForReading(const std::filesystem::path& project);
 
 /// To be called before a command writes into a project: brings it up to date and keeps its state of today, if it is
-/// there at all, and tells on standard error when no copy could be kept; the command goes on all the same. Throws
-/// Error(project) when the project cannot be opened.
-void keepEarlierState(const std::filesystem::path& project);
+/// there at all, and tells on standard error when no copy could be kept; the command goes on all the same. Shows how
+/// far it is. Answers false when it was stopped: the command should end, nothing is changed yet. Throws Error(project)
+/// when the project cannot be opened.
+bool keepEarlierState(const std::filesystem::path& project, std::stop_token stop = {});
 
 }  // namespace eyrie::cli

@@ -88,15 +88,6 @@ void keepFramesOfRun(BoxesByFrame& truth, const RunRecord& run, std::vector<std:
                       " frames of the ground truth were left out");
 }
 
-bool allUpright(const BoxesByFrame& boxes) {
-    for (const auto& entry : boxes) {
-        for (const BoxRecord& record : entry.second) {
-            if (std::abs(std::sin(2 * record.box.heading)) > 1e-6) return false;
-        }
-    }
-    return true;
-}
-
 std::optional<cv::Size> knownImageSize(const EvaluateArguments& arguments, const Result& result) {
     if (!arguments.size.empty()) return parseSize(arguments.size);
     if (result.run) return result.run->sequence.size;

@@ -1,7 +1,6 @@
 #include "cli/input.h"
 
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -39,16 +38,8 @@ std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_ra
     options.frame_rate_hz = frame_rate_hz;
     options.remembered_rate_hz = remembered_rate_hz;
     ConsoleProgress progress("% indexed");
-    const auto start = std::chrono::steady_clock::now();
     return openSource(
-        input, options,
-        [&](double share) {
-            const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-            if (seconds > 1 && share > 0) {
-                progress.show(static_cast<int>(share * 100), 100, share * 100 / seconds, seconds * (1 - share) / share);
-            }
-        },
-        std::move(stop));
+        input, options, [&](double share) { progress.showShare(share); }, std::move(stop));
 }
 
 void checkGsd(double gsd) {

@@ -7,8 +7,9 @@
 
 namespace eyrie::cli {
 
-/// The run that a command works on: number `id`, or the last. Throws Error(project) when the project holds no run and
-/// Error(parameter), naming those it holds, when there is none of that number. `option` is what names it, for messages.
+/// The run that a command works on: number `id`, or the last that has any frame, or the last. Throws Error(project)
+/// when the project holds no run and Error(parameter), naming those it holds, when there is none of that number.
+/// `option` is what names it, for messages.
 RunRecord chosenRun(const RunStore& store, const std::string& project, std::optional<int> id,
                     const std::string& option = "--run");
 

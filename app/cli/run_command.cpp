@@ -256,7 +256,7 @@ int run(const RunArguments& arguments) {
         checkOutputs(arguments, project, choice.run->sequence.path);
         source = openInput(choice.run->sequence.path, 0, interrupt.token(), choice.run->scale.frame_rate_hz);
     }
-    keepEarlierState(project);
+    if (!keepEarlierState(project, interrupt.token())) return exit_stopped;
     const auto [record, summary, has_video] = !choice.run ? runAnew(arguments, *source, project, interrupt)
                                               : choice.run->state == RunState::finished
                                                   ? asItIs(arguments, *choice.run, *source, project, interrupt)

@@ -163,12 +163,12 @@ int sweep(const SweepArguments& arguments) {
     chosenPositions(plan, arguments.shard);  // shows a wrong shard before anything is opened
 
     const InterruptGuard interrupt;
-    OpenedSources opened = runs.empty() ? openSequences(arguments.sources, base, interrupt.token())
+    OpenedSources opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, interrupt.token())
                                         : openStoredRuns(arguments.sources, std::move(runs), base);
     plan.clips = opened.clips;
     check(plan);
     const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;
-    keepEarlierState(out);
+    if (!keepEarlierState(out, interrupt.token())) return exit_stopped;
     ProjectFile project = ProjectFile::openOrCreate(out);
     const int id = beginSweep(project, plan, arguments.name, arguments.resume || !arguments.shard.empty());
     const bool whole = runMissing(arguments, plan, opened.inputs, chosenPositions(plan, arguments.shard), project, id,

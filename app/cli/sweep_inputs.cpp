@@ -18,11 +18,12 @@ bool isScene(const std::string& sequence) {
     return sequence.rfind("scene:", 0) == 0;
 }
 
-ClipFrames::Open opener(const std::string& sequence, double frame_rate_hz) {
-    return [sequence, frame_rate_hz]() -> std::unique_ptr<FrameSource> {
+ClipFrames::Open opener(const std::string& sequence, double frame_rate_hz, double remembered_rate_hz = 0) {
+    return [sequence, frame_rate_hz, remembered_rate_hz]() -> std::unique_ptr<FrameSource> {
         if (isScene(sequence)) return openScene(sequence.substr(6));
         SourceOptions options;
         options.frame_rate_hz = frame_rate_hz;
+        options.remembered_rate_hz = remembered_rate_hz;
         return openSource(sequence, options);
     };
 }
@@ -74,7 +75,8 @@ BoxesByFrame labelsOfProject(const SweepSources& sources, const StoredRun& run, 
 
 }  // namespace
 
-OpenedSources openSequences(const SweepSources& sources, const ChainOptions& options, std::stop_token stop) {
+OpenedSources openSequences(const SweepSources& sources, const ChainOptions& options, const std::string& project,
+                            std::stop_token stop) {
     if (sources.sequences.size() != sources.ground_truths.size()) {
         throw Error(ErrorKind::parameter, "every --sequence needs its --ground-truth: there are " +
                                               std::to_string(sources.sequences.size()) + " and " +
@@ -94,12 +96,13 @@ OpenedSources openSequences(const SweepSources& sources, const ChainOptions& opt
         SweepClip clip;
         clip.sequence = absolutePath(sequence);
         const double rate = sources.frame_rate_hz.value_or(0);
-        const auto source = openInput(sequence, rate, stop);
+        const double remembered = rememberedRate(project, sequence);
+        const auto source = openInput(sequence, rate, stop, remembered);
         const BoxesByFrame truth =
             readClipTruth(sources, sources.ground_truths[i], source->info().size, clip, opened.remarks);
         const double gsd = sources.gsds.empty() ? 0 : sources.gsds[sources.gsds.size() == 1 ? 0 : i];
         clip.scale = chooseScale(*source, range, options, gsd, stop);
-        opened.inputs.push_back(openClip(clip, opener(clip.sequence, rate), range, truth));
+        opened.inputs.push_back(openClip(clip, opener(clip.sequence, rate, remembered), range, truth));
         opened.clips.push_back(std::move(clip));
     }
     return opened;

@@ -29,8 +29,10 @@ struct OpenedSources {
     std::vector<std::string> remarks;
 };
 
-/// Opens video files, folders and scenes; `options` are used where the scale must be estimated. Throws Error.
-OpenedSources openSequences(const SweepSources& sources, const ChainOptions& options, std::stop_token stop);
+/// Opens video files, folders and scenes; `options` are used where the scale must be estimated. `project` may remember
+/// their frame rates; it need not exist. Throws Error.
+OpenedSources openSequences(const SweepSources& sources, const ChainOptions& options, const std::string& project,
+                            std::stop_token stop);
 
 /// Opens stored runs, whose motion vectors are used unless `options` make others. Ground truth is a file for each, or
 /// the labels of the project. Throws Error.

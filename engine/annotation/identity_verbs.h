@@ -40,8 +40,6 @@ AnnotationEdit regionEdit(const std::string& name, const AnnotationSet& set, con
                           const std::vector<int>& removed = {});
 /// Marks added at the end of the list.
 AnnotationEdit reviewEdit(const std::string& name, const AnnotationSet& set, const std::vector<ReviewMark>& marks);
-/// The list of classes replaced.
-AnnotationEdit classEdit(const std::string& name, const AnnotationSet& set, std::vector<ObjectClass> classes);
 
 /// What an object is between two pieces that are joined.
 enum class GapFilling {

@@ -76,7 +76,8 @@ LabelledObject withKeyframe(LabelledObject object, const Keyframe& keyframe);
 /// The object with the box of a frame changed and everything else of that frame kept: a keyframe that is made by it
 /// takes over the flags that hold there.
 LabelledObject withBox(LabelledObject object, FrameIndex frame, const OrientedBox& box, bool heading_set);
-/// Whether a box ends at the border of the image: it shows a part of the object only. One that goes on beyond shows all.
+/// Whether a box ends at the border of the image: it shows a part of the object only. One that goes on beyond shows
+/// all.
 bool isCutByBorder(const OrientedBox& box, cv::Size image);
 /// The same, and what is corrected goes on to the keyframes that were computed: those up to the next ones that a hand
 /// set change alike in place (along the vehicle's own axes), size and heading, less the nearer they are to these.

@@ -120,11 +120,4 @@ AnnotationEdit reviewEdit(const std::string& name, const AnnotationSet& set, con
     return edit;
 }
 
-AnnotationEdit classEdit(const std::string& name, const AnnotationSet& set, std::vector<ObjectClass> classes) {
-    AnnotationEdit edit;
-    edit.name = name;
-    edit.classes = Change<std::vector<ObjectClass>>{set.classes, std::move(classes)};
-    return edit;
-}
-
 }  // namespace eyrie

@@ -25,8 +25,9 @@ ChainOptions builtInPreset(const std::string& name) {
     ChainOptions options;
     if (name == "default") return options;
     if (name == "thesis") {
-        // Registration stays: the thesis leaves its parameters open (§4.2).
+        options.registration = RegistrationOptions::thesis();
         options.motion = IndependentMotionOptions::thesis();
+        options.difference = DifferenceOptions::thesis();
         options.clustering = MotionClusteringOptions::thesis();
         options.stacking = StackingOptions::thesis();
         options.detection = DetectionOptions::thesis();

@@ -163,7 +163,15 @@ bool tellRemoval(Story& story, std::vector<int>& detections) {
                 parameter = count_parameter;
                 break;
             case Rejection::size: {
-                const auto limit = brokenSizeLimit(detection.box, story.options.outliers, story.scale);
+                const auto limit = brokenSizeLimit(detection.box, story.options.outliers, story.scale,
+                                                   evidence.result.motion.image_size);
+                if (limit && limit->parameter == "outliers.inside_image") {
+                    const std::string share = numberText(limit->value) + " of the box is in the picture";
+                    story.fail("removal", share + ", all of it must be", limit->parameter);
+                    why = "The detection here reaches beyond the picture: " + share;
+                    parameter = limit->parameter;
+                    break;
+                }
                 const bool is_area = limit && limit->parameter == "outliers.min_area";
                 const auto text = [&](double value) {
                     return is_area ? numberText(value) + " px²" : story.lengthText(value);

@@ -20,9 +20,9 @@ NamedChange gradientBy(const char* name, GradientMethod method) {
     return {name, "gradients", [method](ChainOptions& options) {
                 options.detection.method = DetectionMethod::gradient;
                 options.detection.gradient.method = method;
-                // Each at its own optimum of table 7.3; the LBP gradient at ours, relative to the thesis'.
-                const double ratio =
-                    GradientOptions::thesis(method).quantile / GradientOptions::thesis(GradientMethod::lbp).quantile;
+                // Each at its own optimum of table 7.3; the LBP gradient at ours, relative to the thesis'. 0 follows.
+                const double ratio = GradientOptions::thesis(method).effectiveQuantile() /
+                                     GradientOptions::thesis(GradientMethod::lbp).effectiveQuantile();
                 options.detection.gradient.quantile = std::min(1.0, options.detection.gradient.quantile * ratio);
             }};
 }

@@ -5,6 +5,7 @@
 #include "chain/classified_vehicles.h"
 #include "store/project_file.h"
 #include "store/run_state_store.h"
+#include "tracking/ground_motion.h"
 
 namespace eyrie {
 namespace {
@@ -57,19 +58,19 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     ProjectFile project = ProjectFile::open(project_);
     RunStore store(project);
     // Nothing of the frames is held while the run goes on: an hour of them would not fit beside the chain.
-    std::vector<FrameMotionSummary> motions;
-    for (const Registration& registration : store.registrations(writer_.runId())) {
-        motions.push_back({registration.current_from_previous.to_frame, registration, image_size_});
-    }
+    GroundMotion ground;
+    store.visitRegistrations(writer_.runId(), [&](const Registration& registration) {
+        ground.add({registration.current_from_previous.to_frame, registration, image_size_});
+    });
     const StatesOfRun followed = [&](const StateVisitor& visitor) { store.visitTrackStates(writer_.runId(), visitor); };
     const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
-    std::vector<TimedDrop> dropped;
     const BoxesAt vehicles_at = [&](FrameIndex frame) { return store.vehicleBoxes(writer_.runId(), frame); };
-    const FinishedTracks finished = finishRun(followed, motions, options_.finishing, scale_,
-                                              {vectors_at, classifiedVehicles(options_, vehicles_at)}, &dropped);
+    const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_,
+                                              {vectors_at, classifiedVehicles(options_, vehicles_at)});
     RunStateStore(project).keepTracks(writer_.runId());
     store.replaceTracks(
-        writer_.runId(), [&](const StateVisitor& visitor) { finished.visit(visitor); }, dropped);
+        writer_.runId(), [&](const StateVisitor& visitor) { finished.visit(visitor); },
+        [&](const DropVisitor& visitor) { finished.visitDropped(followed, visitor); });
     if (state == RunState::finished) writer_.finish(state, summary.message);
     return store.run(writer_.runId()).value();
 }

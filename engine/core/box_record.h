@@ -27,6 +27,9 @@ struct BoxRecord {
 /// All boxes of a file, by frame.
 using BoxesByFrame = std::map<FrameIndex, std::vector<BoxRecord>>;
 
+/// Whether all boxes lie along the image's axes, so that there may be no headings in them.
+bool allUpright(const BoxesByFrame& boxes);
+
 /// Whether a class counts as vehicle (Teutsch §7.2): car, truck, bus, van, vehicle.
 bool isVehicleClass(const std::string& object_class);
 

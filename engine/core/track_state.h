@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/types.hpp>
 
 #include "core/ids.h"
@@ -8,14 +9,14 @@
 namespace eyrie {
 
 /// How sure the track management is of a track (Teutsch §6.4).
-enum class TrackStatus {
+enum class TrackStatus : std::uint8_t {
     tentative,  ///< too new to be reliable; not part of the result
     confirmed,  ///< reliable
     coasting    ///< confirmed earlier, without a detection now
 };
 
 /// Where the box of a track state came from (Teutsch §6.3).
-enum class StateOrigin {
+enum class StateOrigin : std::uint8_t {
     detected,       ///< updated by a detection
     reconstructed,  ///< updated by a box rebuilt from associated motion vectors
     predicted       ///< the Kalman prediction alone

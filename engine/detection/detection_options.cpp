@@ -49,6 +49,8 @@ DetectionOptions DetectionOptions::thesis() {
     options.gradient = GradientOptions::thesis();
     options.relative_connectivity = RelativeConnectivityOptions::thesis();
     options.sliding_window = SlidingWindowOptions::thesis();
+    options.tophat_otsu = TophatOtsuOptions::thesis();
+    options.mser = MserOptions::thesis();
     return options;
 }
 

@@ -53,6 +53,7 @@ std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const Sc
         case DetectionMethod::window_and_gradient: {
             SlidingWindowOptions window = options.sliding_window;
             window.fall_back = false;
+            window.rejection_margin = options.window_and_gradient.rejection_margin;
             return std::make_unique<WindowAndGradientDetector>(
                 makeSlidingWindowDetector(window, scale, options.cluster_margin_px),
                 std::make_unique<GradientSegmenter>(options.gradient, scale, options.cluster_margin_px),

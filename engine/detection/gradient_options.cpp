@@ -20,10 +20,14 @@ double thesisQuantile(GradientMethod method) {
 
 }  // namespace
 
+double GradientOptions::effectiveQuantile() const {
+    return quantile > 0 ? quantile : thesisQuantile(method);
+}
+
 GradientOptions GradientOptions::thesis(GradientMethod method) {
     GradientOptions options;
     options.method = method;
-    options.quantile = thesisQuantile(method);
+    options.quantile = 0;  // follows the method
     options.quantile_area = QuantileArea::roi;
     options.need_support = false;
     options.handle_cut = false;
@@ -43,8 +47,10 @@ void GradientOptions::describe(ParameterVisitor& visitor) {
                     "or dilation minus erosion.",
                     "Teutsch §5.4.1"});
     visitor.real(
-        "gradient.quantile", quantile, 0.001, 1,
-        {"", "Share of the brightest gradient pixels that is kept. Larger: weaker edges count, neighbours merge.",
+        "gradient.quantile", quantile, 0, 1,
+        {"",
+         "Share of the brightest gradient pixels that is kept. Larger: weaker edges count, neighbours merge. 0: the "
+         "optimum of table 7.3 for the gradient in use.",
          "Teutsch §7.3.1, eq. 5.14"});
     visitor.choice("gradient.quantile_area", quantile_area, {"roi", "box", "vectors"},
                    {"",

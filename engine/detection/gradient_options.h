@@ -17,7 +17,7 @@ enum class QuantileArea {
 /// Parameters of gradient based object segmentation (Teutsch §5.4.1).
 struct GradientOptions {
     GradientMethod method = GradientMethod::lbp;
-    double quantile = 0.35;  ///< share of the brightest gradient pixels that is kept
+    double quantile = 0.35;  ///< share of the brightest gradient pixels that is kept; 0: the optimum of table 7.3
     QuantileArea quantile_area = QuantileArea::vectors;
     double quantile_margin_m = 0.5;
     int lbp_radius_min = 1;          ///< px
@@ -39,7 +39,9 @@ struct GradientOptions {
     bool fall_back = true;           ///< deliver the cluster's box where segmentation does not explain its vectors
     double fall_back_share = 0.6;    ///< share of the cluster's vectors that the boxes must hold
 
-    /// The text to the letter, with the quantile it found best for the method.
+    /// The quantile in use: where none is chosen, the one that table 7.3 found best for the method.
+    double effectiveQuantile() const;
+    /// The text to the letter, with the quantile it found best for whatever method.
     static GradientOptions thesis(GradientMethod method = GradientMethod::lbp);
     void describe(ParameterVisitor& visitor);
 };

@@ -85,7 +85,7 @@ std::vector<cv::Rect2d> GradientSegmenter::segment(const MotionRoi& roi, Detecti
     }
     const cv::Mat quantile_mask = quantileMask(roi);
     if (trace != nullptr) trace->add("quantile area", quantile_mask);
-    const auto threshold = quantileThreshold(gradient, quantile_mask, options_.quantile);
+    const auto threshold = quantileThreshold(gradient, quantile_mask, options_.effectiveQuantile());
     if (!threshold) return {};
     cv::Mat binary;
     binarise(gradient, roi.inside, *threshold, binary);
@@ -119,7 +119,7 @@ std::unique_ptr<const PreparedArea> GradientSegmenter::prepare(const MotionRoi& 
 std::vector<Detection> GradientSegmenter::decide(const MotionRoi& roi, const PreparedArea* prepared) const {
     const auto* gradient = dynamic_cast<const ClosedGradient*>(prepared);
     if (gradient == nullptr) return detect(roi);
-    const auto threshold = quantileThreshold(gradient->ranked, gradient->counted, options_.quantile);
+    const auto threshold = quantileThreshold(gradient->ranked, gradient->counted, options_.effectiveQuantile());
     if (!threshold) return detectionsOf(roi, {});
     cv::Mat labels;
     const std::vector<Region> regions =

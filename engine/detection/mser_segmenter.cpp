@@ -18,6 +18,12 @@ bool spans(const cv::Rect& box, cv::Size area) {
 
 }  // namespace
 
+MserOptions MserOptions::thesis() {
+    MserOptions options;
+    options.keep_spanning = true;
+    return options;
+}
+
 void MserOptions::describe(ParameterVisitor& visitor) {
     visitor.integer(
         "mser.delta", delta, 1, 127,
@@ -30,6 +36,9 @@ void MserOptions::describe(ParameterVisitor& visitor) {
     visitor.real("mser.max_area", max_area_m2, 0.01, 100000, {"m²", "Larger regions are dropped.", "Teutsch §7.4.1"});
     visitor.real("mser.max_eccentricity", max_eccentricity, 0, 1,
                  {"", "Longer regions are dropped: 0 is a disc, 1 a line.", "Teutsch §7.4.1"});
+    visitor.flag("mser.keep_spanning", keep_spanning,
+                 {"", "Regions that reach from edge to edge of the search area, ground as a rule, are kept, too.",
+                  "Teutsch §7.4.1"});
 }
 
 MserSegmenter::MserSegmenter(const MserOptions& options, const GradientOptions& components, const SceneScale& scale,
@@ -73,7 +82,8 @@ cv::Mat MserSegmenter::objectPixels(const MotionRoi& roi, DetectionTrace* trace)
     cv::Mat all = kept.clone();
     for (std::size_t i = 0; i < regions.size(); ++i) {
         const auto& region = regions[i];
-        const bool fits = !spans(boxes[i], kept.size()) && eccentricityOf(region) <= options_.max_eccentricity;
+        const bool fits = (options_.keep_spanning || !spans(boxes[i], kept.size())) &&
+                          eccentricityOf(region) <= options_.max_eccentricity;
         for (const cv::Point& p : region) {
             all.at<uchar>(p) = 255;
             if (fits) kept.at<uchar>(p) = 255;

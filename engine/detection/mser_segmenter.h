@@ -13,7 +13,10 @@ struct MserOptions {
     double min_area_m2 = 0.6;    ///< size limits of a region
     double max_area_m2 = 40;
     double max_eccentricity = 0.98;
+    bool keep_spanning = false;  ///< regions from edge to edge of the search area are kept, too
 
+    /// As published: only size and shape decide.
+    static MserOptions thesis();
     void describe(ParameterVisitor& visitor);
 };
 

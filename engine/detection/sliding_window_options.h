@@ -16,12 +16,15 @@ enum class WindowRescaling {
 
 /// Parameters of the local sliding window (Teutsch §5.4.3; optima of §7.3.3).
 struct SlidingWindowOptions {
+    static constexpr double kNoRejection = 1000;  ///< as rejection_margin: every window is looked at to the end
+
     std::string model;       ///< path of a model file; empty: the one that is shipped
     std::string descriptor;  ///< that the model must have been trained for; empty: any
     WindowRescaling rescaling = WindowRescaling::length_3;
     double car_length_m = 4.6;  ///< of a vehicle that fills the window as a median training sample does, at scale 1
     double car_width_m = 2.0;
     double smallest_scale = 0.85;  ///< of the scales, which are spread geometrically between the two
+    double middle_scale = 0;       ///< one of the scales is exactly this; 0: none is bound
     double largest_scale = 1.5;
     double decision_threshold = 0;   ///< T_d; 0 is the classifier's own border
     double overlap_threshold = 0.1;  ///< T_dov of the second non-maximum suppression
@@ -33,7 +36,8 @@ struct SlidingWindowOptions {
 
     /// The scale factors of the rescaling in use, ascending.
     std::vector<double> scales() const;
-    /// The text to the letter: no support, no other detection.
+    /// The text to the letter: the original size and lengths from small cars to lorries of 17 m, no early rejection, no
+    /// support, no other detection.
     static SlidingWindowOptions thesis();
     void describe(ParameterVisitor& visitor);
 };

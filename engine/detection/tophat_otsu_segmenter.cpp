@@ -14,6 +14,13 @@ cv::Mat elementOf(const SceneScale& scale, double metres) {
 
 }  // namespace
 
+TophatOtsuOptions TophatOtsuOptions::thesis() {
+    TophatOtsuOptions options;
+    options.min_contrast = 0;
+    options.joining_m = 0;
+    return options;
+}
+
 void TophatOtsuOptions::describe(ParameterVisitor& visitor) {
     visitor.real("tophat_otsu.element", element_m, 0.1, 100,
                  {"m",
@@ -26,7 +33,7 @@ void TophatOtsuOptions::describe(ParameterVisitor& visitor) {
     visitor.real("tophat_otsu.min_contrast", min_contrast, 0, 255,
                  {"grey", "Otsu's threshold is raised to at least this.", ""});
     visitor.real("tophat_otsu.joining", joining_m, 0, 10,
-                 {"m", "Diameter of the closing that joins what was found; at least 3 px.", ""});
+                 {"m", "Diameter of the closing that joins what was found; at least 3 px. 0: none.", ""});
 }
 
 TophatOtsuSegmenter::TophatOtsuSegmenter(const TophatOtsuOptions& options, const GradientOptions& components,
@@ -35,7 +42,7 @@ TophatOtsuSegmenter::TophatOtsuSegmenter(const TophatOtsuOptions& options, const
       min_contrast_(options.min_contrast),
       element_(elementOf(scale, options.element_m)),
       smoothing_(elementOf(scale, options.smoothing_m)),
-      joining_(elementOf(scale, options.joining_m)) {}
+      joining_(options.joining_m > 0 ? elementOf(scale, options.joining_m) : cv::Mat()) {}
 
 cv::Mat TophatOtsuSegmenter::objectPixels(const MotionRoi& roi, DetectionTrace* trace) const {
     cv::Mat smooth;
@@ -49,7 +56,11 @@ cv::Mat TophatOtsuSegmenter::objectPixels(const MotionRoi& roi, DetectionTrace* 
     const double threshold = std::max(otsuWithin(tophat, roi.inside), min_contrast_);
     const cv::Mat binary = (tophat > threshold) & roi.inside;
     cv::Mat closed;
-    cv::morphologyEx(binary, closed, cv::MORPH_CLOSE, joining_);
+    if (joining_.empty()) {
+        closed = binary.clone();
+    } else {
+        cv::morphologyEx(binary, closed, cv::MORPH_CLOSE, joining_);
+    }
     addLayer(trace, "smoothed", smooth);
     addLayer(trace, "white tophat", white);
     addLayer(trace, "black tophat", black);

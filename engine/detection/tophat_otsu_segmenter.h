@@ -10,8 +10,10 @@ struct TophatOtsuOptions {
     double element_m = 3.0;    ///< diameter of the tophat's structuring element: wider than a vehicle
     double smoothing_m = 0.4;  ///< diameter of closing and opening before it: as wide as road markings
     double min_contrast = 8;   ///< grey values; the threshold is at least that
-    double joining_m = 0.5;    ///< diameter of the closing of the binary image
+    double joining_m = 0.5;    ///< diameter of the closing of the binary image; 0: none
 
+    /// As published: Otsu's threshold as it is, and nothing is joined.
+    static TophatOtsuOptions thesis();
     void describe(ParameterVisitor& visitor);
 };
 
@@ -29,7 +31,7 @@ class TophatOtsuSegmenter : public MaskSegmenter {
     double min_contrast_;
     cv::Mat element_;
     cv::Mat smoothing_;
-    cv::Mat joining_;
+    cv::Mat joining_;  ///< empty: no closing
 };
 
 }  // namespace eyrie

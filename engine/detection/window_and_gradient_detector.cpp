@@ -15,6 +15,12 @@ void WindowAndGradientOptions::describe(ParameterVisitor& visitor) {
                   ""});
     visitor.real("window_and_gradient.most_covered", most_covered, 0, 1,
                  {"", "Segments with more than this share inside such a window belong to its vehicle.", ""});
+    visitor.real(
+        "window_and_gradient.rejection_margin", rejection_margin, -100, 1000,
+        {"",
+         "Windows are given up as soon as their sum lies this far below that of any training vehicle. Smaller: "
+         "faster, may lose unusual vehicles. 0.5 lost none of 11,500 sure windows of six clips.",
+         ""});
 }
 
 namespace {

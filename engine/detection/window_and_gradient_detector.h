@@ -11,6 +11,9 @@ namespace eyrie {
 struct WindowAndGradientOptions {
     double sure_decision = 6;    ///< windows from this decision value on stand by themselves
     double most_covered = 0.25;  ///< share of a segment that may lie in a sure window
+    /// Of the early rejection (see WindowScanner), in place of the sliding window's own: only sure windows are asked
+    /// for.
+    double rejection_margin = 0.5;
 
     void describe(ParameterVisitor& visitor);
 };

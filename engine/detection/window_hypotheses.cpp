@@ -75,7 +75,8 @@ std::vector<WindowHypothesis> scanAtScale(const WindowScanner& scanner, const cv
     const bool smaller = size.width <= upright.cols && size.height <= upright.rows;
     cv::Mat rescaled;
     cv::resize(upright, rescaled, size, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
-    scanner.scan(rescaled, options.rejection_margin, decision);
+    const bool all = options.rejection_margin >= SlidingWindowOptions::kNoRejection;
+    scanner.scan(rescaled, all ? WindowScanner::kNothingRejected : options.rejection_margin, decision);
     const double x_factor = static_cast<double>(upright.cols) / size.width;
     const double y_factor = static_cast<double>(upright.rows) / size.height;
     std::vector<WindowHypothesis> found;

@@ -14,13 +14,6 @@ namespace {
 
 constexpr double kBlock_s = 1;  ///< false alarms are drawn by stretches of this length
 
-bool allUpright(const BoxesByFrame& boxes) {
-    for (const auto& entry : boxes)
-        for (const BoxRecord& record : entry.second)
-            if (std::abs(std::sin(2 * record.box.heading)) > 1e-6) return false;
-    return true;
-}
-
 std::string rangeText(FrameIndex first, FrameIndex last) {
     return std::to_string(first) + " to " + std::to_string(last);
 }

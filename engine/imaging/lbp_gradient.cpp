@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -73,13 +72,6 @@ __attribute__((noinline)) void accumulateRow(int count, const float* __restrict 
 }
 
 }  // namespace
-
-bool isContourPattern(unsigned pattern) {
-    const unsigned bits = pattern & 0xFFU;
-    const unsigned next = ((bits >> 1U) | (bits << 7U)) & 0xFFU;
-    const int ones = std::popcount(bits);
-    return std::popcount(bits ^ next) == 2 && ones >= 2 && ones <= kLbpNeighbours - 2;
-}
 
 void lbpGradient(const cv::Mat& gray, const LbpGradientOptions& options, cv::Mat& gradient) {
     CV_Assert(gray.empty() || gray.type() == CV_8UC1);

@@ -14,12 +14,10 @@ struct LbpGradientOptions {
 /// Number of neighbours P on the circle.
 inline constexpr int kLbpNeighbours = 8;
 
-/// The decision d of eq. 5.8–5.11 on a pattern of P = 8 bits: uniform, with 2 to 6 ones (classes 2–6 of fig. 5.11).
-bool isContourPattern(unsigned pattern);
-
 /// Multi-radius LBP gradient (eq. 5.7–5.13): sum over the radii of the neighbours' standard deviation where the pattern
-/// is a contour, 0 elsewhere. `gray` is CV_8UC1; `gradient` becomes CV_32FC1 of the same size. Neighbours lie on a
-/// circle and are interpolated bilinearly; beyond the image its border pixels are repeated.
+/// is a contour (eq. 5.8–5.11: uniform, with 2 to 6 ones, classes 2–6 of fig. 5.11), 0 elsewhere. `gray` is CV_8UC1;
+/// `gradient` becomes CV_32FC1 of the same size. Neighbours lie on a circle and are interpolated bilinearly; beyond the
+/// image its border pixels are repeated.
 void lbpGradient(const cv::Mat& gray, const LbpGradientOptions& options, cv::Mat& gradient);
 
 }  // namespace eyrie

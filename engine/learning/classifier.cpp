@@ -48,6 +48,13 @@ ClassifierKind classifierFromName(const std::string& name) {
     throw Error(ErrorKind::parameter, "unknown classifier \"" + name + "\"; known are " + known);
 }
 
+ClassifierOptions ClassifierOptions::thesis() {
+    ClassifierOptions options;
+    options.feature_share = 1;
+    options.weight_trimming = 0;
+    return options;
+}
+
 void ClassifierOptions::describe(ParameterVisitor& visitor) {
     visitor.integer(
         "training.trees", trees, 1, 10000,
@@ -56,6 +63,11 @@ void ClassifierOptions::describe(ParameterVisitor& visitor) {
                  {"",
                   "Share of the features, drawn anew for each tree, that AdaBoost may choose from. Less trains "
                   "faster and makes the trees more different.",
+                  ""});
+    visitor.real("training.weight_trimming", weight_trimming, 0, 0.5,
+                 {"",
+                  "Samples with the smallest weights choose no splits of AdaBoost's trees as long as they hold no more "
+                  "than this share of the whole weight together. 0: all samples choose.",
                   ""});
     visitor.integer("training.weak_classifiers", weak_classifiers, 1, 10000,
                     {"", "Weak classifiers K of Random Naïve Bayes.", "Teutsch §5.4.3, algorithm 2"});
@@ -102,7 +114,7 @@ std::unique_ptr<Classifier> trainClassifier(ClassifierKind kind, const TrainingS
         case ClassifierKind::svm:
             return trainSvm(set, options.folds, seed, watch);
         case ClassifierKind::adaboost:
-            return trainGentleAdaBoost(set, options.trees, options.feature_share, seed, watch);
+            return trainGentleAdaBoost(set, options.trees, options.feature_share, options.weight_trimming, seed, watch);
         case ClassifierKind::random_forest:
             return trainRandomForest(set, options.trees, seed, watch);
         case ClassifierKind::random_naive_bayes:

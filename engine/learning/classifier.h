@@ -46,15 +46,19 @@ class Classifier {
     virtual void write(ByteWriter& out) const = 0;
 };
 
-/// Settings of all classifiers; the defaults are the thesis'.
+/// Settings of all classifiers.
 struct ClassifierOptions {
-    int trees = 1000;             ///< AdaBoost, Random Forest
-    double feature_share = 0.25;  ///< AdaBoost: share of the features that each tree may choose from
-    int weak_classifiers = 1000;  ///< Random Naïve Bayes: K
-    int weak_features = 10;       ///< F
-    double max_weak_error = 0.6;  ///< T_a
-    int folds = 3;                ///< SVM: cross validation
+    int trees = 1000;               ///< AdaBoost, Random Forest
+    double feature_share = 0.25;    ///< AdaBoost: share of the features that each tree may choose from
+    double weight_trimming = 0.01;  ///< AdaBoost: samples that hold together no more than this share of the weight
+                                    ///< choose no splits; 0: all choose
+    int weak_classifiers = 1000;    ///< Random Naïve Bayes: K
+    int weak_features = 10;         ///< F
+    double max_weak_error = 0.6;    ///< T_a
+    int folds = 3;                  ///< SVM: cross validation
 
+    /// As published (§7.3.3): AdaBoost sees all features and all samples for every tree.
+    static ClassifierOptions thesis();
     /// Group "training".
     void describe(ParameterVisitor& visitor);
 };

@@ -40,8 +40,10 @@ class GentleAdaBoost : public Classifier {
     std::vector<float> least_sums_;
 };
 
-/// Each tree chooses its splits among a random share of the features. Null when stopped.
+/// Each tree chooses its splits among a random share of the features, by all samples but those of the smallest weights
+/// that hold no more than `weight_trimming` of the whole weight. Null when stopped.
 std::unique_ptr<GentleAdaBoost> trainGentleAdaBoost(const TrainingSet& set, int trees, double feature_share,
-                                                    std::uint64_t seed, const TrainingWatch& watch);
+                                                    double weight_trimming, std::uint64_t seed,
+                                                    const TrainingWatch& watch);
 
 }  // namespace eyrie

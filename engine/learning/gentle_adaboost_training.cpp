@@ -11,10 +11,6 @@
 namespace eyrie {
 namespace {
 
-/// Samples whose weights add up to less than this share take no part in choosing splits (weight trimming); they still
-/// get new weights.
-constexpr double kTrimmedShare = 0.01;
-
 /// Share of the accepted vehicles, those with the lowest sums, that have no say in what is rejected early: a few odd
 /// ones would keep every window alive.
 constexpr double kUnusualShare = 0.01;
@@ -59,8 +55,11 @@ void improve(Split& best, int feature, const BinSums& sums) {
 
 class Boosting {
  public:
-    Boosting(const TrainingSet& set, double feature_share, std::uint64_t seed)
+    /// Samples whose weights add up to no more than the share `weight_trimming` take no part in choosing splits; they
+    /// still get new weights.
+    Boosting(const TrainingSet& set, double feature_share, double weight_trimming, std::uint64_t seed)
         : set_(set),
+          weight_trimming_(weight_trimming),
           bins_(set.features),
           random_(seed),
           chosen_(static_cast<std::size_t>(std::max(1.0, std::round(feature_share * set.dimension())))),
@@ -109,7 +108,7 @@ class Boosting {
         double limit = 0;
         for (const double weight : sorted) {
             dropped += weight;
-            if (dropped > kTrimmedShare * total) {
+            if (dropped > weight_trimming_ * total) {
                 limit = weight;
                 break;
             }
@@ -189,6 +188,7 @@ class Boosting {
     }
 
     const TrainingSet& set_;
+    double weight_trimming_;
     FeatureBins bins_;
     SeededRandom random_;
     std::size_t chosen_;
@@ -228,8 +228,9 @@ std::vector<float> leastSums(const std::vector<std::vector<int>>& vehicle_sums) 
 }  // namespace
 
 std::unique_ptr<GentleAdaBoost> trainGentleAdaBoost(const TrainingSet& set, int trees, double feature_share,
-                                                    std::uint64_t seed, const TrainingWatch& watch) {
-    Boosting boosting(set, feature_share, seed);
+                                                    double weight_trimming, std::uint64_t seed,
+                                                    const TrainingWatch& watch) {
+    Boosting boosting(set, feature_share, weight_trimming, seed);
     std::vector<BoostedTree> grown;
     std::vector<std::vector<int>> vehicle_sums;  // per tree
     for (int t = 0; t < trees; ++t) {

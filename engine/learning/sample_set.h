@@ -29,10 +29,6 @@ SampleSet readPatchSheets(const std::filesystem::path& folder);
 /// Number of vehicles (or others) in a set.
 int countOf(const SampleSet& samples, bool vehicle);
 
-/// Splits by groups: whole groups, drawn by the seed, go to the second set until it holds about `share` of all samples.
-/// With one group only, everything stays in the first.
-std::pair<SampleSet, SampleSet> splitByGroup(const SampleSet& samples, double share, std::uint64_t seed);
-
 /// The window as seen in a mirror.
 cv::Mat mirroredAcross(const cv::Mat& window);  ///< left and right exchanged
 cv::Mat mirroredAlong(const cv::Mat& window);   ///< front and rear exchanged

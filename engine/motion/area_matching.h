@@ -14,7 +14,7 @@ struct AreaMatch {
 
 /// Looks for the best correlation of `pixels` of the picture `from` in the picture `to` (both CV_8UC1) within `reach`
 /// px around a shift by `around`. To a fraction of a pixel. Nothing where the area lies within `reach` of the border,
-/// or is plain.
+/// is plain, or has more than 65,000 pixels.
 std::optional<AreaMatch> matchArea(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& to,
                                    cv::Point around, int reach);
 

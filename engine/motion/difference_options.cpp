@@ -27,6 +27,12 @@ const std::vector<MotionMethod>& allMotionMethods() {
     return all;
 }
 
+DifferenceOptions DifferenceOptions::thesis() {
+    DifferenceOptions options;
+    options.gap = 3;
+    return options;
+}
+
 void DifferenceOptions::describe(ParameterVisitor& visitor) {
     std::vector<std::string> methods;
     for (const MotionMethod known : allMotionMethods()) methods.emplace_back(nameOf(known));

@@ -38,6 +38,8 @@ struct DifferenceOptions {
     double ghost_deviation = 6;  ///< ghosts have less grey value deviation inside …
     double ghost_gradient = 6;   ///< … and less mean gradient, grey values per px
 
+    /// The gap of fig. 4.2 d.
+    static DifferenceOptions thesis();
     /// Groups "motion" (the method) and "difference".
     void describe(ParameterVisitor& visitor);
 };

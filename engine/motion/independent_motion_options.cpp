@@ -9,6 +9,7 @@ IndependentMotionOptions IndependentMotionOptions::thesis() {
     options.follow_turns = false;
     options.find_slow = false;
     options.sigma_factor = 0;
+    options.max_speed_m_s = 0;
     options.shadow.enabled = false;
     options.silhouettes.enabled = false;
     options.areas.enabled = false;

@@ -7,15 +7,15 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/corner_density.h"
+#include "core/inferred_ids.h"
 #include "core/local_map.h"
 #include "motion/area_matching.h"
 
 namespace eyrie {
 namespace {
 
-constexpr CornerId kFirstInferred = CornerId{1} << 41;  ///< far above any corner's and any silhouette's
-constexpr double kVectorSpacing = 0.6;                  ///< m between inferred vectors …
-constexpr double kVectorSpacingPx = 2;                  ///< … px at least
+constexpr double kVectorSpacing = 0.6;    ///< m between inferred vectors …
+constexpr double kVectorSpacingPx = 2;    ///< … px at least
 constexpr int kAround = 2;                ///< px that an area grows by before it is looked for: outlines tell most
 constexpr int kPictureMargin = 3;         ///< px of the halved picture, where interpolation and blur answer to nothing
 constexpr std::size_t kMostAreas = 1500;  ///< the largest; more are waves or flicker
@@ -181,7 +181,7 @@ MovingAreas::MovingAreas(const MovingAreaOptions& options, const SceneScale& sca
       scale_(scale),
       gap_(std::clamp(cvRound(options.gap_s * scale.frame_rate_hz), 1, 30)),
       frames_(2 * gap_),
-      next_id_(kFirstInferred) {}
+      next_id_(kFirstOfAreas) {}
 
 void MovingAreas::add(const Frame& frame, const Registration& registration) {
     if (!options_.enabled) return;

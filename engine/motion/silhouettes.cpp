@@ -7,11 +7,12 @@
 #include <optional>
 #include <utility>
 
+#include "core/inferred_ids.h"
+
 namespace eyrie {
 namespace {
 
-constexpr CornerId kFirstInferred = CornerId{1} << 40;  ///< far above any corner's
-constexpr double kCell = 0.3;                           ///< m, at least a pixel: how finely a silhouette is looked at
+constexpr double kCell = 0.3;  ///< m, at least a pixel: how finely a silhouette is looked at
 constexpr double kVelocityShare = 0.12;
 constexpr std::size_t kFewestCorners = 3;  ///< from which a silhouette is grown
 constexpr std::size_t kFewestCells = 6;    ///< a silhouette has
@@ -204,7 +205,7 @@ void SilhouetteOptions::describe(ParameterVisitor& visitor) {
 }
 
 Silhouettes::Silhouettes(const SilhouetteOptions& options, const SceneScale& scale)
-    : options_(options), scale_(scale), frames_(options.frames), next_id_(kFirstInferred) {}
+    : options_(options), scale_(scale), frames_(options.frames), next_id_(kFirstOfSilhouettes) {}
 
 void Silhouettes::add(const Frame& frame, const Registration& registration) {
     if (!options_.enabled) return;

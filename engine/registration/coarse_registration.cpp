@@ -141,7 +141,7 @@ std::optional<HomographyFit> CoarseRegistration::find(const CornerSet& corners, 
     }
     if (const auto searched = searchThumbnails(from, to))
         attempt(std::max(2, from.levels() - 2), kWideWindow, *searched);
-    if (!best) {
+    if (!best && feature_search_) {
         // Over relief few corners agree to half a pixel; then what features agree on is the best start there is.
         const auto searched = searchFeatures(from, to, estimator_);
         if (searched && !attempt(1, kWideWindow, searched->matrix) && !best) best = searched;

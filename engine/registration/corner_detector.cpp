@@ -208,7 +208,7 @@ std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
     const int room = options_.max_corners - static_cast<int>(surroundings.living.size());
     if (room <= 0 || size.width <= 2 * limits.margin || size.height <= 2 * limits.margin) return corners;
 
-    const double cap = kOrdinaryShare * options_.max_corners;
+    const double cap = (options_.favour_movers ? kOrdinaryShare : 1.0) * options_.max_corners;
     const int ordinary = static_cast<int>(cap) - static_cast<int>(surroundings.living.size());
     const std::vector<cv::Point2f> moving = options_.favour_movers ? surroundings.movers : std::vector<cv::Point2f>{};
     if (ordinary <= 0 && moving.empty()) return corners;

@@ -40,7 +40,7 @@ class NeighbourhoodMask {
 
  private:
     /// Half a pixel; a whole one where the mask would grow too large for the caches anyway.
-    static double finest(cv::Size image) { return image.area() > 4'000'000 ? 1.0 : 0.5; }
+    static double finest(cv::Size image) { return image.area() > 1'000'000 ? 1.0 : 0.5; }
     int toColumn(float x) const { return std::clamp(static_cast<int>(x * per_px_ + 0.5F), 0, across_ - 1); }
     int toLine(float y) const { return std::clamp(static_cast<int>(y * per_px_ + 0.5F), 0, down_ - 1); }
 

@@ -178,7 +178,7 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, st
     cv::Matx33d start;
     {
         const StageTimer timer(times, Stage::tracking_corners);
-        const auto coarse = CoarseRegistration(*estimator_)
+        const auto coarse = CoarseRegistration(*estimator_, options_.feature_search)
                                 .find(anchor.corners, anchor.pyramid, current_, predictionsFor(anchor), noise);
         if (!coarse) {
             reason = "the picture does not fit to the one before";

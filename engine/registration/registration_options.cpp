@@ -2,6 +2,13 @@
 
 namespace eyrie {
 
+RegistrationOptions RegistrationOptions::thesis() {
+    RegistrationOptions options;
+    options.corners.favour_movers = false;
+    options.feature_search = false;
+    return options;
+}
+
 void RegistrationOptions::describe(ParameterVisitor& visitor) {
     corners.describe(visitor);
     tracking.describe(visitor);
@@ -12,6 +19,9 @@ void RegistrationOptions::describe(ParameterVisitor& visitor) {
          "After a frame that cannot be registered, the last good frame is tried again for this long, so that a "
          "black or blurred frame does not end all corner tracks.",
          ""});
+    visitor.flag(
+        "registration.feature_search", feature_search,
+        {"", "Where no prediction fits, as after a jump, pictures are registered by features that look alike.", ""});
 }
 
 }  // namespace eyrie

@@ -13,7 +13,10 @@ struct RegistrationOptions {
     TrackingOptions tracking;
     HomographyOptions homography;
     int recovery_frames = 8;
+    bool feature_search = true;  ///< where no prediction fits, features that look alike are tried
 
+    /// The text leaves the parameters of registration open (§4.2), but favours no places and uses no descriptors.
+    static RegistrationOptions thesis();
     void describe(ParameterVisitor& visitor);
 };
 

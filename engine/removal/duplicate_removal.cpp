@@ -2,14 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/angle.h"
+#include "removal/best_pairs.h"
 #include "removal/vector_support.h"
 
 namespace eyrie {
 namespace {
 
+/// Whether two boxes lie so far apart that they cannot touch.
+bool farApart(const OrientedBox& a, const OrientedBox& b) {
+    const cv::Point2d apart = a.centre - b.centre;
+    const double reach = (a.length + a.width + b.length + b.width) / 2;
+    return apart.dot(apart) > reach * reach;
+}
+
 double strengthOf(const Detection& a, const Detection& b, const DuplicateRemovalOptions& options) {
+    if (farApart(a.box, b.box)) return 0;
     if (std::abs(turnBetween(a.box.heading, b.box.heading)) > radiansFromDegrees(options.max_turn_deg)) return 0;
     if (options.compare_speed &&
         !similarVelocity(a.velocity, b.velocity, options.velocity_floor_px, options.velocity_share))
@@ -28,6 +38,34 @@ void fuse(Detection& a, Detection& b, const FrameMotion& motion, const Duplicate
     SupportRule rule;
     rule.compare_velocity = options.compare_speed;
     measureSupport(a, motion, rule);
+}
+
+/// Non-maximum suppression: from the highest score down, each box gives up those that overlap it. Boxes of a
+/// classifier and segments do not judge each other.
+void suppress(std::vector<Detection>& detections, const DuplicateRemovalOptions& options, RemovalTrace* trace) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < detections.size(); ++i) {
+        const Detection& detection = detections[i];
+        const bool takes_part = detection.complete || options.strategy == DuplicateStrategy::suppress;
+        if (detection.rejection == Rejection::none && takes_part) order.push_back(i);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return detections[a].score > detections[b].score; });
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        const Detection& surer = detections[order[a]];
+        if (surer.rejection != Rejection::none) continue;
+        for (std::size_t b = a + 1; b < order.size(); ++b) {
+            Detection& weaker = detections[order[b]];
+            if (weaker.rejection != Rejection::none || weaker.complete != surer.complete) continue;
+            const double strength = strengthOf(surer, weaker, options);
+            if (strength < options.threshold) continue;
+            weaker.rejection = Rejection::duplicate;
+            if (trace != nullptr) {
+                trace->duplicates.push_back({static_cast<int>(order[b]), static_cast<int>(order[a]), strength,
+                                             options.threshold, "duplicates.threshold"});
+            }
+        }
+    }
 }
 
 }  // namespace
@@ -82,26 +120,20 @@ std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const
     for (Detection& detection : detections) {
         if (detection.rejection == Rejection::none) measureSupport(detection, motion, rule);
     }
-    for (;;) {
-        double strongest = 0;
-        Detection* first = nullptr;
-        Detection* second = nullptr;
-        for (std::size_t i = 0; i < detections.size(); ++i) {
-            if (detections[i].rejection != Rejection::none) continue;
-            for (std::size_t k = i + 1; k < detections.size(); ++k) {
-                if (detections[k].rejection != Rejection::none) continue;
-                const double strength = strengthOf(detections[i], detections[k], options);
-                if (strength < options.threshold || strength <= strongest) continue;
-                strongest = strength;
-                first = &detections[i];
-                second = &detections[k];
-            }
-        }
-        if (first == nullptr) return detections;
+    suppress(detections, options, trace);
+    const auto worth = [&](std::size_t i, std::size_t k) -> std::optional<double> {
+        const Detection& a = detections[i];
+        const Detection& b = detections[k];
+        if (a.rejection != Rejection::none || b.rejection != Rejection::none) return {};
+        const double strength = strengthOf(a, b, options);
+        return strength < options.threshold ? std::nullopt : std::optional(strength);
+    };
+    BestPairs pairs(detections.size(), worth);
+    while (const auto strongest = pairs.best()) {
+        Detection* first = &detections[strongest->first];
+        Detection* second = &detections[strongest->second];
         if (first->complete != second->complete) {
             (first->complete ? second : first)->rejection = Rejection::duplicate;
-        } else if (first->complete || options.strategy == DuplicateStrategy::suppress) {
-            (first->score >= second->score ? second : first)->rejection = Rejection::duplicate;
         } else if (first->box.area() >= second->box.area()) {
             fuse(*first, *second, motion, options);
         } else {
@@ -109,12 +141,15 @@ std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const
         }
         if (trace != nullptr) {
             const bool first_stays = first->rejection == Rejection::none;
-            const auto a = static_cast<int>(first - detections.data());
-            const auto b = static_cast<int>(second - detections.data());
-            trace->duplicates.push_back(
-                {first_stays ? b : a, first_stays ? a : b, strongest, options.threshold, "duplicates.threshold"});
+            const auto a = static_cast<int>(strongest->first);
+            const auto b = static_cast<int>(strongest->second);
+            trace->duplicates.push_back({first_stays ? b : a, first_stays ? a : b, strongest->worth, options.threshold,
+                                         "duplicates.threshold"});
         }
+        pairs.changed(strongest->first, worth);
+        pairs.changed(strongest->second, worth);
     }
+    return detections;
 }
 
 }  // namespace eyrie

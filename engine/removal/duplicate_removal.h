@@ -40,7 +40,8 @@ struct DuplicateRemovalOptions {
     void describe(ParameterVisitor& visitor);
 };
 
-/// Removes duplicates, after joining the parts of vehicles; the strongest overlap first. Fused or suppressed detections
+/// Removes duplicates, after joining the parts of vehicles: boxes of a classifier from the highest score down, then the
+/// others, the strongest overlap first. Fused or suppressed detections
 /// stay in the list with Rejection::duplicate. Vectors and velocity of every detection that is kept are measured anew
 /// from the motion vectors inside its box. `trace`, if given, is added to.
 std::vector<Detection> removeDuplicates(std::vector<Detection> detections, const FrameMotion& motion,

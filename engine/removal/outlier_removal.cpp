@@ -7,13 +7,30 @@
 #include "removal/vector_support.h"
 
 namespace eyrie {
+namespace {
+
+constexpr double kImageEdge = 0.5 + 1e-3;  // px beyond the middle of the outermost pixels, and rounding
+
+/// By its corners: a share of areas would suffer from rounding.
+bool whollyInImage(const OrientedBox& box, cv::Size image) {
+    const OrientedBox around = box.upright();
+    const double left = around.centre.x - around.length / 2;
+    const double top = around.centre.y - around.width / 2;
+    return left >= -kImageEdge && top >= -kImageEdge && left + around.length <= image.width - 1 + kImageEdge &&
+           top + around.width <= image.height - 1 + kImageEdge;
+}
+
+}  // namespace
+
 std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const OutlierRemovalOptions& options,
-                                           const SceneScale& scale) {
+                                           const SceneScale& scale, cv::Size image) {
     const double shortest = scale.px(options.min_length_m);
     const double longest = scale.px(options.max_length_m);
     const double widest = scale.px(options.max_width_m);
     if (!std::isfinite(box.area()) || box.area() < options.min_area_px)
         return BrokenLimit{"outliers.min_area", box.area(), options.min_area_px, false};
+    if (options.inside_image && image.area() > 0 && !whollyInImage(box, image))
+        return BrokenLimit{"outliers.inside_image", areaInImage(box, image) / box.area(), 1, false};
     if (box.length < shortest) return BrokenLimit{"outliers.min_length", box.length, shortest, false};
     if (options.max_length_m > 0 && box.length > longest)
         return BrokenLimit{"outliers.max_length", box.length, longest, true};
@@ -26,10 +43,12 @@ OutlierRemovalOptions OutlierRemovalOptions::thesis() {
     OutlierRemovalOptions options;
     options.min_vectors = 4;
     options.min_density_share = 0;
+    options.vector_margin_px = 0;
     options.compare_velocity = false;
     options.min_length_m = 0;
     options.max_length_m = 0;
     options.max_width_m = 0;
+    options.inside_image = true;
     return options;
 }
 
@@ -43,12 +62,17 @@ void OutlierRemovalOptions::describe(ParameterVisitor& visitor) {
                   ""});
     visitor.integer("outliers.max_min_vectors", max_min_vectors, 0, 1000,
                     {"vectors", "However dense the corners are, that many vectors are enough.", ""});
+    visitor.real("outliers.vector_margin", vector_margin_px, 0, 10,
+                 {"px", "Motion vectors up to this far outside a box count as inside: corners lie on outlines.",
+                  "Teutsch §5.5.2"});
     visitor.flag("outliers.compare_velocity", compare_velocity,
                  {"", "Only vectors that move like the detection count as inside.", ""});
     visitor.real("outliers.min_area", min_area_px, 0, 10000, {"px²", "Smaller boxes are rejected.", "Teutsch §5.4.1"});
     visitor.real("outliers.min_length", min_length_m, 0, 100, {"m", "Shorter boxes are rejected; 0: no limit.", ""});
     visitor.real("outliers.max_length", max_length_m, 0, 500, {"m", "Longer boxes are rejected; 0: no limit.", ""});
     visitor.real("outliers.max_width", max_width_m, 0, 500, {"m", "Wider boxes are rejected; 0: no limit.", ""});
+    visitor.flag("outliers.inside_image", inside_image,
+                 {"", "Boxes that reach beyond the image are rejected.", "Teutsch §7.4.3"});
 }
 
 int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& options, const SceneScale& scale) {
@@ -64,6 +88,7 @@ std::vector<Detection> removeOutliers(std::vector<Detection> detections, const F
     const double car = carArea(scale);
     const auto needed = static_cast<std::size_t>(vectorsNeeded(motion, options, scale));
     SupportRule rule;
+    rule.margin_px = options.vector_margin_px;
     rule.compare_velocity = options.compare_velocity;
     for (Detection& detection : detections) {
         if (detection.rejection != Rejection::none) continue;
@@ -76,7 +101,7 @@ std::vector<Detection> removeOutliers(std::vector<Detection> detections, const F
         }
         if (detection.vectors.size() < needed) {
             detection.rejection = Rejection::outlier;
-        } else if (brokenSizeLimit(detection.box, options, scale)) {
+        } else if (brokenSizeLimit(detection.box, options, scale, motion.image_size)) {
             detection.rejection = Rejection::size;
         }
     }

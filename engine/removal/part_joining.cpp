@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "core/angle.h"
+#include "core/inferred_ids.h"
+#include "removal/best_pairs.h"
 #include "removal/vector_support.h"
 
 namespace eyrie {
@@ -26,7 +28,7 @@ struct Limits {
 };
 
 /// Whether the silhouette of one vehicle reaches from the middle of the one to the middle of the other: vectors that
-/// move like them, some of them inferred, without a larger gap.
+/// move like them, some of them on its outline, without a larger gap.
 bool onOneSilhouette(const Detection& a, const Detection& b, const FrameMotion& motion, double largest_gap) {
     const cv::Point2d way = b.box.centre - a.box.centre;
     const double length = std::hypot(way.x, way.y);
@@ -34,16 +36,16 @@ bool onOneSilhouette(const Detection& a, const Detection& b, const FrameMotion& 
     const cv::Point2d along = way / length;
     const double half_width = std::min(a.box.width, b.box.width) / 2 + kOutlineMargin;
     std::vector<double> places{0, length};
-    bool inferred = false;
+    bool on_outline = false;
     for (const MotionVector& vector : motion.motion_vectors) {
         const cv::Point2d from = cv::Point2d(vector.position) - a.box.centre;
         const double place = from.dot(along);
         if (place < 0 || place > length || std::abs(from.cross(along)) > half_width) continue;
         if (!similarVelocity(vector.velocity, a.velocity, kVectorFloor, kVectorShare)) continue;
-        inferred = inferred || vector.isInferred();
+        on_outline = on_outline || isOfSilhouette(vector);
         places.push_back(place);
     }
-    if (!inferred) return false;
+    if (!on_outline) return false;
     std::sort(places.begin(), places.end());
     return std::adjacent_find(places.begin(), places.end(), [&](double p, double q) { return q - p > largest_gap; }) ==
            places.end();
@@ -118,29 +120,20 @@ std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameM
                         scale.px(options.vehicle_length_m),    std::max(4.0, scale.px(options.vehicle_width_m)),
                         scale.px(options.silhouette_length_m), gap > 0 ? std::max(kSmallestGap, gap) : 0};
     const double farthest = std::max({limits.vehicle_length, limits.car_length, limits.silhouette_length});
-    for (;;) {
-        double closest = farthest;
-        Detection* first = nullptr;
-        Detection* second = nullptr;
-        std::optional<Joined> joined;
-        for (std::size_t i = 0; i < detections.size(); ++i) {
-            Detection& a = detections[i];
-            if (a.rejection != Rejection::none) continue;
-            for (std::size_t k = i + 1; k < detections.size(); ++k) {
-                Detection& b = detections[k];
-                if (b.rejection != Rejection::none) continue;
-                const cv::Point2d apart = a.box.centre - b.box.centre;
-                const double distance = std::hypot(apart.x, apart.y);
-                if (!(distance < closest)) continue;
-                const auto both = unionOfParts(a, b, motion, options, limits);
-                if (!both) continue;
-                closest = distance;
-                first = &a;
-                second = &b;
-                joined = both;
-            }
-        }
-        if (first == nullptr) return detections;
+    const auto worth = [&](std::size_t i, std::size_t k) -> std::optional<double> {
+        const Detection& a = detections[i];
+        const Detection& b = detections[k];
+        if (a.rejection != Rejection::none || b.rejection != Rejection::none) return {};
+        const cv::Point2d apart = a.box.centre - b.box.centre;
+        const double distance = std::sqrt(apart.dot(apart));
+        if (!(distance < farthest) || !unionOfParts(a, b, motion, options, limits)) return {};
+        return -distance;
+    };
+    BestPairs pairs(detections.size(), worth);
+    while (const auto best = pairs.best()) {
+        Detection* first = &detections[best->first];
+        Detection* second = &detections[best->second];
+        const auto joined = unionOfParts(*first, *second, motion, options, limits);
         if (trace != nullptr) {
             trace->duplicates.push_back({static_cast<int>(second - detections.data()),
                                          static_cast<int>(first - detections.data()), joined->box.length, joined->limit,
@@ -154,7 +147,10 @@ std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameM
         first->score = std::max(first->score, second->score);
         first->complete = first->complete && second->complete;
         second->rejection = Rejection::duplicate;
+        pairs.changed(best->first, worth);
+        pairs.changed(best->second, worth);
     }
+    return detections;
 }
 
 }  // namespace eyrie

@@ -25,7 +25,7 @@ struct RemovalTrace {
 /// A size limit that a box breaks.
 struct BrokenLimit {
     std::string parameter;
-    double value = 0;  ///< px or px²
+    double value = 0;  ///< px, px², or the share of the box in the image
     double limit = 0;  ///< the same unit
     bool at_most = false;
 };

@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace eyrie {
+namespace {
+
+/// px; a box drawn around vectors ends exactly on the outermost ones, which rotations must not push out.
+constexpr double kRounding = 1e-3;
+
+}  // namespace
 
 bool similarVelocity(cv::Point2d a, cv::Point2d b, double floor, double share) {
     const double difference = std::hypot(a.x - b.x, a.y - b.y);
@@ -21,7 +27,7 @@ void measureSupport(Detection& detection, const FrameMotion& motion, const Suppo
         const cv::Point2d position = vector.position;
         if (std::abs(position.x - detection.box.centre.x) > reach) continue;
         if (std::abs(position.y - detection.box.centre.y) > reach) continue;
-        if (!detection.box.contains(position, rule.margin_px)) continue;
+        if (!detection.box.contains(position, std::max(rule.margin_px, kRounding))) continue;
         const cv::Point2d velocity = vector.velocity;
         if (rule.compare_velocity &&
             std::hypot(velocity.x - detection.velocity.x, velocity.y - detection.velocity.y) > allowed)

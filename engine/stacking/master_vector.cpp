@@ -38,12 +38,6 @@ std::vector<CornerId> MasterVector::related() const {
     return ids;
 }
 
-bool MasterVector::isRelated(CornerId id) const {
-    const auto at = std::lower_bound(related_.begin(), related_.end(), id,
-                                     [](const Related& r, CornerId wanted) { return r.id < wanted; });
-    return at != related_.end() && at->id == id;
-}
-
 void MasterVector::relate(const MotionVector& vector, double direction) {
     const Related related{vector.id, turned(pose_.position - cv::Point2d(vector.position), -direction),
                           turnBetween(direction, pose_.heading)};

@@ -26,7 +26,6 @@ class MasterVector {
     const MasterPose& pose() const { return pose_; }
     /// Ids of the related vectors, ascending.
     std::vector<CornerId> related() const;
-    bool isRelated(CornerId id) const;
 
     /// Relates a vector at its present place; `direction` is its heading after smoothing by its cluster.
     void relate(const MotionVector& vector, double direction);

@@ -170,25 +170,25 @@ void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& sta
     const auto all = [&](const StateVisitor& visitor) {
         for (const TrackFrame& state : states) visitor(state.frame, state.state);
     };
-    replaceTracks(run_id, all, dropped);
+    replaceTracks(run_id, all, [&](const DropVisitor& visitor) {
+        for (const auto& [frame, state] : dropped) visitor(frame, state);
+    });
 }
 
 void RunStore::replaceTracks(int run_id, const std::function<void(const StateVisitor&)>& states,
-                             const std::vector<std::pair<FrameIndex, DroppedState>>& dropped) {
+                             const std::function<void(const DropVisitor&)>& dropped) {
     guarded(project_.path(), "replacing the tracks" + ofRun(run_id), [&] {
         SQLite::Database& database = project_.database();
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-        for (const char* command : {"DELETE FROM track_state WHERE run_id = ?", "DELETE FROM track WHERE run_id = ?",
-                                    "DELETE FROM dropped_state WHERE run_id = ?"}) {
-            SQLite::Statement statement(database, command);
+        const auto removeFrom = [&](const std::string& table) {
+            SQLite::Statement statement(database, "DELETE FROM " + table + " WHERE run_id = ?");
             RowWriter(statement).integer(run_id).run();
-        }
-        TrackRows rows(database);
-        states([&](FrameIndex frame, const TrackState& state) { rows.insert(run_id, frame, state); });
+        };
+        removeFrom("dropped_state");
         SQLite::Statement left_out(database,
                                    "INSERT OR REPLACE INTO dropped_state (run_id, frame, track_id, x, y, length, "
                                    "width, heading_rad, reason, beside) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-        for (const auto& [frame, state] : dropped) {
+        dropped([&](FrameIndex frame, const DroppedState& state) {
             RowWriter(left_out)
                 .integer(run_id)
                 .integer(frame)
@@ -197,7 +197,11 @@ void RunStore::replaceTracks(int run_id, const std::function<void(const StateVis
                 .word(stored::kTrackDrops, state.why)
                 .integer(state.beside)
                 .run();
-        }
+        });
+        removeFrom("track_state");
+        removeFrom("track");
+        TrackRows rows(database);
+        states([&](FrameIndex frame, const TrackState& state) { rows.insert(run_id, frame, state); });
         SQLite::Statement counts(database,
                                  "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE "
                                  "track_state.run_id = frame.run_id AND track_state.frame = frame.frame AND "

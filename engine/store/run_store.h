@@ -99,6 +99,8 @@ class RunStore {
     std::vector<Homography> homographies(int run_id, FrameIndex from = 0) const;
     /// The same of all frames, with how each registration ended; for labelling over a moving camera.
     std::vector<Registration> registrations(int run_id) const;
+    /// The same, one by one.
+    void visitRegistrations(int run_id, const std::function<void(const Registration&)>& visitor) const;
     /// All a finished run knows of a frame; nothing when the run has no such frame.
     std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
     /// Its motion vectors alone, by ascending id; none when the run has no such frame.
@@ -119,10 +121,12 @@ class RunStore {
     /// tracks of a run are finished).
     void replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
                             const std::vector<std::pair<FrameIndex, DroppedState>>& dropped = {});
-    /// The same with states one by one: `states` hands them to the visitor it is given, ordered by frame.
+    /// The same with states one by one: `states` hands them to the visitor it is given, ordered by frame, and `dropped`
+    /// what was left out; only that one may still read the present states of the run meanwhile.
     using StateVisitor = std::function<void(FrameIndex, const TrackState&)>;
+    using DropVisitor = std::function<void(FrameIndex, const DroppedState&)>;
     void replaceTracks(int run_id, const std::function<void(const StateVisitor&)>& states,
-                       const std::vector<std::pair<FrameIndex, DroppedState>>& dropped);
+                       const std::function<void(const DropVisitor&)>& dropped);
     void rename(int run_id, const std::string& name);
     /// Takes a run out of all lists; it can be brought back until it is purged. Throws Error(project) naming the
     /// program that writes the run at this moment.

@@ -56,13 +56,4 @@ StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id) {
     return stored;
 }
 
-bool allUpright(const BoxesByFrame& boxes) {
-    for (const auto& entry : boxes) {
-        for (const BoxRecord& record : entry.second) {
-            if (std::abs(std::sin(2 * record.box.heading)) > 1e-6) return false;
-        }
-    }
-    return true;
-}
-
 }  // namespace eyrie

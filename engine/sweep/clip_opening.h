@@ -21,7 +21,4 @@ struct StoredRun {
 /// Throws Error(parameter) when the project has no such run, Error(project) when it has none.
 StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id = {});
 
-/// Whether all boxes lie along the image's axes, so that there may be no headings in them.
-bool allUpright(const BoxesByFrame& boxes);
-
 }  // namespace eyrie

@@ -27,8 +27,8 @@ std::optional<FlowComparison> comparedWithFlow(const TrackPath& path, const Grou
         if (frames < (i == 0 ? 1 : kShortestWindow)) continue;
         const auto there = ground.carried({begin.box, {0, 0}}, first, last, true);
         if (!there) continue;
-        const cv::Point2d flow = there->box.centre - begin.box.centre;
-        const cv::Point2d own = end.box.centre - there->box.centre;
+        const cv::Point2d flow = there->box.centre - cv::Point2d(begin.box.centre);
+        const cv::Point2d own = cv::Point2d(end.box.centre) - there->box.centre;
         const double flow_length = std::hypot(flow.x, flow.y);
         const double own_length = std::hypot(own.x, own.y);
         ratios.push_back(own_length / (flow_length + kFlowNoise * frames));

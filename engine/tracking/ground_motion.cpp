@@ -1,5 +1,6 @@
 #include "tracking/ground_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <opencv2/core.hpp>
@@ -42,25 +43,36 @@ double localScale(const cv::Matx33d& map, cv::Point2d point) {
 }
 
 GroundMotion::GroundMotion(const std::vector<FrameMotionSummary>& motion) {
-    for (const FrameMotionSummary& summary : motion) {
-        Step step;
-        step.image_size = summary.image_size;
-        step.frozen = summary.registration.state == RegistrationState::frozen;
-        step.reliable = summary.registration.reliable();
-        step.forward = summary.registration.current_from_previous.matrix;
-        bool invertible = false;
-        if (isFinite(step.forward)) step.backward = step.forward.inv(cv::DECOMP_LU, &invertible);
-        step.usable = invertible && isFinite(step.backward) && summary.registration.state != RegistrationState::first;
-        steps_[summary.frame] = step;
-    }
+    for (const FrameMotionSummary& summary : motion) add(summary);
+}
+
+void GroundMotion::add(const FrameMotionSummary& summary) {
+    Step step;
+    step.frame = summary.frame;
+    step.image_size = summary.image_size;
+    step.frozen = summary.registration.state == RegistrationState::frozen;
+    step.reliable = summary.registration.reliable();
+    step.forward = summary.registration.current_from_previous.matrix;
+    bool invertible = false;
+    if (isFinite(step.forward)) step.backward = step.forward.inv(cv::DECOMP_LU, &invertible);
+    step.usable = invertible && isFinite(step.backward) && summary.registration.state != RegistrationState::first;
+    steps_.push_back(step);
+}
+
+const GroundMotion::Step* GroundMotion::stepInto(FrameIndex frame) const {
+    if (steps_.empty() || frame < steps_.front().frame || frame > steps_.back().frame) return nullptr;
+    // Mostly no frame is missing.
+    const auto at = static_cast<std::size_t>(frame - steps_.front().frame);
+    if (at < steps_.size() && steps_[at].frame == frame) return &steps_[at];
+    const auto found = std::lower_bound(steps_.begin(), steps_.end(), frame,
+                                        [](const Step& step, FrameIndex wanted) { return step.frame < wanted; });
+    return found != steps_.end() && found->frame == frame ? &*found : nullptr;
 }
 
 const cv::Matx33d* GroundMotion::step(FrameIndex from, FrameIndex to, bool guesses) const {
-    const auto found = steps_.find(std::max(from, to));
-    if (std::abs(from - to) != 1 || found == steps_.end()) return nullptr;
-    const Step& step = found->second;
-    if (!step.usable || !(step.reliable || guesses)) return nullptr;
-    return to > from ? &step.forward : &step.backward;
+    const Step* step = stepInto(std::max(from, to));
+    if (std::abs(from - to) != 1 || step == nullptr || !step->usable || !(step->reliable || guesses)) return nullptr;
+    return to > from ? &step->forward : &step->backward;
 }
 
 std::optional<MovingState> GroundMotion::carried(MovingState state, FrameIndex from, FrameIndex to,
@@ -69,7 +81,7 @@ std::optional<MovingState> GroundMotion::carried(MovingState state, FrameIndex f
     for (FrameIndex frame = from; frame != to; frame += direction) {
         const cv::Matx33d* map = step(frame, frame + direction, guesses);
         if (!map) return std::nullopt;
-        const bool frozen = steps_.at(std::max(frame, frame + direction)).frozen;
+        const bool frozen = stepInto(std::max(frame, frame + direction))->frozen;
         // Forward: move, then map. Backward undoes that in the opposite order.
         if (direction > 0 && !frozen) state.box.centre += state.velocity;
         state = mapped(state, *map);
@@ -80,8 +92,8 @@ std::optional<MovingState> GroundMotion::carried(MovingState state, FrameIndex f
 }
 
 cv::Size GroundMotion::imageSize(FrameIndex frame) const {
-    const auto found = steps_.find(frame);
-    return found == steps_.end() ? cv::Size() : found->second.image_size;
+    const Step* step = stepInto(frame);
+    return step == nullptr ? cv::Size() : step->image_size;
 }
 
 bool GroundMotion::cutByBorder(const OrientedBox& box, FrameIndex frame) const {

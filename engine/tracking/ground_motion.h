@@ -1,8 +1,8 @@
 #pragma once
 
+#include <deque>
 #include <opencv2/core/types.hpp>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "core/oriented_box.h"
@@ -16,10 +16,17 @@ struct MovingState {
     cv::Point2d velocity{0, 0};  ///< px/frame
 };
 
+inline MovingState movingOf(const PathState& state) {
+    return {state.box, state.velocity};
+}
+
 /// The camera's motion over a whole run: carries points and boxes from frame to frame over the ground.
 class GroundMotion {
  public:
+    GroundMotion() = default;
     explicit GroundMotion(const std::vector<FrameMotionSummary>& motion);
+    /// Adds a frame; they come in ascending order.
+    void add(const FrameMotionSummary& summary);
 
     /// The map into an adjacent frame, null when the frame is unknown or its registration degenerate or, unless
     /// `guesses` are allowed, not reliable.
@@ -34,6 +41,7 @@ class GroundMotion {
 
  private:
     struct Step {
+        FrameIndex frame = 0;
         cv::Matx33d forward;   ///< from the frame before
         cv::Matx33d backward;  ///< to the frame before
         bool usable = false;
@@ -41,7 +49,8 @@ class GroundMotion {
         bool frozen = false;
         cv::Size image_size;
     };
-    std::unordered_map<FrameIndex, Step> steps_;
+    const Step* stepInto(FrameIndex frame) const;
+    std::deque<Step> steps_;  ///< ascending frames; an hour of them, so without the slack of a vector
 };
 
 /// Enlargement of the ground at a point by a map.

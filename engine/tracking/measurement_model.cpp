@@ -69,7 +69,10 @@ MeasurementModel::MeasurementModel(const TrackerOptions& options, const SceneSca
       velocity_(scale.pxPerFrame(options.velocity_noise)),
       velocity_floor_(options.velocity_noise_px),
       size_gate_(options.size_gate),
-      slow_speed_sigmas_(options.slow_speed_sigmas) {
+      slow_speed_sigmas_(options.slow_speed_sigmas),
+      complete_at_border_(options.complete_at_border),
+      adapt_size_(options.adapt_size),
+      measure_velocity_(options.measure_velocity) {
     process_.acceleration = std::max(0.004, scale.pxPerFrame(options.acceleration) / scale.frame_rate_hz);
     process_.position = 0.05;
     process_.size = std::max(0.01, scale.px(options.size_rate));
@@ -99,7 +102,9 @@ BoxMeasurement MeasurementModel::first(const Detection& detection) const {
     BoxMeasurement m;
     m.box = detection.box;
     m.along = m.across = position_;
-    if (detection.complete) {
+    if (!adapt_size_) {
+        m.length = m.width = size_;
+    } else if (detection.complete) {
         const double end = completeDeviation(detection.box.length);
         m.setEnds(end, end, size_ / 2, size_ / 2);
     } else {
@@ -112,8 +117,8 @@ BoxMeasurement MeasurementModel::first(const Detection& detection) const {
     }
     m.heading = headingDeviation(std::hypot(detection.velocity.x, detection.velocity.y));
     if (velocityKnown(detection)) {
-        m.velocity = detection.velocity;
-        m.speed = velocityDeviation();
+        m.velocity = detection.velocity;  // where to begin, even if it is not measured
+        if (measure_velocity_) m.speed = velocityDeviation();
     }
     return m;
 }
@@ -127,10 +132,13 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, const 
     const double speed = std::hypot(velocity.x, velocity.y);
     const bool heading_known = !velocity_known || speed >= slow_speed_;
     const OrientedBox seen = heading_known ? box : inHeading(box, predicted.heading);
-    const CompletedBox completed = completeAtBorder(seen, predicted.length, predicted.width, image_, kBorderMargin);
+    CompletedBox completed;
+    completed.box = seen;
+    if (complete_at_border_)
+        completed = completeAtBorder(seen, predicted.length, predicted.width, image_, kBorderMargin);
     m.box = completed.box;
     if (heading_known) m.heading = velocity_known ? headingDeviation(speed) : 2 * heading_;
-    if (velocity_known) {
+    if (velocity_known && measure_velocity_) {
         m.velocity = velocity;
         m.speed = velocityDeviation();
     }
@@ -147,18 +155,20 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, const 
     const bool size_measured = !(size_known && result.size_differs);
     // What lies outside the image cannot be measured.
     // Parts of one vehicle miss an end; a box that may hold several vehicles may as well be merged or fall apart.
-    if (size_measured && !at_border && detection.complete) {
+    if (adapt_size_ && size_measured && !at_border && detection.complete) {
         const double end = completeDeviation(m.box.length);
         m.setEnds(end, end, size_ / 2, size_ / 2);
         result.by_ends = true;
-    } else if (size_measured && !at_border && one_vehicle_.holds(predicted) && one_vehicle_.holds(m.box)) {
+    } else if (adapt_size_ && size_measured && !at_border && one_vehicle_.holds(predicted) &&
+               one_vehicle_.holds(m.box)) {
         measureEnds(predicted, result);
     } else {
         if (size_measured && !(completed.length_cut && longer <= 0)) m.length = size_;
         if (size_measured && !(completed.width_cut && wider <= 0)) m.width = size_;
         // A box too short by d misses either end: its centre is off by up to d / 2.
-        m.along = comes_in ? position_ : std::hypot(position_, longer / 2);
-        m.across = comes_in ? position_ : std::hypot(position_, wider / 2);
+        const bool as_good_as_any = comes_in || !adapt_size_;
+        m.along = as_good_as_any ? position_ : std::hypot(position_, longer / 2);
+        m.across = as_good_as_any ? position_ : std::hypot(position_, wider / 2);
     }
     const cv::Point2d along = m.box.direction();
     if (comes_in && completed.length_cut && longer > 0) {
@@ -199,8 +209,10 @@ BoxMeasurement MeasurementModel::reconstructed(const Reconstruction& reconstruct
     BoxMeasurement m;
     m.box = reconstruction.box;
     m.along = m.across = position_floor_;
-    m.velocity = reconstruction.velocity;
-    m.speed = velocityDeviation();
+    if (measure_velocity_) {
+        m.velocity = reconstruction.velocity;
+        m.speed = velocityDeviation();
+    }
     if (reconstruction.heading_known) {
         m.heading = 2 * headingDeviation(std::hypot(reconstruction.velocity.x, reconstruction.velocity.y));
     }

@@ -79,6 +79,9 @@ class MeasurementModel {
     double velocity_floor_ = 0.05;
     double size_gate_ = 0;
     double slow_speed_sigmas_ = 5;
+    bool complete_at_border_ = true;
+    bool adapt_size_ = true;
+    bool measure_velocity_ = true;
     cv::Size image_;
     double sigma_ = 0.02;
     double slow_speed_ = 0.1;

@@ -1,10 +1,11 @@
 #pragma once
 
+#include "tracking/ground_motion.h"
 #include "tracking/track_paths.h"
 
 namespace eyrie {
 
-/// Calls `visit(state of a, state of b)` for every frame that both tracks have, in order.
+/// Calls `visit(a, b)` with where both are and how they move, for every frame that both tracks have, in order.
 template <typename Visit>
 void forSharedFrames(const TrackPath& a, const TrackPath& b, Visit visit) {
     auto at_a = a.states.begin();
@@ -15,7 +16,7 @@ void forSharedFrames(const TrackPath& a, const TrackPath& b, Visit visit) {
         } else if (at_b->first < at_a->first) {
             ++at_b;
         } else {
-            visit(at_a->second, at_b->second);
+            visit(movingOf(at_a->second), movingOf(at_b->second));
             ++at_a;
             ++at_b;
         }

@@ -219,7 +219,8 @@ FrameAssociation associateDetections(const OverlapMatrix& matrix, const std::vec
 }
 
 std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>& vectors, const FrameVectors& frame,
-                                             const OrientedBox& predicted, int min_vectors, double slow_speed) {
+                                             const OrientedBox& predicted, int min_vectors, double slow_speed,
+                                             double agreement) {
     if (vectors.empty() || static_cast<int>(vectors.size()) < min_vectors) return std::nullopt;
     Reconstruction result;
     result.box = predicted;
@@ -255,10 +256,10 @@ std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>
     }
     result.box.centre = {median(x), median(y)};
     // Corners that slid off the object disagree with the others about its place.
-    const double agreement = std::max(1.5, std::min(predicted.length, predicted.width) / 3);
+    const double reach = std::max(1.5, agreement * std::min(predicted.length, predicted.width));
     for (std::size_t i = 0; i < x.size(); ++i) {
         const cv::Point2d apart = cv::Point2d(x[i], y[i]) - result.box.centre;
-        result.vectors += std::hypot(apart.x, apart.y) <= agreement;
+        result.vectors += !(agreement > 0) || std::hypot(apart.x, apart.y) <= reach;
     }
     if (result.vectors < min_vectors) return std::nullopt;
     return result;

@@ -66,8 +66,10 @@ struct Reconstruction {
 };
 
 /// The median of the boxes that a track's associated motion vectors suggest by their stored places (Teutsch §6.3, fig.
-/// 6.5), with the predicted size. Nothing when fewer than `min_vectors` of them are in the frame and agree.
+/// 6.5), with the predicted size. Nothing when fewer than `min_vectors` of them are in the frame and agree, that is,
+/// put the centre within `agreement` of the shorter side (or 1.5 px); 0: they need not agree.
 std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>& vectors, const FrameVectors& frame,
-                                             const OrientedBox& predicted, int min_vectors, double slow_speed);
+                                             const OrientedBox& predicted, int min_vectors, double slow_speed,
+                                             double agreement = 1.0 / 3);
 
 }  // namespace eyrie

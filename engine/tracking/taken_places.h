@@ -8,19 +8,24 @@
 
 namespace eyrie {
 
-/// Where tracks are, frame by frame, so that what extends one keeps off the others.
+/// Where tracks are, frame by frame, so that what extends one keeps off the others. Looks them up in the tracks
+/// themselves, which must outlive it where they are.
 class TakenPlaces {
  public:
     explicit TakenPlaces(const std::vector<TrackPath>& paths);
 
-    /// All boxes in a frame; valid until the next `take`.
-    const std::vector<OrientedBox>& in(FrameIndex frame) const;
+    /// All boxes in a frame.
+    std::vector<OrientedBox> in(FrameIndex frame) const;
     /// Whether a box of that frame overlaps no other by more than 0.15.
     bool isFree(FrameIndex frame, const OrientedBox& box) const;
-    void take(FrameIndex frame, const OrientedBox& box) { boxes_[frame].push_back(box); }
+    /// To be told when a track got earlier states.
+    void extended(const TrackPath& path);
 
  private:
-    std::unordered_map<FrameIndex, std::vector<OrientedBox>> boxes_;
+    template <class Visit>
+    void visit(FrameIndex frame, Visit visit) const;
+
+    std::unordered_map<int, std::vector<const TrackPath*>> alive_;  ///< by span of frames
 };
 
 }  // namespace eyrie

@@ -15,7 +15,7 @@ bool inImage(const OrientedBox& box, cv::Size image) {
 /// The frames to extend by: back to the border where the track came in, when that is not longer ago than
 /// `entry_frames`, otherwise `frames`.
 int extensionOf(const TrackPath& path, const GroundMotion& ground, int frames, int entry_frames) {
-    MovingState earlier{path.states.front().second.box, path.states.front().second.velocity};
+    MovingState earlier = movingOf(path.states.front().second);
     for (int back = 1; back <= entry_frames; ++back) {
         const FrameIndex frame = path.firstFrame() - back;
         const auto carried = ground.carried(earlier, frame + 1, frame, false);
@@ -35,20 +35,20 @@ void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int f
         // A predicted beginning was extended before.
         if (path.states.front().second.origin == StateOrigin::predicted) continue;
         const int wanted = extensionOf(path, ground, frames, entry_frames);
-        std::vector<TimedState> extension;
-        TrackState earlier = path.states.front().second;
+        std::vector<TimedPathState> extension;
+        PathState earlier = path.states.front().second;
         for (FrameIndex frame = path.firstFrame(); static_cast<int>(extension.size()) < wanted; --frame) {
-            const auto carried = ground.carried({earlier.box, earlier.velocity}, frame, frame - 1, false);
+            const auto carried = ground.carried(movingOf(earlier), frame, frame - 1, false);
             if (!carried || !inImage(carried->box, ground.imageSize(frame - 1))) break;
             if (!taken.isFree(frame - 1, carried->box)) break;
             earlier.box = carried->box;
             earlier.velocity = carried->velocity;
             earlier.origin = StateOrigin::predicted;
             earlier.hits = 0;
-            taken.take(frame - 1, earlier.box);
             extension.emplace_back(frame - 1, earlier);
         }
-        path.states.insert(path.states.begin(), extension.rbegin(), extension.rend());
+        prepend(path, extension);
+        taken.extended(path);
     }
 }
 

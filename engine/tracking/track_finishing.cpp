@@ -19,36 +19,44 @@ bool usableForFinishing(const TrackState& state) {
            std::isfinite(state.velocity.y);
 }
 
-std::vector<TrackPath> groupedById(const StatesOfRun& states) {
+/// The tracks that were ever confirmed, by ascending id; the others go to `unconfirmed`.
+std::vector<TrackPath> groupedById(const StatesOfRun& states, std::unordered_set<TrackId>& unconfirmed) {
     // Counted first: vectors that grow hold up to twice as much as they need.
-    std::map<TrackId, std::size_t> counts;
+    struct Seen {
+        std::size_t states = 0;
+        bool confirmed = false;
+    };
+    std::map<TrackId, Seen> seen;
     states([&](FrameIndex, const TrackState& state) {
-        if (usableForFinishing(state)) ++counts[state.id];
+        if (!usableForFinishing(state)) return;
+        Seen& track = seen[state.id];
+        ++track.states;
+        track.confirmed = track.confirmed || state.status != TrackStatus::tentative;
     });
     std::map<TrackId, TrackPath> by_id;
-    for (const auto& [id, count] : counts) {
+    for (const auto& [id, track] : seen) {
+        if (!track.confirmed) {
+            unconfirmed.insert(id);
+            continue;
+        }
         by_id[id].id = id;
-        by_id[id].states.reserve(count);
+        by_id[id].states.reserve(track.states);
     }
     states([&](FrameIndex frame, const TrackState& state) {
-        if (usableForFinishing(state)) by_id[state.id].states.emplace_back(frame, state);
+        const auto path = by_id.find(state.id);
+        if (path != by_id.end() && usableForFinishing(state)) path->second.states.emplace_back(frame, PathState(state));
     });
     std::vector<TrackPath> paths;
     for (auto& [id, path] : by_id) {
         auto& all = path.states;
         std::stable_sort(all.begin(), all.end(),
-                         [](const TimedState& a, const TimedState& b) { return a.first < b.first; });
+                         [](const TimedPathState& a, const TimedPathState& b) { return a.first < b.first; });
         all.erase(std::unique(all.begin(), all.end(),
-                              [](const TimedState& a, const TimedState& b) { return a.first == b.first; }),
+                              [](const TimedPathState& a, const TimedPathState& b) { return a.first == b.first; }),
                   all.end());
         paths.push_back(std::move(path));
     }
     return paths;
-}
-
-bool everConfirmed(const TrackPath& path) {
-    return std::any_of(path.states.begin(), path.states.end(),
-                       [](const TimedState& state) { return state.second.status != TrackStatus::tentative; });
 }
 
 /// An object that is on its way out of the image is not lost but gone.
@@ -198,11 +206,20 @@ VectorsAt vectorsIn(const VectorsByFrame& kept) {
     return askFor(kept);
 }
 
+void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards) {
+    // Not by insert, which would hold twice as much from then on.
+    std::vector<TimedPathState> states;
+    states.reserve(backwards.size() + path.states.size());
+    states.insert(states.end(), backwards.rbegin(), backwards.rend());
+    states.insert(states.end(), path.states.begin(), path.states.end());
+    path.states = std::move(states);
+}
+
 void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visitor) {
     // Tracks in the order in which they begin, and of those alive what each has still to tell.
     struct Alive {
         const TrackPath* path;
-        std::span<const TimedState> rest;
+        std::span<const TimedPathState> rest;
     };
     std::vector<const TrackPath*> waiting;
     for (const TrackPath& path : paths) waiting.push_back(&path);
@@ -228,23 +245,40 @@ void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visito
 }
 
 void FinishedTracks::visit(const StateVisitor& visitor) const {
-    visitByFrame(paths, [&](FrameIndex frame, const TrackPath&, const TrackState& state) { visitor(frame, state); });
+    visitByFrame(paths, [&](FrameIndex frame, const TrackPath& path, const PathState& found) {
+        TrackState state;
+        state.id = path.id;
+        state.box = found.box;
+        state.velocity = found.velocity;
+        state.status = found.status;
+        state.origin = found.origin;
+        state.age = frame - path.firstFrame();
+        state.hits = found.hits;
+        state.score = found.score;
+        visitor(frame, state);
+    });
 }
 
-FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotionSummary>& motion,
-                         const FinishingOptions& options, const SceneScale& scale, const FoundInFrames& found,
-                         std::vector<TimedDrop>* dropped) {
-    const GroundMotion ground(motion);
-    DropList drops(dropped);
-    std::vector<TrackPath> paths = groupedById(states);
-    std::erase_if(paths, [&](const TrackPath& path) {
-        if (everConfirmed(path)) return false;
-        drops.add(path, TrackDrop::unconfirmed);
-        return true;
+void FinishedTracks::visitDropped(const StatesOfRun& states, const DropVisitor& visitor) const {
+    states([&](FrameIndex frame, const TrackState& state) {
+        if (unconfirmed.contains(state.id) && usableForFinishing(state))
+            visitor(frame, {state.id, state.box, TrackDrop::unconfirmed, 0});
     });
+    for (const auto& [path, why, beside] : dropped) {
+        for (const auto& [frame, state] : path.states) visitor(frame, {path.id, state.box, why, beside});
+    }
+}
+
+FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, const FinishingOptions& options,
+                         const SceneScale& scale, const FoundInFrames& found) {
+    FinishedTracks finished;
+    DropList& drops = finished.dropped;
+    std::vector<TrackPath>& paths = finished.paths;
+    paths = groupedById(states, finished.unconfirmed);
     for (TrackPath& path : paths) {
         if (!options.keep_tentative) {
-            std::erase_if(path.states, [](const TimedState& s) { return s.second.status == TrackStatus::tentative; });
+            std::erase_if(path.states,
+                          [](const TimedPathState& s) { return s.second.status == TrackStatus::tentative; });
         }
         if (options.trim_predicted) trimPredictedEnd(path, ground, scale.pxPerFrame(options.stop_speed));
     }
@@ -270,12 +304,10 @@ FinishedTracks finishRun(const StatesOfRun& states, const std::vector<FrameMotio
 
     for (TrackPath& path : paths) {
         for (auto& [frame, state] : path.states) {
-            state.id = path.id;
-            state.age = frame - path.firstFrame();
             if (state.status == TrackStatus::tentative) state.status = TrackStatus::confirmed;
         }
     }
-    return {std::move(paths)};
+    return finished;
 }
 
 std::vector<TimedState> finishTracks(const std::vector<TimedState>& states,
@@ -285,10 +317,13 @@ std::vector<TimedState> finishTracks(const std::vector<TimedState>& states,
     const StatesOfRun all = [&](const StateVisitor& visitor) {
         for (const auto& [frame, state] : states) visitor(frame, state);
     };
+    const FinishedTracks finished = finishRun(all, GroundMotion(motion), options, scale, found);
+    if (dropped != nullptr) {
+        finished.visitDropped(
+            all, [&](FrameIndex frame, const DroppedState& state) { dropped->emplace_back(frame, state); });
+    }
     std::vector<TimedState> result;
-    finishRun(all, motion, options, scale, found, dropped).visit([&](FrameIndex frame, const TrackState& state) {
-        result.emplace_back(frame, state);
-    });
+    finished.visit([&](FrameIndex frame, const TrackState& state) { result.emplace_back(frame, state); });
     return result;
 }
 

@@ -28,17 +28,6 @@ FrameIndex lastDetected(const TrackPath& path) {
     return path.lastFrame();
 }
 
-const TimedState* stateAt(const TrackPath& path, FrameIndex frame) {
-    const auto found =
-        std::lower_bound(path.states.begin(), path.states.end(), frame,
-                         [](const TimedState& state, FrameIndex wanted) { return state.first < wanted; });
-    return found != path.states.end() && found->first == frame ? &*found : nullptr;
-}
-
-MovingState movingOf(const TrackState& state) {
-    return {state.box, state.velocity};
-}
-
 class Joiner {
  public:
     Joiner(const GroundMotion& ground, const FinishingOptions& options, const SceneScale& scale)
@@ -52,11 +41,11 @@ class Joiner {
         const FrameIndex end = usableEnd(earlier, later);
         const int gap = later.firstFrame() - end;
         if (end < earlier.firstFrame() || gap > max_gap_ || lastDetected(earlier) > end) return 0;
-        const TimedState* last = stateAt(earlier, end);
+        const TimedPathState* last = earlier.at(end);
         if (!last) return 0;
         const auto expected = ground_.carried(movingOf(last->second), end, later.firstFrame(), true);
         if (!expected) return 0;
-        const TrackState& found = later.states.front().second;
+        const MovingState found = movingOf(later.states.front().second);
 
         const double area_ratio = found.box.area() / expected->box.area();
         if (!(area_ratio <= kSizeRatio && area_ratio * kSizeRatio >= 1)) return 0;
@@ -81,26 +70,27 @@ class Joiner {
     void append(TrackPath& earlier, TrackPath&& later) const {
         const FrameIndex end = usableEnd(earlier, later);
         while (earlier.lastFrame() > end) earlier.states.pop_back();
-        const TrackState before = earlier.states.back().second;
-        const TrackState after = later.states.front().second;
+        const PathState before = earlier.states.back().second;
+        const PathState after = later.states.front().second;
         const FrameIndex start = later.firstFrame();
+        earlier.states.reserve(earlier.states.size() + static_cast<std::size_t>(start - end) + later.states.size());
         for (FrameIndex frame = end + 1; frame < start; ++frame) {
             const auto from_before = ground_.carried(movingOf(before), end, frame, true);
             const auto from_after = ground_.carried(movingOf(after), start, frame, true);
             if (!from_before || !from_after) continue;
             const double share = static_cast<double>(frame - end) / (start - end);
-            TrackState between = before;
+            PathState between = before;
             between.status = TrackStatus::coasting;
             between.origin = StateOrigin::predicted;
             const OrientedBox& a = from_before->box;
             const OrientedBox& b = from_after->box;
-            between.box = {a.centre + (b.centre - a.centre) * share, a.length + (b.length - a.length) * share,
-                           a.width + (b.width - a.width) * share,
-                           wrapPi(a.heading + axisTurnBetween(a.heading, b.heading) * share)};
+            between.box = OrientedBox{a.centre + (b.centre - a.centre) * share,
+                                      a.length + (b.length - a.length) * share, a.width + (b.width - a.width) * share,
+                                      wrapPi(a.heading + axisTurnBetween(a.heading, b.heading) * share)};
             between.velocity = from_before->velocity + (from_after->velocity - from_before->velocity) * share;
             earlier.states.emplace_back(frame, between);
         }
-        for (TimedState& state : later.states) {
+        for (TimedPathState& state : later.states) {
             state.second.hits += before.hits;
             earlier.states.push_back(state);
         }

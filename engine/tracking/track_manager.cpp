@@ -9,11 +9,10 @@
 namespace eyrie {
 namespace {
 
-constexpr int kScoreFrames = 32;       ///< window of TrackState::score
-constexpr double kLeavingSeconds = 3;  ///< longest way out of the image without evidence
-constexpr double kStopping = 0.7;      ///< what is left of a stopping track's velocity after a frame
-constexpr double kSoonStopped = 3;     ///< times stop_speed from which a track may stop soon
-constexpr double kAlikeSpeeds = 0.3;   ///< difference of velocities that move alike, as a share
+constexpr int kScoreFrames = 32;      ///< window of TrackState::score
+constexpr double kStopping = 0.7;     ///< what is left of a stopping track's velocity after a frame
+constexpr double kSoonStopped = 3;    ///< times stop_speed from which a track may stop soon
+constexpr double kAlikeSpeeds = 0.3;  ///< difference of velocities that move alike, as a share
 
 int hitsWithin(std::uint64_t history, int frames) {
     const std::uint64_t mask = frames >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << frames) - 1;
@@ -53,7 +52,7 @@ TrackManager::TrackManager(const TrackerOptions& o, const SceneScale& scale)
       max_stopped_(framesOf(o.max_stopped_s, scale)),
       max_standing_(framesOf(o.max_standing_s, scale)),
       appearance_(o.appearance),
-      max_leaving_(framesOf(kLeavingSeconds, scale)),
+      max_leaving_(framesOf(o.max_leaving_s, scale)),
       max_failed_(std::max(3, framesOf(o.max_failed_s, scale))),
       max_reconstructed_(o.max_reconstructed),
       max_supported_(framesOf(o.max_supported_s, scale)),
@@ -140,8 +139,9 @@ std::optional<TrackManager::End> TrackManager::endOf(const Track& track, cv::Siz
         limit = max_stopped_;
         parameter = "tracking.max_stopped";
     }
-    if (image.area() > 0 && track.predicted_streak > limit && leaving(track, image)) {
-        limit = std::max(limit, max_leaving_);
+    if (max_leaving_ > limit && image.area() > 0 && track.predicted_streak > limit && leaving(track, image)) {
+        limit = max_leaving_;
+        parameter = "tracking.max_leaving";
     }
     if (track.predicted_streak <= limit) return std::nullopt;
     return End{parameter, 1.0 * track.predicted_streak, 1.0 * limit};

@@ -58,7 +58,7 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     Whole whole;
     std::vector<double> along, across, gaps, parts, lengths, widths;
     double travelled = 0;
-    forSharedFrames(leader, other, [&](const TrackState& state, const TrackState& of_other) {
+    forSharedFrames(leader, other, [&](const MovingState& state, const MovingState& of_other) {
         const OrientedBox& part = of_other.box;
         if (std::abs(axisTurnBetween(state.box.heading, part.heading)) > kMostTurn) return;
         const cv::Point2d offset = state.box.toBox(part.centre);
@@ -85,14 +85,14 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
 }
 
 void join(TrackPath& leader, const TrackPath& other, const Whole& whole) {
-    std::vector<TimedState> joined;
+    std::vector<TimedPathState> joined;
+    joined.reserve(leader.states.size() + other.states.size());
     auto b = other.states.begin();
     const auto takeOther = [&] {
         joined.push_back(*b++);
         joined.back().second.box = whole.of_other.applied(joined.back().second.box);
-        joined.back().second.id = leader.id;
     };
-    for (TimedState& state : leader.states) {
+    for (TimedPathState& state : leader.states) {
         while (b != other.states.end() && b->first < state.first) takeOther();
         if (b != other.states.end() && b->first == state.first) ++b;
         state.second.box = whole.of_leader.applied(state.second.box);

@@ -8,25 +8,22 @@
 
 namespace eyrie {
 
-/// Collects what is left out; `into` may be null.
-class DropList {
- public:
-    explicit DropList(std::vector<TimedDrop>* into) : into_(into) {}
-    void add(const TimedState& state, TrackId track, TrackDrop why, TrackId beside = 0) {
-        if (into_) into_->push_back({state.first, {track, state.second.box, why, beside}});
-    }
-    void add(const TrackPath& path, TrackDrop why, TrackId beside = 0) {
-        for (const TimedState& state : path.states) add(state, path.id, why, beside);
-    }
+/// Collects what is left out.
+using DropList = std::vector<DroppedPath>;
 
- private:
-    std::vector<TimedDrop>* into_;
-};
+/// Moves the states of a track to what is left out; it has none from then on.
+inline void drop(TrackPath& path, TrackDrop why, DropList& dropped, TrackId beside = 0) {
+    dropped.push_back({{path.id, std::move(path.states)}, why, beside});
+    path.states.clear();
+}
 
 /// Takes the states of tracks one by one.
-using PathVisitor = std::function<void(FrameIndex, const TrackPath&, const TrackState&)>;
+using PathVisitor = std::function<void(FrameIndex, const TrackPath&, const PathState&)>;
 /// All states, ordered by frame, then the tracks' ids.
 void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visitor);
+
+/// Puts earlier states, the latest first, before those of a path.
+void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards);
 
 /// Joins the fragments of one vehicle: where a track ends and another starts soon after at the predicted place with
 /// similar velocity and size, the later one continues the earlier one. Gaps are filled by interpolation.

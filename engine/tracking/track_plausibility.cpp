@@ -55,7 +55,7 @@ double sharedBy(const OrientedBox& a, const OrientedBox& b, double widest) {
 
 Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
     Sharing sharing;
-    forSharedFrames(a, b, [&](const TrackState& one, const TrackState& other) {
+    forSharedFrames(a, b, [&](const MovingState& one, const MovingState& other) {
         sharing.share += sharedBy(one.box, other.box, widest);
         sharing.too_wide += std::max(one.box.width, other.box.width) > widest;
         const cv::Point2d offset = one.box.toBox(other.box.centre);
@@ -79,17 +79,14 @@ bool areFixed(const Sharing& sharing, const SceneScale& scale) {
 void giveWay(TrackPath& weaker, const TrackPath& stronger, double allowed, DropList& dropped) {
     std::map<FrameIndex, OrientedBox> taken;
     for (const auto& [frame, state] : stronger.states) taken[frame] = state.box;
-    std::erase_if(weaker.states, [&](const TimedState& state) {
+    TrackPath given{weaker.id, {}};
+    std::erase_if(weaker.states, [&](const TimedPathState& state) {
         const auto there = taken.find(state.first);
         const bool lies_on_it = there != taken.end() && containment(there->second, state.second.box) > allowed;
-        if (lies_on_it) dropped.add(state, weaker.id, TrackDrop::shares_place, stronger.id);
+        if (lies_on_it) given.states.push_back(state);
         return lies_on_it;
     });
-}
-
-void dropWhole(TrackPath& weaker, const TrackPath& stronger, DropList& dropped) {
-    dropped.add(weaker, TrackDrop::shares_place, stronger.id);
-    weaker.states.clear();
+    drop(given, TrackDrop::shares_place, dropped, stronger.id);
 }
 
 }  // namespace
@@ -99,20 +96,20 @@ void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options
     if (!scale.gsd_known) return;
     const double length = scale.px(options.min_length_m);
     const double width = scale.px(options.min_width_m);
-    std::erase_if(paths, [&](const TrackPath& path) {
+    std::erase_if(paths, [&](TrackPath& path) {
         if (!tooSmall(path, length, width)) return false;
-        dropped.add(path, TrackDrop::too_small);
+        drop(path, TrackDrop::too_small, dropped);
         return true;
     });
 }
 
 void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale, DropList& dropped) {
-    std::erase_if(paths, [&](const TrackPath& path) {
+    std::erase_if(paths, [&](TrackPath& path) {
         const int detected = path.statesOf(StateOrigin::detected);
         const int supposed = path.statesOf(StateOrigin::reconstructed);
         if (detected >= kSureSeconds * scale.frame_rate_hz || detected >= min_share * (detected + supposed))
             return false;
-        dropped.add(path, TrackDrop::hardly_detected);
+        drop(path, TrackDrop::hardly_detected, dropped);
         return true;
     });
 }
@@ -141,13 +138,13 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
             if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
             const bool fixed = sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scale);
             if (fixed && sharing.share > kFixedShare * max_sharing) {
-                dropWhole(weaker, stronger, dropped);
+                drop(weaker, TrackDrop::shares_place, dropped, stronger.id);
                 continue;
             }
             if (sharing.share <= max_sharing) continue;
             const std::size_t before = weaker.states.size();
             giveWay(weaker, stronger, max_sharing / 2, dropped);
-            if (2 * weaker.states.size() < before) dropWhole(weaker, stronger, dropped);
+            if (2 * weaker.states.size() < before) drop(weaker, TrackDrop::shares_place, dropped, stronger.id);
         }
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });

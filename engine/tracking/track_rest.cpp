@@ -96,20 +96,21 @@ void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int
     if (frames < 1 || !scale.gsd_known) return;
     TakenPlaces taken(paths);
     for (TrackPath& path : paths) {
-        const TrackState first = path.states.front().second;
+        const PathState first = path.states.front().second;
         // A predicted beginning was extended before.
         if (first.origin == StateOrigin::predicted) continue;
+        const cv::Point2d found_at = first.box.centre;
         const auto start = startOf(path, ground, kFittedSeconds * scale.frame_rate_hz);
         if (!start || !start->isFromRest(scale.pxPerFrame(kFastest)) || start->framesSinceRest() > frames) continue;
-        std::vector<TimedState> extension;
+        std::vector<TimedPathState> extension;
         Homography from_first;
         for (int before = 1; before <= frames; ++before) {
             const FrameIndex frame = path.firstFrame() - before;
             const cv::Matx33d* step = ground.step(frame + 1, frame, false);
             if (step == nullptr) break;
             from_first.matrix = *step * from_first.matrix;
-            const cv::Point2d centre = first.box.centre - start->direction * start->wayFrom(before);
-            TrackState state = first;
+            const cv::Point2d centre = found_at - start->direction * start->wayFrom(before);
+            PathState state = first;
             state.box.centre = from_first.apply(centre);
             state.box.heading = from_first.turned(centre, first.box.heading);
             state.velocity = first.velocity * (start->speedAt(before) / start->speed);
@@ -118,10 +119,10 @@ void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int
             if (!taken.isFree(frame, state.box) ||
                 areaInImage(state.box, ground.imageSize(frame)) < kRestInImage * state.box.area())
                 break;
-            taken.take(frame, state.box);
             extension.emplace_back(frame, state);
         }
-        path.states.insert(path.states.begin(), extension.rbegin(), extension.rend());
+        prepend(path, extension);
+        taken.extended(path);
     }
 }
 

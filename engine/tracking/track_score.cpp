@@ -68,9 +68,9 @@ void scoreTracks(std::vector<TrackPath>& paths, const GroundMotion& ground, cons
         const auto found = looks.find(path.id);
         const int count = found == looks.end() ? 0 : found->second;
         const double score = probabilityOf(evidenceOf(path, count, ground, scale));
-        for (auto& [frame, state] : path.states) state.score = score;
+        for (auto& [frame, state] : path.states) state.score = static_cast<float>(score);
         if (score >= min_score) return false;
-        dropped.add(path, TrackDrop::unlikely);
+        drop(path, TrackDrop::unlikely, dropped);
         return true;
     });
 }

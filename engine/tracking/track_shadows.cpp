@@ -28,7 +28,7 @@ struct Beside {
 
 Beside besideOf(const TrackPath& vehicle, const TrackPath& other) {
     Beside beside;
-    forSharedFrames(vehicle, other, [&](const TrackState& a, const TrackState& b) {
+    forSharedFrames(vehicle, other, [&](const MovingState& a, const MovingState& b) {
         const cv::Point2d offset = a.box.toBox(b.box.centre);
         beside.along.push_back(offset.x);
         beside.across.push_back(offset.y);
@@ -56,18 +56,21 @@ bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneSc
 }  // namespace
 
 void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped) {
-    std::vector<char> is_shadow(paths.size(), 0);
+    std::vector<TrackId> vehicle_of(paths.size(), 0);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const double detected = paths[i].statesOf(StateOrigin::detected);
         const auto vehicle = std::find_if(paths.begin(), paths.end(), [&](const TrackPath& other) {
             return detected < kDetected * other.statesOf(StateOrigin::detected) && isShadowOf(paths[i], other, scale);
         });
         if (vehicle == paths.end()) continue;
-        is_shadow[i] = 1;
-        dropped.add(paths[i], TrackDrop::shadow, vehicle->id);
+        vehicle_of[i] = vehicle->id;
     }
     std::size_t at = 0;
-    std::erase_if(paths, [&](const TrackPath&) { return is_shadow[at++] != 0; });
+    std::erase_if(paths, [&](TrackPath& path) {
+        const TrackId vehicle = vehicle_of[at++];
+        if (vehicle != 0) drop(path, TrackDrop::shadow, dropped, vehicle);
+        return vehicle != 0;
+    });
 }
 
 }  // namespace eyrie

@@ -10,7 +10,7 @@
 namespace eyrie {
 namespace {
 
-double weightOf(const TrackState& state) {
+double weightOf(const PathState& state) {
     switch (state.origin) {
         case StateOrigin::detected:
             return 1;
@@ -91,8 +91,8 @@ void collectNeighbours(const TrackPath& path, std::size_t at, int direction, con
     }
 }
 
-std::optional<TrackState> smoothed(const TrackPath& path, std::size_t at, const GroundMotion& ground, int half_window) {
-    const TrackState& state = path.states[at].second;
+std::optional<PathState> smoothed(const TrackPath& path, std::size_t at, const GroundMotion& ground, int half_window) {
+    const PathState& state = path.states[at].second;
     std::vector<Neighbour> neighbours{{0, state.box.centre, state.box.heading, weightOf(state)}};
     collectNeighbours(path, at, -1, ground, half_window, neighbours);
     const std::size_t before = neighbours.size() - 1;
@@ -115,21 +115,19 @@ std::optional<TrackState> smoothed(const TrackPath& path, std::size_t at, const 
     // A parabola follows turns, but needs neighbours on both sides.
     const int degree = before >= 3 && after >= 3 ? 2 : 1;
     if (!x.solve(degree) || !y.solve(degree) || !turn.solve(1)) return std::nullopt;
-    TrackState result = state;
-    result.box.centre = {x.value, y.value};
-    result.velocity = {x.slope, y.slope};
-    result.box.heading = wrapPi(state.box.heading + turn.value);
+    PathState result = state;
+    result.box.centre = cv::Point2d(x.value, y.value);
+    result.velocity = cv::Point2d(x.slope, y.slope);
+    double heading = wrapPi(state.box.heading + turn.value);
     // A vehicle that moved on by its own length points along its path.
     const double travelled = std::hypot(x.slope, y.slope) * (latest - earliest);
     const double trust = std::clamp(travelled / state.box.length - 0.5, 0.0, 1.0);
     if (trust > 0) {
         const double tangent = std::atan2(y.slope, x.slope);
-        const double off = axisTurnBetween(result.box.heading, tangent);
-        result.box.heading = wrapPi(result.box.heading + trust * off);
-        if (std::abs(turnBetween(result.box.heading, tangent)) > kPi / 2) {
-            result.box.heading = wrapPi(result.box.heading + kPi);
-        }
+        heading = wrapPi(heading + trust * axisTurnBetween(heading, tangent));
+        if (std::abs(turnBetween(heading, tangent)) > kPi / 2) heading = wrapPi(heading + kPi);
     }
+    result.box.heading = static_cast<float>(heading);
     return result;
 }
 
@@ -171,7 +169,7 @@ void steadySize(TrackPath& path, const GroundMotion& ground, int half_window) {
 }
 
 void smoothPath(TrackPath& path, const GroundMotion& ground, int half_window) {
-    std::vector<TimedState> result;
+    std::vector<TimedPathState> result;
     result.reserve(path.states.size());
     for (std::size_t i = 0; i < path.states.size(); ++i) {
         const auto state = smoothed(path, i, ground, half_window);

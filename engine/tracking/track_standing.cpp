@@ -26,9 +26,9 @@ bool movesLikeStanding(const TrackPath& path, const GroundMotion& ground, const 
 
 void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
                   const FinishingOptions& options, DropList& dropped) {
-    std::erase_if(paths, [&](const TrackPath& path) {
+    std::erase_if(paths, [&](TrackPath& path) {
         if (looks.contains(path.id) || !movesLikeStanding(path, ground, options)) return false;
-        dropped.add(path, TrackDrop::could_stand);
+        drop(path, TrackDrop::could_stand, dropped);
         return true;
     });
 }

@@ -59,7 +59,7 @@ class Trace {
     }
 
     /// One frame back; nothing where the track leaves the image, reaches another one or was not supported lately.
-    std::optional<TimedState> back(const TakenPlaces& taken) {
+    std::optional<TimedPathState> back(const TakenPlaces& taken) {
         const FrameIndex to = frame_ - 1;
         const auto mapped = ground_.carried({state_.box, {0, 0}}, frame_, to, false);
         auto moved = ground_.carried({state_.box, state_.velocity}, frame_, to, false);
@@ -83,7 +83,7 @@ class Trace {
         state_.origin = supported ? StateOrigin::reconstructed : StateOrigin::predicted;
         state_.hits = 0;
         frame_ = to;
-        return TimedState{frame_, state_};
+        return TimedPathState{frame_, state_};
     }
 
  private:
@@ -119,7 +119,7 @@ class Trace {
 
     const GroundMotion& ground_;
     RecentVectors& vectors_;
-    TrackState state_;
+    PathState state_;
     FrameIndex frame_;
     std::vector<MotionVector> fitting_;  ///< in `frame_`
     int unsupported_ = 0;
@@ -134,7 +134,7 @@ void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const 
     for (TrackPath& path : paths) {
         if (path.states.front().second.origin == StateOrigin::predicted) continue;
         Trace trace(path, ground, vectors);
-        std::vector<TimedState> traced;
+        std::vector<TimedPathState> traced;
         const auto longest = std::min(static_cast<std::size_t>(frames), path.states.size() / 2);
         while (traced.size() < longest) {
             auto earlier = trace.back(taken);
@@ -142,8 +142,8 @@ void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const 
             traced.push_back(*earlier);
         }
         while (!traced.empty() && traced.back().second.origin == StateOrigin::predicted) traced.pop_back();
-        for (const auto& [frame, state] : traced) taken.take(frame, state.box);
-        path.states.insert(path.states.begin(), traced.rbegin(), traced.rend());
+        prepend(path, traced);
+        taken.extended(path);
     }
 }
 

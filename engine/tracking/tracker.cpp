@@ -191,7 +191,7 @@ OverlapMatrix Tracker::overlapMatrix(const std::vector<MovingBox>& detected, con
     gate.min_overlap = options_.min_overlap;
     gate.max_turn = options_.max_turn_deg >= 180 ? 2 * kPi : radiansFromDegrees(options_.max_turn_deg);
     gate.slow_speed = model_.slowSpeed();
-    gate.image = image;
+    if (options_.visible_overlap) gate.image = image;
     return OverlapMatrix(detected, predicted, gate);
 }
 
@@ -295,7 +295,8 @@ bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Dete
         track.size_streak = std::max(0, track.size_streak - 1);
     }
     // The first boxes are often parts of the object: what was seen last counts half.
-    if (!manager_.established(track) && !update.by_ends) track.filter.forgetSize(model_.sizeDeviation());
+    if (options_.adapt_size && !manager_.established(track) && !update.by_ends)
+        track.filter.forgetSize(model_.sizeDeviation());
     track.growth_streak = update.grows ? track.growth_streak + 1 : 0;
     if (track.growth_streak >= kGrowthsToBelieve) {
         track.filter.loosenEnds(update.grows_front, update.grows_rear, update.grows_left, update.grows_right);
@@ -309,8 +310,8 @@ bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Dete
 
 bool Tracker::updateByVectors(Track& track, const FrameVectors& vectors) {
     if (!manager_.mayBeReconstructed(track)) return false;
-    const auto rebuilt =
-        reconstructBox(track.vectors, vectors, track.filter.box(), options_.min_vectors, model_.slowSpeed());
+    const auto rebuilt = reconstructBox(track.vectors, vectors, track.filter.box(), options_.min_vectors,
+                                        model_.slowSpeed(), options_.agreement);
     return rebuilt && track.filter.update(model_.reconstructed(*rebuilt));
 }
 

@@ -15,6 +15,9 @@ void describeAssociation(TrackerOptions& o, ParameterVisitor& v) {
             "the predicted one, even if the boxes hardly overlap. 0, with distance_gate_px 0: overlap only.",
             ""});
     v.real("tracking.distance_gate_px", o.distance_gate_px, 0, 50, {"px", "Pixel floor of distance_gate_m.", ""});
+    v.flag(
+        "tracking.visible_overlap", o.visible_overlap,
+        {"", "Overlaps of detections and tracks are taken inside the image, so that tracks survive its border.", ""});
     v.real("tracking.max_turn", o.max_turn_deg, 1, 180,
            {"degrees",
             "A detection that moves in a direction further from the track's than this is another object. "
@@ -61,6 +64,11 @@ void describeVectors(TrackerOptions& o, ParameterVisitor& v) {
               {"", "Largest number of motion vectors associated to a track.", "Teutsch §6.2.2"});
     v.integer("tracking.min_vectors", o.min_vectors, 1, 1000,
               {"", "Smallest number of motion vectors that may rebuild a box.", ""});
+    v.real("tracking.agreement", o.agreement, 0, 10,
+           {"",
+            "Motion vectors agree on a box when they put its centre within this share of its shorter side (at least "
+            "1.5 px); as many as min_vectors must. 0: no vote, every box is believed.",
+            ""});
     v.real("tracking.vector_speed_difference", o.vector_speed_difference, 0.01, 2,
            {"",
             "A motion vector belongs to a track when its velocity differs from the track's by less than this share "
@@ -98,6 +106,11 @@ void describeLife(TrackerOptions& o, ParameterVisitor& v) {
         {"m/s", "A track that gets lost while slower than this is taken to have stopped: it stays where it is.", ""});
     v.real("tracking.max_stopped", o.max_stopped_s, 0, 600,
            {"s", "How long a stopped track is kept without a detection.", ""});
+    v.real("tracking.max_leaving", o.max_leaving_s, 0, 60,
+           {"s",
+            "How long a track that is on its way out of the image is predicted without any evidence. 0: no longer than "
+            "others.",
+            ""});
     v.choice("tracking.appearance", o.appearance, {"none", "stopped", "lost"},
              {"",
               "Which lost tracks are looked for by what they looked like when they were detected last. stopped: those "
@@ -119,6 +132,21 @@ void describeLife(TrackerOptions& o, ParameterVisitor& v) {
            {"",
             "Share of the smaller box inside the other from which two tracks that move alike are one. A detection "
             "inside a track by this share starts no track.",
+            ""});
+}
+
+void describeMeasurement(TrackerOptions& o, ParameterVisitor& v) {
+    v.flag("tracking.complete_at_border", o.complete_at_border,
+           {"", "Boxes that the image's border cuts off are completed to the track's size.", ""});
+    v.flag("tracking.adapt_size", o.adapt_size,
+           {"",
+            "What a box says about size depends on how sure it is: ends are measured one by one, young tracks soon "
+            "forget their first sizes, boxes of another size say less about the place.",
+            ""});
+    v.flag("tracking.measure_velocity", o.measure_velocity,
+           {"",
+            "The velocity of a detection or of the vectors that rebuild a box is measured, too. Otherwise it follows "
+            "from the places alone.",
             ""});
 }
 
@@ -159,6 +187,7 @@ void TrackerOptions::describe(ParameterVisitor& visitor) {
     describeAssociation(*this, visitor);
     describeVectors(*this, visitor);
     describeLife(*this, visitor);
+    describeMeasurement(*this, visitor);
     describeNoise(*this, visitor);
 }
 
@@ -167,17 +196,27 @@ TrackerOptions TrackerOptions::thesis() {
     options.min_overlap = 0.5;
     options.distance_gate_m = 0;
     options.distance_gate_px = 0;
+    options.visible_overlap = false;
     options.max_turn_deg = 180;
     options.split_merge = SplitMergeRule::overlap_matrix;
     options.size_gate = 0;
+    options.car_length_m = 0;
+    options.car_width_m = 0;
     options.one_vehicle_factor = 0;
     options.max_vectors = 20;
     options.min_vectors = 1;
+    options.agreement = 0;
     options.relative_position_gain = 1;
     options.max_reconstructed = 10;
     options.max_supported_s = 0;
     options.stop_speed = 0;
+    options.max_leaving_s = 0;
+    options.min_visible = 0;
     options.suppress_duplicates = false;
+    options.complete_at_border = false;
+    options.adapt_size = false;
+    options.measure_velocity = false;
+    options.slow_speed_sigmas = 0;
     return options;
 }
 

@@ -25,6 +25,7 @@ struct TrackerOptions {
     double min_overlap = 0.2;
     double distance_gate_m = 0.6;
     double distance_gate_px = 2.0;
+    bool visible_overlap = true;
     double max_turn_deg = 90;
     SplitMergeRule split_merge = SplitMergeRule::containment;
     double part_containment = 0.6;
@@ -39,6 +40,7 @@ struct TrackerOptions {
     bool use_vectors = true;
     int max_vectors = 20;
     int min_vectors = 2;
+    double agreement = 1.0 / 3;
     double vector_speed_difference = 0.25;
     double relative_position_gain = 0.3;
     int max_reconstructed = 10;
@@ -52,6 +54,7 @@ struct TrackerOptions {
     double max_missing_s = 0.3;
     double stop_speed = 2.0;
     double max_stopped_s = 1.0;
+    double max_leaving_s = 3.0;
     AppearanceUse appearance = AppearanceUse::none;
     double appearance_agreement = 0.85;
     double max_standing_s = 60;
@@ -61,7 +64,12 @@ struct TrackerOptions {
     double duplicate_overlap = 0.4;
     double duplicate_containment = 0.7;
 
-    // Noise of the Kalman filter.
+    // What detections tell the Kalman filter.
+    bool complete_at_border = true;
+    bool adapt_size = true;
+    bool measure_velocity = true;
+
+    // Its noise.
     double acceleration = 4.0;
     double turn_rate_deg = 40;
     double size_rate = 0.02;

@@ -20,7 +20,7 @@ VehicleLooks lookedLikeVehicle(const std::vector<TrackPath>& paths, const BoxesA
     VehicleLooks looks;
     std::optional<FrameIndex> asked;
     std::vector<OrientedBox> vehicles;
-    visitByFrame(paths, [&](FrameIndex frame, const TrackPath& path, const TrackState& state) {
+    visitByFrame(paths, [&](FrameIndex frame, const TrackPath& path, const PathState& state) {
         if (state.origin != StateOrigin::detected) return;
         if (asked != frame) {
             asked = frame;

@@ -234,6 +234,17 @@ TEST(Explanation, detectionOfAnImpossibleSize) {
     EXPECT_THAT(told.sentence, HasSubstr("4 px (1 m), at least 4.8 px (1.2 m)"));
 }
 
+TEST(Explanation, detectionThatReachesBeyondThePicture) {
+    PlaceEvidence evidence = detectedPlace();
+    evidence.result.motion.image_size = {104, 480};  // the box ends at x = 109, the picture at 103.5: 12.5 of 18 px
+    evidence.result.detections.front().rejection = Rejection::size;
+    ChainOptions options = plainOptions();
+    options.outliers.inside_image = true;
+    const Explanation told = explain(evidence, options, scaleOfTests());
+    EXPECT_EQ(told.parameter, "outliers.inside_image");
+    EXPECT_THAT(told.sentence, HasSubstr("reaches beyond the picture: 0.694 of the box is in the picture"));
+}
+
 TEST(Explanation, duplicateNamesTheOverlapThatDecided) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.detections.push_back(evidence.result.detections.front());
@@ -354,11 +365,13 @@ TEST(Explanation, everyParameterNamedIsOneThatExists) {
                              "outliers.min_length",
                              "outliers.max_length",
                              "outliers.max_width",
+                             "outliers.inside_image",
                              "tracking.min_overlap",
                              "tracking.confirm_hits",
                              "tracking.max_missing",
                              "tracking.max_missing_tentative",
                              "tracking.max_stopped",
+                             "tracking.max_leaving",
                              "tracking.min_visible",
                              "tracking.duplicate_overlap",
                              "tracking.suppress_duplicates",

@@ -51,6 +51,13 @@ TEST(MethodVariants, WordsAndGroups) {
     base.detection.gradient.quantile = 0.36;
     EXPECT_DOUBLE_EQ(methodVariant("gradient_lbp", base).options.detection.gradient.quantile, 0.36);
     EXPECT_NEAR(methodVariant("gradient_simple", base).options.detection.gradient.quantile, 0.45, 1e-12);
+    // With the thesis' preset each has the optimum of that table.
+    const std::vector<std::pair<std::string, double>> optima{
+        {"gradient_lbp", 0.12}, {"gradient_simple", 0.15}, {"gradient_canny", 0.14}, {"gradient_morphological", 0.16}};
+    for (const auto& [word, optimum] : optima) {
+        const MethodVariant variant = methodVariant(word, builtInPreset("thesis"));
+        EXPECT_DOUBLE_EQ(variant.options.detection.gradient.effectiveQuantile(), optimum) << word;
+    }
 }
 
 TEST(MethodRun, EachMethodGivesWhatItGivesAlone) {

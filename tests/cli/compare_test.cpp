@@ -101,6 +101,23 @@ TEST_F(Compare, JsonHasIntervalsAndTheProjectTheRuns) {
     EXPECT_EQ(nlohmann::json::parse(kept[0].report), json);
 }
 
+TEST_F(Compare, PrintsWhatIsPublishedBeside) {
+    const std::vector<std::string> arguments{"--methods", "clusters", "--overlap", "0.1", "--published", "egtest01"};
+    const auto table = compare(arguments);
+    ASSERT_EQ(table.exit_code, 0) << table.errors;
+    EXPECT_THAT(table.output, HasSubstr("T_ov 0.1"));
+    EXPECT_THAT(table.output, HasSubstr("their paper, in table 7.10"));
+    auto as_json = arguments;
+    as_json.push_back("--json");
+    const auto json = nlohmann::json::parse(compare(as_json).output);
+    EXPECT_EQ(json["results"].size(), 2U);
+    ASSERT_EQ(json["published"].size(), 14U);
+    EXPECT_EQ(json["published"][0]["name"], "clusters");
+    EXPECT_EQ(json["published"][0]["tp"], 6844);
+    EXPECT_TRUE(json["published"][7]["tp"].is_null()) << "Siam et al. give no counts";
+    EXPECT_EQ(compare({"--methods", "clusters", "--published", "m1303"}).exit_code, 2);
+}
+
 TEST_F(Compare, SaysWhatIsWrong) {
     const auto method = compare({"--methods", "magic"});
     EXPECT_EQ(method.exit_code, 2);
@@ -114,8 +131,8 @@ TEST_F(Compare, SaysWhatIsWrong) {
 }
 
 TEST_F(Compare, BenchHasARowForEveryStageAndMethod) {
-    const auto result = test::runProcess({test::programPath("eyrie-cli"), "bench", "--input", at("clip"),
-                                          "--gsd", "0.2", "--frames", "10", "--corners", "600", "--json"});
+    const auto result = test::runProcess({test::programPath("eyrie-cli"), "bench", "--input", at("clip"), "--gsd",
+                                          "0.2", "--frames", "10", "--corners", "600", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     const auto json = nlohmann::json::parse(result.output);
     ASSERT_EQ(json["columns"].size(), 1U);

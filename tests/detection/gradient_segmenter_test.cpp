@@ -17,11 +17,29 @@ GradientSegmenter segmenter(const GradientOptions& options) {
 }
 
 TEST(GradientOptions, ThesisHasTheOptimaOfTable73) {
-    EXPECT_DOUBLE_EQ(GradientOptions::thesis().quantile, 0.12);
-    EXPECT_DOUBLE_EQ(GradientOptions::thesis(GradientMethod::simple).quantile, 0.15);
-    EXPECT_DOUBLE_EQ(GradientOptions::thesis(GradientMethod::canny).quantile, 0.14);
-    EXPECT_DOUBLE_EQ(GradientOptions::thesis(GradientMethod::morphological).quantile, 0.16);
+    EXPECT_DOUBLE_EQ(GradientOptions::thesis().effectiveQuantile(), 0.12);
+    EXPECT_DOUBLE_EQ(GradientOptions::thesis(GradientMethod::simple).effectiveQuantile(), 0.15);
+    EXPECT_DOUBLE_EQ(GradientOptions::thesis(GradientMethod::canny).effectiveQuantile(), 0.14);
+    EXPECT_DOUBLE_EQ(GradientOptions::thesis(GradientMethod::morphological).effectiveQuantile(), 0.16);
     EXPECT_EQ(GradientOptions::thesis().quantile_area, QuantileArea::roi);
+}
+
+TEST(GradientOptions, TheQuantileFollowsTheMethodUntilOneIsChosen) {
+    GradientOptions options = GradientOptions::thesis();
+    options.method = GradientMethod::canny;
+    EXPECT_DOUBLE_EQ(options.effectiveQuantile(), 0.14);
+    options.quantile = 0.3;
+    EXPECT_DOUBLE_EQ(options.effectiveQuantile(), 0.3);
+    EXPECT_DOUBLE_EQ(GradientOptions{}.effectiveQuantile(), 0.35);
+    // Two ways to the same boxes.
+    GradientOptions chosen = GradientOptions::thesis(GradientMethod::simple);
+    chosen.quantile = 0.15;
+    const MotionRoi roi = roiOf(drivenScene(0.4));
+    const auto follows = segmenter(GradientOptions::thesis(GradientMethod::simple)).detect(roi);
+    const auto fixed = segmenter(chosen).detect(roi);
+    ASSERT_EQ(follows.size(), fixed.size());
+    ASSERT_FALSE(fixed.empty());
+    for (std::size_t i = 0; i < fixed.size(); ++i) EXPECT_EQ(follows[i].box.area(), fixed[i].box.area());
 }
 
 TEST(GradientSegmenter, TracesAllItsSteps) {

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "detection/canny_harris_segmenter.h"
@@ -24,6 +26,33 @@ std::vector<std::string> layersOf(DetectionMethod method) {
     std::vector<std::string> names;
     for (const auto& layer : trace.layers) names.push_back(layer.name);
     return names;
+}
+
+/// An upright area of plain ground.
+MotionRoi plainRoi(cv::Size size) {
+    MotionRoi roi;
+    roi.image = cv::Mat(size, CV_8UC1, cv::Scalar(90));
+    roi.inside = cv::Mat(size, CV_8UC1, cv::Scalar(255));
+    roi.image_from_roi = {1, 0, 0, 0, 1, 0};
+    return roi;
+}
+
+/// A layer that a detector shows of this area; empty: there is none of that name.
+cv::Mat layerOf(const DetectionOptions& options, const MotionRoi& roi, const std::string& name) {
+    DetectionOptions alone = options;
+    alone.gradient.fall_back = false;
+    DetectionTrace trace;
+    makeDetector(alone, kContractScale)->detect(roi, &trace);
+    for (const auto& layer : trace.layers) {
+        if (layer.name == name) return layer.image;
+    }
+    return {};
+}
+
+/// Connected areas of a binary image.
+int areasIn(const cv::Mat& binary) {
+    cv::Mat labels;
+    return cv::connectedComponents(binary > 0, labels) - 1;
 }
 
 int segmentsOf(const cv::Mat& labels) {
@@ -64,6 +93,79 @@ TEST(LiteratureSegmenters, FallBackToTheClusterOnPlainGround) {
         EXPECT_GT(overlap(with[0].box, scene.cluster.box), 0.9);
         options.gradient.fall_back = false;
         EXPECT_TRUE(makeDetector(options, kContractScale)->detect(roiOf(scene)).empty()) << nameOf(method);
+    }
+}
+
+TEST(OtsuWithin, PartsTwoLevelsInsideTheMask) {
+    cv::Mat image(10, 30, CV_8UC1, cv::Scalar(40));
+    image.colRange(10, 20).setTo(200);
+    image.colRange(20, 30).setTo(255);
+    cv::Mat mask(image.size(), CV_8UC1, cv::Scalar(255));
+    mask.colRange(20, 30).setTo(0);
+    EXPECT_GE(otsuWithin(image, mask), 40);
+    EXPECT_LT(otsuWithin(image, mask), 200);
+    // With other levels in the mask, the border lies between those.
+    mask.setTo(255);
+    mask.colRange(0, 10).setTo(0);
+    EXPECT_GE(otsuWithin(image, mask), 200);
+    EXPECT_LT(otsuWithin(image, mask), 255);
+    EXPECT_EQ(otsuWithin(image, cv::Mat::zeros(image.size(), CV_8UC1)), 255);
+}
+
+TEST(TophatOtsu, ThesisJoinsNothing) {
+    // Two bars 32 px (3.5 m) apart: the transforms' disc of 27 px is wider than a bar and narrower than the gap.
+    MotionRoi roi = plainRoi({100, 60});
+    roi.image(cv::Rect(20, 10, 8, 40)).setTo(170);
+    roi.image(cv::Rect(60, 10, 8, 40)).setTo(170);
+    DetectionOptions options;
+    options.method = DetectionMethod::tophat_otsu;
+    EXPECT_EQ(areasIn(layerOf(options, roi, "closed")), 2);
+    options.tophat_otsu.joining_m = 5;
+    EXPECT_EQ(areasIn(layerOf(options, roi, "closed")), 1);
+    options.tophat_otsu = TophatOtsuOptions::thesis();
+    const cv::Mat binary = layerOf(options, roi, "binary");
+    EXPECT_EQ(areasIn(binary), 2);
+    EXPECT_EQ(cv::norm(binary, layerOf(options, roi, "closed"), cv::NORM_INF), 0);
+}
+
+TEST(TophatOtsu, ThesisTakesOtsusThresholdAsItIs) {
+    MotionRoi roi = plainRoi({60, 60});
+    roi.image(cv::Rect(26, 10, 8, 40)).setTo(96);  // 6 grey values above the ground
+    DetectionOptions options;
+    options.method = DetectionMethod::tophat_otsu;
+    EXPECT_EQ(areasIn(layerOf(options, roi, "closed")), 0) << "below the least contrast of 8";
+    options.tophat_otsu = TophatOtsuOptions::thesis();
+    EXPECT_EQ(areasIn(layerOf(options, roi, "closed")), 1);
+}
+
+TEST(Mser, ThesisKeepsRegionsFromEdgeToEdge) {
+    MotionRoi roi = plainRoi({40, 60});
+    roi.image(cv::Rect(0, 20, 40, 20)).setTo(180);  // 9.7 m², twice as long as wide
+    // The ground comes in steps smaller than delta, so that the band is more stable than what it grows into.
+    roi.image.rowRange(0, 20).setTo(94);
+    DetectionOptions options;
+    options.method = DetectionMethod::mser;
+    EXPECT_EQ(cv::countNonZero(layerOf(options, roi, "binary")), 0);
+    options.mser = MserOptions::thesis();
+    EXPECT_GT(cv::countNonZero(layerOf(options, roi, "binary")), 700);
+}
+
+TEST(LiteratureSegmenters, TakeTheThesisSettings) {
+    for (const DetectionMethod method : {DetectionMethod::relative_connectivity, DetectionMethod::tophat_otsu,
+                                         DetectionMethod::mser, DetectionMethod::canny_harris}) {
+        DetectionOptions options = DetectionOptions::thesis();
+        EXPECT_TRUE(options.mser.keep_spanning);
+        EXPECT_EQ(options.tophat_otsu.min_contrast, 0);
+        EXPECT_EQ(options.tophat_otsu.joining_m, 0);
+        options.method = method;
+        const auto detector = makeDetector(options, kContractScale);
+        for (const cv::Point2d centre : {cv::Point2d(160, 120), cv::Point2d(3, 2), cv::Point2d(-400, 120)}) {
+            for (const Detection& found : detector->detect(roiOf(drivenScene(0.4, centre)))) {
+                EXPECT_TRUE(std::isfinite(found.box.centre.x + found.box.centre.y)) << nameOf(method);
+                EXPECT_GE(found.box.area(), 10) << nameOf(method);
+            }
+        }
+        EXPECT_TRUE(detector->detect({}).empty());
     }
 }
 

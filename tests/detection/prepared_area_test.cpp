@@ -45,7 +45,7 @@ struct LateChange {
 
 TEST(PreparedArea, DecidesWithOtherParametersAsItWouldDetect) {
     const std::vector<LateChange> changes{
-        {DetectionMethod::gradient, "gradient.quantile", {"0.01", "0.05", "0.12", "0.35", "0.7", "1"}},
+        {DetectionMethod::gradient, "gradient.quantile", {"0", "0.01", "0.05", "0.12", "0.35", "0.7", "1"}},
         {DetectionMethod::gradient, "gradient.min_box_area", {"1", "60", "400"}},
         {DetectionMethod::gradient, "gradient.need_support", {"false", "true"}},
         {DetectionMethod::gradient, "gradient.support_share", {"0", "0.5"}},

@@ -1,13 +1,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
+#include <opencv2/core.hpp>
 
 #include "core/error.h"
 #include "detection/global_sliding_window.h"
 #include "detection/model_location.h"
 #include "detection/sliding_window_detector.h"
 #include "detection/trained_window_model.h"
+#include "detection/window_hypotheses.h"
+#include "learning/gentle_adaboost.h"
 
 namespace eyrie {
 namespace {
@@ -74,6 +80,59 @@ TEST(SlidingWindowOptions, ScalesOfTheThreeCases) {
     EXPECT_EQ(rescaledSize({60, 100}, 2, options, scene), cv::Size(60, 50));
     options.rescaling = WindowRescaling::joint_11;
     EXPECT_EQ(rescaledSize({60, 100}, 2, options, scene), cv::Size(30, 50));
+}
+
+TEST(SlidingWindowOptions, ScalesOfDefaultsAndThesis) {
+    const auto exactly = [](double value) { return testing::DoubleEq(value); };
+    EXPECT_THAT(SlidingWindowOptions{}.scales(),
+                testing::ElementsAre(exactly(0.85), testing::DoubleNear(1.1292, 1e-4), exactly(1.5)));
+    SlidingWindowOptions thesis = SlidingWindowOptions::thesis();
+    EXPECT_THAT(thesis.scales(), testing::ElementsAre(exactly(0.85), exactly(1), exactly(3.8)));
+    EXPECT_GE(3.8 * thesis.car_length_m, 15) << "buses and lorries are 15 to 20 m long";
+    EXPECT_LE(3.8 * thesis.car_length_m, 20);
+    for (const WindowRescaling rescaling : {WindowRescaling::length_11, WindowRescaling::joint_11}) {
+        thesis.rescaling = rescaling;
+        const std::vector<double> scales = thesis.scales();
+        ASSERT_EQ(scales.size(), 11U);
+        EXPECT_EQ(std::adjacent_find(scales.begin(), scales.end(), std::greater_equal<double>()), scales.end());
+        EXPECT_EQ(std::count(scales.begin(), scales.end(), 1.0), 1) << "the original size";
+        EXPECT_DOUBLE_EQ(scales.front(), 0.85);
+        EXPECT_DOUBLE_EQ(scales.back(), 3.8);
+        EXPECT_NEAR(scales[10] / scales[9], scales[3] / scales[2], 1e-9);
+    }
+    for (const double outside : {0.0, 0.85, 3.8, 9.0}) {
+        thesis.rescaling = WindowRescaling::length_3;
+        thesis.middle_scale = outside;
+        EXPECT_NEAR(thesis.scales()[1], std::sqrt(0.85 * 3.8), 1e-9) << outside;
+    }
+}
+
+TEST(ScanAtScale, WithoutRejectionEveryWindowIsLookedAtToTheEnd) {
+    // The same model, but with a trace that no window can keep up with.
+    const VehicleModel trained = loadModel(test::drivenSceneModel());
+    const auto& boosted = dynamic_cast<const GentleAdaBoost&>(*trained.classifier);
+    VehicleModel strict = trained;
+    strict.classifier = std::make_shared<GentleAdaBoost>(boosted.dimension(), boosted.trees(),
+                                                         std::vector<float>(boosted.trees().size(), 5000.F));
+    const WindowScanner scanner(strict);
+    ASSERT_TRUE(scanner.fast());
+    const cv::Mat area = roiOf(drivenScene(0.5)).image;
+    SlidingWindowOptions options = drivenSceneWindow();
+    const auto lowest = [&](cv::Mat& decision) {
+        scanAtScale(scanner, area, 1, options, kContractScale, decision);
+        double least = 0;
+        cv::minMaxLoc(decision, &least);
+        return least;
+    };
+    cv::Mat decision;
+    options.rejection_margin = 999;
+    EXPECT_LT(lowest(decision), -1e30);
+    options.rejection_margin = SlidingWindowOptions::thesis().rejection_margin;
+    EXPECT_GT(lowest(decision), -1e30);
+    cv::Mat all;
+    const WindowScanner as_trained(trained);
+    scanAtScale(as_trained, area, 1, options, kContractScale, all);
+    EXPECT_EQ(cv::norm(decision, all, cv::NORM_INF), 0) << "a trace changes no value";
 }
 
 TEST(SlidingWindow, ScoresAreDecisionValuesAndTheThresholdHolds) {

@@ -161,7 +161,9 @@ TEST_F(RunEvaluations, theListAsATable) {
     std::ifstream file(folder / "errors.csv");
     std::string line;
     std::getline(file, line);
-    EXPECT_EQ(line, "kind,first_frame,last_frame,count,objects,tracks,frame,x,y,length,width,heading,cause,detail,frames_of_cause");
+    EXPECT_EQ(
+        line,
+        "kind,first_frame,last_frame,count,objects,tracks,frame,x,y,length,width,heading,cause,detail,frames_of_cause");
     std::getline(file, line);
     EXPECT_EQ(line, "miss,8,9,2,1,,9,86,40,20,10,0,no corners,,2");
     EXPECT_THROW(writeMistakeCsv(folder / "no" / "where.csv", e->mistakes), Error);

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 from cases import Failure, judge
+from project_facts import facts
 
 READERS = ("info", "export", "evaluate", "report")
 WRITERS = ("run", "sweep", "import", "merge", "window")
@@ -228,6 +229,12 @@ class Window(Action):
         begin = ["open", self.project] if self.exists else ["video", self.world.clip, self.project]
         label, run = ["label", str(self.LABELS), self.mark], ["run", self.mark]
         return [self.world.driver, *begin, *(label + run if self.random.random() < 0.7 else run + label)]
+
+    def again(self):
+        following = super().again()
+        # A project that was made, but in which nothing was stored yet, is nothing that the window could open.
+        following.exists = any(facts(self.project, self.folder).values())
+        return following
 
     def done(self):
         return {f"labels {self.mark}": self.LABELS, f"finished {self.mark}": 1, f"frames {self.mark}": self.world.frames}

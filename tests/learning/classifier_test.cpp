@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <set>
 
 #include "core/error.h"
 #include "learning/gentle_adaboost.h"
@@ -140,7 +144,7 @@ TEST(GentleAdaBoost, oneTreeOnFourPointsIsTheOneOnPaper) {
     TrainingSet set;
     set.features = (cv::Mat1f(5, 2) << 0, 0, 0, 0, 0, 1, 1, 0, 1, 1);
     set.vehicle = {1, 1, 0, 0, 1};
-    const auto boosted = trainGentleAdaBoost(set, 1, 1, 1, {});
+    const auto boosted = trainGentleAdaBoost(set, 1, 1, 0.01, 1, {});
     ASSERT_EQ(boosted->trees().size(), 1U);
     const float corners[4][2] = {{0, 0}, {0, 1}, {1, 0}, {1, 1}};
     const double expected[4] = {1, -1, -1, 1};
@@ -150,7 +154,7 @@ TEST(GentleAdaBoost, oneTreeOnFourPointsIsTheOneOnPaper) {
 
 TEST(GentleAdaBoost, traceIsTheLowestSumOfAcceptedVehicles) {
     const TrainingSet set = ring(200, 9);
-    const auto boosted = trainGentleAdaBoost(set, 30, 1, 1, {});
+    const auto boosted = trainGentleAdaBoost(set, 30, 1, 0.01, 1, {});
     ASSERT_EQ(boosted->leastSums().size(), 30U);
     std::vector<double> least(30, 1e9);
     for (int i = 0; i < set.count(); ++i) {
@@ -169,7 +173,7 @@ TEST(GentleAdaBoost, moreTreesLowerTheTrainingLoss) {
     const TrainingSet set = ring(300, 4);
     double before = 1;
     for (const int trees : {1, 4, 16, 64}) {
-        const auto boosted = trainGentleAdaBoost(set, trees, 1, 1, {});
+        const auto boosted = trainGentleAdaBoost(set, trees, 1, 0.01, 1, {});
         double loss = 0;
         for (int i = 0; i < set.count(); ++i) {
             const double label = set.vehicle[std::size_t(i)] ? 1 : -1;
@@ -178,6 +182,121 @@ TEST(GentleAdaBoost, moreTreesLowerTheTrainingLoss) {
         EXPECT_LT(loss, before) << trees;
         before = loss;
     }
+}
+
+/// Gentle AdaBoost by the book (Friedman, Hastie, Tibshirani 2000): every tree looks at all features, all samples and
+/// all borders between values. Returns the sums after each tree, in leaf units, for each sample.
+std::vector<std::vector<int>> plainBoosting(const TrainingSet& set, int trees) {
+    const auto count = static_cast<std::size_t>(set.count());
+    const auto label = [&](std::size_t i) { return set.vehicle[i] ? 1.0 : -1.0; };
+    const auto value = [&](std::size_t i, int feature) { return set.features(static_cast<int>(i), feature); };
+    struct Stump {
+        int feature = 0;
+        float border = std::numeric_limits<float>::max();
+    };
+    std::vector<double> weights(count);
+    double vehicles = 0;
+    for (const std::uint8_t v : set.vehicle) vehicles += v;
+    for (std::size_t i = 0; i < count; ++i)
+        weights[i] = 0.5 / (set.vehicle[i] ? vehicles : static_cast<double>(count) - vehicles);
+    const auto bestStump = [&](const std::vector<std::size_t>& samples) {
+        Stump best;
+        double most = -1;
+        for (int feature = 0; feature < set.dimension(); ++feature) {
+            std::set<float> values;
+            for (std::size_t i = 0; i < count; ++i) values.insert(value(i, feature));
+            for (auto low = values.begin(); std::next(low) != values.end(); ++low) {
+                const float border = *low + (*std::next(low) - *low) / 2;
+                double weight[2] = {};
+                double sum[2] = {};
+                for (const std::size_t i : samples) {
+                    const int side = value(i, feature) >= border ? 1 : 0;
+                    weight[side] += weights[i];
+                    sum[side] += weights[i] * label(i);
+                }
+                if (weight[0] <= 0 || weight[1] <= 0) continue;
+                const double gain = sum[0] * sum[0] / weight[0] + sum[1] * sum[1] / weight[1];
+                if (gain > most * (1 + 1e-9)) {
+                    most = gain;
+                    best = {feature, border};
+                }
+            }
+        }
+        return best;
+    };
+    std::vector<std::size_t> all(count);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    std::vector<int> sums(count, 0);
+    std::vector<std::vector<int>> after_each;
+    for (int t = 0; t < trees; ++t) {
+        const Stump root = bestStump(all);
+        std::vector<std::size_t> below[2];
+        for (const std::size_t i : all) below[value(i, root.feature) >= root.border ? 1 : 0].push_back(i);
+        double total = 0;
+        for (const auto& side : below) {
+            const Stump node = bestStump(side);
+            std::vector<std::size_t> leaves[2];
+            for (const std::size_t i : side) leaves[value(i, node.feature) >= node.border ? 1 : 0].push_back(i);
+            for (const auto& leaf : leaves) {
+                double weight = 0;
+                double sum = 0;
+                for (const std::size_t i : leaf) {
+                    weight += weights[i];
+                    sum += weights[i] * label(i);
+                }
+                const auto units = weight > 0 ? std::lround(sum / weight * GentleAdaBoost::kLeafUnit) : 0;
+                for (const std::size_t i : leaf) {
+                    sums[i] += static_cast<int>(units);
+                    weights[i] *= std::exp(-label(i) * static_cast<double>(units) / GentleAdaBoost::kLeafUnit);
+                }
+            }
+        }
+        for (const double w : weights) total += w;
+        for (double& w : weights) w /= total;
+        after_each.push_back(sums);
+    }
+    return after_each;
+}
+
+/// The same of a trained model.
+std::vector<std::vector<int>> sumsOf(const GentleAdaBoost& boosted, const TrainingSet& set) {
+    std::vector<std::vector<int>> after_each;
+    std::vector<int> sums(static_cast<std::size_t>(set.count()), 0);
+    for (const BoostedTree& tree : boosted.trees()) {
+        const GentleAdaBoost one(set.dimension(), {tree}, {0.F});
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            const float* row = set.features[static_cast<int>(i)];
+            const double leaf = one.decide({row, static_cast<std::size_t>(set.dimension())});
+            sums[i] += static_cast<int>(std::lround(leaf * GentleAdaBoost::kLeafUnit));
+        }
+        after_each.push_back(sums);
+    }
+    return after_each;
+}
+
+TEST(GentleAdaBoost, withTheThesisSettingsItIsTheOneOfTheBook) {
+    const ClassifierOptions thesis = ClassifierOptions::thesis();
+    EXPECT_EQ(thesis.trees, 1000);
+    // No more values than bins, so that all borders between them are looked at; no two splits are equally good.
+    TrainingSet set{cv::Mat1f(28, 2), {}};
+    for (int i = 0; i < 28; ++i) {
+        const int x = (37 * i + 11) % 101;
+        const int y = (53 * i + 29) % 103;
+        set.features(i, 0) = static_cast<float>(x);
+        set.features(i, 1) = static_cast<float>(y);
+        set.vehicle.push_back((x - 50) * (x - 50) + (y - 50) * (y - 50) < 900 ? 1 : 0);
+    }
+    const auto plain = plainBoosting(set, 5);
+    const auto boosted = trainGentleAdaBoost(set, 5, thesis.feature_share, thesis.weight_trimming, 1, {});
+    EXPECT_EQ(sumsOf(*boosted, set), plain);
+}
+
+TEST(GentleAdaBoost, trimmingLeavesTheSurestSamplesOut) {
+    const TrainingSet set = ring(200, 12);
+    const auto all = sumsOf(*trainGentleAdaBoost(set, 40, 1, 0, 1, {}), set);
+    const auto trimmed = sumsOf(*trainGentleAdaBoost(set, 40, 1, 0.3, 1, {}), set);
+    EXPECT_EQ(all[0], sumsOf(*trainGentleAdaBoost(set, 1, 1, 0.001, 1, {}), set)[0]) << "all weigh the same at first";
+    EXPECT_NE(all, trimmed);
 }
 
 TEST(RandomNaiveBayes, posteriorIsBayesRule) {
@@ -195,6 +314,50 @@ TEST(RandomNaiveBayes, posteriorIsBayesRule) {
     // Class-conditional unmixing that stretches by e counts e times the density.
     weak.unmixing[1] = {Eigen::MatrixXd::Constant(1, 1, std::exp(1.0)), Eigen::VectorXd::Zero(1), 1};
     EXPECT_NEAR(weak.posterior(Eigen::VectorXd::Constant(1, 2)), 0.3 * std::exp(1) / (0.3 * std::exp(1) + 0.1), 1e-6);
+}
+
+/// A weak classifier of one feature that says the same of every value.
+WeakBayes sayingAlways(double posterior, double weight) {
+    WeakBayes weak;
+    weak.weight = weight;
+    weak.features = {0};
+    for (std::size_t c = 0; c < 2; ++c) {
+        LikelihoodHistogram h;
+        h.low = 0;
+        h.high = 10;
+        h.log_density.fill(static_cast<float>(std::log(c == 1 ? posterior : 1 - posterior)));
+        weak.likelihoods[c] = {h};
+    }
+    return weak;
+}
+
+TEST(RandomNaiveBayes, addsUpPosteriorsByWeightAndNotVotes) {
+    const float value[1] = {5};
+    const auto decide = [&](const std::vector<WeakBayes>& weak) {
+        return RandomNaiveBayes(ClassifierKind::random_naive_bayes, {0.F}, {1.F}, weak).decide(value);
+    };
+    // Two of three are against, but one is sure: (0.4 − 0.1 − 0.1) / 3.
+    EXPECT_NEAR(decide({sayingAlways(0.9, 1), sayingAlways(0.4, 1), sayingAlways(0.4, 1)}), 0.2 / 3, 1e-6);
+    EXPECT_NEAR(decide({sayingAlways(0.9, 1), sayingAlways(0.4, 3), sayingAlways(0.4, 3)}), -0.2 / 7, 1e-6);
+    // One that is wrong more often than right counts the other way round.
+    EXPECT_NEAR(decide({sayingAlways(0.9, -1), sayingAlways(0.6, 1)}), -0.3 / 2, 1e-6);
+}
+
+TEST(RandomNaiveBayes, weightIsHalfTheLogarithmOfTheOdds) {
+    // A feature that is wrong about every fifth sample, whichever are left out of the bag: ½ ln(0.8 / 0.2).
+    TrainingSet set{cv::Mat1f(2000, 1), {}};
+    for (int i = 0; i < 2000; ++i) {
+        const int vehicle = i % 2;
+        const bool wrong = i / 2 % 5 == 0;
+        set.vehicle.push_back(static_cast<std::uint8_t>(vehicle));
+        set.features(i, 0) = static_cast<float>(wrong ? 1 - vehicle : vehicle);
+    }
+    ClassifierOptions options = smallOptions();
+    options.weak_features = 1;
+    const auto model = trainRandomNaiveBayes(set, ClassifierKind::random_naive_bayes, options, 1, {});
+    double mean = 0;
+    for (const WeakBayes& weak : model->weak()) mean += weak.weight / static_cast<double>(model->weak().size());
+    EXPECT_NEAR(mean, 0.5 * std::log(4.0), 0.04);
 }
 
 TEST(RandomNaiveBayes, weighsByTheOutOfBagErrorAndRefusesWhenNothingIsGoodEnough) {

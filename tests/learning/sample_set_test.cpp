@@ -6,7 +6,6 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <set>
 
 #include "core/angle.h"
 #include "core/error.h"
@@ -87,17 +86,6 @@ TEST_F(PatchSheets, thatAreDamagedAreRefusedNamingThePlace) {
     EXPECT_THAT(messageOf(), HasSubstr("no sheet"));
     std::filesystem::remove(folder / "pos.png");
     EXPECT_THAT(messageOf(), HasSubstr("pos.png"));
-}
-
-TEST(SampleSet, splitsWholeGroups) {
-    const SampleSet samples = test::drawnSamples(70, 140, 1);
-    const auto [first, second] = splitByGroup(samples, 0.3, 4);
-    EXPECT_EQ(first.size() + second.size(), samples.size());
-    EXPECT_NEAR(static_cast<double>(second.size()) / 210, 0.3, 0.08);
-    std::set<std::string> groups;
-    for (const Sample& sample : first) groups.insert(sample.group);
-    for (const Sample& sample : second) EXPECT_FALSE(groups.count(sample.group)) << sample.group;
-    EXPECT_TRUE(splitByGroup({samples[0], samples[7]}, 0.5, 1).second.empty()) << "a group is never torn apart";
 }
 
 TEST(WindowCutting, turnsAndScalesAVehicleToTheSheetsSize) {

@@ -137,7 +137,7 @@ TEST(Trainer, saysWhenSamplesAreMissing) {
 TEST(Trainer, optionsAreDeclared) {
     TrainingOptions options;
     const auto parameters = listParameters(describeOf(options));
-    EXPECT_EQ(parameters.size(), 15U);
+    EXPECT_EQ(parameters.size(), 16U);
     for (const Parameter& parameter : parameters) EXPECT_THAT(parameter.name, testing::StartsWith("training."));
     EXPECT_THROW(setParameter(describeOf(options), "training.trees", "0"), Error);
     setParameter(describeOf(options), "training.trees", "77");
@@ -146,8 +146,8 @@ TEST(Trainer, optionsAreDeclared) {
 
 TEST(ShippedModel, tellsVehiclesOfACameraItHasNeverSeen) {
     EYRIE_NEED_SHARED_DATA("patches/cats_madison");
-    const VehicleModel model = loadModel(test::sourceFolder() /
-                                         "resources/classifiers/vehicle_chnftrs_adaboost.eyriemodel");
+    const VehicleModel model =
+        loadModel(test::sourceFolder() / "resources/classifiers/vehicle_chnftrs_adaboost.eyriemodel");
     EXPECT_TRUE(WindowScanner(model).fast());
     EXPECT_EQ(model.record.data.find("cats_madison"), std::string::npos);
     EXPECT_GE(areaUnderRoc(model, readPatchSheets(test::sharedData("patches/cats_madison"))), 0.99);

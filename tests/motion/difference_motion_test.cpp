@@ -222,6 +222,19 @@ TEST(DifferenceMotion, WithoutVectorsTheLongerAxisGivesTheHeading) {
     }
 }
 
+TEST(DifferenceMotion, ThesisComparesPicturesThreeFramesApart) {
+    DifferenceOptions options = DifferenceOptions::thesis();
+    EXPECT_EQ(options.gap, 3);
+    EXPECT_EQ(options.method, MotionMethod::vectors) << "the thesis' own way";
+    options.method = MotionMethod::three_frame_difference;
+    const MovingScene scene;
+    DifferenceMotion difference(options, kScale);
+    for (int i = 0; i < 12; ++i) {
+        const DifferenceResult result = difference.next(frameOf(scene, i), trueMotion(scene, i));
+        EXPECT_EQ(result.difference.values.empty(), i < 6) << i << ": t, t-3 and t-6 (fig. 4.2 d)";
+    }
+}
+
 TEST(DifferenceMotion, ShowsWhatItSaw) {
     const MovingScene scene;
     const DifferenceResult result = lastOf(scene, optionsOf(MotionMethod::two_frame_difference));

@@ -299,7 +299,7 @@ TEST(Registrar, fillsTheTimesItIsAskedFor) {
 TEST(RegistrationOptions, everyParameterIsNamedAfterTheRoomAndReadsBack) {
     RegistrationOptions options;
     const auto all = listParameters(describeOf(options));
-    EXPECT_EQ(all.size(), 17U);
+    EXPECT_EQ(all.size(), 18U);
     for (const Parameter& parameter : all) {
         EXPECT_EQ(parameter.name.rfind("registration.", 0), 0U) << parameter.name;
         EXPECT_FALSE(parameter.text.help.empty());

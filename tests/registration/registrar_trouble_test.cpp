@@ -50,6 +50,20 @@ TEST(RegistrarTrouble, findsItsWayAfterATurnByFeatures) {
     }
 }
 
+TEST(RegistrarTrouble, withoutFeaturesATurnIsACut) {
+    RegistrationOptions options;
+    options.feature_search = false;
+    Watch watch(options);
+    Flight flight;
+    watch.see(flight);
+    flight.move(drift());
+    ASSERT_EQ(watch.see(flight).registration.state, RegistrationState::registered);
+    flight.move(test::cameraMotion(kSize, 22, -15, 35));
+    const RegisteredFrame turned = watch.see(flight);
+    EXPECT_EQ(turned.registration.state, RegistrationState::failed);
+    EXPECT_NE(turned.registration.reason.find("does not fit"), std::string::npos) << turned.registration.reason;
+}
+
 TEST(RegistrarTrouble, featuresDoNotFindAWayBetweenDifferentPlaces) {
     const HomographyEstimator estimator({}, kSize);
     Flight here;

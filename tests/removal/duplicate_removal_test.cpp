@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "removal/vectors_in_boxes.h"
 
 namespace eyrie {
@@ -78,6 +81,61 @@ TEST(DuplicateRemoval, SuppressionKeepsTheSurer) {
     EXPECT_EQ(found[0].rejection, Rejection::duplicate);
     EXPECT_EQ(found[1].rejection, Rejection::none);
     EXPECT_DOUBLE_EQ(found[1].box.length, 17);
+}
+
+TEST(DuplicateRemoval, SuppressionGoesFromTheHighestScoreDown) {
+    // In a row A, B, C with falling scores: A overlaps B by 8 / 28 = 0.29, B overlaps C by 14 / 22 = 0.64, A and C
+    // share 4 / 32 = 0.13 only. B goes for A, so nothing is left that C would have to go for.
+    const FrameMotion motion = sparseMotion();
+    std::vector<Detection> row{detection(100, 100, 18, 7), detection(110, 100, 18, 7), detection(114, 100, 18, 7)};
+    for (std::size_t i = 0; i < 3; ++i) row[i].score = 3.0 - static_cast<double>(i);
+    const auto keptScores = [](const std::vector<Detection>& found) {
+        std::set<double> scores;
+        for (const Detection& d : found) {
+            if (d.rejection == Rejection::none) scores.insert(d.score);
+        }
+        return scores;
+    };
+    for (const bool complete : {false, true}) {
+        DuplicateRemovalOptions options = DuplicateRemovalOptions::thesis();
+        options.strategy = complete ? DuplicateStrategy::fuse : DuplicateStrategy::suppress;
+        for (Detection& d : row) d.complete = complete;
+        std::vector<int> order{0, 1, 2};
+        do {
+            std::vector<Detection> shuffled;
+            for (const int i : order) shuffled.push_back(row[static_cast<std::size_t>(i)]);
+            RemovalTrace trace;
+            const auto found = removeDuplicates(shuffled, motion, options, kScale, &trace);
+            EXPECT_EQ(keptScores(found), (std::set<double>{3, 1})) << order[0] << order[1] << order[2];
+            ASSERT_EQ(trace.duplicates.size(), 1U);
+            EXPECT_EQ(shuffled[static_cast<std::size_t>(trace.duplicates[0].removed)].score, 2);
+            EXPECT_EQ(shuffled[static_cast<std::size_t>(trace.duplicates[0].kept)].score, 3);
+            EXPECT_NEAR(trace.duplicates[0].value, 8.0 / 28, 1e-9);
+            EXPECT_EQ(found[static_cast<std::size_t>(trace.duplicates[0].kept)].box.length, 18) << "nothing is fused";
+        } while (std::next_permutation(order.begin(), order.end()));
+    }
+}
+
+TEST(DuplicateRemoval, EqualScoresLeaveTheFirst) {
+    DuplicateRemovalOptions options = DuplicateRemovalOptions::thesis();
+    options.strategy = DuplicateStrategy::suppress;
+    const auto found =
+        removeDuplicates({detection(100, 100, 18, 7), detection(102, 100, 18, 7)}, sparseMotion(), options, kScale);
+    EXPECT_EQ(found[0].rejection, Rejection::none);
+    EXPECT_EQ(found[1].rejection, Rejection::duplicate);
+}
+
+TEST(DuplicateRemoval, SegmentsInAChainFuseIntoOneUnion) {
+    DuplicateRemovalOptions options = DuplicateRemovalOptions::thesis();
+    options.strategy = DuplicateStrategy::fuse;
+    const auto found =
+        removeDuplicates({detection(100, 100, 18, 7), detection(110, 100, 18, 7), detection(120, 100, 18, 7)},
+                         sparseMotion(), options, kScale);
+    ASSERT_EQ(kept(found), 1);
+    for (const Detection& d : found) {
+        if (d.rejection != Rejection::none) continue;
+        EXPECT_NEAR(d.box.length, 38, 1e-9);  // 91 … 129
+    }
 }
 
 TEST(DuplicateRemoval, CountsOnlyVectorsThatMoveAlike) {

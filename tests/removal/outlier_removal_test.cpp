@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/angle.h"
 #include "removal/vectors_in_boxes.h"
 
 namespace eyrie {
@@ -66,6 +67,65 @@ TEST(OutlierRemoval, ThesisCountsVectorsOfAnyVelocity) {
         removeOutliers({detection(100, 100, 18, 7)}, motion, OutlierRemovalOptions::thesis(), kScale)[0].rejection,
         Rejection::none);
     EXPECT_EQ(removeOutliers({detection(100, 100, 18, 7)}, motion, {}, kScale)[0].rejection, Rejection::outlier);
+}
+
+TEST(OutlierRemoval, ThesisCountsNoVectorsBesideTheBox) {
+    FrameMotion motion = sparseMotion();
+    fill(motion, {{100, 104}, 18, 7, 0}, 4);  // 0.5 px outside a box that ends at y = 103.5
+    const Detection box = detection(100, 100, 18, 7);
+    EXPECT_EQ(removeOutliers({box}, motion, {}, kScale)[0].rejection, Rejection::none);
+    EXPECT_EQ(removeOutliers({box}, motion, OutlierRemovalOptions::thesis(), kScale)[0].rejection, Rejection::outlier);
+}
+
+TEST(OutlierRemoval, VectorsOnTheVeryBorderAreInside) {
+    // The box of a cluster ends on its outermost vectors, which come back through rotations.
+    for (int turn = 0; turn < 40; ++turn) {
+        FrameMotion motion = sparseMotion();
+        OrientedBox box{{211.3 + 0.7 * turn, 187.9 + 0.3 * turn}, 18, 7, 0.157 * turn};
+        for (const cv::Point2d in_box : {cv::Point2d(9, 1), cv::Point2d(-9, 2), cv::Point2d(3, 3.5), {-2, -3.5}}) {
+            motion.motion_vectors.push_back(
+                {static_cast<CornerId>(motion.motion_vectors.size()), box.toImage(in_box), {1, 0}, 9});
+        }
+        Detection found;
+        found.box = box;
+        found.velocity = {1, 0};
+        const auto kept = removeOutliers({found}, motion, OutlierRemovalOptions::thesis(), kScale);
+        EXPECT_EQ(kept[0].rejection, Rejection::none) << turn;
+        EXPECT_EQ(kept[0].vectors.size(), 4U) << turn;
+    }
+}
+
+TEST(OutlierRemoval, ThesisRejectsWhatReachesBeyondTheImage) {
+    FrameMotion motion = sparseMotion();  // 640 × 480: edges at −0.5, 639.5 and 479.5
+    const auto rejection = [&](const OrientedBox& box, const OutlierRemovalOptions& options) {
+        FrameMotion with_vectors = motion;
+        fill(with_vectors, {box.centre, 4, 1, 0}, 6);
+        Detection found;
+        found.box = box;
+        found.velocity = {1, 0};
+        return removeOutliers({found}, with_vectors, options, kScale)[0].rejection;
+    };
+    const OutlierRemovalOptions thesis = OutlierRemovalOptions::thesis();
+    const std::vector<OrientedBox> inside{
+        {{8.5, 100}, 18, 7, 0},       {{630.5, 100}, 18, 7, 0}, {{100, 3}, 18, 7, 0},    {{100, 476}, 18, 7, 0},
+        {{100, 8.5}, 18, 7, kPi / 2}, {{8.5, 100}, 18, 7, kPi}, {{320, 240}, 18, 7, 0.8}};
+    for (const OrientedBox& box : inside) EXPECT_EQ(rejection(box, thesis), Rejection::none) << box.centre;
+    const std::vector<OrientedBox> beyond{{{7.5, 100}, 18, 7, 0},
+                                          {{631.5, 100}, 18, 7, 0},
+                                          {{100, 2}, 18, 7, 0},
+                                          {{100, 477}, 18, 7, 0},
+                                          // Turned by 45° it reaches (18 + 7) / √8 = 8.8 px to every side.
+                                          {{8, 100}, 18, 7, kPi / 4}};
+    for (const OrientedBox& box : beyond) {
+        EXPECT_EQ(rejection(box, thesis), Rejection::size) << box.centre;
+        EXPECT_EQ(rejection(box, {}), Rejection::none) << box.centre;
+        const auto limit = brokenSizeLimit(box, thesis, kScale, motion.image_size);
+        ASSERT_TRUE(limit);
+        EXPECT_EQ(limit->parameter, "outliers.inside_image");
+        EXPECT_LT(limit->value, 1);
+        EXPECT_GT(limit->value, 0.7);
+        EXPECT_FALSE(brokenSizeLimit(box, thesis, kScale)) << "without a picture there is no outside";
+    }
 }
 
 TEST(OutlierRemoval, LeavesEarlierRejectionsAlone) {

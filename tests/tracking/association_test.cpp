@@ -201,6 +201,13 @@ TEST(SplitMerge, reconstructionIsTheMedianOfTheSuggestedBoxes) {
     EXPECT_FALSE(rebuilt->heading_known);
     EXPECT_NEAR(rebuilt->velocity.x, 3, 1e-6);
     EXPECT_FALSE(reconstructBox(associations, frame, stored, 4, 100)) << "only three agree";
+    // It is 30 px off, three times the shorter side.
+    EXPECT_FALSE(reconstructBox(associations, frame, stored, 4, 100, 2.9));
+    EXPECT_TRUE(reconstructBox(associations, frame, stored, 4, 100, 3.1));
+    const auto believed = reconstructBox(associations, frame, stored, 4, 100, 0);
+    ASSERT_TRUE(believed) << "without a vote the thesis' text takes any";
+    EXPECT_EQ(believed->vectors, 4);
+    EXPECT_NEAR(believed->box.centre.x, 53, 1e-4) << "the median minds one of four little";
     EXPECT_FALSE(reconstructBox({}, frame, stored, 0, 100));
 }
 
@@ -245,6 +252,23 @@ TEST(VectorAssociation, fourCriteria) {
     EXPECT_THAT(ids, UnorderedElementsAre(1, 5));
     EXPECT_THAT(second, IsEmpty());
     EXPECT_NEAR(first[0].in_box.x, 0, 1e-9);
+}
+
+TEST(VectorAssociation, aLivingRivalKeepsItsVectors) {
+    // Beside the rival's box, but near enough to stay with it, and in nobody else's box than the first's.
+    const std::vector<MotionVector> vectors{{5, {0.5, 1}, {2, 0}, 9}};
+    const FrameVectors frame(vectors);
+    for (const bool rival_first : {false, true}) {
+        std::vector<AssociatedVector> none;
+        std::vector<AssociatedVector> rivals{{5, {-7.5, 1}, 0, 0}};
+        std::vector<VectorClaim> claims{{{{0, 0}, 30, 10, 0}, {2, 0}, true, true, &none},
+                                        {{{8, 0}, 12, 10, 0}, {2, 0}, true, true, &rivals}};
+        if (rival_first) std::swap(claims[0], claims[1]);
+        associateVectors(claims, frame, {});
+        EXPECT_THAT(none, IsEmpty());
+        ASSERT_EQ(rivals.size(), 1U);
+        EXPECT_NEAR(rivals[0].in_box.x, -7.5, 1e-9);
+    }
 }
 
 TEST(VectorAssociation, keepsItsOwnAndAtMostTheGivenNumber) {

@@ -64,17 +64,17 @@ TEST(FinishTracks, cleanTracksComeOutAsTheyWentInAndTwiceIsOnce) {
     expectOrdered(once);
     for (const auto& [frame, state] : once) {
         const OrientedBox truth = scene.box(std::size_t(state.id - 1), frame);
-        EXPECT_NEAR(state.box.centre.x, truth.centre.x, 1e-6);
-        EXPECT_NEAR(state.box.centre.y, truth.centre.y, 1e-6);
-        EXPECT_NEAR(state.box.length, truth.length, 1e-6);
-        EXPECT_NEAR(turnBetween(state.box.heading, truth.heading), 0, 1e-6);
+        EXPECT_NEAR(state.box.centre.x, truth.centre.x, 1e-4);
+        EXPECT_NEAR(state.box.centre.y, truth.centre.y, 1e-4);
+        EXPECT_NEAR(state.box.length, truth.length, 1e-4);
+        EXPECT_NEAR(turnBetween(state.box.heading, truth.heading), 0, 1e-4);
     }
     const auto twice = finishTracks(once, summaries, {}, scene.scale);
     ASSERT_EQ(twice.size(), once.size());
     for (std::size_t i = 0; i < once.size(); ++i) {
         EXPECT_EQ(twice[i].first, once[i].first);
-        EXPECT_NEAR(twice[i].second.box.centre.x, once[i].second.box.centre.x, 1e-6);
-        EXPECT_NEAR(twice[i].second.box.width, once[i].second.box.width, 1e-6);
+        EXPECT_NEAR(twice[i].second.box.centre.x, once[i].second.box.centre.x, 1e-4);
+        EXPECT_NEAR(twice[i].second.box.width, once[i].second.box.width, 1e-4);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "tracking/measurement_model.h"
 #include "tracking/moving_scene.h"
 
 namespace eyrie {
@@ -238,6 +239,138 @@ TEST(TrackerOptions, thesisPresetFollowsTheText) {
         const auto states = tracker.next(scene.motion(frame), detections);
         ASSERT_EQ(states.size(), 2u) << frame;
     }
+}
+
+namespace {
+
+/// The part of a box with heading 0 that a picture of this width shows.
+OrientedBox cutAtTheRight(OrientedBox box, int width) {
+    const double rear = box.centre.x - box.length / 2;
+    const double front = std::min(box.centre.x + box.length / 2, width - 0.5);
+    box.centre.x = (rear + front) / 2;
+    box.length = front - rear;
+    return box;
+}
+
+}  // namespace
+
+TEST(Tracker, overlapsMayBeTakenOfWholeBoxes) {
+    MovingScene scene;
+    scene.objects = {{{543, 100}, {8, 0}, 40, 12, 0}};
+    for (const bool inside : {false, true}) {
+        TrackerOptions options = TrackerOptions::thesis();
+        options.use_vectors = false;
+        options.visible_overlap = inside;
+        Tracker tracker(options, scene.scale);
+        for (int frame = 0; frame < 10; ++frame) tracker.next(scene.motion(frame), scene.detections(frame));
+        for (int frame = 10; frame < 13; ++frame) tracker.next(scene.motion(frame), {});
+        // Less than a third of the car is left in the picture, and all of that is detected.
+        Detection rest = scene.detection(0, 13);
+        rest.box = cutAtTheRight(rest.box, scene.image.width);
+        const auto states = tracker.next(scene.motion(13), {rest});
+        ASSERT_EQ(states.size(), inside ? 1U : 2U);
+        EXPECT_EQ(states[0].origin, inside ? StateOrigin::detected : StateOrigin::predicted);
+    }
+}
+
+TEST(Tracker, thesisNeitherCompletesBoxesAtTheBorderNorWaitsForThoseWhoLeave) {
+    MovingScene scene;
+    scene.objects = {{{600, 100}, {1, 0}, 40, 12, 0}};
+    for (const bool thesis : {true, false}) {
+        TrackerOptions options = thesis ? TrackerOptions::thesis() : TrackerOptions{};
+        options.use_vectors = false;
+        Tracker tracker(options, scene.scale);
+        std::vector<TrackState> states;
+        for (int frame = 0; frame < 35; ++frame) {
+            Detection seen = scene.detection(0, frame);
+            seen.box = cutAtTheRight(seen.box, scene.image.width);
+            states = tracker.next(scene.motion(frame), {seen});
+            ASSERT_EQ(states.size(), 1U) << frame;
+            ASSERT_EQ(states[0].origin, StateOrigin::detected) << frame;
+        }
+        // 14.5 of 40 px are hidden: the middle of what is seen lies 7.25 px behind the car's.
+        const double behind = scene.box(0, 34).centre.x - states[0].box.centre.x;
+        if (thesis) {
+            EXPECT_GT(behind, 2);
+            EXPECT_LT(states[0].box.length, 38.5);
+        } else {
+            EXPECT_NEAR(behind, 0, 1);
+            EXPECT_NEAR(states[0].box.length, 40, 1);
+        }
+        int lived = 0;
+        for (int frame = 35; frame < 120; ++frame) {
+            if (tracker.next(scene.motion(frame), {}).empty()) break;
+            ++lived;
+        }
+        if (thesis) {
+            EXPECT_EQ(lived, 8) << "0.3 s at 25 Hz";
+        } else {
+            EXPECT_GT(lived, 14) << "until hardly anything of it can be in the picture";
+            EXPECT_LT(lived, 40);
+        }
+    }
+}
+
+TEST(Tracker, velocitiesNeedNotBeMeasured) {
+    MovingScene scene;
+    scene.objects = {{{100, 100}, {2, 0}, 20, 10, 0}};
+    for (const bool measured : {false, true}) {
+        TrackerOptions options = TrackerOptions::thesis();
+        options.min_overlap = 0.2;
+        options.measure_velocity = measured;
+        Tracker tracker(options, scene.scale);
+        for (int frame = 0; frame < 80; ++frame) {
+            Detection lying = scene.detection(0, frame);
+            lying.velocity += cv::Point2d(0, 0.5);
+            const auto states = tracker.next(scene.motion(frame), {lying});
+            ASSERT_EQ(states.size(), 1U) << frame;
+            if (frame < 79) continue;
+            EXPECT_NEAR(states[0].velocity.x, 2, 0.05);
+            if (measured) {
+                EXPECT_GT(states[0].velocity.y, 0.1);
+            } else {
+                EXPECT_NEAR(states[0].velocity.y, 0, 0.05);
+            }
+        }
+    }
+}
+
+TEST(MeasurementModel, sizesMayBeMeasuredAllAlike) {
+    const SceneScale scale{0.25, 25, true};
+    const TrackerOptions thesis = TrackerOptions::thesis();
+    MeasurementModel model(thesis, scale);
+    model.startFrame({640, 480}, 0.02);
+    const OrientedBox known{{100, 100}, 18, 7, 0};
+    for (const bool complete : {false, true}) {
+        Detection detection;
+        detection.box = {{102, 100}, 10, 5, 0};
+        detection.velocity = {2, 0};
+        detection.complete = complete;
+        const BoxMeasurement first = model.first(detection);
+        EXPECT_DOUBLE_EQ(first.length, model.sizeDeviation());
+        EXPECT_DOUBLE_EQ(first.width, model.sizeDeviation());
+        EXPECT_EQ(first.along_with_length, 0);
+        EXPECT_EQ(first.speed, BoxMeasurement::kUnknown);
+        EXPECT_EQ(first.velocity, cv::Point2d(2, 0)) << "the track starts with it";
+        const auto update = model.update(detection.box, detection, known, true);
+        EXPECT_DOUBLE_EQ(update.measurement.length, model.sizeDeviation());
+        EXPECT_DOUBLE_EQ(update.measurement.along, first.along);
+        EXPECT_DOUBLE_EQ(update.measurement.across, first.across);
+        EXPECT_EQ(update.measurement.along_with_length, 0);
+        EXPECT_FALSE(update.by_ends);
+        EXPECT_FALSE(update.size_differs);
+    }
+    TrackerOptions adapting = thesis;
+    adapting.adapt_size = true;
+    MeasurementModel other(adapting, scale);
+    other.startFrame({640, 480}, 0.02);
+    Detection detection;
+    detection.box = {{102, 100}, 10, 7, 0};
+    detection.velocity = {2, 0};
+    // The box is 8 px short, so its centre may be off by 4.
+    const auto update = other.update(detection.box, detection, known, true);
+    EXPECT_GT(update.measurement.along, 4);
+    EXPECT_LT(update.measurement.across, 1);
 }
 
 TEST(TrackerOptions, everyParameterSurvivesSavingAndLoading) {

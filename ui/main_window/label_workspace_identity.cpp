@@ -21,7 +21,7 @@ std::optional<ObjectId> LabelWorkspace::otherSelected() const {
 
 void LabelWorkspace::offer(QAction* action, const std::function<std::optional<LabelEditor::Plan>()>& make) {
     const Planned before = std::exchange(planned_, {});
-    const FrameIndex frame = around_.session.currentFrame();
+    const FrameIndex frame = around_.session.shownFrame();
     if (before.action == action && before.frame == frame && before.selection == labels_->selection() && before.plan &&
         before.plan->version == labels_->version()) {
         around_.messages.dismissTopic(kLabelTopic);
@@ -118,12 +118,12 @@ void LabelWorkspace::wireRanges() {
     under_cursor(actions_->region_anchor, which, [this](cv::Point2d at) { return editor_->anchorRegionsAt(at); });
     under_cursor(actions_->region_begins, which, [this](cv::Point2d at) {
         return editor_->changeRegionsAt(at, tr("Begin an ignore region here"), [this](IgnoreRegion& region) {
-            region.first_frame = around_.session.currentFrame();
+            region.first_frame = around_.session.shownFrame();
         });
     });
     under_cursor(actions_->region_ends, which, [this](cv::Point2d at) {
         return editor_->changeRegionsAt(at, tr("End an ignore region here"), [this](IgnoreRegion& region) {
-            region.last_frame = around_.session.currentFrame();
+            region.last_frame = around_.session.shownFrame();
         });
     });
     connect(actions_->spread_flags, &QAction::triggered, this, [this] {

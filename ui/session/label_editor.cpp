@@ -171,14 +171,16 @@ void LabelEditor::setKeyframe() {
 }
 
 void LabelEditor::copyOn(int frames) {
-    const auto box = shownBox();
-    if (!box) return;
-    const FrameIndex next = frame() + frames;
-    if (next < 0 || next > session_.lastFrame()) return;
+    if (!ready()) return;
+    // Who presses the key again before the next picture is there goes on from where that will be.
+    const FrameIndex here = session_.currentFrame();
+    const auto box = expectedBox(*object(), here, labels_.camera());
+    const FrameIndex next = here + frames;
+    if (!box || next < 0 || next > session_.lastFrame()) return;
     LabelledObject changed = *object();
-    if (keyframeAt(changed, frame()) == nullptr) changed = withBox(std::move(changed), frame(), *box, false);
-    const OrientedBox carried = carriedBox(*box, frame(), next, labels_.camera()).value_or(*box);
-    changed = withBox(std::move(changed), next, carried, keyframeAt(changed, frame())->heading_set);
+    if (keyframeAt(changed, here) == nullptr) changed = withBox(std::move(changed), here, *box, false);
+    const OrientedBox carried = carriedBox(*box, here, next, labels_.camera()).value_or(*box);
+    changed = withBox(std::move(changed), next, carried, keyframeAt(changed, here)->heading_set);
     changed.origin = originAfterChange(changed.origin);
     if (applyObject(named(tr("Copy box of %1")), std::move(changed))) session_.step(frames);
 }
@@ -343,7 +345,7 @@ void LabelEditor::stepObject(int objects) {
 
 void LabelEditor::nextKeyframe() {
     if (!ready()) return;
-    if (const Keyframe* next = eyrie::nextKeyframe(*object(), frame()))
+    if (const Keyframe* next = eyrie::nextKeyframe(*object(), session_.currentFrame()))
         session_.goToFrame(next->frame);
     else
         session_.goToFrame(object()->last_frame);
@@ -351,11 +353,13 @@ void LabelEditor::nextKeyframe() {
 
 void LabelEditor::previousKeyframe() {
     if (!ready()) return;
-    if (const Keyframe* previous = eyrie::previousKeyframe(*object(), frame())) session_.goToFrame(previous->frame);
+    if (const Keyframe* previous = eyrie::previousKeyframe(*object(), session_.currentFrame()))
+        session_.goToFrame(previous->frame);
 }
 
 void LabelEditor::nextAttention() {
-    const auto item = eyrie::nextAttention(labels_.attention(), frame(), labels_.selected().value_or(0));
+    const auto item =
+        eyrie::nextAttention(labels_.attention(), session_.currentFrame(), labels_.selected().value_or(0));
     if (!item) {
         emit labels_.notice(tr("Nothing needs attention."));
         return;
@@ -369,7 +373,7 @@ void LabelEditor::nextAttention() {
 }
 
 void LabelEditor::nextUnchecked() {
-    const auto place = labels_.review().nextUnchecked(labels_.selected().value_or(0), frame());
+    const auto place = labels_.review().nextUnchecked(labels_.selected().value_or(0), session_.currentFrame());
     if (place)
         goTo(place->object, place->frame);
     else

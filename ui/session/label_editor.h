@@ -22,7 +22,8 @@ class LabelEditor : public QObject {
     /// Both must outlive it.
     LabelEditor(ProjectSession& session, LabelSession& labels, QObject* parent = nullptr);
 
-    FrameIndex frame() const { return session_.currentFrame(); }
+    /// What a person sees: edits mean this frame, even while another one is on its way.
+    FrameIndex frame() const { return session_.shownFrame(); }
     /// The selected object; null when there is none.
     const LabelledObject* object() const;
     /// An object's box in a frame; beyond its life where it would be if it went on as it did, which is no label yet.

@@ -32,7 +32,7 @@ void LabelTracking::stop() {
 void LabelTracking::start(int direction) {
     if (working_ || !labels_.selected() || !session_.media() || !labels_.mayEdit()) return;
     const LabelledObject* object = labels_.object(*labels_.selected());
-    const FrameIndex from = session_.currentFrame();
+    const FrameIndex from = session_.shownFrame();
     const auto box = LabelEditor::expectedBox(*object, from, labels_.camera());
     if (!box) return;
     // A keyframe that is there already is never touched: the way goes up to it.

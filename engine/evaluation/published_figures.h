@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace eyrie {
+
+/// What the thesis publishes about a method on one of its sequences at T_ov = 0.1 (Teutsch §7.4, tables 7.6, 7.7, 7.9
+/// and 7.10). N-MODP and MOTP are mean overlaps.
+struct PublishedFigures {
+    std::string method;  ///< as comparisons call it, "gradient + stacking + tracking"; or the authors of a paper
+    std::string source;  ///< "table 7.7", or "in their paper, after table 7.7"
+    std::optional<int> true_positives;
+    std::optional<int> false_positives;
+    std::optional<int> false_negatives;
+    double precision = 0;
+    double recall = 0;
+    double f_score = 0;
+    std::optional<double> n_moda;
+    std::optional<double> n_modp;
+    std::optional<double> mota;
+    std::optional<double> motp;
+    std::optional<int> mostly_tracked;
+    std::optional<int> partially_tracked;
+    std::optional<int> mostly_lost;
+    std::optional<int> fragments;
+};
+
+/// "seq1", "seq2", "egtest01".
+const std::vector<std::string>& publishedSequences();
+/// In the order of the tables. Throws Error(parameter) naming the sequences.
+const std::vector<PublishedFigures>& publishedFigures(const std::string& sequence);
+/// A table for people, a line per method; "-" where nothing is published.
+std::string publishedText(const std::string& sequence);
+
+}  // namespace eyrie

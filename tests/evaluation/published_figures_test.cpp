@@ -1,0 +1,86 @@
+#include "evaluation/published_figures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace eyrie {
+namespace {
+
+using testing::HasSubstr;
+
+/// True vehicles of each sequence (table 7.1).
+const std::map<std::string, int> kVehicles{{"seq1", 4731}, {"seq2", 1373}, {"egtest01", 6866}};
+
+}  // namespace
+
+TEST(PublishedFigures, AgreeWithThemselves) {
+    for (const std::string& sequence : publishedSequences()) {
+        std::set<std::string> names;
+        for (const PublishedFigures& row : publishedFigures(sequence)) {
+            SCOPED_TRACE(sequence + ", " + row.method);
+            EXPECT_TRUE(names.insert(row.method).second);
+            EXPECT_THAT(row.source, HasSubstr("table 7."));
+            // All three are rounded to .001, and one of the thesis' is rounded the wrong way.
+            EXPECT_NEAR(row.f_score, 2 * row.precision * row.recall / (row.precision + row.recall), 0.0015);
+            if (!row.true_positives) continue;
+            const double found = *row.true_positives;
+            EXPECT_EQ(*row.true_positives + *row.false_negatives, kVehicles.at(sequence));
+            EXPECT_NEAR(row.precision, found / (found + *row.false_positives), 0.0015);
+            EXPECT_NEAR(row.recall, found / kVehicles.at(sequence), 0.0015);
+            if (row.n_moda) {
+                const double errors = *row.false_positives + *row.false_negatives;
+                EXPECT_NEAR(*row.n_moda, 1 - errors / kVehicles.at(sequence), 0.0015);
+            }
+            if (row.mota) {
+                // What is missing to N-MODA are changes of identity.
+                const double errors = *row.false_positives + *row.false_negatives;
+                EXPECT_LE(*row.mota, 1 - errors / kVehicles.at(sequence) + 0.0015);
+                EXPECT_TRUE(row.motp && row.mostly_tracked && row.partially_tracked && row.mostly_lost &&
+                            row.fragments);
+            }
+        }
+    }
+}
+
+TEST(PublishedFigures, HoldWhatOthersReachedOnTheRunway) {
+    std::map<std::string, const PublishedFigures*> by_name;
+    for (const PublishedFigures& row : publishedFigures("egtest01")) by_name[row.method] = &row;
+    EXPECT_EQ(by_name.at("Siam et al. 2012a")->precision, .996);
+    EXPECT_EQ(by_name.at("Siam et al. 2012b")->recall, .971);
+    EXPECT_EQ(by_name.at("Shen et al. 2013a")->f_score, .780);
+    EXPECT_EQ(by_name.at("Shen et al. 2013b")->f_score, .730);
+    EXPECT_FALSE(by_name.at("Shen et al. 2013b")->n_moda);
+    EXPECT_EQ(by_name.size(), 14U);
+}
+
+TEST(PublishedFigures, ArePrintedInColumns) {
+    std::istringstream lines(publishedText("egtest01"));
+    std::string title;
+    std::getline(lines, title);
+    const auto f_score_ends = title.find("f-score") + 7;
+    const auto source_begins = title.find("source");
+    int rows = 0;
+    for (std::string line; std::getline(lines, line); ++rows) {
+        EXPECT_EQ(line.substr(f_score_ends - 5, 2), "0.") << line;
+        EXPECT_EQ(line[f_score_ends], ' ') << line;
+        EXPECT_THAT(line.substr(source_begins),
+                    testing::AnyOf(testing::StartsWith("table"), testing::StartsWith("th")));
+        if (line.rfind("Siam", 0) == 0) {
+            EXPECT_THAT(line, HasSubstr("      -      -      -"));
+        }
+    }
+    EXPECT_EQ(rows, 14);
+}
+
+TEST(PublishedFigures, RefuseOtherSequences) {
+    EXPECT_THROW(publishedFigures("m1303"), Error);
+    EXPECT_THROW(publishedText(""), Error);
+}
+
+}  // namespace eyrie
