@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "chain/method_run.h"
 #include "chain/scale_estimation.h"
@@ -165,40 +164,6 @@ std::vector<ComparisonRow> rowsAt(double overlap, const CompareArguments& argume
     return rows;
 }
 
-/// The report with the rows that the thesis publishes for a sequence.
-std::string withPublished(const std::string& report, const std::string& sequence) {
-    using Json = nlohmann::ordered_json;
-    const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(); };
-    Json json = Json::parse(report);
-    json["published"] = Json::array();
-    for (const PublishedFigures& row : publishedFigures(sequence)) {
-        json["published"].push_back({{"name", row.method},
-                                     {"source", row.source},
-                                     {"overlap", 0.1},
-                                     {"tp", orNull(row.true_positives)},
-                                     {"fp", orNull(row.false_positives)},
-                                     {"fn", orNull(row.false_negatives)},
-                                     {"precision", row.precision},
-                                     {"recall", row.recall},
-                                     {"f_score", row.f_score},
-                                     {"n_moda", orNull(row.n_moda)},
-                                     {"n_modp", orNull(row.n_modp)},
-                                     {"mota", orNull(row.mota)},
-                                     {"motp", orNull(row.motp)},
-                                     {"mostly_tracked", orNull(row.mostly_tracked)},
-                                     {"partially_tracked", orNull(row.partially_tracked)},
-                                     {"mostly_lost", orNull(row.mostly_lost)},
-                                     {"fragments", orNull(row.fragments)}});
-    }
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::string printedText(const ComparisonReport& report, const CompareArguments& arguments) {
-    if (arguments.published.empty()) return arguments.json ? jsonText(report) : tableText(report);
-    return arguments.json ? withPublished(jsonText(report), arguments.published)
-                          : tableText(report) + "\n" + publishedText(arguments.published);
-}
-
 int compare(const CompareArguments& arguments) {
     if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
     if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
@@ -272,7 +237,8 @@ int compare(const CompareArguments& arguments) {
         addComparison(project, video.path.string(), jsonText(report));
     }
     if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(report));
-    std::fputs(printedText(report, arguments).c_str(), stdout);
+    report.published = arguments.published;
+    std::fputs((arguments.json ? jsonText(report) : tableText(report)).c_str(), stdout);
     return whole ? exit_ok : exit_stopped;
 }
 

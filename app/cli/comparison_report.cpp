@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "evaluation/published_figures.h"
+
 namespace eyrie::cli {
 namespace {
 
@@ -117,6 +119,31 @@ Json jsonOf(const BootstrapInterval& interval) {
     return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
 }
 
+Json publishedJson(const std::string& sequence) {
+    const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(); };
+    Json rows = Json::array();
+    for (const PublishedFigures& row : publishedFigures(sequence)) {
+        rows.push_back({{"name", row.method},
+                        {"source", row.source},
+                        {"overlap", kPublishedOverlap},
+                        {"tp", orNull(row.true_positives)},
+                        {"fp", orNull(row.false_positives)},
+                        {"fn", orNull(row.false_negatives)},
+                        {"precision", row.precision},
+                        {"recall", row.recall},
+                        {"f_score", row.f_score},
+                        {"n_moda", orNull(row.n_moda)},
+                        {"n_modp", orNull(row.n_modp)},
+                        {"mota", orNull(row.mota)},
+                        {"motp", orNull(row.motp)},
+                        {"mostly_tracked", orNull(row.mostly_tracked)},
+                        {"partially_tracked", orNull(row.partially_tracked)},
+                        {"mostly_lost", orNull(row.mostly_lost)},
+                        {"fragments", orNull(row.fragments)}});
+    }
+    return rows;
+}
+
 }  // namespace
 
 std::string ComparisonRow::name() const {
@@ -137,6 +164,7 @@ std::string tableText(const ComparisonReport& report) {
     }
     if (!report.remarks.empty()) text += "\n";
     for (const std::string& remark : report.remarks) text += "Note: " + remark + "\n";
+    if (!report.published.empty()) text += "\n" + publishedText(report.published);
     return text;
 }
 
@@ -202,6 +230,7 @@ std::string jsonText(const ComparisonReport& report) {
         }
     }
     json["remarks"] = report.remarks;
+    if (!report.published.empty()) json["published"] = publishedJson(report.published);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

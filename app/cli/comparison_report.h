@@ -32,6 +32,7 @@ struct ComparisonReport {
     EvaluationOptions options;
     std::vector<std::vector<ComparisonRow>> blocks;
     std::vector<std::string> remarks;
+    std::string published;  ///< sequence whose figures in the thesis are told, too; empty: none. Not in the CSV
 };
 
 /// Tables for people: the rows of tables 7.3 and 7.5–7.10 as columns, a line per method.

@@ -76,14 +76,14 @@ LabelledObject withKeyframe(LabelledObject object, const Keyframe& keyframe);
 /// The object with the box of a frame changed and everything else of that frame kept: a keyframe that is made by it
 /// takes over the flags that hold there.
 LabelledObject withBox(LabelledObject object, FrameIndex frame, const OrientedBox& box, bool heading_set);
-/// Whether a box ends at the border of the image: it shows a part of the object only. One that goes on beyond shows
-/// all.
-bool isCutByBorder(const OrientedBox& box, cv::Size image);
 /// The same, and what is corrected goes on to the keyframes that were computed: those up to the next ones that a hand
 /// set change alike in place (along the vehicle's own axes), size and heading, less the nearer they are to these.
 /// Nothing goes on where the box lies elsewhere altogether, or beyond the object's life.
 LabelledObject withBoxCarriedOn(LabelledObject object, FrameIndex frame, const OrientedBox& box, bool heading_set,
                                 const CameraMotion& camera);
+/// Whether a box ends at the border of the image: it shows a part of the object only. One that goes on beyond shows
+/// all.
+bool isCutByBorder(const OrientedBox& box, cv::Size image);
 /// The object with the length and width that `box` has in a frame, in all its keyframes; sizes follow the local scale
 /// of the camera's motion where the frames are connected. Centres, headings and flags stay.
 LabelledObject withSize(LabelledObject object, FrameIndex frame, const OrientedBox& box, const CameraMotion& camera);

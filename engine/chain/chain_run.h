@@ -79,7 +79,7 @@ struct FrameRange {
 /// segmented and tracked; results do not depend on that.
 class ChainRun {
  public:
-    /// The effective scale: `gsd_m_per_px` ≤ 0 means unknown.
+    /// `scale` is the one to work with, given, estimated or assumed (see chooseScale).
     ChainRun(const ChainOptions& options, const SceneScale& scale) : options_(options), scale_(scale) {}
 
     /// Never throws. `with_colour`: frames handed to the observer carry colour. `start`: where the same range was left

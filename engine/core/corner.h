@@ -21,7 +21,7 @@ struct Corner {
 /// How the registration of a frame onto the one before it ended.
 enum class RegistrationState {
     first,       ///< nothing before it to register onto
-    registered,  ///< `previous_to_current` holds
+    registered,  ///< `current_from_previous` holds
     frozen,      ///< the same picture as before; the homography is the identity, nothing was measured
     failed       ///< blur, blank, cut or too little texture; the homography is a guess, see `reason`
 };

@@ -8,7 +8,8 @@
 
 namespace eyrie {
 
-/// A corner that moves independently of the camera (Teutsch §4.2), or a place on a plain roof that moves with such.
+/// A corner that moves independently of the camera (Teutsch §4.2), or a place without one whose motion was inferred: on
+/// a plain roof or in a moving area (see inferred_ids.h).
 struct MotionVector {
     CornerId id = 0;
     cv::Point2f position{0, 0};  ///< px in the current frame

@@ -8,7 +8,7 @@
 
 /// Parameters are declared once, in the `describe` member of each stage's options struct. One visitor serves the
 /// command line, presets, the project file, the window's form, validation and sweeps. Names are "group.name", e.g.
-/// "motion.min_speed"; the group is the room.
+/// "motion.min_speed".
 namespace eyrie {
 
 /// What people read about a parameter.

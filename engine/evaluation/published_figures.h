@@ -6,7 +6,10 @@
 
 namespace eyrie {
 
-/// What the thesis publishes about a method on one of its sequences at T_ov = 0.1 (Teutsch §7.4, tables 7.6, 7.7, 7.9
+/// T_ov of all published figures.
+inline constexpr double kPublishedOverlap = 0.1;
+
+/// What the thesis publishes about a method on one of its sequences (Teutsch §7.4, tables 7.6, 7.7, 7.9
 /// and 7.10). N-MODP and MOTP are mean overlaps.
 struct PublishedFigures {
     std::string method;  ///< as comparisons call it, "gradient + stacking + tracking"; or the authors of a paper

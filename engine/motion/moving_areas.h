@@ -51,7 +51,6 @@ class MovingAreas {
     std::vector<MotionVector> infer(const FrameMotion& motion, double min_speed);
 
     /// Frames between two pictures that are compared.
-    int gap() const { return gap_; }
 
     /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
     /// same options.

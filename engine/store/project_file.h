@@ -21,8 +21,8 @@ class ProjectFile {
     /// written.
     static ProjectFile create(const std::filesystem::path& path);
     /// Opens an existing project and migrates it, in either mode, if it is older, keeping a copy of it before
-    /// (project_backup.h). Throws Error(project) when it is
-    /// missing, cannot be read, is no project, is damaged, or was written by a newer version.
+    /// (project_backup.h). Throws Error(project) when it is missing, cannot be read, is no project, is damaged, or was
+    /// written by a newer version.
     static ProjectFile open(const std::filesystem::path& path, Mode mode = Mode::read_write);
     /// Opens a project or makes it. Two programs that do so at once share one project.
     static ProjectFile openOrCreate(const std::filesystem::path& path);

@@ -101,7 +101,7 @@ class RunStore {
     std::vector<Registration> registrations(int run_id) const;
     /// The same, one by one.
     void visitRegistrations(int run_id, const std::function<void(const Registration&)>& visitor) const;
-    /// All a finished run knows of a frame; nothing when the run has no such frame.
+    /// All a run knows of a frame; nothing when the run has no such frame.
     std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
     /// Its motion vectors alone, by ascending id; none when the run has no such frame.
     std::vector<MotionVector> motionVectors(int run_id, FrameIndex frame) const;

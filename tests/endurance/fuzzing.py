@@ -9,10 +9,6 @@ from pathlib import Path
 from cases import Failure, Part, Skipped
 from programs import Program, run
 
-FORMATS = (
-    "native", "mot", "cvat", "coco", "kwcoco", "dota", "yolo-obb", "visdrone", "uavdt", "kw18", "virat", "viame", "vivid",
-    "columns", "auto",
-)  # fmt: skip
 DICTIONARY = Path(__file__).parent.parent / "fuzz" / "dictionaries" / "labels.dict"
 INPUTS = 1_000_000  # of a format in a full campaign
 SLICE = 50_000  # inputs that a case tries, so that what was found is known early
