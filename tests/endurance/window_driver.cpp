@@ -70,7 +70,7 @@ class Driver : public QObject {
             if (!labels.canEdit()) return refused(window_.messages().texts().join(QLatin1Char(' ')));
             if (!labels.apply(drawing(labels, i, name))) return;
             say(QStringLiteral("done label %1 %2").arg(QString::fromStdString(name)).arg(i + 1));
-            QCoreApplication::processEvents();
+            handleEvents(0);
         }
         window_.actions().review_workspace->trigger();
     }
@@ -140,17 +140,22 @@ class Driver : public QObject {
         const int refusals = refusals_;
         until("frame", [&] { return session_.viewFrame().index == frame || refusals_ > refusals; });
     }
+    /// As the program's own loop does: what is to be deleted later is deleted, which processEvents() alone never does.
+    static void handleEvents(int ms) {
+        QCoreApplication::processEvents(ms > 0 ? QEventLoop::WaitForMoreEvents : QEventLoop::AllEvents, ms);
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    }
     static void pass(int ms) {
         QElapsedTimer watch;
         watch.start();
-        while (watch.elapsed() < ms) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+        while (watch.elapsed() < ms) handleEvents(20);
     }
     static void until(const char* what, const std::function<bool()>& condition) {
         QElapsedTimer watch;
         watch.start();
         while (!condition()) {
             if (watch.elapsed() > kPatience_ms) throw NoAnswer{QString::fromUtf8(what)};
-            QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 100);
+            handleEvents(100);
         }
     }
     static eyrie::AnnotationEdit drawing(eyrie::ui::LabelSession& labels, int number, const std::string& name) {
