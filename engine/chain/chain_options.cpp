@@ -47,4 +47,17 @@ std::vector<std::pair<std::string, std::string>> parameterValues(const ChainOpti
     return values;
 }
 
+ChainOptions storedOptions(const std::vector<std::pair<std::string, std::string>>& parameters,
+                           std::vector<std::string>* unknown) {
+    ChainOptions options;
+    for (const auto& [name, value] : parameters) {
+        try {
+            setParameter(describeOf(options), name, value);
+        } catch (const Error&) {
+            if (unknown != nullptr) unknown->push_back(name);
+        }
+    }
+    return options;
+}
+
 }  // namespace eyrie

@@ -43,4 +43,9 @@ ChainOptions builtInPreset(const std::string& name);
 /// All parameters as name and value, for presets, the project file and comparison.
 std::vector<std::pair<std::string, std::string>> parameterValues(const ChainOptions& options);
 
+/// The chain's parameters as a run stored them. Parameters that this version does not know, and values that it does
+/// not take, are left at their defaults; their names go to `unknown`, if given.
+ChainOptions storedOptions(const std::vector<std::pair<std::string, std::string>>& parameters,
+                           std::vector<std::string>* unknown = nullptr);
+
 }  // namespace eyrie

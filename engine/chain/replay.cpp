@@ -35,19 +35,6 @@ int framesBefore(const ChainOptions& options) {
     return std::min(reach, kLongestReach);
 }
 
-ChainOptions storedOptions(const std::vector<std::pair<std::string, std::string>>& parameters,
-                           std::vector<std::string>* unknown) {
-    ChainOptions options;
-    for (const auto& [name, value] : parameters) {
-        try {
-            setParameter(describeOf(options), name, value);
-        } catch (const Error&) {
-            if (unknown != nullptr) unknown->push_back(name);
-        }
-    }
-    return options;
-}
-
 Replay::Replay(ReplaySource source)
     : source_(std::move(source)), reach_(framesBefore(source_.options)), half_(source_.options, source_.scale) {
     restart(source_.first_frame);

@@ -21,11 +21,6 @@ struct ReplaySource {
     std::function<std::optional<FrameResult>(FrameIndex)> result_of{};  ///< all of a frame; for explanations only
 };
 
-/// The chain's parameters as a run stored them. Parameters that this version does not know, and values that it does
-/// not take, are left at their defaults; their names go to `unknown`, if given.
-ChainOptions storedOptions(const std::vector<std::pair<std::string, std::string>>& parameters,
-                           std::vector<std::string>* unknown = nullptr);
-
 /// How many frames before play a part in what is found in one frame from given motion vectors.
 int framesBefore(const ChainOptions& options);
 

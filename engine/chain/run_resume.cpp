@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "chain/chain_options.h"
 #include "chain/chain_state.h"
-#include "chain/replay.h"
 #include "chain/run_recorder.h"
 #include "core/error.h"
 #include "store/run_state_store.h"
