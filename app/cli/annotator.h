@@ -4,8 +4,8 @@
 #include <map>
 #include <opencv2/core/mat.hpp>
 
-#include "core/frame.h"
-#include "core/frame_result.h"
+#include "core/values/frame.h"
+#include "core/values/frame_result.h"
 
 namespace eyrie::cli {
 

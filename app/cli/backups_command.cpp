@@ -8,8 +8,8 @@
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "core/error.h"
-#include "store/project_contents.h"
-#include "store/project_restore.h"
+#include "store/backup/project_restore.h"
+#include "store/health/project_contents.h"
 
 namespace eyrie::cli {
 namespace {

@@ -20,8 +20,8 @@
 #include "cli/preview_times.h"
 #include "cli/sweep_times.h"
 #include "core/error.h"
-#include "store/project_file.h"
-#include "store/result_writer.h"
+#include "store/project/project_file.h"
+#include "store/runs/result_writer.h"
 
 namespace eyrie::cli {
 namespace {

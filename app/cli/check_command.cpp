@@ -7,9 +7,9 @@
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "core/error.h"
-#include "store/project_backup.h"
-#include "store/project_check.h"
-#include "store/project_repair.h"
+#include "store/backup/project_backup.h"
+#include "store/health/project_check.h"
+#include "store/health/project_repair.h"
 
 namespace eyrie::cli {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/roc.h"
-#include "learning/sample_set.h"
-#include "learning/vehicle_model.h"
+#include "evaluation/measures/roc.h"
+#include "learning/models/vehicle_model.h"
+#include "learning/training/sample_set.h"
 
 namespace eyrie::cli {
 

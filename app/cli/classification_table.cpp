@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "evaluation/significance.h"
+#include "evaluation/comparison/significance.h"
 
 namespace eyrie::cli {
 namespace {

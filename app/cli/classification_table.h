@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli/classification_report.h"
-#include "learning/classifier.h"
-#include "learning/descriptor.h"
+#include "learning/classifiers/classifier.h"
+#include "learning/descriptors/descriptor.h"
 
 namespace eyrie::cli {
 

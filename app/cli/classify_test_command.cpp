@@ -13,8 +13,8 @@
 #include "cli/output_arguments.h"
 #include "cli/sample_sources.h"
 #include "core/error.h"
-#include "learning/seeded_random.h"
-#include "learning/trainer.h"
+#include "learning/classifiers/seeded_random.h"
+#include "learning/training/trainer.h"
 
 namespace eyrie::cli {
 namespace {

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "chain/method_run.h"
 #include "chain/scale_estimation.h"
 #include "cli/command.h"
 #include "cli/comparison_report.h"
@@ -15,10 +14,11 @@
 #include "cli/output_arguments.h"
 #include "cli/preset_arguments.h"
 #include "core/error.h"
-#include "detection/model_location.h"
-#include "evaluation/published_figures.h"
+#include "detection/sliding_window/model_location.h"
+#include "evaluation/comparison/published_figures.h"
 #include "io/atomic_file.h"
-#include "store/comparison_store.h"
+#include "rerun/method_run.h"
+#include "store/runs/comparison_store.h"
 
 namespace eyrie::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "evaluation/published_figures.h"
+#include "evaluation/comparison/published_figures.h"
 
 namespace eyrie::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/comparison/method_difference.h"
 #include "evaluation/evaluate.h"
-#include "evaluation/method_difference.h"
 
 namespace eyrie::cli {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cli/console_progress.h"
-#include "store/project_backup.h"
+#include "store/backup/project_backup.h"
 
 namespace eyrie::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "store/project_file.h"
+#include "store/project/project_file.h"
 
 namespace eyrie::cli {
 

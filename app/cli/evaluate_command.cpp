@@ -15,8 +15,8 @@
 #include "diagnosis/label_truth.h"
 #include "diagnosis/mistake_csv.h"
 #include "diagnosis/run_evaluation.h"
-#include "io/homography_csv.h"
-#include "store/run_store.h"
+#include "io/tables/homography_csv.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::cli {
 namespace {

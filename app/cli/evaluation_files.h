@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/box_record.h"
-#include "formats/motchallenge.h"
+#include "core/labels/box_record.h"
+#include "formats/mot/motchallenge.h"
 
 namespace eyrie::cli {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "evaluation/evaluate.h"
-#include "evaluation/registration_error.h"
+#include "evaluation/measures/registration_error.h"
 
 namespace eyrie::cli {
 

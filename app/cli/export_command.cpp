@@ -11,7 +11,7 @@
 #include "cli/project_runs.h"
 #include "core/error.h"
 #include "exchange/project_labels.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie::cli {
 namespace {

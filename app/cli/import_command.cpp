@@ -12,7 +12,7 @@
 #include "exchange/label_import.h"
 #include "exchange/project_labels.h"
 #include "formats/frame_offset.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie::cli {
 namespace {

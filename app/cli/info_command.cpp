@@ -10,11 +10,11 @@
 #include "cli/command.h"
 #include "cli/earlier_state.h"
 #include "cli/input.h"
-#include "io/frame_source.h"
-#include "store/annotation_store.h"
-#include "store/file_check.h"
-#include "store/run_store.h"
-#include "store/sweep_store.h"
+#include "io/video/frame_source.h"
+#include "store/health/file_check.h"
+#include "store/labels/annotation_store.h"
+#include "store/runs/run_store.h"
+#include "store/runs/sweep_store.h"
 
 namespace eyrie::cli {
 namespace {

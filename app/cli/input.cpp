@@ -8,7 +8,7 @@
 #include "cli/number_text.h"
 #include "core/error.h"
 #include "scene/scene_source.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <new>
 #include <string>
 
-#include "chain/run_recorder.h"
+#include "chain/recording/run_recorder.h"
 #include "cli/command.h"
 #include "cli/standard_streams.h"
 #include "cli/usage_error.h"

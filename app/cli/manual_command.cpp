@@ -5,7 +5,7 @@
 #include <string>
 
 #include "chain/chain_options.h"
-#include "chain/run_recorder.h"
+#include "chain/recording/run_recorder.h"
 #include "cli/command.h"
 #include "core/parameter.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "chain/chain.h"
-#include "chain/method_variants.h"
 #include "cli/median.h"
+#include "rerun/method_variants.h"
 
 namespace eyrie::cli {
 namespace {

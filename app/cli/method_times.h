@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "chain/chain_options.h"
-#include "core/frame.h"
+#include "core/values/frame.h"
 
 namespace eyrie::cli {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "io/preset_file.h"
+#include "io/tables/preset_file.h"
 
 namespace eyrie::cli {
 

@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "chain/chain.h"
-#include "chain/preview.h"
 #include "cli/median.h"
-#include "store/project_file.h"
-#include "store/result_writer.h"
-#include "store/run_store.h"
+#include "rerun/preview.h"
+#include "store/project/project_file.h"
+#include "store/runs/result_writer.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chain/chain_options.h"
-#include "core/frame.h"
+#include "core/values/frame.h"
 
 namespace eyrie::cli {
 

@@ -1,7 +1,7 @@
 #include "cli/project_labels.h"
 
 #include "core/error.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie::cli {
 

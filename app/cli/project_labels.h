@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "store/project_file.h"
-#include "store/run_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::cli {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::cli {
 

@@ -14,11 +14,11 @@
 #include "cli/output_arguments.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
-#include "io/box_csv.h"
-#include "io/homography_csv.h"
-#include "io/video_writer.h"
-#include "scene/scene_preset.h"
-#include "scene/scene_renderer.h"
+#include "io/tables/box_csv.h"
+#include "io/tables/homography_csv.h"
+#include "io/video/video_writer.h"
+#include "scene/painting/scene_renderer.h"
+#include "scene/towns/scene_preset.h"
 
 namespace eyrie::cli {
 namespace {

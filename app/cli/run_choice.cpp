@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "chain/run_resume.h"
+#include "chain/recording/run_resume.h"
 #include "cli/number_text.h"
 #include "cli/project_runs.h"
 #include "core/error.h"

@@ -6,7 +6,7 @@
 #include "chain/chain_options.h"
 #include "chain/chain_run.h"
 #include "cli/input.h"
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::cli {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "chain/run_resume.h"
+#include "chain/recording/run_resume.h"
 #include "chain/scale_estimation.h"
 #include "cli/annotator.h"
 #include "cli/command.h"
@@ -17,9 +17,9 @@
 #include "cli/run_choice.h"
 #include "cli/run_report.h"
 #include "core/error.h"
-#include "io/box_csv.h"
 #include "io/folder.h"
-#include "io/video_writer.h"
+#include "io/tables/box_csv.h"
+#include "io/video/video_writer.h"
 
 namespace eyrie::cli {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "chain/chain_run.h"
-#include "chain/run_facts.h"
-#include "io/frame_source.h"
-#include "store/run_store.h"
+#include "chain/recording/run_facts.h"
+#include "io/video/frame_source.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::cli {
 

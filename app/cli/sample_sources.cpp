@@ -8,12 +8,12 @@
 
 #include "cli/console_progress.h"
 #include "cli/input.h"
-#include "core/box_record.h"
 #include "core/error.h"
-#include "io/box_csv.h"
-#include "learning/labelled_frames.h"
-#include "scene/scene_preset.h"
-#include "scene/scene_renderer.h"
+#include "core/labels/box_record.h"
+#include "io/tables/box_csv.h"
+#include "learning/training/labelled_frames.h"
+#include "scene/painting/scene_renderer.h"
+#include "scene/towns/scene_preset.h"
 
 namespace eyrie::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "learning/sample_set.h"
+#include "learning/training/sample_set.h"
 
 namespace eyrie::cli {
 

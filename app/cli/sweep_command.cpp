@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "chain/run_recorder.h"
+#include "chain/recording/run_recorder.h"
 #include "cli/command.h"
 #include "cli/console_progress.h"
 #include "cli/earlier_state.h"
@@ -15,9 +15,9 @@
 #include "cli/sweep_inputs.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
-#include "io/preset_file.h"
+#include "io/tables/preset_file.h"
+#include "sweep/results/sweep_report.h"
 #include "sweep/sweep_lock.h"
-#include "sweep/sweep_report.h"
 
 namespace eyrie::cli {
 namespace {

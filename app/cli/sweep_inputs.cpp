@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "annotation/ignore_regions.h"
+#include "annotation/edits/ignore_regions.h"
 #include "chain/scale_estimation.h"
 #include "cli/evaluation_files.h"
 #include "cli/input.h"
 #include "core/error.h"
 #include "exchange/project_labels.h"
 #include "scene/scene_source.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie::cli {
 namespace {

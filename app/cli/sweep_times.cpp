@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "chain/replay.h"
+#include "rerun/replay.h"
 #include "sweep/sweep_runner.h"
 
 namespace eyrie::cli {

@@ -13,9 +13,9 @@
 #include "cli/output_arguments.h"
 #include "cli/sample_sources.h"
 #include "core/error.h"
-#include "learning/background_mining.h"
-#include "learning/labelled_frames.h"
-#include "learning/trainer.h"
+#include "learning/training/background_mining.h"
+#include "learning/training/labelled_frames.h"
+#include "learning/training/trainer.h"
 
 namespace eyrie::cli {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "chain/chain_options.h"
-#include "core/frame.h"
-#include "core/frame_result.h"
+#include "core/values/frame.h"
+#include "core/values/frame_result.h"
 #include "detection/detector.h"
-#include "motion/difference_motion.h"
+#include "motion/differences/difference_motion.h"
 
 namespace eyrie {
 

@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "core/parameter.h"
-#include "core/scene_scale.h"
+#include "core/values/scene_scale.h"
 #include "detection/detection_options.h"
-#include "motion/difference_options.h"
-#include "motion/independent_motion.h"
-#include "motion/motion_clustering.h"
+#include "motion/clusters/motion_clustering.h"
+#include "motion/differences/difference_options.h"
+#include "motion/vectors/independent_motion.h"
 #include "registration/registrar.h"
 #include "removal/duplicate_removal.h"
 #include "removal/outlier_removal.h"
 #include "stacking/image_stacker.h"
-#include "tracking/track_finishing.h"
+#include "tracking/finishing/track_finishing.h"
 #include "tracking/tracker.h"
 
 namespace eyrie {

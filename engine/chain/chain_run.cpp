@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "chain/chain_state.h"
+#include "chain/recording/chain_state.h"
 #include "chain/stopwatch.h"
 #include "core/error.h"
 

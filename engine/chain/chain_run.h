@@ -7,9 +7,9 @@
 
 #include "chain/chain_options.h"
 #include "core/error.h"
-#include "core/frame.h"
-#include "core/frame_result.h"
-#include "io/frame_source.h"
+#include "core/values/frame.h"
+#include "core/values/frame_result.h"
+#include "io/video/frame_source.h"
 
 namespace eyrie {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <stop_token>
 
-#include "chain/run_recorder.h"
-#include "io/frame_source.h"
+#include "chain/recording/run_recorder.h"
+#include "io/video/frame_source.h"
 
 namespace eyrie {
 

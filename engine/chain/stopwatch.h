@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "core/frame_result.h"
+#include "core/values/frame_result.h"
 
 namespace eyrie {
 

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/ids.h"
+#include "core/values/ids.h"
 
 /// What stages of the chain remember between frames, as bytes and back. Each such class has one member
 /// `template <class Archive> void transfer(Archive&)` that names what it remembers; the same lines write and read, so

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/motion_cluster.h"
-#include "core/motion_vector.h"
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 #include "core/state_archive.h"
+#include "core/values/motion_cluster.h"
+#include "core/values/motion_vector.h"
 
 /// How the core's values are kept in states.
 namespace eyrie {

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "core/parameter.h"
-#include "detection/canny_harris_segmenter.h"
-#include "detection/gradient_options.h"
-#include "detection/mser_segmenter.h"
-#include "detection/relative_connectivity_segmenter.h"
-#include "detection/sliding_window_options.h"
-#include "detection/tophat_otsu_segmenter.h"
-#include "detection/window_and_gradient_detector.h"
+#include "detection/segmenters/canny_harris_segmenter.h"
+#include "detection/segmenters/gradient_options.h"
+#include "detection/segmenters/mser_segmenter.h"
+#include "detection/segmenters/relative_connectivity_segmenter.h"
+#include "detection/segmenters/tophat_otsu_segmenter.h"
+#include "detection/sliding_window/sliding_window_options.h"
+#include "detection/sliding_window/window_and_gradient_detector.h"
 
 namespace eyrie {
 

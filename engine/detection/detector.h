@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/detection.h"
-#include "core/motion_roi.h"
+#include "core/values/detection.h"
+#include "core/values/motion_roi.h"
 #include "detection/detection_trace.h"
 
 namespace eyrie {

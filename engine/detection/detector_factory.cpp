@@ -4,9 +4,9 @@
 #include <string>
 
 #include "core/error.h"
-#include "detection/gradient_segmenter.h"
 #include "detection/motion_cluster_detector.h"
-#include "detection/sliding_window_detector.h"
+#include "detection/segmenters/gradient_segmenter.h"
+#include "detection/sliding_window/sliding_window_detector.h"
 
 namespace eyrie {
 

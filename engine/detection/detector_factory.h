@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/scene_scale.h"
+#include "core/values/scene_scale.h"
 #include "detection/detection_options.h"
 #include "detection/detector.h"
 

@@ -1,6 +1,6 @@
 #include "detection/motion_cluster_detector.h"
 
-#include "detection/component_boxes.h"
+#include "detection/segmenters/component_boxes.h"
 #include "imaging/upright_patch.h"
 
 namespace eyrie {

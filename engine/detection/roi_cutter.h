@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/frame.h"
-#include "core/motion_cluster.h"
-#include "core/motion_roi.h"
-#include "core/motion_vector.h"
-#include "core/scene_scale.h"
+#include "core/values/frame.h"
+#include "core/values/motion_cluster.h"
+#include "core/values/motion_roi.h"
+#include "core/values/motion_vector.h"
+#include "core/values/scene_scale.h"
 #include "detection/detection_options.h"
 
 namespace eyrie {

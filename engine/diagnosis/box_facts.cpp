@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "motion/motion_clustering.h"
+#include "motion/clusters/motion_clustering.h"
 
 namespace eyrie {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chain/chain_options.h"
-#include "core/frame_result.h"
+#include "core/values/frame_result.h"
 
 namespace eyrie {
 

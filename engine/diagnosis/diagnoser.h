@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "chain/chain_options.h"
-#include "core/frame_result.h"
+#include "core/values/frame_result.h"
 #include "diagnosis/error_cause.h"
 #include "evaluation/error_list.h"
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "annotation/ignore_regions.h"
+#include "annotation/edits/ignore_regions.h"
 #include "core/error.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie {
 

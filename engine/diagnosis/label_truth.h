@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/box_record.h"
-#include "store/project_file.h"
-#include "store/run_store.h"
+#include "core/labels/box_record.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie {
 

@@ -1,9 +1,9 @@
 #include "diagnosis/mistake_csv.h"
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "io/atomic_file.h"
-#include "io/csv_reader.h"
-#include "io/number_text.h"
+#include "io/tables/csv_reader.h"
+#include "io/tables/number_text.h"
 
 namespace eyrie {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
-#include "chain/replay.h"
 #include "core/error.h"
 #include "diagnosis/label_truth.h"
 #include "formats/label_formats.h"
+#include "rerun/replay.h"
 
 namespace eyrie {
 namespace {

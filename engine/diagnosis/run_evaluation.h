@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "diagnosis/diagnoser.h"
+#include "evaluation/comparison/method_difference.h"
+#include "evaluation/comparison/track_bootstrap.h"
 #include "evaluation/evaluate.h"
-#include "evaluation/method_difference.h"
-#include "evaluation/track_bootstrap.h"
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/box_record.h"
+#include "core/labels/box_record.h"
 #include "evaluation/evaluation_input.h"
 #include "evaluation/matching.h"
 

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "core/box_record.h"
-#include "evaluation/box_errors.h"
-#include "evaluation/detection_measures.h"
+#include "core/labels/box_record.h"
 #include "evaluation/evaluation_options.h"
-#include "evaluation/hota.h"
-#include "evaluation/identity_measures.h"
-#include "evaluation/tracking_measures.h"
+#include "evaluation/measures/box_errors.h"
+#include "evaluation/measures/detection_measures.h"
+#include "evaluation/measures/hota.h"
+#include "evaluation/measures/identity_measures.h"
+#include "evaluation/measures/tracking_measures.h"
 
 namespace eyrie {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/box_record.h"
+#include "core/labels/box_record.h"
 #include "evaluation/evaluation_options.h"
 
 namespace eyrie {

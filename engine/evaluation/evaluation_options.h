@@ -3,7 +3,7 @@
 #include <opencv2/core/types.hpp>
 #include <optional>
 
-#include "core/ids.h"
+#include "core/values/ids.h"
 
 namespace eyrie {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "annotation/interpolation.h"
+#include "annotation/keyframes/interpolation.h"
 
 namespace eyrie {
 namespace {

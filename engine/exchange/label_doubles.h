@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "annotation/camera_motion.h"
-#include "core/annotation.h"
+#include "annotation/keyframes/camera_motion.h"
+#include "core/labels/annotation.h"
 #include "formats/label_file.h"
 
 namespace eyrie {

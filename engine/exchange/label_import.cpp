@@ -6,8 +6,8 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
-#include "annotation/keyframe_reduction.h"
-#include "core/upright.h"
+#include "annotation/keyframes/keyframe_reduction.h"
+#include "core/geometry/upright.h"
 
 namespace eyrie {
 namespace {

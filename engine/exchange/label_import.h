@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "annotation/camera_motion.h"
-#include "core/annotation_edit.h"
+#include "annotation/keyframes/camera_motion.h"
+#include "core/labels/annotation_edit.h"
 #include "exchange/label_doubles.h"
 #include "exchange/loose_boxes.h"
 #include "formats/label_file.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie {
 

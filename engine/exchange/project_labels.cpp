@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "annotation/ignore_regions.h"
-#include "annotation/interpolation.h"
+#include "annotation/edits/ignore_regions.h"
+#include "annotation/keyframes/interpolation.h"
 
 namespace eyrie {
 namespace {

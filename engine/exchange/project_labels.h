@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "annotation/camera_motion.h"
-#include "core/annotation.h"
+#include "annotation/keyframes/camera_motion.h"
+#include "core/labels/annotation.h"
 #include "formats/label_file.h"
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 /// Labels and runs of a project in the words of the formats.
 namespace eyrie {

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "formats/label_formats.h"
-#include "formats/text_fields.h"
+#include "formats/tables/text_fields.h"
 
 /// How one format is read, written and recognised; inside of this room only. Readers leave classes, frames and lengths
 /// as the file has them (in our coordinates); writers get every box with an id where the format needs one.

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "formats/format_functions.h"
-#include "io/number_text.h"
+#include "io/tables/number_text.h"
 
 namespace eyrie {
 namespace {

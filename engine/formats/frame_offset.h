@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/box_record.h"
+#include "core/labels/box_record.h"
 
 namespace eyrie {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 namespace eyrie {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/annotation.h"
-#include "core/box_record.h"
+#include "core/labels/annotation.h"
+#include "core/labels/box_record.h"
 
 /// What a file of labels holds, whatever its format. Coordinates and frames are ours: integers are pixel centres,
 /// frames count from 0.

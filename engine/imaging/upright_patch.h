@@ -3,7 +3,7 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/matx.hpp>
 
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 
 namespace eyrie {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/image_sequence.h"
+#include "io/video/image_sequence.h"
 
 namespace eyrie {
 namespace {

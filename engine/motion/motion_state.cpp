@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "core/state_values.h"
-#include "motion/difference_motion.h"
-#include "motion/independent_motion.h"
+#include "motion/differences/difference_motion.h"
+#include "motion/vectors/independent_motion.h"
 
 namespace eyrie {
 

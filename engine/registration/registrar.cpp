@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/error.h"
-#include "registration/local_map.h"
-#include "registration/noise_level.h"
-#include "registration/scaled_to_one.h"
+#include "registration/estimation/point_jacobian.h"
+#include "registration/pictures/noise_level.h"
+#include "registration/pictures/scaled_to_one.h"
 
 namespace eyrie {
 namespace {

@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "core/corner.h"
-#include "core/frame.h"
-#include "core/frame_result.h"
-#include "core/scene_scale.h"
-#include "registration/coarse_registration.h"
-#include "registration/corner_detector.h"
-#include "registration/corner_tracker.h"
-#include "registration/homography_estimator.h"
-#include "registration/image_pyramid.h"
-#include "registration/picture_difference.h"
+#include "core/values/corner.h"
+#include "core/values/frame.h"
+#include "core/values/frame_result.h"
+#include "core/values/scene_scale.h"
+#include "registration/corners/corner_detector.h"
+#include "registration/corners/corner_tracker.h"
+#include "registration/estimation/homography_estimator.h"
+#include "registration/pictures/image_pyramid.h"
+#include "registration/pictures/picture_difference.h"
 #include "registration/registration_options.h"
+#include "registration/search/coarse_registration.h"
 
 namespace eyrie {
 

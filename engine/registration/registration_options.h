@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/parameter.h"
-#include "registration/corner_detector.h"
-#include "registration/corner_tracker.h"
-#include "registration/homography_estimator.h"
+#include "registration/corners/corner_detector.h"
+#include "registration/corners/corner_tracker.h"
+#include "registration/estimation/homography_estimator.h"
 
 namespace eyrie {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "removal/best_pairs.h"
 #include "removal/vector_support.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/corner_density.h"
+#include "core/values/corner_density.h"
 #include "removal/vector_support.h"
 
 namespace eyrie {

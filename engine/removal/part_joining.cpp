@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/angle.h"
-#include "core/inferred_ids.h"
+#include "core/geometry/angle.h"
+#include "core/values/inferred_ids.h"
 #include "removal/best_pairs.h"
 #include "removal/vector_support.h"
 

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "core/detection.h"
-#include "core/motion_vector.h"
 #include "core/parameter.h"
-#include "core/scene_scale.h"
+#include "core/values/detection.h"
+#include "core/values/motion_vector.h"
+#include "core/values/scene_scale.h"
 #include "removal/removal_trace.h"
 
 namespace eyrie {

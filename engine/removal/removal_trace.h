@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/detection.h"
+#include "core/values/detection.h"
 
 namespace eyrie {
 

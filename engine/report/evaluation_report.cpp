@@ -3,7 +3,7 @@
 #include <set>
 
 #include "chain/chain_options.h"
-#include "io/number_text.h"
+#include "io/tables/number_text.h"
 #include "report/report_parts.h"
 
 namespace eyrie {

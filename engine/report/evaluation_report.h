@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "diagnosis/run_evaluation.h"
-#include "io/frame_source.h"
+#include "io/video/frame_source.h"
 
 namespace eyrie {
 

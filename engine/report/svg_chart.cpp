@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/text.h"
-#include "io/number_text.h"
+#include "io/tables/number_text.h"
 
 namespace eyrie {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "core/angle.h"
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "scene/portable_math.h"
 #include "scene/random.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 namespace eyrie::portable {
 namespace {

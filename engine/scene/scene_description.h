@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/ids.h"
+#include "core/values/ids.h"
 #include "scene/camera.h"
-#include "scene/surface.h"
+#include "scene/painting/surface.h"
 
 /// A scene as data: what stands where, who moves how, what the camera does. Metres and seconds; see camera.h for the
 /// axes. Presets fill it (scene_preset.h), SceneRenderer turns it into pictures and truth.

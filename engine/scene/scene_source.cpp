@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "scene/scene_preset.h"
-#include "scene/scene_renderer.h"
+#include "scene/painting/scene_renderer.h"
+#include "scene/towns/scene_preset.h"
 
 namespace eyrie {
 namespace {

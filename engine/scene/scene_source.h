@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "io/frame_source.h"
+#include "io/video/frame_source.h"
 
 namespace eyrie {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/homography.h"
-#include "scene/vehicle_model.h"
+#include "core/geometry/homography.h"
+#include "scene/traffic/vehicle_shape.h"
 
 namespace eyrie {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 #include "scene/scene_description.h"
-#include "scene/static_world.h"
+#include "scene/towns/static_world.h"
 
 namespace eyrie {
 

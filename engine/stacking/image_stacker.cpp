@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "imaging/upright_patch.h"
 
 namespace eyrie {

@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "core/detection.h"
-#include "core/frame.h"
-#include "core/motion_cluster.h"
-#include "core/motion_roi.h"
-#include "core/motion_vector.h"
 #include "core/parameter.h"
-#include "core/scene_scale.h"
+#include "core/values/detection.h"
+#include "core/values/frame.h"
+#include "core/values/motion_cluster.h"
+#include "core/values/motion_roi.h"
+#include "core/values/motion_vector.h"
+#include "core/values/scene_scale.h"
 #include "stacking/image_stack.h"
 #include "stacking/master_vector.h"
 

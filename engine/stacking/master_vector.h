@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/ids.h"
-#include "core/motion_vector.h"
+#include "core/values/ids.h"
+#include "core/values/motion_vector.h"
 
 namespace eyrie {
 

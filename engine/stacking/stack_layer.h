@@ -4,7 +4,7 @@
 #include <opencv2/core/matx.hpp>
 #include <vector>
 
-#include "core/ids.h"
+#include "core/values/ids.h"
 
 namespace eyrie {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/motion_cluster.h"
+#include "core/values/motion_cluster.h"
 
 namespace eyrie {
 

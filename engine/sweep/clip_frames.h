@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "chain/chain_run.h"
-#include "io/frame_source.h"
+#include "io/video/frame_source.h"
 
 namespace eyrie {
 

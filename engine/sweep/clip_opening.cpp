@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "chain/replay.h"
 #include "core/error.h"
-#include "store/run_store.h"
+#include "rerun/replay.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie {
 

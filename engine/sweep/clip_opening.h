@@ -1,6 +1,6 @@
 #pragma once
 
-#include "store/project_file.h"
+#include "store/project/project_file.h"
 #include "sweep/sweep_runner.h"
 
 namespace eyrie {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "chain/chain.h"
-#include "chain/classified_vehicles.h"
+#include "chain/recording/classified_vehicles.h"
 #include "core/error.h"
 #include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"

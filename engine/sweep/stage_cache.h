@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "chain/chain_options.h"
-#include "core/box_record.h"
-#include "core/frame_result.h"
+#include "core/labels/box_record.h"
+#include "core/values/frame_result.h"
 #include "sweep/area_table.h"
 #include "sweep/clip_frames.h"
 #include "sweep/memo.h"
-#include "sweep/parameter_stage.h"
-#include "tracking/track_finishing.h"
+#include "sweep/plan/parameter_stage.h"
+#include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
 

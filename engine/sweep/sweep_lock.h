@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "store/file_lock.h"
-#include "store/project_file.h"
+#include "store/database/file_lock.h"
+#include "store/project/project_file.h"
 
 namespace eyrie {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/box_record.h"
+#include "core/labels/box_record.h"
+#include "sweep/plan/sweep_plan.h"
+#include "sweep/results/sweep_figures.h"
 #include "sweep/stage_cache.h"
-#include "sweep/sweep_figures.h"
-#include "sweep/sweep_plan.h"
 
 namespace eyrie {
 

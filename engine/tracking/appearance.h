@@ -4,8 +4,8 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
-#include "core/ids.h"
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
+#include "core/values/ids.h"
 
 namespace eyrie {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 namespace eyrie {
 namespace {

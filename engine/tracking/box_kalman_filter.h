@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <limits>
 
-#include "core/homography.h"
-#include "core/oriented_box.h"
+#include "core/geometry/homography.h"
+#include "core/geometry/oriented_box.h"
 
 namespace eyrie {
 

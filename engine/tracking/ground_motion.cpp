@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <opencv2/core.hpp>
 
-#include "core/homography.h"
+#include "core/geometry/homography.h"
 
 namespace eyrie {
 namespace {

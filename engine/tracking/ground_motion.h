@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/oriented_box.h"
-#include "tracking/track_finishing.h"
+#include "core/geometry/oriented_box.h"
+#include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 namespace eyrie {
 namespace {

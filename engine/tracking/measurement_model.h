@@ -2,10 +2,10 @@
 
 #include <opencv2/core/types.hpp>
 
-#include "core/detection.h"
-#include "core/scene_scale.h"
+#include "core/values/detection.h"
+#include "core/values/scene_scale.h"
+#include "tracking/association/split_merge.h"
 #include "tracking/box_kalman_filter.h"
-#include "tracking/split_merge.h"
 #include "tracking/tracker_options.h"
 
 namespace eyrie {

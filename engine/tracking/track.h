@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/track_state.h"
+#include "core/values/track_state.h"
+#include "tracking/association/vector_association.h"
 #include "tracking/box_kalman_filter.h"
-#include "tracking/vector_association.h"
 
 namespace eyrie {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "tracking/frames_of.h"
+#include "tracking/finishing/frames_of.h"
 
 namespace eyrie {
 namespace {

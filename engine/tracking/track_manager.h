@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/scene_scale.h"
-#include "tracking/split_merge.h"
+#include "core/values/scene_scale.h"
+#include "tracking/association/split_merge.h"
 #include "tracking/track.h"
 #include "tracking/tracker_options.h"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
-#include "core/angle.h"
 #include "core/error.h"
-#include "tracking/overlap_matrix.h"
-#include "tracking/split_merge.h"
-#include "tracking/vector_association.h"
+#include "core/geometry/angle.h"
+#include "tracking/association/overlap_matrix.h"
+#include "tracking/association/split_merge.h"
+#include "tracking/association/vector_association.h"
 
 namespace eyrie {
 namespace {

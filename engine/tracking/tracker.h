@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "core/detection.h"
-#include "core/motion_vector.h"
-#include "core/scene_scale.h"
-#include "core/track_state.h"
+#include "core/values/detection.h"
+#include "core/values/motion_vector.h"
+#include "core/values/scene_scale.h"
+#include "core/values/track_state.h"
 #include "tracking/appearance.h"
 #include "tracking/measurement_model.h"
 #include "tracking/track.h"

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "core/ids.h"
-#include "core/oriented_box.h"
-#include "tracking/split_merge.h"
+#include "core/geometry/oriented_box.h"
+#include "core/values/ids.h"
+#include "tracking/association/split_merge.h"
 
 namespace eyrie {
 

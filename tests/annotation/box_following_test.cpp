@@ -1,4 +1,4 @@
-#include "annotation/box_following.h"
+#include "annotation/pictures/box_tracker.h"
 
 #include <gmock/gmock.h>
 
@@ -8,9 +8,9 @@
 
 #include "annotation/scenes.h"
 #include "core/error.h"
-#include "io/box_csv.h"
-#include "io/frame_source.h"
-#include "io/homography_csv.h"
+#include "io/tables/box_csv.h"
+#include "io/tables/homography_csv.h"
+#include "io/video/frame_source.h"
 #include "support/shared_data.h"
 
 namespace eyrie {

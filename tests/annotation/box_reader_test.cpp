@@ -1,11 +1,11 @@
-#include "annotation/box_reader.h"
+#include "annotation/keyframes/box_reader.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "annotation/carried_boxes.h"
-#include "annotation/dense_boxes.h"
+#include "annotation/edits/carried_boxes.h"
+#include "annotation/keyframes/dense_boxes.h"
 #include "annotation/scenes.h"
 
 namespace eyrie {

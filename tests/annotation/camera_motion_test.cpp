@@ -1,4 +1,4 @@
-#include "annotation/camera_motion.h"
+#include "annotation/keyframes/camera_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <map>
 
-#include "annotation/keyframe_reduction.h"
+#include "annotation/keyframes/keyframe_reduction.h"
 #include "annotation/scenes.h"
-#include "core/angle.h"
-#include "io/box_csv.h"
-#include "io/homography_csv.h"
+#include "core/geometry/angle.h"
+#include "io/tables/box_csv.h"
+#include "io/tables/homography_csv.h"
 #include "support/shared_data.h"
 
 namespace eyrie {

@@ -1,11 +1,11 @@
-#include "annotation/identity_verbs.h"
+#include "annotation/edits/identity_edits.h"
 
 #include <gmock/gmock.h>
 
 #include <functional>
 
-#include "annotation/interpolation.h"
-#include "annotation/join_suggestions.h"
+#include "annotation/keyframes/interpolation.h"
+#include "annotation/review/join_suggestions.h"
 #include "annotation/scenes.h"
 #include "core/error.h"
 

@@ -1,4 +1,4 @@
-#include "annotation/ignore_regions.h"
+#include "annotation/edits/ignore_regions.h"
 
 #include <gtest/gtest.h>
 

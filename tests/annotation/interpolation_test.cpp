@@ -1,9 +1,9 @@
-#include "annotation/interpolation.h"
+#include "annotation/keyframes/interpolation.h"
 
 #include <gtest/gtest.h>
 
 #include "annotation/scenes.h"
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 namespace eyrie {
 namespace {

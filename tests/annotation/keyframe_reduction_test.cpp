@@ -1,4 +1,4 @@
-#include "annotation/keyframe_reduction.h"
+#include "annotation/keyframes/keyframe_reduction.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "annotation/object_stack.h"
+#include "annotation/pictures/object_stack.h"
 
 #include <gtest/gtest.h>
 

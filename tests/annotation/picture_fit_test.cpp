@@ -1,10 +1,10 @@
-#include "annotation/picture_fit.h"
+#include "annotation/pictures/trajectory_refinement.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
 
-#include "annotation/interpolation.h"
+#include "annotation/keyframes/interpolation.h"
 #include "annotation/scenes.h"
 
 namespace eyrie {

@@ -1,4 +1,4 @@
-#include "annotation/proposals.h"
+#include "annotation/review/proposals.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "annotation/attention.h"
-#include "annotation/identity_verbs.h"
-#include "annotation/review_state.h"
+#include "annotation/edits/identity_edits.h"
+#include "annotation/review/attention.h"
+#include "annotation/review/review_state.h"
 #include "annotation/scenes.h"
 
 namespace eyrie {

@@ -5,8 +5,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "annotation/camera_motion.h"
-#include "core/annotation.h"
+#include "annotation/keyframes/camera_motion.h"
+#include "core/labels/annotation.h"
 
 /// A flat ground seen by a moving camera, for the tests of labelling.
 namespace eyrie::test {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "annotation/attention.h"
-#include "annotation/identity_verbs.h"
-#include "annotation/interpolation.h"
-#include "annotation/review_state.h"
-#include "store/annotation_store.h"
+#include "annotation/edits/identity_edits.h"
+#include "annotation/keyframes/interpolation.h"
+#include "annotation/review/attention.h"
+#include "annotation/review/review_state.h"
+#include "store/labels/annotation_store.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie {

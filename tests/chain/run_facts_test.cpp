@@ -1,8 +1,8 @@
-#include "chain/run_facts.h"
+#include "chain/recording/run_facts.h"
 
 #include <gtest/gtest.h>
 
-#include "chain/run_recorder.h"
+#include "chain/recording/run_recorder.h"
 #include "support/moving_scene.h"
 #include "support/temporary_folder.h"
 

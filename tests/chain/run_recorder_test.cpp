@@ -1,8 +1,8 @@
-#include "chain/run_recorder.h"
+#include "chain/recording/run_recorder.h"
 
 #include <gtest/gtest.h>
 
-#include "store/project_file.h"
+#include "store/project/project_file.h"
 #include "support/moving_scene.h"
 #include "support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "chain/run_resume.h"
+#include "chain/recording/run_resume.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,12 +7,12 @@
 #include <cctype>
 #include <random>
 
-#include "chain/chain_state.h"
-#include "chain/run_recorder.h"
+#include "chain/recording/chain_state.h"
+#include "chain/recording/run_recorder.h"
 #include "core/error.h"
-#include "store/project_file.h"
-#include "store/result_writer.h"
-#include "store/run_state_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/result_writer.h"
+#include "store/runs/run_state_store.h"
 #include "support/moving_scene.h"
 #include "support/run_rows.h"
 #include "support/temporary_folder.h"

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "store/project_file.h"
-#include "store/run_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"

@@ -6,9 +6,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "store/comparison_store.h"
-#include "store/project_file.h"
-#include "store/run_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/comparison_store.h"
+#include "store/runs/run_store.h"
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "store/annotation_store.h"
-#include "store/project_backup.h"
-#include "store/project_presets.h"
+#include "store/backup/project_backup.h"
+#include "store/labels/annotation_store.h"
+#include "store/project/project_presets.h"
 #include "support/places.h"
 #include "support/process.h"
 

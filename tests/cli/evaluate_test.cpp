@@ -4,9 +4,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "store/project_file.h"
-#include "store/result_writer.h"
-#include "store/run_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/result_writer.h"
+#include "store/runs/run_store.h"
 #include "support/places.h"
 #include "support/process.h"
 #include "support/shared_data.h"

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "store/project_file.h"
-#include "store/result_writer.h"
+#include "store/project/project_file.h"
+#include "store/runs/result_writer.h"
 #include "support/places.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"

@@ -4,10 +4,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "store/annotation_store.h"
-#include "store/project_file.h"
-#include "store/result_writer.h"
-#include "store/run_store.h"
+#include "store/labels/annotation_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/result_writer.h"
+#include "store/runs/run_store.h"
 #include "support/places.h"
 #include "support/process.h"
 #include "support/shared_data.h"

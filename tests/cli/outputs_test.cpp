@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "io/atomic_file.h"
-#include "store/project_file.h"
-#include "store/result_writer.h"
+#include "store/project/project_file.h"
+#include "store/runs/result_writer.h"
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"

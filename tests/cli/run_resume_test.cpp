@@ -8,9 +8,9 @@
 #include <random>
 #include <sstream>
 
-#include "io/frame_source.h"
-#include "store/project_file.h"
-#include "store/run_store.h"
+#include "io/video/frame_source.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"

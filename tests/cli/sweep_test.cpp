@@ -8,8 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "store/project_file.h"
-#include "store/sweep_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/sweep_store.h"
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"

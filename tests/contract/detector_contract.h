@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "detection/detector.h"
 #include "support/driven_scene.h"
 

@@ -1,4 +1,4 @@
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 #include <gtest/gtest.h>
 

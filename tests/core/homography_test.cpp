@@ -1,4 +1,4 @@
-#include "core/homography.h"
+#include "core/geometry/homography.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 namespace eyrie {
 namespace {

@@ -1,4 +1,4 @@
-#include "detection/component_boxes.h"
+#include "detection/segmenters/component_boxes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "detection/gradient_segmenter.h"
+#include "detection/segmenters/gradient_segmenter.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "detection/canny_harris_segmenter.h"
 #include "detection/detector_factory.h"
-#include "detection/mser_segmenter.h"
-#include "detection/segmentation_views.h"
+#include "detection/segmenters/canny_harris_segmenter.h"
+#include "detection/segmenters/mser_segmenter.h"
+#include "detection/segmenters/segmentation_views.h"
 #include "support/driven_scene.h"
 
 namespace eyrie {

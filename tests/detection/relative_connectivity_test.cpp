@@ -1,8 +1,8 @@
-#include "detection/relative_connectivity.h"
+#include "detection/segmenters/relative_connectivity.h"
 
 #include <gtest/gtest.h>
 
-#include "detection/relative_connectivity_segmenter.h"
+#include "detection/segmenters/relative_connectivity_segmenter.h"
 #include "support/driven_scene.h"
 
 namespace eyrie {

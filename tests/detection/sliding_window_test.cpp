@@ -8,12 +8,12 @@
 #include <opencv2/core.hpp>
 
 #include "core/error.h"
-#include "detection/global_sliding_window.h"
-#include "detection/model_location.h"
-#include "detection/sliding_window_detector.h"
+#include "detection/sliding_window/global_sliding_window.h"
+#include "detection/sliding_window/model_location.h"
+#include "detection/sliding_window/sliding_window_detector.h"
+#include "detection/sliding_window/window_hypotheses.h"
 #include "detection/trained_window_model.h"
-#include "detection/window_hypotheses.h"
-#include "learning/gentle_adaboost.h"
+#include "learning/classifiers/gentle_adaboost.h"
 
 namespace eyrie {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "core/angle.h"
-#include "detection/sliding_window_options.h"
-#include "learning/sample_set.h"
-#include "learning/trainer.h"
+#include "core/geometry/angle.h"
+#include "detection/sliding_window/sliding_window_options.h"
+#include "learning/training/sample_set.h"
+#include "learning/training/trainer.h"
 #include "support/driven_scene.h"
 #include "support/temporary_folder.h"
 

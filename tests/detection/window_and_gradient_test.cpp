@@ -1,4 +1,4 @@
-#include "detection/window_and_gradient_detector.h"
+#include "detection/sliding_window/window_and_gradient_detector.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "diagnosis/mistake_csv.h"
-#include "store/annotation_store.h"
-#include "store/result_writer.h"
+#include "store/labels/annotation_store.h"
+#include "store/runs/result_writer.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie {

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/video_writer.h"
+#include "io/video/video_writer.h"
 #include "support/moving_scene.h"
 
 /// clip_maker FOLDER FRAMES: draws a tiny clip with its truth, as a folder of images, as a picture of each kind and as

@@ -5,7 +5,7 @@
 
 #include "evaluation/evaluate.h"
 #include "evaluation/evaluation_boxes.h"
-#include "formats/motchallenge.h"
+#include "formats/mot/motchallenge.h"
 #include "support/shared_data.h"
 
 namespace eyrie {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "core/angle.h"
-#include "core/box_record.h"
+#include "core/geometry/angle.h"
+#include "core/labels/box_record.h"
 
 /// Short ways to write down boxes in the tests of evaluation.
 namespace eyrie::test {

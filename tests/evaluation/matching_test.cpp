@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "evaluation/detection_measures.h"
+#include "evaluation/measures/detection_measures.h"
 #include "evaluation_boxes.h"
 
 namespace eyrie {

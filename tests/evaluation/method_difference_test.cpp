@@ -1,4 +1,4 @@
-#include "evaluation/method_difference.h"
+#include "evaluation/comparison/method_difference.h"
 
 #include <gtest/gtest.h>
 

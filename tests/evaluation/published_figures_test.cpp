@@ -1,4 +1,4 @@
-#include "evaluation/published_figures.h"
+#include "evaluation/comparison/published_figures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

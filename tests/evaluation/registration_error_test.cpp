@@ -1,4 +1,4 @@
-#include "evaluation/registration_error.h"
+#include "evaluation/measures/registration_error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "evaluation/result_difference.h"
+#include "evaluation/comparison/result_difference.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "evaluation/roc.h"
+#include "evaluation/measures/roc.h"
 
 #include <gtest/gtest.h>
 

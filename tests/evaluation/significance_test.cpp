@@ -1,4 +1,4 @@
-#include "evaluation/significance.h"
+#include "evaluation/comparison/significance.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "evaluation/track_bootstrap.h"
+#include "evaluation/comparison/track_bootstrap.h"
 
 namespace eyrie {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "evaluation/evaluate.h"
-#include "formats/motchallenge.h"
+#include "formats/mot/motchallenge.h"
 #include "support/shared_data.h"
 
 namespace eyrie {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "evaluation/evaluate.h"
 #include "formats/label_formats.h"
-#include "formats/motchallenge.h"
+#include "formats/mot/motchallenge.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 

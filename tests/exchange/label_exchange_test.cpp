@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "annotation/ignore_regions.h"
+#include "annotation/edits/ignore_regions.h"
 #include "core/error.h"
 #include "exchange/label_import.h"
 #include "exchange/project_labels.h"

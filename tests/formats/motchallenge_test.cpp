@@ -1,4 +1,4 @@
-#include "formats/motchallenge.h"
+#include "formats/mot/motchallenge.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/angle.h"
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/angle.h"
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "formats/label_formats.h"
 #include "support/temporary_folder.h"
 

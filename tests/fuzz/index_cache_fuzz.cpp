@@ -1,7 +1,7 @@
 #include <vector>
 
 #include "fuzz/input_file.h"
-#include "io/index_cache.h"
+#include "io/video/index_cache.h"
 
 /// Bytes as the record of a video's index, with a right checksum, so that what lies behind it is reached.
 namespace {

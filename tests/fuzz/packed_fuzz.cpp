@@ -1,6 +1,6 @@
 #include "fuzz/input_file.h"
-#include "store/packed_arrays.h"
-#include "store/packed_labels.h"
+#include "store/labels/packed_labels.h"
+#include "store/runs/packed_arrays.h"
 
 /// Bytes as one of the packed columns of a project; the first byte chooses which.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

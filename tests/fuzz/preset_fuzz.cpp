@@ -1,5 +1,5 @@
 #include "fuzz/input_file.h"
-#include "io/preset_file.h"
+#include "io/tables/preset_file.h"
 
 /// Bytes as a preset file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

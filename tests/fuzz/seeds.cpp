@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "formats/sample_labels.h"
-#include "io/preset_file.h"
+#include "io/tables/preset_file.h"
 
 /// fuzz_seeds FOLDER: good files to begin with, written by our own writers: a folder for each target and format.
 namespace {

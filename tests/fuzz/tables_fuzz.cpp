@@ -1,8 +1,8 @@
-#include "formats/column_template.h"
 #include "formats/label_formats.h"
+#include "formats/tables/column_template.h"
 #include "fuzz/input_file.h"
-#include "io/box_csv.h"
-#include "io/homography_csv.h"
+#include "io/tables/box_csv.h"
+#include "io/tables/homography_csv.h"
 
 /// tables_fuzz --table=boxes|homographies|template: bytes as one of our own tables, or as the columns of a user's table
 /// (the first line) and that table (the rest).

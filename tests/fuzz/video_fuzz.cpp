@@ -3,7 +3,7 @@ extern "C" {
 }
 
 #include "fuzz/input_file.h"
-#include "io/frame_source.h"
+#include "io/video/frame_source.h"
 
 /// Bytes as a video: its index is built and some frames are read.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {

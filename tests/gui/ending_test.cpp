@@ -6,8 +6,8 @@
 #include <optional>
 #include <thread>
 
-#include "store/project_file.h"
-#include "store/run_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"

@@ -1,11 +1,11 @@
-#include "io/box_csv.h"
+#include "io/tables/box_csv.h"
 
 #include <gmock/gmock.h>
 
 #include <clocale>
 #include <cmath>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "io/atomic_file.h"
 #include "io/numbered_video.h"
 #include "support/shared_data.h"

@@ -1,4 +1,4 @@
-#include "io/frame_cache.h"
+#include "io/video/frame_cache.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "io/homography_csv.h"
+#include "io/tables/homography_csv.h"
 
 #include <gmock/gmock.h>
 

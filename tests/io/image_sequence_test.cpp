@@ -1,4 +1,4 @@
-#include "io/image_sequence.h"
+#include "io/video/image_sequence.h"
 
 #include <gmock/gmock.h>
 

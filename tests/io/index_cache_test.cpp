@@ -1,4 +1,4 @@
-#include "io/index_cache.h"
+#include "io/video/index_cache.h"
 
 #include <gmock/gmock.h>
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "io/frame_source.h"
-#include "io/video_writer.h"
+#include "io/video/frame_source.h"
+#include "io/video/video_writer.h"
 
 /// Videos whose frames carry their own number as a row of black and white fields, which survives any compression: what
 /// a reader delivers can be checked without another reader.

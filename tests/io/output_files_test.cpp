@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
-#include "io/video_writer.h"
+#include "io/video/video_writer.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie {

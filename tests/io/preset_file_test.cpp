@@ -1,4 +1,4 @@
-#include "io/preset_file.h"
+#include "io/tables/preset_file.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "io/video_reader.h"
+#include "io/video/video_reader.h"
 
 #include <gmock/gmock.h>
 

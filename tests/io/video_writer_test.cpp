@@ -1,4 +1,4 @@
-#include "io/video_writer.h"
+#include "io/video/video_writer.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "learning/classifier.h"
+#include "learning/classifiers/classifier.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 #include <set>
 
 #include "core/error.h"
-#include "learning/gentle_adaboost.h"
-#include "learning/random_naive_bayes.h"
-#include "learning/seeded_random.h"
-#include "learning/svm.h"
+#include "learning/classifiers/gentle_adaboost.h"
+#include "learning/classifiers/random_naive_bayes.h"
+#include "learning/classifiers/seeded_random.h"
+#include "learning/classifiers/svm.h"
 
 namespace eyrie {
 namespace {

@@ -1,4 +1,4 @@
-#include "learning/descriptor.h"
+#include "learning/descriptors/descriptor.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <map>
 #include <set>
 
-#include "core/angle.h"
 #include "core/error.h"
-#include "learning/channel_features.h"
+#include "core/geometry/angle.h"
+#include "learning/descriptors/channel_features.h"
+#include "learning/descriptors/haralick.h"
+#include "learning/descriptors/multi_lbp_descriptor.h"
 #include "learning/drawn_windows.h"
-#include "learning/haralick.h"
-#include "learning/multi_lbp_descriptor.h"
 
 namespace eyrie {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "learning/sample_set.h"
-#include "learning/seeded_random.h"
-#include "learning/window.h"
+#include "learning/classifiers/seeded_random.h"
+#include "learning/models/window.h"
+#include "learning/training/sample_set.h"
 
 namespace eyrie::test {
 

@@ -1,11 +1,11 @@
-#include "learning/fast_ica.h"
+#include "learning/classifiers/fast_ica.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
 
-#include "learning/seeded_random.h"
+#include "learning/classifiers/seeded_random.h"
 
 namespace eyrie {
 namespace {

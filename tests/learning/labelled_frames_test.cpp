@@ -1,4 +1,4 @@
-#include "learning/labelled_frames.h"
+#include "learning/training/labelled_frames.h"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "learning/byte_stream.h"
+#include "learning/classifiers/gentle_adaboost.h"
 #include "learning/drawn_windows.h"
-#include "learning/gentle_adaboost.h"
-#include "learning/trainer.h"
+#include "learning/models/byte_stream.h"
+#include "learning/training/trainer.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie {

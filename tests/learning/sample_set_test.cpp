@@ -1,4 +1,4 @@
-#include "learning/sample_set.h"
+#include "learning/training/sample_set.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/angle.h"
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "learning/drawn_windows.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"

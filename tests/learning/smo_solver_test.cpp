@@ -1,11 +1,11 @@
-#include "learning/smo_solver.h"
+#include "learning/classifiers/smo_solver.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "learning/seeded_random.h"
+#include "learning/classifiers/seeded_random.h"
 
 namespace eyrie {
 

@@ -1,12 +1,12 @@
-#include "learning/trainer.h"
+#include "learning/training/trainer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "evaluation/roc.h"
+#include "evaluation/measures/roc.h"
 #include "learning/drawn_windows.h"
-#include "learning/window_scanner.h"
+#include "learning/models/window_scanner.h"
 #include "support/places.h"
 #include "support/shared_data.h"
 

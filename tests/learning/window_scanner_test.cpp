@@ -1,4 +1,4 @@
-#include "learning/window_scanner.h"
+#include "learning/models/window_scanner.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "learning/drawn_windows.h"
-#include "learning/trainer.h"
+#include "learning/training/trainer.h"
 
 namespace eyrie {
 namespace {

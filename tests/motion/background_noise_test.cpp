@@ -1,4 +1,4 @@
-#include "motion/background_noise.h"
+#include "motion/vectors/background_noise.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "motion/corner_history.h"
+#include "motion/vectors/corner_history.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "motion/difference_motion.h"
+#include "motion/differences/difference_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "motion/independent_motion.h"
+#include "motion/vectors/independent_motion.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "motion/motion_clustering.h"
+#include "motion/clusters/motion_clustering.h"
 #include "motion/moving_corners.h"
 
 namespace eyrie {

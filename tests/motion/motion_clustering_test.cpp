@@ -1,4 +1,4 @@
-#include "motion/motion_clustering.h"
+#include "motion/clusters/motion_clustering.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 namespace eyrie {
 namespace {

@@ -1,4 +1,4 @@
-#include "motion/moving_areas.h"
+#include "motion/differences/moving_areas.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
-#include "core/oriented_box.h"
-#include "motion/area_matching.h"
+#include "core/geometry/oriented_box.h"
+#include "motion/differences/area_matching.h"
 
 namespace eyrie {
 namespace {

@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "core/corner.h"
-#include "core/frame.h"
+#include "core/values/corner.h"
+#include "core/values/frame.h"
 
 namespace eyrie::test {
 

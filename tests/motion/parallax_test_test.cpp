@@ -1,4 +1,4 @@
-#include "motion/parallax_test.h"
+#include "motion/vectors/parallax_test.h"
 
 #include <gtest/gtest.h>
 

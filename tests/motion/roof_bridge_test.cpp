@@ -1,11 +1,11 @@
-#include "motion/roof_bridge.h"
+#include "motion/differences/roof_bridge.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "motion/motion_clustering.h"
+#include "motion/clusters/motion_clustering.h"
 
 namespace eyrie {
 namespace {

@@ -1,4 +1,4 @@
-#include "motion/shadow_owners.h"
+#include "motion/vectors/shadow_owners.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "motion/shadow_test.h"
+#include "motion/vectors/shadow_test.h"
 
 #include <gtest/gtest.h>
 

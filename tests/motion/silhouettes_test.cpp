@@ -1,4 +1,4 @@
-#include "motion/silhouettes.h"
+#include "motion/differences/silhouettes.h"
 
 #include <gtest/gtest.h>
 

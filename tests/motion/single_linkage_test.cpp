@@ -1,4 +1,4 @@
-#include "motion/single_linkage.h"
+#include "motion/clusters/single_linkage.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "registration/corner_detector.h"
+#include "registration/corners/corner_detector.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <opencv2/imgproc.hpp>
 
-#include "registration/noise_level.h"
+#include "registration/pictures/noise_level.h"
 #include "registration/textured_ground.h"
 
 namespace eyrie {

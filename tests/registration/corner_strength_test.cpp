@@ -1,4 +1,4 @@
-#include "registration/corner_strength.h"
+#include "registration/corners/corner_strength.h"
 
 #include <gtest/gtest.h>
 

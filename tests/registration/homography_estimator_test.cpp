@@ -1,11 +1,11 @@
-#include "registration/homography_estimator.h"
+#include "registration/estimation/homography_estimator.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "registration/estimation/normal_equations.h"
 #include "registration/every_target.h"
-#include "registration/normal_equations.h"
 #include "registration/textured_ground.h"
 
 namespace eyrie {

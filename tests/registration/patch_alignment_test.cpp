@@ -1,4 +1,4 @@
-#include "registration/patch_alignment.h"
+#include "registration/corners/patch_alignment.h"
 
 #include <gtest/gtest.h>
 

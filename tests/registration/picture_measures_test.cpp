@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "registration/image_pyramid.h"
-#include "registration/noise_level.h"
-#include "registration/picture_difference.h"
+#include "registration/pictures/image_pyramid.h"
+#include "registration/pictures/noise_level.h"
+#include "registration/pictures/picture_difference.h"
 #include "registration/textured_ground.h"
 
 namespace eyrie {

@@ -2,8 +2,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "registration/feature_search.h"
 #include "registration/flight.h"
+#include "registration/search/feature_search.h"
 
 namespace eyrie {
 namespace {

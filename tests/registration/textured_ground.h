@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/frame.h"
+#include "core/values/frame.h"
 
 namespace eyrie::test {
 

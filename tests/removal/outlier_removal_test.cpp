@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "removal/vectors_in_boxes.h"
 
 namespace eyrie {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/detection.h"
-#include "core/motion_vector.h"
-#include "core/scene_scale.h"
+#include "core/values/detection.h"
+#include "core/values/motion_vector.h"
+#include "core/values/scene_scale.h"
 
 namespace eyrie::test {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/angle.h"
-#include "core/homography.h"
+#include "core/geometry/angle.h"
+#include "core/geometry/homography.h"
 
 namespace eyrie {
 namespace {

@@ -1,10 +1,10 @@
-#include "scene/path.h"
+#include "scene/traffic/path.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 namespace eyrie {
 

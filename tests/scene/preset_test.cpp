@@ -1,4 +1,4 @@
-#include "scene/scene_preset.h"
+#include "scene/towns/scene_preset.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <opencv2/core.hpp>
 #include <set>
 
-#include "core/angle.h"
 #include "core/error.h"
-#include "core/homography.h"
-#include "core/oriented_box.h"
+#include "core/geometry/angle.h"
+#include "core/geometry/homography.h"
+#include "core/geometry/oriented_box.h"
 #include "scene/scene_load.h"
 
 /// The facts of Teutsch table 7.1 and §7.2, without painting a pixel.

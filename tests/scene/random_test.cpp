@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/polygon_scan.h"
+#include "scene/painting/polygon_scan.h"
 #include "scene/portable_math.h"
 
 namespace eyrie {

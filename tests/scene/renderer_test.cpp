@@ -1,12 +1,12 @@
-#include "scene/scene_renderer.h"
+#include "scene/painting/scene_renderer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "core/angle.h"
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "scene/scene_source.h"
 #include "scene/small_scene.h"
 

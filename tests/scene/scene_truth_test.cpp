@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "scene/small_scene.h"
 
 namespace eyrie {

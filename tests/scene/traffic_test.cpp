@@ -1,11 +1,11 @@
-#include "scene/traffic.h"
+#include "scene/traffic/traffic.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/angle.h"
-#include "scene/vehicle_model.h"
+#include "core/geometry/angle.h"
+#include "scene/traffic/vehicle_shape.h"
 
 namespace eyrie {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "core/angle.h"
-#include "scene/scene_renderer.h"
+#include "core/geometry/angle.h"
+#include "scene/painting/scene_renderer.h"
 #include "scene/small_scene.h"
 
 /// Compares painted vehicles with the truth.

@@ -1,4 +1,4 @@
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>

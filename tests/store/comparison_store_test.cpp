@@ -1,4 +1,4 @@
-#include "store/comparison_store.h"
+#include "store/runs/comparison_store.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/error.h"
-#include "store/result_writer.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/child.h"
 #include "support/temporary_folder.h"

@@ -3,12 +3,12 @@
 #include <fstream>
 #include <iterator>
 
-#include "store/annotation_store.h"
-#include "store/comparison_store.h"
 #include "store/label_samples.h"
-#include "store/project_presets.h"
+#include "store/labels/annotation_store.h"
+#include "store/project/project_presets.h"
+#include "store/runs/comparison_store.h"
+#include "store/runs/sweep_store.h"
 #include "store/samples.h"
-#include "store/sweep_store.h"
 
 namespace eyrie::test {
 

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "store/result_writer.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 

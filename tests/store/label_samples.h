@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/annotation_edit.h"
+#include "core/labels/annotation_edit.h"
 
 /// Made-up labels for the tests of the store.
 namespace eyrie::test {

@@ -1,4 +1,4 @@
-#include "store/packed_arrays.h"
+#include "store/runs/packed_arrays.h"
 
 #include <gmock/gmock.h>
 

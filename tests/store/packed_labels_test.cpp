@@ -1,4 +1,4 @@
-#include "store/packed_labels.h"
+#include "store/labels/packed_labels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "store/project_backup.h"
+#include "store/backup/project_backup.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -11,10 +11,10 @@
 #include <thread>
 
 #include "core/error.h"
-#include "store/project_contents.h"
-#include "store/result_writer.h"
+#include "store/health/project_contents.h"
+#include "store/project/schema.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
-#include "store/schema.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 

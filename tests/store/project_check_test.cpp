@@ -1,16 +1,16 @@
-#include "store/project_check.h"
+#include "store/health/project_check.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "store/annotation_store.h"
 #include "store/full_project.h"
 #include "store/label_samples.h"
-#include "store/project_file.h"
-#include "store/result_writer.h"
+#include "store/labels/annotation_store.h"
+#include "store/project/project_file.h"
+#include "store/project/schema.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
-#include "store/schema.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "store/project_file.h"
+#include "store/project/project_file.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -7,11 +7,11 @@
 #include <functional>
 
 #include "core/error.h"
-#include "store/annotation_store.h"
 #include "store/label_samples.h"
-#include "store/result_writer.h"
+#include "store/labels/annotation_store.h"
+#include "store/project/schema.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
-#include "store/schema.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "store/project_presets.h"
+#include "store/project/project_presets.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "store/project_repair.h"
+#include "store/health/project_repair.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -6,11 +6,11 @@
 #include <random>
 
 #include "core/error.h"
-#include "store/annotation_store.h"
 #include "store/full_project.h"
+#include "store/health/project_check.h"
+#include "store/health/project_contents.h"
 #include "store/label_samples.h"
-#include "store/project_check.h"
-#include "store/project_contents.h"
+#include "store/labels/annotation_store.h"
 #include "store/samples.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"

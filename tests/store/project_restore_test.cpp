@@ -1,4 +1,4 @@
-#include "store/project_restore.h"
+#include "store/backup/project_restore.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -10,11 +10,11 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "store/annotation_store.h"
+#include "store/health/project_contents.h"
 #include "store/label_samples.h"
-#include "store/project_contents.h"
-#include "store/project_presets.h"
-#include "store/result_writer.h"
+#include "store/labels/annotation_store.h"
+#include "store/project/project_presets.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 

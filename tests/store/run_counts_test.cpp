@@ -1,10 +1,10 @@
-#include "store/run_counts.h"
+#include "store/runs/run_counts.h"
 
 #include <gtest/gtest.h>
 
-#include "store/annotation_store.h"
-#include "store/change_watch.h"
-#include "store/result_writer.h"
+#include "store/database/change_watch.h"
+#include "store/labels/annotation_store.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 

@@ -1,10 +1,10 @@
-#include "store/run_state_store.h"
+#include "store/runs/run_state_store.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "store/result_writer.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/run_rows.h"
 #include "support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "store/result_writer.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "store/result_writer.h"
+#include "store/runs/result_writer.h"
 
 namespace eyrie::test {
 namespace {

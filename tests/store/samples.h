@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/frame_result.h"
-#include "store/run_store.h"
+#include "core/values/frame_result.h"
+#include "store/runs/run_store.h"
 
 /// Made-up results for the tests of the store.
 namespace eyrie::test {

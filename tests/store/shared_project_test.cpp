@@ -7,11 +7,11 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "store/file_check.h"
-#include "store/result_writer.h"
-#include "store/run_lock.h"
+#include "store/health/file_check.h"
+#include "store/runs/result_writer.h"
+#include "store/runs/run_lock.h"
+#include "store/runs/sweep_store.h"
 #include "store/samples.h"
-#include "store/sweep_store.h"
 #include "support/child.h"
 #include "support/temporary_folder.h"
 

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "store/annotation_store.h"
 #include "store/label_samples.h"
-#include "store/result_writer.h"
+#include "store/labels/annotation_store.h"
+#include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 

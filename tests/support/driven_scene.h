@@ -3,9 +3,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/frame.h"
-#include "core/motion_roi.h"
-#include "core/motion_vector.h"
+#include "core/values/frame.h"
+#include "core/values/motion_roi.h"
+#include "core/values/motion_vector.h"
 #include "detection/roi_cutter.h"
 
 namespace eyrie::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/frame_source.h"
+#include "io/video/frame_source.h"
 
 namespace eyrie::test {
 

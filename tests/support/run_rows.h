@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "store/project_file.h"
+#include "store/project/project_file.h"
 
 namespace eyrie::test {
 

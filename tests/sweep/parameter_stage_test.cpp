@@ -1,4 +1,4 @@
-#include "sweep/parameter_stage.h"
+#include "sweep/plan/parameter_stage.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "chain/chain.h"
 #include "chain/chain_run.h"
-#include "chain/classified_vehicles.h"
+#include "chain/recording/classified_vehicles.h"
 #include "core/error.h"
 #include "sweep/sweep_scene.h"
 

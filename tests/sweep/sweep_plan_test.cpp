@@ -1,4 +1,4 @@
-#include "sweep/sweep_plan.h"
+#include "sweep/plan/sweep_plan.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,9 +6,9 @@
 #include "core/error.h"
 #include "evaluation/evaluate.h"
 #include "support/temporary_folder.h"
-#include "sweep/sweep_report.h"
+#include "sweep/results/sweep_report.h"
+#include "sweep/results/sweep_table.h"
 #include "sweep/sweep_scene.h"
-#include "sweep/sweep_table.h"
 
 namespace eyrie {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/box_record.h"
+#include "core/labels/box_record.h"
 #include "support/moving_scene.h"
 #include "sweep/sweep_runner.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "tracking/moving_scene.h"
 #include "tracking/tracker.h"
 

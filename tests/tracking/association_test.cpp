@@ -5,11 +5,11 @@
 #include <numeric>
 #include <random>
 
-#include "core/angle.h"
-#include "tracking/best_assignment.h"
-#include "tracking/overlap_matrix.h"
-#include "tracking/split_merge.h"
-#include "tracking/vector_association.h"
+#include "core/geometry/angle.h"
+#include "tracking/association/best_assignment.h"
+#include "tracking/association/overlap_matrix.h"
+#include "tracking/association/split_merge.h"
+#include "tracking/association/vector_association.h"
 
 namespace eyrie {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <random>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 
 namespace eyrie {
 namespace {

@@ -6,11 +6,11 @@
 #include <random>
 #include <vector>
 
-#include "core/angle.h"
-#include "core/detection.h"
-#include "core/motion_vector.h"
-#include "core/scene_scale.h"
-#include "core/track_state.h"
+#include "core/geometry/angle.h"
+#include "core/values/detection.h"
+#include "core/values/motion_vector.h"
+#include "core/values/scene_scale.h"
+#include "core/values/track_state.h"
 
 namespace eyrie::testing {
 

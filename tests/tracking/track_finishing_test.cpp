@@ -1,4 +1,4 @@
-#include "tracking/track_finishing.h"
+#include "tracking/finishing/track_finishing.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <map>
 
+#include "tracking/finishing/track_finishing.h"
 #include "tracking/frame_summaries.h"
-#include "tracking/track_finishing.h"
 
 namespace eyrie {
 namespace {

@@ -1,10 +1,10 @@
-#include "tracking/track_score.h"
+#include "tracking/finishing/track_score.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "tracking/track_finishing.h"
+#include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
 namespace {

@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
+#include "tracking/finishing/track_finishing.h"
 #include "tracking/frame_summaries.h"
-#include "tracking/track_finishing.h"
 
 namespace eyrie {
 namespace {

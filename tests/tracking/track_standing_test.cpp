@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "tracking/track_finishing.h"
+#include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
 namespace {

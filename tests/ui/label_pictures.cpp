@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <map>
 
-#include "annotation/identity_verbs.h"
-#include "annotation/keyframe_reduction.h"
-#include "io/box_csv.h"
+#include "annotation/edits/identity_edits.h"
+#include "annotation/keyframes/keyframe_reduction.h"
+#include "io/tables/box_csv.h"
 #include "main_window/theme.h"
 #include "ui/labelling.h"
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "annotation/interpolation.h"
-#include "io/box_csv.h"
+#include "annotation/keyframes/interpolation.h"
+#include "io/tables/box_csv.h"
 #include "session/label_fitting.h"
 #include "ui/labelling.h"
 #include "view/box_handles.h"

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 /// What the tests of the panels share.
 namespace eyrie::ui::test {

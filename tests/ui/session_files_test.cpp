@@ -4,7 +4,7 @@
 #include "session/kept_scene.h"
 #include "session/preset_store.h"
 #include "session/project_location.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 #include "ui/full_disk.h"
 #include "ui/session_support.h"
 

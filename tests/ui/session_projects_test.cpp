@@ -1,5 +1,5 @@
 #include "session/project_location.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 #include "ui/session_support.h"
 
 namespace eyrie::ui {

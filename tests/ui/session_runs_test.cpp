@@ -1,5 +1,5 @@
 #include "core/error.h"
-#include "store/result_writer.h"
+#include "store/runs/result_writer.h"
 #include "ui/session_support.h"
 
 namespace eyrie::ui {

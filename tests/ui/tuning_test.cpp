@@ -19,7 +19,7 @@
 #include "panels/parameter_form.h"
 #include "panels/parameter_row.h"
 #include "panels/sweep_chart.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 #include "ui/ui_support.h"
 #include "view/video_view.h"
 #include "view/wipe_split.h"

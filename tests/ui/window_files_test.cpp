@@ -19,7 +19,7 @@
 #include "panels/message_bar.h"
 #include "panels/runs_panel.h"
 #include "panels/tracks_panel.h"
-#include "store/project_contents.h"
+#include "store/health/project_contents.h"
 #include "ui/session_support.h"
 #include "ui/ui_support.h"
 #include "view/video_view.h"

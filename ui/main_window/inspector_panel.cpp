@@ -7,7 +7,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "models/display_text.h"
 #include "panels/track_inspector.h"
 

@@ -5,9 +5,9 @@
 #include <map>
 #include <numbers>
 
-#include "annotation/interpolation.h"
-#include "annotation/join_suggestions.h"
-#include "annotation/object_pieces.h"
+#include "annotation/edits/object_pieces.h"
+#include "annotation/keyframes/interpolation.h"
+#include "annotation/review/join_suggestions.h"
 #include "models/display_text.h"
 #include "session/label_classes.h"
 #include "session/object_colours.h"

@@ -8,8 +8,8 @@
 #include <QToolBar>
 #include <numbers>
 
-#include "annotation/join_suggestions.h"
-#include "annotation/object_pieces.h"
+#include "annotation/edits/object_pieces.h"
+#include "annotation/review/join_suggestions.h"
 #include "main_window/label_actions.h"
 #include "main_window/label_rows.h"
 #include "main_window/window_actions.h"

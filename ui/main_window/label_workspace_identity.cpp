@@ -1,8 +1,8 @@
 // The part of LabelWorkspace that says which object is which, and what ignore regions and ranges of frames do.
 #include <QMenu>
 
-#include "annotation/join_suggestions.h"
-#include "annotation/object_pieces.h"
+#include "annotation/edits/object_pieces.h"
+#include "annotation/review/join_suggestions.h"
 #include "main_window/label_actions.h"
 #include "main_window/label_rows.h"
 #include "main_window/label_workspace.h"

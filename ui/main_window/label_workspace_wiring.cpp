@@ -4,7 +4,7 @@
 #include <QMainWindow>
 #include <numbers>
 
-#include "annotation/object_pieces.h"
+#include "annotation/edits/object_pieces.h"
 #include "main_window/label_actions.h"
 #include "main_window/label_files.h"
 #include "main_window/label_rows.h"

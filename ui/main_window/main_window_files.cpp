@@ -11,7 +11,7 @@
 #include "main_window/welcome_panel.h"
 #include "main_window/window_actions.h"
 #include "panels/message_bar.h"
-#include "store/file_check.h"
+#include "store/health/file_check.h"
 
 namespace eyrie::ui {
 

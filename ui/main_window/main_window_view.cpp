@@ -16,7 +16,7 @@
 #include <QToolButton>
 #include <QWidgetAction>
 
-#include "chain/run_recorder.h"
+#include "chain/recording/run_recorder.h"
 #include "main_window/evaluation_docks.h"
 #include "main_window/key_sheet.h"
 #include "main_window/label_actions.h"

@@ -2,10 +2,10 @@
 
 #include <QInputDialog>
 
-#include "chain/replay.h"
 #include "core/error.h"
 #include "main_window/preset_dialog.h"
 #include "panels/parameter_form.h"
+#include "rerun/replay.h"
 
 namespace eyrie::ui {
 

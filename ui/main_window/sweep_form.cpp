@@ -15,7 +15,7 @@
 #include <cmath>
 #include <set>
 
-#include "io/number_text.h"
+#include "io/tables/number_text.h"
 #include "panels/theme_colours.h"
 
 namespace eyrie::ui {

@@ -11,12 +11,12 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "chain/replay.h"
 #include "core/error.h"
-#include "io/number_text.h"
+#include "io/tables/number_text.h"
 #include "main_window/sweep_form.h"
 #include "panels/empty_state.h"
 #include "panels/sweep_chart.h"
+#include "rerun/replay.h"
 
 namespace eyrie::ui {
 

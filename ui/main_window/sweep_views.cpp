@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/number_text.h"
+#include "io/tables/number_text.h"
 
 namespace eyrie::ui {
 

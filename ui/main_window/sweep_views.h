@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "panels/sweep_chart_data.h"
-#include "sweep/sweep_best.h"
+#include "sweep/results/sweep_best.h"
 
 namespace eyrie::ui {
 

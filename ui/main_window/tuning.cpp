@@ -5,7 +5,6 @@
 #include <QMenu>
 #include <QVBoxLayout>
 
-#include "chain/replay.h"
 #include "main_window/comparison_window.h"
 #include "main_window/preview_bar.h"
 #include "main_window/review_docks.h"
@@ -13,6 +12,7 @@
 #include "main_window/why_panel.h"
 #include "main_window/window_actions.h"
 #include "panels/parameter_form.h"
+#include "rerun/replay.h"
 #include "view/video_view.h"
 
 namespace eyrie::ui {

@@ -3,7 +3,7 @@
 #include <QString>
 #include <string>
 
-#include "core/scene_scale.h"
+#include "core/values/scene_scale.h"
 
 /// Numbers as people read them: with units, in metres and km/h when the GSD is known, in pixels otherwise.
 namespace eyrie::ui {

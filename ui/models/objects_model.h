@@ -4,8 +4,8 @@
 #include <QString>
 #include <vector>
 
-#include "core/annotation.h"
-#include "core/scene_scale.h"
+#include "core/labels/annotation.h"
+#include "core/values/scene_scale.h"
 #include "models/record_model.h"
 
 namespace eyrie::ui {

@@ -2,7 +2,7 @@
 
 #include <QString>
 
-#include "chain/run_facts.h"
+#include "chain/recording/run_facts.h"
 
 /// How a run ended, in words.
 namespace eyrie::ui {

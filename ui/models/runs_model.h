@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "models/record_model.h"
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::ui {
 

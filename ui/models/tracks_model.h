@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/scene_scale.h"
+#include "core/values/scene_scale.h"
 #include "models/record_model.h"
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::ui {
 

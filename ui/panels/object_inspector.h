@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/annotation.h"
+#include "core/labels/annotation.h"
 
 class QAction;
 class QComboBox;

@@ -3,7 +3,7 @@
 #include <QWidget>
 #include <vector>
 
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::ui {
 

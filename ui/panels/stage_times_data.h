@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/frame_result.h"
-#include "store/run_store.h"
+#include "core/values/frame_result.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::ui {
 

@@ -3,7 +3,7 @@
 #include <QColor>
 #include <QPalette>
 
-#include "core/frame_result.h"
+#include "core/values/frame_result.h"
 
 /// Colours that follow the system's light or dark theme.
 namespace eyrie::ui {

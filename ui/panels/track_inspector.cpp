@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/angle.h"
+#include "core/geometry/angle.h"
 #include "models/display_text.h"
 #include "panels/empty_state.h"
 #include "panels/origin_bar.h"

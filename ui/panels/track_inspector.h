@@ -3,8 +3,8 @@
 #include <QWidget>
 #include <vector>
 
-#include "core/scene_scale.h"
-#include "store/run_store.h"
+#include "core/values/scene_scale.h"
+#include "store/runs/run_store.h"
 
 class QFormLayout;
 class QLabel;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/frame_result.h"
+#include "core/values/frame_result.h"
 
 /// Which motion cluster is meant by what the user points at. Indices are those of FrameResult::clusters.
 namespace eyrie::ui {

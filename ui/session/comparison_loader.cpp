@@ -3,8 +3,8 @@
 #include <exception>
 #include <utility>
 
-#include "chain/replay.h"
-#include "io/frame_cache.h"
+#include "io/video/frame_cache.h"
+#include "rerun/replay.h"
 #include "session/computed_frames.h"
 #include "session/computed_sides.h"
 #include "session/queued_call.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "chain/chain_run.h"
-#include "evaluation/result_difference.h"
+#include "evaluation/comparison/result_difference.h"
 #include "session/live_preview.h"
 #include "session/media.h"
 #include "session/task_thread.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <mutex>
 
-#include "core/frame_result.h"
+#include "core/values/frame_result.h"
 #include "view/view_frame.h"
 
 namespace eyrie::ui {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "chain/range_run.h"
+#include "rerun/range_run.h"
 #include "session/open_run.h"
 
 namespace eyrie::ui {

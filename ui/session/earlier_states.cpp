@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "session/queued_call.h"
-#include "store/project_contents.h"
-#include "store/project_restore.h"
+#include "store/backup/project_restore.h"
+#include "store/health/project_contents.h"
 
 namespace eyrie::ui {
 

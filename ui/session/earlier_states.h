@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "session/task_thread.h"
-#include "store/project_backup.h"
+#include "store/backup/project_backup.h"
 
 namespace eyrie::ui {
 

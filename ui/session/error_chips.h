@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 #include "session/media.h"
 #include "session/task_thread.h"
 

@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "chain/place_explainer.h"
+#include "explain/place_explainer.h"
 #include "session/queued_call.h"
 
 namespace eyrie::ui {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <stop_token>
 
-#include "chain/explanation.h"
+#include "explain/explanation.h"
 #include "session/open_run.h"
 #include "session/task_thread.h"
 

@@ -15,8 +15,8 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
-#include "scene/scene_preset.h"
-#include "scene/scene_renderer.h"
+#include "scene/painting/scene_renderer.h"
+#include "scene/towns/scene_preset.h"
 
 namespace eyrie::ui {
 

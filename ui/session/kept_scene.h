@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "io/frame_source.h"
+#include "io/video/frame_source.h"
 
 namespace eyrie {
 class SceneRenderer;

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "annotation/interpolation.h"
+#include "annotation/keyframes/interpolation.h"
 #include "session/queued_call.h"
 
 namespace eyrie::ui {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/annotation.h"
+#include "core/labels/annotation.h"
 
 namespace eyrie::ui {
 

@@ -6,8 +6,8 @@
 #include <exception>
 #include <utility>
 
-#include "annotation/object_pieces.h"
-#include "annotation/proposals.h"
+#include "annotation/edits/object_pieces.h"
+#include "annotation/review/proposals.h"
 #include "session/label_classes.h"
 #include "session/object_colours.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "annotation/identity_verbs.h"
-#include "annotation/interpolation.h"
+#include "annotation/edits/identity_edits.h"
+#include "annotation/keyframes/interpolation.h"
 #include "session/label_session.h"
 
 namespace eyrie::ui {

@@ -1,5 +1,5 @@
 // The part of LabelEditor that says which object is which.
-#include "annotation/object_pieces.h"
+#include "annotation/edits/object_pieces.h"
 #include "session/label_editor.h"
 
 namespace eyrie::ui {

@@ -1,5 +1,5 @@
 // The part of LabelEditor that works on ranges of frames: flags and ignore regions.
-#include "annotation/ignore_regions.h"
+#include "annotation/edits/ignore_regions.h"
 #include "session/label_editor.h"
 
 namespace eyrie::ui {

@@ -4,9 +4,9 @@
 #include <exception>
 #include <utility>
 
-#include "annotation/identity_verbs.h"
-#include "annotation/object_pieces.h"
-#include "annotation/proposals.h"
+#include "annotation/edits/identity_edits.h"
+#include "annotation/edits/object_pieces.h"
+#include "annotation/review/proposals.h"
 #include "session/lru_cache.h"
 #include "session/queued_call.h"
 

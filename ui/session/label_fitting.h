@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "annotation/picture_fit.h"
+#include "annotation/pictures/trajectory_refinement.h"
 #include "session/label_session.h"
 
 namespace eyrie::ui {

@@ -4,8 +4,8 @@
 #include <exception>
 #include <limits>
 
-#include "annotation/identity_verbs.h"
-#include "annotation/interpolation.h"
+#include "annotation/edits/identity_edits.h"
+#include "annotation/keyframes/interpolation.h"
 #include "session/label_classes.h"
 #include "session/queued_call.h"
 

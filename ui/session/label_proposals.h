@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "annotation/proposals.h"
+#include "annotation/review/proposals.h"
 #include "session/label_session.h"
 
 namespace eyrie::ui {

@@ -1,7 +1,7 @@
 #include "session/label_scene.h"
 
-#include "annotation/ignore_regions.h"
-#include "annotation/interpolation.h"
+#include "annotation/edits/ignore_regions.h"
+#include "annotation/keyframes/interpolation.h"
 #include "session/label_classes.h"
 #include "session/label_editor.h"
 #include "session/object_colours.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene_scale.h"
+#include "core/values/scene_scale.h"
 #include "session/label_proposals.h"
 #include "view/label_mark.h"
 

@@ -7,12 +7,12 @@
 #include <set>
 #include <vector>
 
-#include "annotation/attention.h"
-#include "annotation/camera_motion.h"
-#include "annotation/review_state.h"
+#include "annotation/keyframes/camera_motion.h"
+#include "annotation/review/attention.h"
+#include "annotation/review/review_state.h"
 #include "session/project_session.h"
 #include "session/task_thread.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie::ui {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "annotation/interpolation.h"
+#include "annotation/keyframes/interpolation.h"
 #include "session/lru_cache.h"
 #include "session/queued_call.h"
 

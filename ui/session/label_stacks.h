@@ -5,7 +5,7 @@
 #include <memory>
 #include <stop_token>
 
-#include "annotation/object_stack.h"
+#include "annotation/pictures/object_stack.h"
 #include "session/label_session.h"
 
 namespace eyrie::ui {

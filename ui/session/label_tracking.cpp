@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <exception>
 
-#include "annotation/identity_verbs.h"
-#include "annotation/keyframe_reduction.h"
-#include "annotation/object_pieces.h"
-#include "annotation/proposals.h"
+#include "annotation/edits/identity_edits.h"
+#include "annotation/edits/object_pieces.h"
+#include "annotation/keyframes/keyframe_reduction.h"
+#include "annotation/review/proposals.h"
 #include "session/label_editor.h"
 #include "session/queued_call.h"
 

@@ -3,7 +3,7 @@
 #include <QObject>
 #include <stop_token>
 
-#include "annotation/box_following.h"
+#include "annotation/pictures/box_tracker.h"
 #include "session/label_session.h"
 
 namespace eyrie::ui {

@@ -7,14 +7,14 @@
 #include <utility>
 
 #include "core/error.h"
-#include "detection/model_location.h"
+#include "detection/sliding_window/model_location.h"
 #include "exchange/project_labels.h"
 #include "io/output_files.h"
-#include "learning/background_mining.h"
-#include "learning/labelled_frames.h"
+#include "learning/training/background_mining.h"
+#include "learning/training/labelled_frames.h"
 #include "session/media.h"
 #include "session/queued_call.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie::ui {
 

@@ -6,8 +6,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "evaluation/roc.h"
-#include "learning/trainer.h"
+#include "evaluation/measures/roc.h"
+#include "learning/training/trainer.h"
 #include "session/task_thread.h"
 
 namespace eyrie::ui {

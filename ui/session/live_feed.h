@@ -10,7 +10,7 @@
 #include "chain/chain_run.h"
 #include "session/frame_mailbox.h"
 #include "session/trail_history.h"
-#include "store/run_store.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::ui {
 

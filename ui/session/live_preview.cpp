@@ -1,6 +1,6 @@
 #include "session/live_preview.h"
 
-#include "chain/replay.h"
+#include "rerun/replay.h"
 
 namespace eyrie::ui {
 

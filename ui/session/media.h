@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <string>
 
-#include "io/frame_source.h"
+#include "io/video/frame_source.h"
 
 namespace eyrie::ui {
 

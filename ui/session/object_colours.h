@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "core/annotation.h"
+#include "core/labels/annotation.h"
 
 namespace eyrie::ui {
 

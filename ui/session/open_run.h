@@ -5,11 +5,11 @@
 #include <memory>
 #include <stop_token>
 
-#include "chain/replay.h"
-#include "io/frame_source.h"
+#include "io/video/frame_source.h"
+#include "rerun/replay.h"
 #include "session/media.h"
-#include "store/project_file.h"
-#include "store/run_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::ui {
 

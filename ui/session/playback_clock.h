@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/ids.h"
+#include "core/values/ids.h"
 
 namespace eyrie::ui {
 

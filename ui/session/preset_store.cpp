@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "io/output_files.h"
-#include "io/preset_file.h"
-#include "store/project_presets.h"
+#include "io/tables/preset_file.h"
+#include "store/project/project_presets.h"
 
 namespace eyrie::ui {
 

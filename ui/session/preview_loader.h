@@ -6,7 +6,7 @@
 #include <optional>
 #include <stop_token>
 
-#include "chain/preview.h"
+#include "rerun/preview.h"
 #include "session/open_run.h"
 #include "session/task_thread.h"
 

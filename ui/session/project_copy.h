@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "store/project_file.h"
+#include "store/project/project_file.h"
 
 namespace eyrie::ui {
 

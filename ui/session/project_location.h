@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/frame_source.h"
-#include "store/run_store.h"
+#include "io/video/frame_source.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::ui {
 

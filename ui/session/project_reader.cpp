@@ -4,14 +4,14 @@
 #include <exception>
 #include <utility>
 
-#include "chain/run_resume.h"
+#include "chain/recording/run_resume.h"
 #include "core/error.h"
 #include "session/project_copy.h"
 #include "session/project_location.h"
 #include "session/queued_call.h"
-#include "store/annotation_store.h"
-#include "store/change_watch.h"
-#include "store/project_file.h"
+#include "store/database/change_watch.h"
+#include "store/labels/annotation_store.h"
+#include "store/project/project_file.h"
 
 namespace eyrie::ui {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "io/frame_source.h"
+#include "io/video/frame_source.h"
 #include "session/run_data.h"
 #include "session/task_thread.h"
 

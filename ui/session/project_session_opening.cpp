@@ -4,7 +4,7 @@
 
 #include "session/project_location.h"
 #include "session/project_session.h"
-#include "store/file_check.h"
+#include "store/health/file_check.h"
 
 namespace eyrie::ui {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "detection/segmentation_views.h"
+#include "detection/segmenters/segmentation_views.h"
 #include "session/queued_call.h"
 
 namespace eyrie::ui {

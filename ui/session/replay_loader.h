@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "chain/replay.h"
+#include "rerun/replay.h"
 #include "session/open_run.h"
 #include "session/task_thread.h"
 

@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "io/frame_cache.h"
+#include "io/video/frame_cache.h"
 #include "session/queued_call.h"
 #include "session/stored_frames.h"
 #include "view/image_convert.h"

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "chain/run_facts.h"
-#include "store/run_store.h"
+#include "chain/recording/run_facts.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::ui {
 

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "session/lru_cache.h"
-#include "store/project_file.h"
-#include "store/run_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
 #include "view/view_frame.h"
 
 namespace eyrie::ui {

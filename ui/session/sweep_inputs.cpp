@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "annotation/ignore_regions.h"
+#include "annotation/edits/ignore_regions.h"
 #include "core/error.h"
 #include "exchange/project_labels.h"
 #include "formats/label_formats.h"
 #include "session/media.h"
-#include "store/annotation_store.h"
+#include "store/labels/annotation_store.h"
 
 namespace eyrie::ui {
 namespace {

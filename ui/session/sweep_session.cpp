@@ -6,7 +6,7 @@
 #include <exception>
 #include <utility>
 
-#include "chain/run_recorder.h"
+#include "chain/recording/run_recorder.h"
 #include "core/error.h"
 #include "session/queued_call.h"
 #include "session/sweep_inputs.h"

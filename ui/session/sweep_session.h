@@ -11,7 +11,7 @@
 
 #include "session/project_session.h"
 #include "session/task_thread.h"
-#include "sweep/sweep_best.h"
+#include "sweep/results/sweep_best.h"
 
 namespace eyrie::ui {
 

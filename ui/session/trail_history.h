@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/frame_result.h"
+#include "core/values/frame_result.h"
 #include "view/trail.h"
 
 namespace eyrie::ui {

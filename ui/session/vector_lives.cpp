@@ -5,8 +5,8 @@
 #include <exception>
 
 #include "session/queued_call.h"
-#include "store/project_file.h"
-#include "store/run_store.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
 
 namespace eyrie::ui {
 

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/frame_result.h"
+#include "core/values/frame_result.h"
 #include "session/result_loader.h"
 #include "session/task_thread.h"
 

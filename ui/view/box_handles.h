@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 #include "view/view_transform.h"
 
 /// Boxes changed with the mouse. Arithmetic only.

@@ -5,7 +5,7 @@
 #include <QPainter>
 #include <QVector>
 
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 #include "view/view_transform.h"
 
 namespace eyrie::ui {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/annotation.h"
-#include "core/ids.h"
+#include "core/labels/annotation.h"
+#include "core/values/ids.h"
 
 namespace eyrie::ui {
 

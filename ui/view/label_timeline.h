@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "core/annotation.h"
+#include "core/labels/annotation.h"
 
 namespace eyrie::ui {
 

@@ -5,8 +5,8 @@
 #include <QString>
 #include <optional>
 
-#include "core/ids.h"
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
+#include "core/values/ids.h"
 
 class QPainter;
 

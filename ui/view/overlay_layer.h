@@ -4,7 +4,7 @@
 #include <QRectF>
 #include <optional>
 
-#include "core/ids.h"
+#include "core/values/ids.h"
 #include "view/overlay_colours.h"
 #include "view/view_frame.h"
 #include "view/view_transform.h"

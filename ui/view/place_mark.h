@@ -4,7 +4,7 @@
 #include <QPointF>
 #include <vector>
 
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 
 namespace eyrie::ui {
 

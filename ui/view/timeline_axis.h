@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/ids.h"
+#include "core/values/ids.h"
 
 namespace eyrie::ui {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/corner.h"
+#include "core/values/corner.h"
 #include "view/overlay_colours.h"
 #include "view/timeline_axis.h"
 

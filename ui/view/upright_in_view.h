@@ -3,7 +3,7 @@
 #include <QPointF>
 #include <QRectF>
 
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 #include "view/view_transform.h"
 
 namespace eyrie::ui {

@@ -2,7 +2,7 @@
 
 #include <QString>
 
-#include "core/oriented_box.h"
+#include "core/geometry/oriented_box.h"
 
 namespace eyrie::ui {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/box_record.h"
-#include "core/frame_result.h"
+#include "core/labels/box_record.h"
+#include "core/values/frame_result.h"
 #include "view/stack_mark.h"
 #include "view/trail.h"
 #include "view/verdict_mark.h"

@@ -1,0 +1,100 @@
+#include "annotation/review/proposals.h"
+
+#include <algorithm>
+#include <opencv2/core/utility.hpp>
+
+#include "annotation/edits/object_pieces.h"
+
+namespace eyrie {
+namespace {
+
+/// The object that shows the same boxes for the most part, if there is one; some frames are looked at.
+ObjectId labelledAlready(const DenseTrack& track, const AnnotationSet& labelled, const CameraMotion& camera,
+                         double min_overlap) {
+    constexpr std::size_t kLooks = 12;
+    const std::size_t step = std::max<std::size_t>(1, track.boxes.size() / kLooks);
+    ObjectId best = 0;
+    double most = 0;
+    for (const auto& [id, object] : labelled.objects) {
+        if (object.last_frame < track.boxes.front().frame || firstFrameOf(object) > track.boxes.back().frame) continue;
+        double sum = 0;
+        int looks = 0;
+        int shared = 0;
+        for (std::size_t i = 0; i < track.boxes.size(); i += step) {
+            ++looks;
+            const LabelledBox box = boxAt(object, track.boxes[i].frame, camera);
+            if (!box.visible()) continue;
+            ++shared;
+            sum += overlap(box.box, track.boxes[i].box);
+        }
+        // At least a third of the track, so that a vehicle that passes another is not taken for it.
+        if (shared * 3 >= looks && shared > 0 && sum / shared > most) {
+            most = sum / shared;
+            best = id;
+        }
+    }
+    return most >= min_overlap ? best : 0;
+}
+
+Proposal propose(const DenseTrack& track, const AnnotationSet& labelled, const CameraMotion& camera,
+                 const ProposalOptions& options) {
+    Proposal proposal;
+    proposal.track = track.id;
+    proposal.object.object_class = options.object_class;
+    proposal.object.origin = ObjectOrigin::proposal_accepted;
+    ReductionOptions reduction = options.reduction;
+    std::vector<double> lengths;
+    for (const FrameBox& box : track.boxes) lengths.push_back(box.box.length);
+    std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
+    const double usual = lengths[lengths.size() / 2];
+    if (reduction.tolerance_px > 0)
+        reduction.tolerance_px = std::max(reduction.tolerance_px, options.tolerance_of_length * usual);
+    reduction.thorough = true;  // every keyframe less is one less to check
+    proposal.object.keyframes = reduceToKeyframes(track.boxes, camera, reduction);
+    for (Keyframe& keyframe : proposal.object.keyframes) keyframe.computed = true;
+    proposal.object.last_frame = track.boxes.back().frame;
+    proposal.max_corner_px = reductionError(proposal.object, track.boxes, camera).corner_px;
+    proposal.same_as = labelledAlready(track, labelled, camera, options.min_overlap_with_object);
+    return proposal;
+}
+
+}  // namespace
+
+std::vector<Proposal> proposeTracks(const std::vector<DenseTrack>& tracks, const AnnotationSet& labelled,
+                                    const CameraMotion& camera, const ProposalOptions& options) {
+    std::vector<const DenseTrack*> offered;
+    for (const DenseTrack& track : tracks) {
+        if (static_cast<int>(track.boxes.size()) >= std::max(1, options.min_frames)) offered.push_back(&track);
+    }
+    std::vector<Proposal> proposals(offered.size());
+    cv::parallel_for_({0, static_cast<int>(offered.size())}, [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            const auto place = static_cast<std::size_t>(i);
+            proposals[place] = propose(*offered[place], labelled, camera, options);
+        }
+    });
+    return proposals;
+}
+
+LabelledObject cutToRange(const LabelledObject& object, FrameIndex first, FrameIndex last, const CameraMotion& camera) {
+    if (std::max(first, firstFrameOf(object)) > std::min(last, object.last_frame)) {
+        LabelledObject nothing = object;
+        nothing.keyframes.clear();
+        return nothing;
+    }
+    return pieceOf(object, first, last, camera);
+}
+
+LabelledObject accepted(const Proposal& proposal, ObjectId id, std::uint32_t colour) {
+    LabelledObject object = proposal.object;
+    object.id = id;
+    object.colour = colour;
+    object.origin = ObjectOrigin::proposal_accepted;
+    return object;
+}
+
+ObjectOrigin originAfterChange(ObjectOrigin origin) {
+    return origin == ObjectOrigin::proposal_accepted ? ObjectOrigin::proposal_corrected : origin;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,136 @@
+#include "chain/recording/chain_state.h"
+
+#include <map>
+#include <utility>
+
+#include "chain/recording/run_recorder.h"
+#include "core/error.h"
+#include "core/state_values.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::uint32_t kFormat = 1;  ///< counts up with every change of what any stage keeps
+
+/// What must be the same for a state to be of use.
+std::string conditions(const ChainOptions& options, const SceneScale& scale) {
+    std::string text = "eyrie chain state " + std::to_string(kFormat) + "\nengine " + engineVersion() + "\n";
+    for (const auto& [name, value] : parameterValues(options)) text += name + "=" + value + "\n";
+    StateWriter writer;
+    double gsd = scale.gsd_m_per_px;
+    double rate = scale.frame_rate_hz;
+    bool known = scale.gsd_known;
+    writer(gsd, rate, known);
+    return text + writer.bytes();
+}
+
+template <class Archive>
+void transferParts(Archive& archive, ChainStateParts& parts) {
+    archive(parts.last_done, parts.motion_half, parts.waiting, parts.track_half);
+}
+
+struct Unpacked {
+    ChainStateParts parts;
+    bool fits = false;
+};
+
+cv::Mat noPicture(FrameIndex) {
+    throw DamagedState{"a picture where none belongs"};
+}
+
+Unpacked unpacked(std::string_view bytes, const ChainOptions& options, const SceneScale& scale) {
+    Unpacked result;
+    std::uint64_t sum = 0;
+    if (bytes.size() < sizeof sum) throw DamagedState{"it ends too early"};
+    std::memcpy(&sum, bytes.data() + bytes.size() - sizeof sum, sizeof sum);
+    bytes.remove_suffix(sizeof sum);
+    if (checksumOf(bytes) != sum) throw DamagedState{"its checksum differs"};
+    StateReader reader(bytes, noPicture);
+    std::uint64_t fingerprint = 0;
+    reader(fingerprint);
+    result.fits = fingerprint == checksumOf(conditions(options, scale));
+    if (!result.fits) return result;
+    transferParts(reader, result.parts);
+    reader.end();
+    return result;
+}
+
+template <class Stage>
+void restore(Stage& stage, std::string_view bytes, const PictureSource& pictures) {
+    StateReader reader(bytes, pictures);
+    reader(stage);
+    reader.end();
+}
+
+}  // namespace
+
+template <class Archive>
+void WaitingMotion::transfer(Archive& archive) {
+    archive(motion, times);
+}
+
+template <class Archive>
+void MotionHalf::transfer(Archive& archive) {
+    archive(registrar_, independent_motion_);
+}
+
+template <class Archive>
+void TrackHalf::transfer(Archive& archive) {
+    if (difference_) archive(*difference_);
+    if (stacker_) archive(*stacker_);
+    archive(tracker_);
+}
+
+template void WaitingMotion::transfer(StateWriter&);
+template void MotionHalf::transfer(StateWriter&);
+template void TrackHalf::transfer(StateWriter&);
+
+std::string packedState(ChainStateParts parts, const ChainOptions& options, const SceneScale& scale) {
+    StateWriter writer;
+    std::uint64_t fingerprint = checksumOf(conditions(options, scale));
+    writer(fingerprint);
+    transferParts(writer, parts);
+    std::string bytes = writer.bytes();
+    const std::uint64_t sum = checksumOf(bytes);
+    bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+    return bytes;
+}
+
+bool isStateFor(std::string_view bytes, const ChainOptions& options, const SceneScale& scale) {
+    try {
+        return unpacked(bytes, options, scale).fits;
+    } catch (const DamagedState&) {
+        return false;
+    }
+}
+
+std::unique_ptr<ChainProgress> unpackedState(std::string_view bytes, const ChainOptions& options,
+                                             const SceneScale& scale, FrameSource& source) {
+    const VideoInfo& video = source.info();
+    std::map<FrameIndex, cv::Mat> read;  // by both halves
+    const PictureSource pictures = [&](FrameIndex frame) {
+        if (frame < 0 || frame >= video.frame_count) throw DamagedState{"a picture that the video does not have"};
+        cv::Mat& gray = read[frame];
+        if (gray.empty()) gray = source.read(frame, false).gray;
+        return gray;
+    };
+    try {
+        const auto [parts, fits] = unpacked(bytes, options, scale);
+        if (!fits) return nullptr;
+        auto progress = std::make_unique<ChainProgress>(options, scale);
+        progress->last_done = parts.last_done;
+        restore(progress->motion_half, parts.motion_half, pictures);
+        restore(progress->waiting, parts.waiting, pictures);
+        restore(progress->track_half, parts.track_half, pictures);
+        return progress;
+    } catch (const DamagedState&) {
+        return nullptr;
+    } catch (const ChangedPicture& changed) {
+        throw Error(ErrorKind::input, video.path.string() + " is not the video it was: frame " +
+                                          std::to_string(changed.frame) +
+                                          " shows something else than when the run was begun; put the old video back, "
+                                          "or begin a new run");
+    }
+}
+
+}  // namespace eyrie

@@ -1,0 +1,37 @@
+#include "chain/recording/run_facts.h"
+
+#include "chain/scale_estimation.h"
+
+namespace eyrie {
+namespace {
+
+NothingFollowed firstGap(const RunCounts& counts) {
+    if (counts.tracks > 0) return NothingFollowed::has_tracks;
+    if (counts.frames == 0) return NothingFollowed::no_frames;
+    // The first frame has nothing to be registered onto.
+    if (counts.unregistered > 0 && counts.unregistered >= counts.frames - 1) return NothingFollowed::not_registered;
+    if (!counts.any_detection)
+        return counts.motion_vectors == 0 ? NothingFollowed::no_motion : NothingFollowed::no_detections;
+    if (counts.detections == 0) return NothingFollowed::all_rejected;
+    return counts.dropped_tracks > 0 ? NothingFollowed::all_dropped : NothingFollowed::none_confirmed;
+}
+
+}  // namespace
+
+ScaleOrigin originOf(const SceneScale& scale) {
+    if (scale.gsd_known) return ScaleOrigin::given;
+    return isFallbackScale(scale) ? ScaleOrigin::fallback : ScaleOrigin::estimated;
+}
+
+RunFacts factsOf(ProjectFile& project, const RunRecord& run) {
+    RunFacts facts;
+    facts.state = run.state == RunState::running && !run.live ? RunState::stopped : run.state;
+    facts.frames_planned = run.last_frame >= run.first_frame ? run.last_frame - run.first_frame + 1 : 0;
+    facts.counts = countRun(project, run.id);
+    facts.gsd_m_per_px = run.scale.gsd_m_per_px;
+    facts.scale_origin = originOf(run.scale);
+    facts.nothing = firstGap(facts.counts);
+    return facts;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "store/runs/run_counts.h"
+#include "store/runs/run_store.h"
+
+namespace eyrie {
+
+/// Where the metres per pixel of a run come from.
+enum class ScaleOrigin {
+    given,      ///< by a person, or known to the source itself
+    estimated,  ///< from the traffic of the first frames
+    fallback    ///< neither: an assumption
+};
+ScaleOrigin originOf(const SceneScale& scale);
+
+/// The first step of the chain after which nothing was left, for a run without tracks.
+enum class NothingFollowed {
+    has_tracks,      ///< there are tracks
+    no_frames,       ///< no frame was done
+    not_registered,  ///< no frame could be registered, so nothing could be told to move
+    no_motion,       ///< no corner moved otherwise than the ground
+    no_detections,   ///< what moved was nowhere outlined as a vehicle
+    all_rejected,    ///< every detection was rejected as duplicate, outlier or for its size
+    none_confirmed,  ///< nothing was detected often enough for a confirmed track
+    all_dropped      ///< what was followed was left out when the tracks were finished
+};
+
+/// What a person wants to know when a run has ended.
+struct RunFacts {
+    RunState state = RunState::finished;  ///< `running`: somebody writes it; a killed run counts as stopped
+    int frames_planned = 0;
+    RunCounts counts;
+    double gsd_m_per_px = 0;
+    ScaleOrigin scale_origin = ScaleOrigin::given;
+    NothingFollowed nothing = NothingFollowed::has_tracks;
+};
+
+/// Throws Error(project).
+RunFacts factsOf(ProjectFile& project, const RunRecord& run);
+
+}  // namespace eyrie

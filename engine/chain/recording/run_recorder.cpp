@@ -1,0 +1,105 @@
+#include "chain/recording/run_recorder.h"
+
+#include <utility>
+
+#include "chain/recording/classified_vehicles.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_state_store.h"
+#include "tracking/ground_motion.h"
+
+namespace eyrie {
+namespace {
+
+/// Makes the project when it does not exist, and shows early whether it can be used.
+const std::filesystem::path& prepared(const std::filesystem::path& project) {
+    ProjectFile::openOrCreate(project);
+    return project;
+}
+
+}  // namespace
+
+RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
+                         ChainObserver* also)
+    : project_(prepared(project)),
+      options_(options),
+      scale_(run.scale),
+      writer_(project, std::move(run), parameterValues(options)),
+      also_(also) {}
+
+RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also)
+    : project_(project),
+      options_(resumed.options),
+      scale_(resumed.run.scale),
+      writer_(project, resumed.run.id, resumed.last_done),
+      also_(also),
+      image_size_(resumed.run.sequence.size) {}
+
+void RunRecorder::onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
+    writer_.write(*result);
+    image_size_ = result->motion.image_size;
+    if (also_) also_->onFrame(result, frame);
+}
+
+void RunRecorder::onProgress(const RunProgress& progress) {
+    if (also_) also_->onProgress(progress);
+}
+
+void RunRecorder::onState(const ChainState& state) {
+    writer_.keepState(state.last_done, state.bytes);
+}
+
+RunRecord RunRecorder::finish(const RunSummary& summary) {
+    const RunState state = summary.outcome == RunOutcome::finished  ? RunState::finished
+                           : summary.outcome == RunOutcome::stopped ? RunState::stopped
+                                                                    : RunState::failed;
+    // Whenever the program is killed here, the run can be gone on with: finished tracks without the others beside them
+    // are those of a finished run.
+    if (state != RunState::finished) writer_.finish(state, summary.message);
+    ProjectFile project = ProjectFile::open(project_);
+    RunStore store(project);
+    // Nothing of the frames is held while the run goes on: an hour of them would not fit beside the chain.
+    GroundMotion ground;
+    store.visitRegistrations(writer_.runId(), [&](const Registration& registration) {
+        ground.add({registration.current_from_previous.to_frame, registration, image_size_});
+    });
+    const StatesOfRun followed = [&](const StateVisitor& visitor) { store.visitTrackStates(writer_.runId(), visitor); };
+    const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
+    const BoxesAt vehicles_at = [&](FrameIndex frame) { return store.vehicleBoxes(writer_.runId(), frame); };
+    const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_,
+                                              {vectors_at, classifiedVehicles(options_, vehicles_at)});
+    RunStateStore(project).keepTracks(writer_.runId());
+    store.replaceTracks(
+        writer_.runId(), [&](const StateVisitor& visitor) { finished.visit(visitor); },
+        [&](const DropVisitor& visitor) { finished.visitDropped(followed, visitor); });
+    if (state == RunState::finished) writer_.finish(state, summary.message);
+    return store.run(writer_.runId()).value();
+}
+
+std::string engineVersion() {
+    return EYRIE_VERSION;
+}
+
+RunRecord plannedRun(const VideoInfo& video, const SceneScale& scale, FrameRange range, const std::string& preset) {
+    RunRecord run;
+    run.sequence.path = video.path.string();
+    run.sequence.size = video.size;
+    run.sequence.frame_count = video.frame_count;
+    run.sequence.frame_rate_hz = video.frame_rate_hz;
+    run.engine_version = engineVersion();
+    run.preset = preset;
+    run.scale = scale;
+    run.first_frame = range.first;
+    run.last_frame = range.last < 0 ? video.frame_count - 1 : range.last;
+    return run;
+}
+
+SceneScale sceneScale(const VideoInfo& video, double gsd_m_per_px) {
+    SceneScale scale;
+    scale.frame_rate_hz = video.frame_rate_hz;
+    const double gsd = gsd_m_per_px > 0 ? gsd_m_per_px : video.gsd_m_per_px;
+    scale.gsd_known = gsd > 0;
+    if (scale.gsd_known) scale.gsd_m_per_px = gsd;
+    return scale;
+}
+
+}  // namespace eyrie

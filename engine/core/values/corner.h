@@ -1,0 +1,45 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <string>
+#include <vector>
+
+#include "core/geometry/homography.h"
+#include "core/values/ids.h"
+
+namespace eyrie {
+
+/// A corner that was found in the current frame and, if `age` > 0, in the frame before (Teutsch §4.2).
+struct Corner {
+    CornerId id = 0;
+    cv::Point2f previous{0, 0};  ///< px in the previous frame; equals `current` when `age` is 0
+    cv::Point2f current{0, 0};   ///< px in the current frame
+    int age = 0;                 ///< frames since it was first detected
+    bool on_background = false;  ///< agrees with the homography of this frame
+};
+
+/// How the registration of a frame onto the one before it ended.
+enum class RegistrationState {
+    first,       ///< nothing before it to register onto
+    registered,  ///< `current_from_previous` holds
+    frozen,      ///< the same picture as before; the homography is the identity, nothing was measured
+    failed       ///< blur, blank, cut or too little texture; the homography is a guess, see `reason`
+};
+
+/// What registration delivers for one frame.
+struct Registration {
+    RegistrationState state = RegistrationState::first;
+    Homography current_from_previous;  ///< a prediction (state failed), the identity (first, frozen) or the estimate
+    std::string reason;                ///< for people, empty when registered: "too few corners (12 of 40)"
+
+    bool reliable() const { return state == RegistrationState::registered || state == RegistrationState::frozen; }
+};
+
+/// All corners of one frame, sorted by ascending id, and the registration they gave.
+struct RegisteredFrame {
+    FrameIndex frame = 0;
+    Registration registration;
+    std::vector<Corner> corners;
+};
+
+}  // namespace eyrie

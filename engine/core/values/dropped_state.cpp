@@ -1,0 +1,47 @@
+#include "core/values/dropped_state.h"
+
+namespace eyrie {
+
+std::string textOf(const DroppedState& dropped) {
+    const std::string track = "track " + std::to_string(dropped.id);
+    const std::string other = "track " + std::to_string(dropped.beside);
+    switch (dropped.why) {
+        case TrackDrop::unconfirmed:
+            return track + " was never confirmed";
+        case TrackDrop::too_small:
+            return track + " stayed smaller than any vehicle";
+        case TrackDrop::shares_place:
+            return track + " lies on " + other + ", which was detected more often";
+        case TrackDrop::shadow:
+            return track + " drives beside " + other + " as if fixed to it, as its shadow or side would";
+        case TrackDrop::hardly_detected:
+            return track + " was guessed rather than detected";
+        case TrackDrop::could_stand:
+            return track + " moves no faster than a standing thing would seem to, and was never taken for a vehicle";
+        case TrackDrop::unlikely:
+            return track + " is unlikely to be a vehicle that moves: seldom detected, unlike a vehicle, or short";
+    }
+    return track;
+}
+
+const char* parameterOf(TrackDrop why) {
+    switch (why) {
+        case TrackDrop::unconfirmed:
+            return "tracking.confirm_hits";
+        case TrackDrop::too_small:
+            return "finishing.min_length";
+        case TrackDrop::shares_place:
+            return "finishing.max_sharing";
+        case TrackDrop::shadow:
+            return "finishing.drop_shadows";
+        case TrackDrop::hardly_detected:
+            return "finishing.min_detected";
+        case TrackDrop::could_stand:
+            return "finishing.standing_height";
+        case TrackDrop::unlikely:
+            return "finishing.min_score";
+    }
+    return "";
+}
+
+}  // namespace eyrie

@@ -1,0 +1,29 @@
+#include "core/values/track_state.h"
+
+namespace eyrie {
+
+const char* nameOf(StateOrigin origin) {
+    switch (origin) {
+        case StateOrigin::detected:
+            return "detected";
+        case StateOrigin::reconstructed:
+            return "reconstructed";
+        case StateOrigin::predicted:
+            return "predicted";
+    }
+    return "";
+}
+
+const char* nameOf(TrackStatus status) {
+    switch (status) {
+        case TrackStatus::tentative:
+            return "tentative";
+        case TrackStatus::confirmed:
+            return "confirmed";
+        case TrackStatus::coasting:
+            return "coasting";
+    }
+    return "";
+}
+
+}  // namespace eyrie

@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <cmath>
+
+#include "detection/detection_options.h"
+#include "explain/explanation_steps.h"
+#include "removal/outlier_removal.h"
+
+namespace eyrie::explaining {
+namespace {
+
+/// A box in a search area as it lies in the image.
+OrientedBox inImage(const MotionRoi& roi, const cv::Rect2d& box) {
+    const cv::Matx23d& map = roi.image_from_roi;
+    const cv::Point2d centre(box.x + box.width / 2, box.y + box.height / 2);
+    OrientedBox result = roi.box;
+    result.centre = {map(0, 0) * centre.x + map(0, 1) * centre.y + map(0, 2),
+                     map(1, 0) * centre.x + map(1, 1) * centre.y + map(1, 2)};
+    result.length = box.height;
+    result.width = box.width;
+    return result;
+}
+
+bool concerns(const DetectionTrace::Check& check, const MotionRoi& roi, const OrientedBox& area) {
+    return check.box.area() <= 0 || atPlace(inImage(roi, check.box), area);
+}
+
+std::string checkText(const DetectionTrace::Check& check) {
+    return check.what + ": " + numberText(check.value) + (check.at_most ? ", at most " : ", at least ") +
+           numberText(check.limit);
+}
+
+/// Checks of one kind that ended alike.
+struct Alike {
+    const DetectionTrace::Check* first = nullptr;
+    int count = 0;
+    double lowest = 0;
+    double highest = 0;
+};
+
+void addTo(std::vector<Alike>& groups, const DetectionTrace::Check& check) {
+    for (Alike& group : groups) {
+        if (group.first->what != check.what || group.first->passed != check.passed) continue;
+        ++group.count;
+        group.lowest = std::min(group.lowest, check.value);
+        group.highest = std::max(group.highest, check.value);
+        return;
+    }
+    groups.push_back({&check, 1, check.value, check.value});
+}
+
+std::string groupText(const Alike& group) {
+    if (group.count == 1) return checkText(*group.first);
+    const std::string values = group.lowest < group.highest
+                                   ? numberText(group.lowest) + " … " + numberText(group.highest)
+                                   : numberText(group.lowest);
+    return group.first->what + ", " + std::to_string(group.count) + " times: " + values +
+           (group.first->at_most ? ", at most " : ", at least ") + numberText(group.first->limit);
+}
+
+/// How close a failed check came, 1: to its limit.
+double closeness(const DetectionTrace::Check& check) {
+    const double gap = std::abs(check.value - check.limit) / std::max(std::abs(check.limit), 1.0);
+    return 1 / (1 + gap);
+}
+
+}  // namespace
+
+bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<int>& detections) {
+    const PlaceEvidence& evidence = story.evidence;
+    const auto& found = evidence.result.detections;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const bool of_cluster = std::find(clusters.begin(), clusters.end(), found[i].cluster) != clusters.end();
+        const bool here = atPlace(found[i].box, evidence.area);
+        if (here && (of_cluster || clusters.empty())) detections.push_back(static_cast<int>(i));
+    }
+    const DetectionTrace::Check* decider = nullptr;
+    for (const SearchTrace& search : evidence.searches) {
+        if (std::find(clusters.begin(), clusters.end(), search.roi.cluster) == clusters.end()) continue;
+        story.note("search area",
+                   story.lengthText(search.roi.box.length) + " × " + story.lengthText(search.roi.box.width) +
+                       (search.roi.stack_layers > 0
+                            ? ", from a stack of " + std::to_string(search.roi.stack_layers) + " layers"
+                            : std::string()),
+                   "detection.extend_along");
+        std::vector<Alike> groups;
+        for (const DetectionTrace::Check& check : search.trace.checks) {
+            if (!concerns(check, search.roi, evidence.area)) continue;
+            addTo(groups, check);
+            if (!check.passed && (decider == nullptr || closeness(check) >= closeness(*decider))) decider = &check;
+        }
+        for (const Alike& group : groups) {
+            const std::string& parameter = group.first->parameter;
+            if (group.first->passed)
+                story.pass("detection", groupText(group), parameter);
+            else if (detections.empty())
+                story.fail("detection", groupText(group), parameter);
+            else  // where others passed, a failed one is no more than a remark
+                story.note("detection", groupText(group), parameter);
+        }
+    }
+    if (!detections.empty()) {
+        for (const int index : detections) {
+            const Detection& detection = found[static_cast<std::size_t>(index)];
+            story.pass("detection", std::string(nameOf(story.options.detection.method)) + " delivers a box of " +
+                                        story.lengthText(detection.box.length) + " × " +
+                                        story.lengthText(detection.box.width));
+        }
+        return true;
+    }
+    story.fail("detection", "no box here");
+    if (decider != nullptr) {
+        story.decide("The detector found no box here; closest was: " + checkText(*decider), decider->parameter);
+    } else {
+        story.decide("The cluster was searched, but the detector put no box here", "detection.method");
+    }
+    return false;
+}
+
+bool tellRemoval(Story& story, std::vector<int>& detections) {
+    const PlaceEvidence& evidence = story.evidence;
+    const auto& found = evidence.result.detections;
+    const int needed = vectorsNeeded(evidence.result.motion, story.options.outliers, story.scale);
+    const bool by_density = needed > story.options.outliers.min_vectors;
+    const std::string count_parameter = by_density ? "outliers.min_density_share" : "outliers.min_vectors";
+    std::vector<int> kept;
+    std::string why;
+    std::string parameter;
+    for (const int index : detections) {
+        const Detection& detection = found[static_cast<std::size_t>(index)];
+        const std::string vectors = countText(detection.vectors.size(), "motion vector", "motion vectors") +
+                                    " move with the box, " + std::to_string(needed) + " are needed";
+        switch (detection.rejection) {
+            case Rejection::none:
+                story.pass("removal", vectors, count_parameter);
+                kept.push_back(index);
+                break;
+            case Rejection::duplicate: {
+                const auto& pairs = evidence.removal.duplicates;
+                const auto pair = std::find_if(pairs.begin(), pairs.end(),
+                                               [&](const RemovedDuplicate& d) { return d.removed == index; });
+                if (pair == pairs.end()) {
+                    story.note("removal", "given up as a duplicate of another detection", "duplicates.threshold");
+                    why = "The detection here was given up as a duplicate of another";
+                    parameter = "duplicates.threshold";
+                    break;
+                }
+                const bool parts = pair->parameter != "duplicates.threshold";
+                const std::string text =
+                    parts ? "joined with another part of a vehicle: together " + story.lengthText(pair->value) +
+                                " long, up to " + story.lengthText(pair->limit) + " are one vehicle"
+                          : "given up as a duplicate: overlaps another detection by " + numberText(pair->value) +
+                                ", duplicates overlap by " + numberText(pair->limit);
+                story.note("removal", text, pair->parameter);
+                why = "The detection here was " + text;
+                parameter = pair->parameter;
+                break;
+            }
+            case Rejection::outlier:
+                story.fail("removal", vectors, count_parameter);
+                why = "The detection here was removed as an outlier: " +
+                      countText(detection.vectors.size(), "motion vector", "motion vectors") + " inside, " +
+                      std::to_string(needed) + " are needed";
+                parameter = count_parameter;
+                break;
+            case Rejection::size: {
+                const auto limit = brokenSizeLimit(detection.box, story.options.outliers, story.scale,
+                                                   evidence.result.motion.image_size);
+                if (limit && limit->parameter == "outliers.inside_image") {
+                    const std::string share = numberText(limit->value) + " of the box is in the picture";
+                    story.fail("removal", share + ", all of it must be", limit->parameter);
+                    why = "The detection here reaches beyond the picture: " + share;
+                    parameter = limit->parameter;
+                    break;
+                }
+                const bool is_area = limit && limit->parameter == "outliers.min_area";
+                const auto text = [&](double value) {
+                    return is_area ? numberText(value) + " px²" : story.lengthText(value);
+                };
+                parameter = limit ? limit->parameter : "outliers.min_length";
+                const std::string size =
+                    limit ? text(limit->value) + (limit->at_most ? ", at most " : ", at least ") + text(limit->limit)
+                          : std::string("an impossible size");
+                story.fail("removal", "size of the box: " + size, parameter);
+                why = "The detection here has an impossible size: " + size;
+                break;
+            }
+        }
+    }
+    detections = kept;
+    if (!kept.empty()) return true;
+    story.decide(why, parameter);
+    return false;
+}
+
+}  // namespace eyrie::explaining

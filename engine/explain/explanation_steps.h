@@ -1,0 +1,69 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "explain/explanation.h"
+
+/// What the parts of explain() share. Not for others.
+namespace eyrie::explaining {
+
+constexpr double kCornerMargin = 1;  ///< px; corners lie on outlines
+
+/// Collects steps; the first failed one with a sentence ends the story.
+struct Story {
+    void pass(const char* stage, const std::string& text, const std::string& parameter = {});
+    void note(const char* stage, const std::string& text, const std::string& parameter = {});
+    void fail(const char* stage, const std::string& text, const std::string& parameter = {});
+    /// The sentence: why nothing was found. `parameter` may be empty.
+    void decide(const std::string& sentence, const std::string& parameter);
+
+    /// "0.25 px/frame" or, where the scale is known, "0.25 px/frame (1.6 m/s)".
+    std::string speedText(double px_per_frame) const;
+    std::string lengthText(double px) const;
+
+    const PlaceEvidence& evidence;
+    const ChainOptions& options;
+    const SceneScale& scale;
+    Explanation told{};
+    bool decided = false;
+};
+
+/// Three significant digits without trailing zeros.
+std::string numberText(double value);
+/// "1 corner", "3 corners".
+std::string countText(std::size_t count, const std::string& one, const std::string& many);
+
+// The stages, in order. Each returns whether the story goes on.
+bool tellRegistration(Story& story);
+/// Corners and independent motion.
+bool tellCorners(Story& story);
+/// `clusters` receives the clusters at the place.
+bool tellClusters(Story& story, std::vector<int>& clusters);
+/// `detections` receives the positions of what the detector found there.
+bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<int>& detections);
+/// Duplicates and outliers; `detections` keeps those that stayed.
+bool tellRemoval(Story& story, std::vector<int>& detections);
+void tellTracks(Story& story, const std::vector<int>& detections);
+/// The reliable track at the place that was stored, if any.
+const TrackState* storedTrackAt(const PlaceEvidence& evidence);
+
+/// Whether a box means this place: it holds its middle, or they overlap by a fifth.
+bool atPlace(const OrientedBox& box, const OrientedBox& area);
+
+/// Of the states with a box at the place for which `counts` holds, the one that overlaps it most; null: none.
+template <typename State, typename Counts>
+const State* bestAt(const std::vector<State>& states, const OrientedBox& area, Counts counts) {
+    const State* best = nullptr;
+    double best_overlap = -1;
+    for (const State& state : states) {
+        if (!counts(state) || !atPlace(state.box, area)) continue;
+        const double shared = overlap(state.box, area);
+        if (shared <= best_overlap) continue;
+        best = &state;
+        best_overlap = shared;
+    }
+    return best;
+}
+
+}  // namespace eyrie::explaining

@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/geometry/angle.h"
+#include "core/text.h"
+#include "formats/format_functions.h"
+#include "formats/json_xml/cvat.h"
+#include "io/atomic_file.h"
+#include "io/tables/number_text.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kTolerance = 0.02;  ///< px and degrees, about what two decimals leave
+constexpr int kCvatDecimals = 2;
+
+/// What is written of a box, rounded as it will be.
+struct Written {
+    FrameIndex frame = 0;
+    std::array<double, 4> edges{};  ///< left, top, right, bottom of the unrotated box
+    double degrees = 0;
+    Occlusion occlusion = Occlusion::none;
+    bool ignore = false;
+    bool keyframe = true;
+};
+
+Written writtenOf(const LabelBox& record) {
+    const auto rounded = [](double value) { return std::round(value * 100) / 100; };
+    const OrientedBox& box = record.box;
+    const BoxEdges e = edgesOf({box.centre, box.length, box.width, 0}, 0);
+    Written written;
+    written.frame = record.frame;
+    written.edges = {rounded(e.left), rounded(e.top), rounded(e.left + e.width), rounded(e.top + e.height)};
+    written.degrees = std::fmod(rounded(degreesFromRadians(box.heading)), 360.0);
+    written.occlusion = record.occlusion;
+    written.ignore = record.ignore;
+    return written;
+}
+
+/// Whether the boxes between two keyframes are what CVAT makes of the keyframes.
+bool interpolates(const std::vector<Written>& boxes, std::size_t from, std::size_t to) {
+    const Written& a = boxes[from];
+    const Written& b = boxes[to];
+    const double turn = std::remainder(b.degrees - a.degrees, 360.0);
+    for (std::size_t k = from + 1; k < to; ++k) {
+        const double t = double(boxes[k].frame - a.frame) / (b.frame - a.frame);
+        if (boxes[k].occlusion != a.occlusion || boxes[k].ignore != a.ignore) return false;
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (std::abs(a.edges[i] + (b.edges[i] - a.edges[i]) * t - boxes[k].edges[i]) > kTolerance) return false;
+        }
+        if (std::abs(std::remainder(a.degrees + turn * t - boxes[k].degrees, 360.0)) > kTolerance) return false;
+    }
+    return true;
+}
+
+/// Keeps few keyframes in a stretch [first, last] without gaps: from each, as far as one bound by doubling reaches.
+void chooseKeyframes(std::vector<Written>& boxes, std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k <= last; ++k) boxes[k].keyframe = false;
+    boxes[first].keyframe = boxes[last].keyframe = true;
+    std::size_t from = first;
+    while (from < last) {
+        std::size_t good = from + 1;
+        std::size_t step = 2;
+        while (from + step <= last && interpolates(boxes, from, from + step)) {
+            good = from + step;
+            step *= 2;
+        }
+        std::size_t bad = std::min(from + step, last + 1);
+        while (good + 1 < bad) {
+            const std::size_t middle = good + (bad - good) / 2;
+            (interpolates(boxes, from, middle) ? good : bad) = middle;
+        }
+        boxes[good].keyframe = true;
+        from = good;
+    }
+}
+
+std::string boxLine(const Written& box, bool outside) {
+    std::string line = "    <box frame=\"" + std::to_string(box.frame) + "\" keyframe=\"" + (box.keyframe ? "1" : "0") +
+                       "\" outside=\"" + (outside ? "1" : "0") + "\" occluded=\"" +
+                       (box.occlusion == Occlusion::none ? "0" : "1") + "\"";
+    const char* names[] = {" xtl=\"", " ytl=\"", " xbr=\"", " ybr=\""};
+    for (std::size_t i = 0; i < 4; ++i) line += names[i] + fixedText(box.edges[i], kCvatDecimals) + "\"";
+    if (box.degrees != 0) line += " rotation=\"" + fixedText(box.degrees, kCvatDecimals) + "\"";
+    return line + " z_order=\"0\">\n      <attribute name=\"" + cvat::kIgnoreAttribute + "\">" +
+           (box.ignore ? "true" : "false") + "</attribute>\n      <attribute name=\"" + cvat::kOcclusionAttribute +
+           "\">" + (box.occlusion == Occlusion::fully ? "fully" : "partly") + "</attribute>\n    </box>\n";
+}
+
+std::string trackText(std::vector<Written> boxes, FrameIndex stop) {
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+        if (k + 1 < boxes.size() && boxes[k + 1].frame == boxes[k].frame + 1) continue;
+        chooseKeyframes(boxes, begin, k);
+        begin = k + 1;
+    }
+    std::string text;
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+        text += boxLine(boxes[k], false);
+        const bool gap = k + 1 == boxes.size() || boxes[k + 1].frame != boxes[k].frame + 1;
+        if (!gap || boxes[k].frame >= stop) continue;
+        Written end = boxes[k];
+        ++end.frame;
+        end.keyframe = true;
+        text += boxLine(end, true);
+    }
+    return text;
+}
+
+std::string metaText(const LabelFile& labels, const std::set<std::string>& classes, const std::string& name) {
+    const int frames = std::max(1, framesToWrite(labels));
+    std::string text = "  <meta>\n    <task>\n      <name>" + markupEscaped(name) + "</name>\n      <size>" +
+                       std::to_string(frames) +
+                       "</size>\n      <mode>interpolation</mode>\n"
+                       "      <start_frame>0</start_frame>\n      <stop_frame>" +
+                       std::to_string(frames - 1) + "</stop_frame>\n      <labels>\n";
+    for (const std::string& object_class : classes) {
+        text += "        <label>\n          <name>" + markupEscaped(object_class) +
+                "</name>\n          <attributes>\n"
+                "            <attribute><name>" +
+                cvat::kIgnoreAttribute +
+                "</name><mutable>True</mutable><input_type>checkbox</input_type><default_value>false</default_value>"
+                "<values>false\ntrue</values></attribute>\n            <attribute><name>" +
+                cvat::kOcclusionAttribute +
+                "</name><mutable>True</mutable><input_type>select</input_type><default_value>partly</default_value>"
+                "<values>partly\nfully</values></attribute>\n          </attributes>\n        </label>\n";
+    }
+    text += "      </labels>\n";
+    if (labels.image_size) {
+        text += "      <original_size>\n        <width>" + std::to_string(labels.image_size->width) +
+                "</width>\n        <height>" + std::to_string(labels.image_size->height) +
+                "</height>\n      </original_size>\n";
+    }
+    return text + "    </task>\n  </meta>\n";
+}
+
+LabelFormat described() {
+    LabelFormat format;
+    format.info = {"cvat", "CVAT for video 1.1", {"xml"}, false, true, true, {}};
+    format.info.carries = {.rotation = true, .id = true, .object_class = true, .occlusion = true, .ignore = true};
+    format.needs_id = true;
+    format.read = [](const std::filesystem::path& path, const ImportOptions&) { return readCvat(path); };
+    format.write = writeCvat;
+    format.fits = [](const FileHead& head) {
+        return head.text.find("<annotations") != std::string::npos && head.text.find('<') < 200;
+    };
+    return format;
+}
+
+}  // namespace
+
+void writeCvat(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
+               ExportReport& report) {
+    const FrameIndex stop = std::max(1, framesToWrite(labels)) - 1;
+    std::set<std::string> classes;
+    std::string tracks;
+    int other_class = 0, keyframes = 0;
+    for (const auto& [id, track] : boxesById(labels.boxes)) {
+        std::map<std::string, int> votes;
+        std::vector<Written> boxes;
+        for (const LabelBox* record : track) {
+            ++votes[record->object_class];
+            boxes.push_back(writtenOf(*record));
+        }
+        const auto most = std::max_element(votes.begin(), votes.end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+        other_class += static_cast<int>(track.size()) - most->second;
+        const std::string name = most->first.empty() ? "object" : most->first;
+        classes.insert(name);
+        const std::string text = trackText(std::move(boxes), stop);
+        for (std::size_t at = 0; (at = text.find("keyframe=\"1\"", at)) != std::string::npos; ++at) ++keyframes;
+        tracks += "  <track id=\"" + std::to_string(id) + "\" label=\"" + markupEscaped(name) +
+                  "\" source=\"manual\">\n" + text + "  </track>\n";
+    }
+    classes.insert(labels.classes.begin(), labels.classes.end());
+    classes.erase("");
+    writeFileAtomically(path, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<annotations>\n  <version>1.1</version>\n" +
+                                  metaText(labels, classes, options.sequence) + tracks + "</annotations>\n");
+    report.files.push_back(path);
+    report.add(LossKind::class_name, other_class, "have another class than most of their track, which took that one");
+    report.notes.push_back(counted(keyframes, "keyframe", "keyframes") + " reproduce all boxes within 0.02 px");
+    report.notes.push_back("CVAT takes them into a task that has these labels with the attributes " +
+                           std::string(cvat::kIgnoreAttribute) + " and " + cvat::kOcclusionAttribute +
+                           "; the file's head describes both");
+}
+
+LabelFormat cvatFormat() {
+    return described();
+}
+
+}  // namespace eyrie

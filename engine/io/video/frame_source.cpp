@@ -1,0 +1,68 @@
+#include "io/video/frame_source.h"
+
+#include <cctype>
+#include <cmath>
+#include <fstream>
+
+#include "core/error.h"
+#include "io/video/image_sequence.h"
+#include "io/video/video_reader.h"
+
+namespace eyrie {
+namespace {
+
+/// Nearer than this a remembered rate is the video's own, only measured again.
+constexpr double kSameRate = 0.005;
+
+/// A project or a table where a video belongs: says what takes them.
+void refuseOtherThanVideo(const std::filesystem::path& path) {
+    // A project is told by its name: opening it here would drop the locks of its connections (store/file_check.h).
+    std::string beginning(15, '\0');
+    const bool named_project = path.extension() == ".eyrie";
+    if (!named_project) std::ifstream(path, std::ios::binary).read(beginning.data(), std::ssize(beginning));
+    if (named_project || beginning == "SQLite format 3") {
+        throw Error(ErrorKind::input,
+                    path.string() +
+                        ": is a project, not a video; open it as a project in the window, look with "
+                        "eyrie-cli info, or give it to evaluate, report, sweep or export as --project");
+    }
+    std::string ending = path.extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const char* table : {".csv", ".txt", ".xml", ".json", ".kw18"}) {
+        if (ending != table) continue;
+        throw Error(ErrorKind::input,
+                    path.string() +
+                        ": is a table, not a video; import its labels into a project (label workspace, or "
+                        "eyrie-cli import; --show tells what is in it), or evaluate against it as "
+                        "--ground-truth");
+    }
+}
+
+}  // namespace
+
+double overridingRate(const SourceOptions& options, double own_rate_hz) {
+    if (options.frame_rate_hz > 0) return options.frame_rate_hz;
+    const double remembered = options.remembered_rate_hz;
+    return remembered > 0 && std::abs(remembered - own_rate_hz) > kSameRate * own_rate_hz ? remembered : 0;
+}
+
+std::unique_ptr<FrameSource> openSource(const std::filesystem::path& path, const SourceOptions& options,
+                                        const IndexProgress& progress, std::stop_token stop) {
+    std::error_code failure;
+    const auto status = std::filesystem::status(path, failure);
+    if (!std::filesystem::exists(status))
+        throw Error(ErrorKind::input,
+                    path.string() + ": there is no such file or folder" +
+                        (failure && failure != std::errc::no_such_file_or_directory ? " (" + failure.message() + ")"
+                                                                                    : "; check the name"));
+    if (std::filesystem::is_directory(status) || ImageSequence::isImageFile(path))
+        return std::make_unique<ImageSequence>(path, options);
+    if (!std::filesystem::is_regular_file(status))
+        throw Error(ErrorKind::input, path.string() + ": is neither a file nor a folder");
+    if (std::filesystem::file_size(path, failure) == 0 && !failure)
+        throw Error(ErrorKind::input, path.string() + ": the file is empty; record or copy it again");
+    refuseOtherThanVideo(path);
+    return std::make_unique<VideoReader>(path, options, progress, std::move(stop));
+}
+
+}  // namespace eyrie

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <opencv2/core/types.hpp>
+#include <stop_token>
+#include <string>
+
+#include "core/values/frame.h"
+
+namespace eyrie {
+
+/// What is known of a video before its first frame is decoded.
+struct VideoInfo {
+    std::filesystem::path path;  ///< absolute: the video file or the folder of images
+    cv::Size size;               ///< px, of the first frame; a frame of another size is an Error(input) when read
+    int frame_count = 0;
+    double frame_rate_hz = 25;  ///< mean rate from the time stamps, or the one given by the user; > 0
+    double gsd_m_per_px = 0;    ///< metres per pixel where the source itself knows it (built-in scenes); 0: unknown
+    bool variable_frame_rate = false;
+    bool is_image_sequence = false;
+    std::string codec;      ///< "h264", "png sequence" …
+    std::string container;  ///< "mov,mp4,…", "folder"
+};
+
+/// Random access to the frames of a video or image folder, exact to the frame. Not thread-safe: one thread, one source.
+class FrameSource {
+ public:
+    virtual ~FrameSource() = default;
+    virtual const VideoInfo& info() const = 0;
+    /// Frame `index` in [0, frame_count). Throws Error(input) naming file and frame when it cannot be decoded.
+    virtual Frame read(FrameIndex index, bool with_colour) = 0;
+    /// Presentation time from the start of the video, microseconds, without decoding.
+    virtual std::int64_t timeOf(FrameIndex index) const = 0;
+};
+
+struct SourceOptions {
+    double frame_rate_hz =
+        0;  ///< > 0 overrides the video's own rate (needed for image folders); 0: own, 25 for folders
+    /// The rate a project knows for this video; 0: none. Where `frame_rate_hz` says nothing it counts like it, unless
+    /// it is the video's own: then the time stamps stay as they are.
+    double remembered_rate_hz = 0;
+    std::filesystem::path index_folder;  ///< where indexes are cached; empty: the user's cache folder
+};
+
+/// The rate that overrides a video's own one, `own_rate_hz`; 0: none does.
+double overridingRate(const SourceOptions& options, double own_rate_hz);
+
+/// Called while a video is indexed, with the share done in [0, 1].
+using IndexProgress = std::function<void(double share)>;
+
+/// Opens a video file or a folder of images. Throws Error(input) with file, reason and remedy; an aborted indexing
+/// (`stop` requested) throws Error(input) "stopped while indexing".
+std::unique_ptr<FrameSource> openSource(const std::filesystem::path& path, const SourceOptions& options = {},
+                                        const IndexProgress& progress = {}, std::stop_token stop = {});
+
+}  // namespace eyrie

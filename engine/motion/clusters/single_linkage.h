@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "core/values/motion_vector.h"
+
+namespace eyrie {
+
+/// When two motion vectors belong together. Both conditions must hold at once.
+struct Linkage {
+    double along = 10;             ///< px, half axis of the ellipse along the mean motion of the two; > 0
+    double across = 5;             ///< px, half axis across it; > 0
+    double velocity_floor = 0.04;  ///< px/frame, velocities may always differ by this
+    double velocity_share = 0.05;  ///< … or by this share of the mean speed
+
+    bool joins(const MotionVector& a, const MotionVector& b) const;
+};
+
+/// Positions of the vectors; what is not finite, in place or velocity, lies nowhere.
+std::vector<cv::Point2f> positionsOf(const std::vector<MotionVector>& vectors);
+
+/// Single-linkage clustering (Teutsch §4.2): the connected parts of the graph whose edges are the joined pairs. Returns
+/// for every vector the number of its cluster; clusters are numbered from 0 in the order of their first vector.
+/// Vectors with a position that is not finite stand alone. A spatial grid and union-find keep it near linear.
+std::vector<int> singleLinkage(const std::vector<MotionVector>& vectors, const Linkage& linkage);
+
+}  // namespace eyrie

@@ -1,0 +1,112 @@
+#include "motion/differences/area_matching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+
+namespace eyrie {
+namespace {
+
+constexpr double kPlain = 2;  ///< grey values; areas that deviate less have nothing to be found by
+
+constexpr int kFineReach = 2;           ///< px around the best of every other shift
+constexpr std::size_t kFewPixels = 48;  ///< that every other shift is tried with
+constexpr std::size_t kMostPixels = 65'000;
+
+/// Where the parabola through three equidistant values has its top, −½ … ½ around the middle one.
+double topOf(double before, double middle, double after) {
+    const double bend = before - 2 * middle + after;
+    return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
+}
+
+/// Pixels with their grey values, ready to be laid over another picture.
+class Pattern {
+ public:
+    /// `to`: the picture it will be laid over; it must outlive the pattern.
+    Pattern(const std::vector<cv::Point>& pixels, std::size_t step, const cv::Mat& from, const cv::Mat& to) : to_(to) {
+        for (std::size_t i = 0; i < pixels.size(); i += step) {
+            const auto value = from.at<uchar>(pixels[i]);
+            pixels_.push_back({offsetOf(pixels[i]), value});
+            sum_ += value;
+            squares_ += std::uint32_t{value} * value;
+        }
+    }
+    /// Sum of squared deviations from the mean.
+    double spread() const { return spreadOf(sum_, squares_); }
+    double correlation(cv::Point shift) const {
+        const uchar* shifted = to_.data + offsetOf(shift);
+        std::uint32_t there = 0;
+        std::uint32_t there_squares = 0;
+        std::uint32_t product = 0;
+        for (const Pixel& pixel : pixels_) {
+            const std::uint32_t value = shifted[pixel.offset];
+            there += value;
+            there_squares += value * value;
+            product += value * pixel.value;
+        }
+        const double both = spread() * spreadOf(there, there_squares);
+        const double common = product - static_cast<double>(sum_) * there / count();
+        return both > 0 ? common / std::sqrt(both) : 0;
+    }
+    double count() const { return static_cast<double>(pixels_.size()); }
+
+ private:
+    struct Pixel {
+        std::ptrdiff_t offset;  ///< in the picture it is laid over
+        std::uint32_t value;
+    };
+    std::ptrdiff_t offsetOf(cv::Point p) const { return p.y * static_cast<std::ptrdiff_t>(to_.step[0]) + p.x; }
+    double spreadOf(double sum, double squares) const { return squares - sum * sum / count(); }
+
+    const cv::Mat& to_;
+    std::vector<Pixel> pixels_;
+    std::uint32_t sum_ = 0;  ///< like all sums here below 2³² for areas of up to kMostPixels
+    std::uint32_t squares_ = 0;
+};
+
+/// The shift with the best correlation among those `step` px apart within `reach` of `around`.
+cv::Point bestShift(const Pattern& pattern, cv::Point around, int reach, int step) {
+    cv::Point best = around;
+    double highest = -2;
+    for (int dy = -reach; dy <= reach; dy += step) {
+        for (int dx = -reach; dx <= reach; dx += step) {
+            const double correlation = pattern.correlation(around + cv::Point(dx, dy));
+            if (correlation <= highest) continue;
+            highest = correlation;
+            best = around + cv::Point(dx, dy);
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+std::optional<AreaMatch> matchArea(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& to,
+                                   cv::Point around, int reach) {
+    const cv::Rect bounds = cv::boundingRect(pixels);
+    const int margin = reach + kFineReach + 1;
+    const cv::Rect searched(bounds.x + around.x - margin, bounds.y + around.y - margin, bounds.width + 2 * margin,
+                            bounds.height + 2 * margin);
+    if (pixels.empty() || (searched & cv::Rect({0, 0}, to.size())) != searched) return std::nullopt;
+    if (pixels.size() > kMostPixels) return std::nullopt;
+    const Pattern pattern(pixels, 1, from, to);
+    if (pattern.spread() < kPlain * kPlain * pattern.count()) return std::nullopt;
+    cv::Point best = around;
+    if (reach > 2 * kFineReach) {
+        // Every other shift with some of the pixels shows where to look closely.
+        const Pattern some(pixels, std::max<std::size_t>(1, pixels.size() / kFewPixels), from, to);
+        best = bestShift(some, around, reach, 2);
+        best = bestShift(pattern, best, kFineReach, 1);
+    } else {
+        best = bestShift(pattern, around, reach, 1);
+    }
+    const auto at = [&](int dx, int dy) { return pattern.correlation(best + cv::Point(dx, dy)); };
+    AreaMatch match;
+    match.correlation = at(0, 0);
+    match.shift = cv::Point2d(best) + cv::Point2d(topOf(at(-1, 0), match.correlation, at(1, 0)),
+                                                  topOf(at(0, -1), match.correlation, at(0, 1)));
+    return match;
+}
+
+}  // namespace eyrie

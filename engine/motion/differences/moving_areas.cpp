@@ -1,0 +1,290 @@
+#include "motion/differences/moving_areas.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/geometry/homography_jacobian.h"
+#include "core/values/corner_density.h"
+#include "core/values/inferred_ids.h"
+#include "motion/differences/area_matching.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kVectorSpacing = 0.6;    ///< m between inferred vectors …
+constexpr double kVectorSpacingPx = 2;    ///< … px at least
+constexpr int kAround = 2;                ///< px that an area grows by before it is looked for: outlines tell most
+constexpr int kPictureMargin = 3;         ///< px of the halved picture, where interpolation and blur answer to nothing
+constexpr std::size_t kMostAreas = 1500;  ///< the largest; more are waves or flicker
+constexpr double kMaxSpeed = 40;          ///< m/s
+constexpr int kLongestReach = 40;         ///< px
+constexpr int kReturnReach = 2;           ///< px by which the way back may differ from the way on
+constexpr std::size_t kEnough = 3;        ///< vectors with which a vehicle needs no more
+constexpr double kAlike = 0.3;            ///< difference of velocities, as a share of the speed …
+constexpr double kAlikePx = 0.4;          ///< … and px/frame
+
+cv::Mat smoothed(const cv::Mat& gray) {
+    cv::Mat smooth;
+    cv::GaussianBlur(gray, smooth, {5, 5}, 1.0);
+    return smooth;
+}
+
+/// Robust deviation of differences: median / 0.6745, since most of the picture stands still.
+double noiseOf(const cv::Mat& difference) {
+    constexpr double kMedianOfAbsoluteNormal = 0.6745;
+    std::array<int, 256> histogram{};
+    int count = 0;
+    for (int y = 0; y < difference.rows; y += 4) {
+        const uchar* row = difference.ptr<uchar>(y);
+        for (int x = 0; x < difference.cols; ++x) ++histogram[row[x]];
+        count += difference.cols;
+    }
+    // Within its bin the median lies where the count says.
+    int below = 0;
+    for (std::size_t value = 0; value < histogram.size(); ++value) {
+        if (below + histogram[value] >= count / 2)
+            return (static_cast<double>(value) - 0.5 + (count / 2.0 - below) / std::max(1, histogram[value])) /
+                   kMedianOfAbsoluteNormal;
+        below += histogram[value];
+    }
+    return 0;
+}
+
+/// Half the size; pixel (x, y) lies at (2x + ½, 2y + ½).
+cv::Mat halved(const cv::Mat& gray) {
+    cv::Mat half;
+    cv::resize(gray, half, {gray.cols / 2, gray.rows / 2}, 0, 0, cv::INTER_AREA);
+    return half;
+}
+
+/// The map between halved pictures that a map between the whole ones is.
+cv::Matx33d forHalves(const cv::Matx33d& map) {
+    const cv::Matx33d whole_from_half(2, 0, 0.5, 0, 2, 0.5, 0, 0, 1);
+    return whole_from_half.inv() * map * whole_from_half;
+}
+
+/// Whether a map over several frames keeps the whole picture on one side of the horizon and somewhere near.
+bool isSane(const Homography& map, cv::Size size) {
+    for (const cv::Point2d& corner : {cv::Point2d(0, 0), cv::Point2d(size.width, 0), cv::Point2d(0, size.height),
+                                      cv::Point2d(size.width, size.height)}) {
+        const double w = map.matrix(2, 0) * corner.x + map.matrix(2, 1) * corner.y + map.matrix(2, 2);
+        if (!(w > 0.2)) return false;
+        const cv::Point2d at = map.apply(corner);
+        if (!(std::abs(at.x) < 10.0 * size.width && std::abs(at.y) < 10.0 * size.height)) return false;
+    }
+    return true;
+}
+
+/// A part of the newest picture's area as an earlier picture shows it, which is so small that the map's first order
+/// will do.
+cv::Mat partOf(const cv::Mat& earlier, const Homography& earlier_from_newest, const cv::Rect& part) {
+    const cv::Point2d middle((part.width - 1) / 2.0, (part.height - 1) / 2.0);
+    const LocalMap map(earlier_from_newest.matrix, cv::Point2d(part.tl()) + middle);
+    const cv::Point2d x = map.vector({1, 0});
+    const cv::Point2d y = map.vector({0, 1});
+    const cv::Point2d corner = map.point() - map.vector(middle);
+    cv::Mat shown;
+    cv::warpAffine(earlier, shown, cv::Matx23d(x.x, y.x, corner.x, x.y, y.y, corner.y), part.size(),
+                   cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+    return shown;
+}
+
+std::vector<DifferingArea> areasOf(const cv::Mat& binary, int fewest_pixels, double longest) {
+    cv::Mat labels;
+    cv::Mat stats;
+    cv::Mat centroids;
+    const int count = cv::connectedComponentsWithStats(binary, labels, stats, centroids, 8, CV_32S);
+    std::vector<DifferingArea> areas;
+    for (int label = 1; label < count; ++label) {
+        const cv::Rect bounds(stats.at<int>(label, cv::CC_STAT_LEFT), stats.at<int>(label, cv::CC_STAT_TOP),
+                              stats.at<int>(label, cv::CC_STAT_WIDTH), stats.at<int>(label, cv::CC_STAT_HEIGHT));
+        if (stats.at<int>(label, cv::CC_STAT_AREA) < fewest_pixels) continue;
+        if (std::hypot(bounds.width, bounds.height) > longest) continue;
+        DifferingArea area;
+        area.bounds = bounds;
+        for (int y = bounds.y; y < bounds.br().y; ++y) {
+            for (int x = bounds.x; x < bounds.br().x; ++x) {
+                if (labels.at<int>(y, x) == label) area.pixels.emplace_back(x, y);
+            }
+        }
+        areas.push_back(std::move(area));
+    }
+    if (areas.size() > kMostAreas) {
+        std::stable_sort(areas.begin(), areas.end(),
+                         [](const auto& a, const auto& b) { return a.pixels.size() > b.pixels.size(); });
+        areas.resize(kMostAreas);
+    }
+    return areas;
+}
+
+/// The pixels of the whole picture that an area of the halved one and its surroundings are, from the corner of
+/// `bounds` on.
+std::vector<cv::Point> grownPixels(const DifferingArea& area, const cv::Rect& bounds) {
+    cv::Mat1b mask = cv::Mat1b::zeros(bounds.size());
+    for (const cv::Point& p : area.pixels) mask(cv::Rect(2 * p - bounds.tl(), cv::Size(2, 2))) = 255;
+    cv::dilate(mask, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kAround + 1, 2 * kAround + 1}));
+    std::vector<cv::Point> pixels;
+    cv::findNonZero(mask, pixels);
+    return pixels;
+}
+
+cv::Rect grownBounds(const DifferingArea& area) {
+    return {2 * area.bounds.x - kAround, 2 * area.bounds.y - kAround, 2 * (area.bounds.width + kAround),
+            2 * (area.bounds.height + kAround)};
+}
+
+/// Places in the whole picture among the pixels of an area, at least so far apart.
+std::vector<cv::Point2d> spread(const DifferingArea& area, double spacing) {
+    std::vector<cv::Point2d> chosen;
+    for (const cv::Point& half : area.pixels) {
+        const cv::Point2d p = cv::Point2d(half) * 2 + cv::Point2d(0.5, 0.5);
+        const bool free = std::none_of(chosen.begin(), chosen.end(), [&](const cv::Point2d& other) {
+            return std::hypot(p.x - other.x, p.y - other.y) < spacing;
+        });
+        if (free) chosen.push_back(p);
+    }
+    return chosen;
+}
+
+}  // namespace
+
+void MovingAreaOptions::describe(ParameterVisitor& visitor) {
+    visitor.flag("motion.areas", enabled,
+                 {"",
+                  "Where registered pictures differ and corners starve, as on vehicles of few pixels, measure the "
+                  "motion of the whole area that differs.",
+                  "Teutsch §2.2, eq. 2.2"});
+    visitor.real("motion.area_max_corners", max_corners, 0, 10000,
+                 {"",
+                  "Only while fewer corners than this lie on a car at their mean density. Larger: also where vehicles "
+                  "carry more corners, with more false areas.",
+                  ""});
+    visitor.real("motion.area_gap", gap_s, 0.01, 10,
+                 {"s", "Time between the three pictures that are compared. Longer: slower vehicles.", ""});
+    visitor.real("motion.area_noise_factor", noise_factor, 0, 100,
+                 {"", "Pixels differ from this many deviations of the frame's own differences on.", ""});
+    visitor.real("motion.area_contrast", min_contrast, 0, 255, {"grey", "… and from this difference on.", ""});
+    visitor.real("motion.area_min_size", min_area_m2, 0, 1000, {"m²", "Smaller areas are left out.", ""});
+    visitor.integer("motion.area_min_size_px", min_area_px, 1, 100000, {"px²", "… whatever the scale.", ""});
+    visitor.real("motion.area_max_length", max_length_m, 0.1, 1000, {"m", "Longer areas are left out.", ""});
+    visitor.real("motion.area_min_shift", min_shift_px, 0, 50,
+                 {"px", "Areas that went less far between two of the pictures may be misregistered.", ""});
+    visitor.real("motion.area_min_correlation", min_correlation, -1, 1,
+                 {"", "An area's pixels agree at least so well with where they went and where they came from.", ""});
+}
+
+MovingAreas::MovingAreas(const MovingAreaOptions& options, const SceneScale& scale)
+    : options_(options),
+      scale_(scale),
+      gap_(std::clamp(cvRound(options.gap_s * scale.frame_rate_hz), 1, 30)),
+      frames_(2 * gap_),
+      next_id_(kFirstOfAreas) {}
+
+void MovingAreas::add(const Frame& frame, const Registration& registration) {
+    if (!options_.enabled) return;
+    if (frame.gray.empty())
+        frames_.clear();
+    else
+        frames_.add(frame, registration);
+}
+
+std::vector<DifferingArea> MovingAreas::differingAreas() const {
+    const cv::Mat now = halved(frames_.newest());
+    const auto earlier = [&](int back, cv::Mat& inside) {
+        const cv::Mat half = halved(frames_.picture(back));
+        const cv::Matx33d map = forHalves(frames_.pathTo(back).inverse().matrix);
+        cv::Mat warped;
+        cv::warpPerspective(smoothed(half), warped, map, now.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+        // Without the margin, where interpolation and blur answer to nothing.
+        const cv::Rect2d shown(kPictureMargin, kPictureMargin, half.cols - 1 - 2 * kPictureMargin,
+                               half.rows - 1 - 2 * kPictureMargin);
+        std::vector<cv::Point> corners;
+        for (const cv::Point2d& corner :
+             {shown.tl(), cv::Point2d(shown.br().x, shown.y), shown.br(), cv::Point2d(shown.x, shown.br().y)}) {
+            const cv::Point2d at = LocalMap(map, corner).point();
+            corners.emplace_back(cvRound(at.x), cvRound(at.y));
+        }
+        inside = cv::Mat::zeros(now.size(), CV_8UC1);
+        cv::fillConvexPoly(inside, corners, cv::Scalar(255));
+        return warped;
+    };
+    cv::Mat in_before;
+    cv::Mat in_long_before;
+    const cv::Mat before = earlier(gap_, in_before);
+    const cv::Mat long_before = earlier(2 * gap_, in_long_before);
+    cv::Mat difference;
+    cv::Mat earlier_difference;
+    cv::absdiff(smoothed(now), before, difference);
+    cv::absdiff(before, long_before, earlier_difference);
+    cv::min(difference, earlier_difference, difference);
+    const double threshold = std::max(options_.noise_factor * noiseOf(difference), options_.min_contrast);
+    const cv::Mat differs = (difference > threshold) & in_before & in_long_before;
+    const double half_px_per_m = scale_.px(1) / 2;
+    const int fewest =
+        std::max(options_.min_area_px / 4, cvRound(options_.min_area_m2 * half_px_per_m * half_px_per_m));
+    return areasOf(differs, fewest, scale_.px(options_.max_length_m) / 2);
+}
+
+std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area) const {
+    const cv::Rect bounds = grownBounds(area);
+    const std::vector<cv::Point> pixels = grownPixels(area, bounds);
+    const cv::Mat before = partOf(frames_.picture(gap_), frames_.pathTo(gap_), bounds);
+    const int reach = std::clamp(static_cast<int>(std::ceil(scale_.pxPerFrame(kMaxSpeed) * gap_)), 4, kLongestReach);
+    const auto on = matchArea(pixels, before, frames_.newest(), bounds.tl(), reach);
+    if (!on || on->correlation < options_.min_correlation) return std::nullopt;
+    const cv::Point2d shift = on->shift - cv::Point2d(bounds.tl());
+
+    const cv::Point back(-cvRound(shift.x), -cvRound(shift.y));
+    const int margin = kReturnReach + 4;
+    const cv::Rect whence(bounds.x + back.x - margin, bounds.y + back.y - margin, bounds.width + 2 * margin,
+                          bounds.height + 2 * margin);
+    const cv::Mat long_before = partOf(frames_.picture(2 * gap_), frames_.pathTo(2 * gap_), whence);
+    const auto came = matchArea(pixels, before, long_before, {margin, margin}, kReturnReach);
+    if (!came || came->correlation < options_.min_correlation) return std::nullopt;
+    return shift;
+}
+
+std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double min_speed) {
+    std::vector<MotionVector> inferred;
+    if (!options_.enabled || frames_.count() < 2 * gap_) return inferred;
+    if (cornersOnCar(motion, scale_) >= options_.max_corners) return inferred;
+    const cv::Size size = frames_.newest().size();
+    for (const int back : {gap_, 2 * gap_}) {
+        const Homography path = frames_.pathTo(back);
+        if (!isSane(path, size) || !isSane(path.inverse(), size)) return inferred;
+    }
+    const std::vector<DifferingArea> areas = differingAreas();
+    std::vector<std::optional<cv::Point2d>> shifts(areas.size());
+    // Written by index, so that the result does not depend on the number of threads.
+    cv::parallel_for_(cv::Range(0, static_cast<int>(areas.size())), [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            const auto shift = shiftOf(areas[at]);
+            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.min_shift_px, min_speed * gap_))
+                shifts[at] = shift;
+        }
+    });
+
+    const double spacing = std::max(kVectorSpacingPx, scale_.px(kVectorSpacing));
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        if (!shifts[i]) continue;
+        const cv::Point2d velocity = *shifts[i] / gap_;
+        const double alike = std::max(kAlikePx, kAlike * std::hypot(velocity.x, velocity.y));
+        const cv::Rect2d place = cv::Rect2d(grownBounds(areas[i])) + *shifts[i];
+        std::size_t known = 0;
+        for (const MotionVector& vector : motion.motion_vectors) {
+            const cv::Point2d difference_of = cv::Point2d(vector.velocity) - velocity;
+            if (place.contains(cv::Point2d(vector.position)) && std::hypot(difference_of.x, difference_of.y) <= alike)
+                ++known;
+        }
+        if (known >= kEnough) continue;
+        for (const cv::Point2d& p : spread(areas[i], spacing))
+            inferred.push_back({next_id_++, p + *shifts[i], velocity, 0});
+    }
+    return inferred;
+}
+
+}  // namespace eyrie

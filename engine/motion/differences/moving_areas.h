@@ -1,0 +1,74 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/parameter.h"
+#include "core/values/frame.h"
+#include "core/values/motion_vector.h"
+#include "core/values/scene_scale.h"
+#include "motion/differences/registered_frames.h"
+
+namespace eyrie {
+
+/// Parameters of moving areas.
+struct MovingAreaOptions {
+    bool enabled = true;
+    double max_corners = 3;        ///< on a car at the mean density; with more of them corners do without
+    double gap_s = 0.12;           ///< time between the pictures that are compared
+    double noise_factor = 8;       ///< pixels move from this many deviations of the frame's own differences on …
+    double min_contrast = 6;       ///< … and from this difference on, grey values
+    double min_area_m2 = 1;        ///< smaller areas are no vehicle …
+    int min_area_px = 8;           ///< … whatever the scale
+    double max_length_m = 20;      ///< longer ones neither
+    double min_shift_px = 1.5;     ///< between two of the pictures; smaller shifts may be misregistration
+    double min_correlation = 0.8;  ///< of an area's pixels with where they went
+
+    void describe(ParameterVisitor& visitor);
+};
+
+/// Pixels of a halved picture that hang together and differ from those before.
+struct DifferingArea {
+    std::vector<cv::Point> pixels;
+    cv::Rect bounds;
+};
+
+/// Motion where corners starve. A vehicle of 14×7 px carries a corner or two, in poor pictures none; but registered
+/// pictures differ where it drives (3-frame difference, Teutsch §2.2, eq. 2.2). Each area that differs is laid over the
+/// newest picture and the oldest: where it went shows its velocity, and that it is the same thing in all three. What
+/// stands and only seems to differ, at edges, does not go anywhere. Areas that hold vectors of corners already get
+/// none.
+class MovingAreas {
+ public:
+    MovingAreas(const MovingAreaOptions& options, const SceneScale& scale);
+
+    /// Takes the next frame, failed and repeated ones, too; without a picture everything is forgotten.
+    void add(const Frame& frame, const Registration& registration);
+    void clear() { frames_.clear(); }
+    /// Vectors in the areas of the newest frame, with ids above those of all corners and silhouettes, and of age 0;
+    /// none where corners suffice. `motion` is what is known of the frame already. `min_speed` in px/frame.
+    std::vector<MotionVector> infer(const FrameMotion& motion, double min_speed);
+
+    /// Frames between two pictures that are compared.
+
+    /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
+    /// same options.
+    template <class Archive>
+    void transfer(Archive& archive);
+
+ private:
+    /// Where the newest picture, the one before and the one long before differ, as seen in the newest, at the places
+    /// of the one before.
+    std::vector<DifferingArea> differingAreas() const;
+    /// px from the picture before to the newest, over the ground; nothing where the area is not one thing that moves.
+    std::optional<cv::Point2d> shiftOf(const DifferingArea& area) const;
+
+    MovingAreaOptions options_;
+    SceneScale scale_;
+    int gap_;
+    RegisteredFrames frames_;
+    CornerId next_id_;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,78 @@
+#include "motion/vectors/shadow_owners.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/oriented_box.h"
+#include "motion/vectors/vector_groups.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::size_t kOwnerVectors = 4;
+constexpr double kOwnerVelocityShare = 0.05;
+constexpr double kOwnerAlike = 2.5;  ///< shadow and owner may differ by this many times what members may
+constexpr double kOwnMargin = 0.5;   ///< px; dark corners within the owner's box are its own
+
+double distanceTo(const OrientedBox& box, cv::Point2d point) {
+    const cv::Point2d in_box = box.toBox(point);
+    return std::hypot(std::max(0.0, std::abs(in_box.x) - box.length / 2),
+                      std::max(0.0, std::abs(in_box.y) - box.width / 2));
+}
+
+/// Whether lit ground parts most of what looks like a shadow from the vehicle.
+bool standsApart(const VectorGroup& shadow, const VectorGroup& owner, const std::vector<MotionVector>& vectors,
+                 const ShadowOwners::LitUpTo& lit_up_to) {
+    const auto lit = std::count_if(shadow.members.begin(), shadow.members.end(), [&](int member) {
+        return lit_up_to(owner.box, vectors[static_cast<std::size_t>(member)].position);
+    });
+    return 2 * static_cast<std::size_t>(lit) > shadow.members.size();
+}
+
+}  // namespace
+
+ShadowOwners::ShadowOwners(const ShadowTestOptions& options, const SceneScale& scale)
+    : scale_(scale),
+      reach_(scale.px(options.reach_m) + 1),
+      owner_length_(scale.px(options.owner_length_m)),
+      owner_width_(scale.px(options.owner_width_m)),
+      shadow_linkage_(std::max(kSmallestLinkage, scale.px(1.2))) {}
+
+std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vectors,
+                                            const std::vector<char>& looks_like_shadow, double background_speed_sigma,
+                                            const LitUpTo& lit_up_to) const {
+    std::vector<char> cast(vectors.size(), 0);
+    std::vector<int> lit;
+    std::vector<int> dark;
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        (looks_like_shadow[i] ? dark : lit).push_back(static_cast<int>(i));
+    }
+    if (lit.size() < kOwnerVectors || dark.empty()) return cast;
+
+    Linkage linkage = vehicleLinkage(scale_, background_speed_sigma, kOwnerVelocityShare);
+    std::vector<VectorGroup> owners = groupVectors(vectors, lit, linkage);
+    std::erase_if(owners, [&](const VectorGroup& group) {
+        return group.members.size() < kOwnerVectors || group.box.length < owner_length_ ||
+               group.box.width < owner_width_;
+    });
+    linkage.along = linkage.across = shadow_linkage_;
+    for (const VectorGroup& shadow : groupVectors(vectors, dark, linkage)) {
+        for (const VectorGroup& owner : owners) {
+            const cv::Point2d apart = shadow.velocity - owner.velocity;
+            const double speed = std::hypot(owner.velocity.x, owner.velocity.y);
+            const double allowed = std::max(linkage.velocity_floor, linkage.velocity_share * speed);
+            if (std::hypot(apart.x, apart.y) > kOwnerAlike * allowed) continue;
+            const bool within = std::all_of(shadow.members.begin(), shadow.members.end(), [&](int member) {
+                return distanceTo(owner.box, vectors[static_cast<std::size_t>(member)].position) <= reach_;
+            });
+            if (!within || (lit_up_to && standsApart(shadow, owner, vectors, lit_up_to))) continue;
+            for (const int member : shadow.members) {
+                const auto at = static_cast<std::size_t>(member);
+                if (distanceTo(owner.box, vectors[at].position) > kOwnMargin) cast[at] = 1;
+            }
+        }
+    }
+    return cast;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+#include "core/parameter.h"
+#include "core/values/scene_scale.h"
+#include "registration/pictures/padded_picture.h"
+
+namespace eyrie {
+
+/// Where corners are looked for and how many are kept.
+struct CornerOptions {
+    double spacing_m = 0.6;
+    double min_distance_px = 2;
+    int max_corners = 12000;
+    double max_deviation_px = 0.5;
+    double min_roundness = 0.05;
+    int tensor_window = 3;
+    bool favour_movers = true;  ///< the cap does not thin out corners near moving ones
+
+    void describe(ParameterVisitor& visitor);
+};
+
+/// What the detector has to respect.
+struct CornerSurroundings {
+    std::vector<cv::Point2f> living;  ///< corners that are tracked already; new ones keep their distance
+    std::vector<cv::Point2f> movers;  ///< those of them that move by themselves: around them the cap on the number of
+                                      ///< corners does not thin out, so that small vehicles keep their vectors
+    double noise = 1;                 ///< grey levels, see noiseLevel
+    int margin = 5;                   ///< px that corners keep to the border of the picture
+};
+
+/// Förstner–Harris corners (Teutsch §4.2; Förstner and Gülch 1987): maxima of the Förstner strength det N / tr N of the
+/// structure tensor whose roundness suffices, sub-pixel, spread over the picture by a grid. The strength a corner needs
+/// follows from the noise of the picture, so that one setting serves bright day and dusk.
+class CornerDetector {
+ public:
+    CornerDetector(const CornerOptions& options, const SceneScale& scale);
+
+    /// New corners, in an order that does not depend on threads. Together with the living ones there are at most
+    /// `max_corners`. Places nothing in constant padding at the border of the picture.
+    std::vector<cv::Point2f> detect(const PaddedPicture& picture, const CornerSurroundings& surroundings) const;
+
+    /// Distance between corners, px.
+    double spacing() const { return spacing_px_; }
+
+ private:
+    CornerOptions options_;
+    double spacing_px_;
+};
+
+}  // namespace eyrie

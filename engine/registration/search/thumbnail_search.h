@@ -1,0 +1,14 @@
+#pragma once
+
+#include <opencv2/core/matx.hpp>
+#include <optional>
+
+#include "registration/pictures/image_pyramid.h"
+
+namespace eyrie {
+
+/// The shift and turn between two pictures, found without any prediction by trying all of them on pictures of about
+/// 48 px: up to 40 % of the picture and ±10°. To about half a thumbnail pixel. Empty when nothing correlates (a cut).
+std::optional<cv::Matx33d> searchThumbnails(const ImagePyramid& from, const ImagePyramid& to);
+
+}  // namespace eyrie

@@ -1,0 +1,281 @@
+#include "rerun/preview.h"
+
+#include <algorithm>
+#include <opencv2/core/utility.hpp>
+#include <utility>
+
+#include "chain/chain.h"
+#include "core/error.h"
+#include "detection/detector_factory.h"
+#include "detection/roi_cutter.h"
+#include "tracking/tracker.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::size_t kMostFrames = 160;  ///< kept in memory
+constexpr double kSameTrack = 0.3;        ///< overlap from which a previewed track is the run's
+
+PreviewStart startOf(const std::string& parameter) {
+    const std::string group = parameter.substr(0, parameter.find('.'));
+    if (group == "registration") return PreviewStart::registration;
+    // It says where clusters come from; motion vectors are the same for all.
+    if (group == "motion" && parameter != "motion.method") return PreviewStart::motion;
+    if (group == "motion" || group == "clustering" || group == "difference" || group == "stacking")
+        return PreviewStart::clustering;
+    if (group == "duplicates" || group == "outliers") return PreviewStart::removal;
+    if (group == "tracking") return PreviewStart::tracking;
+    if (group == "finishing") return PreviewStart::finishing;
+    return PreviewStart::detection;
+}
+
+/// The values of all parameters from `first` to `last`, as text.
+std::string textOf(const ChainOptions& options, PreviewStart first, PreviewStart last) {
+    std::string text;
+    for (const auto& [name, value] : parameterValues(options)) {
+        const PreviewStart start = startOf(name);
+        if (start >= first && start <= last) text.append(name).append("=").append(value).append("\n");
+    }
+    return text;
+}
+
+bool reachesBack(const ChainOptions& options) {
+    return options.stacking.enabled || options.difference.method != MotionMethod::vectors;
+}
+
+}  // namespace
+
+const char* nameOf(PreviewStart start) {
+    switch (start) {
+        case PreviewStart::nothing:
+            return "nothing";
+        case PreviewStart::registration:
+            return "registration";
+        case PreviewStart::motion:
+            return "independent motion";
+        case PreviewStart::clustering:
+            return "clustering";
+        case PreviewStart::detection:
+            return "detection";
+        case PreviewStart::removal:
+            return "duplicates and outliers";
+        case PreviewStart::tracking:
+            return "tracking";
+        case PreviewStart::finishing:
+            break;
+    }
+    return "finishing";
+}
+
+PreviewStart firstDifference(const ChainOptions& a, const ChainOptions& b) {
+    const auto values_a = parameterValues(a);
+    const auto values_b = parameterValues(b);
+    PreviewStart first = PreviewStart::nothing;
+    for (std::size_t i = 0; i < values_a.size(); ++i) {
+        if (values_a[i].second == values_b[i].second) continue;
+        const PreviewStart start = startOf(values_a[i].first);
+        if (first == PreviewStart::nothing || start < first) first = start;
+    }
+    return first;
+}
+
+Preview::Preview(ReplaySource source) : source_(std::move(source)) {}
+
+Preview::Known* Preview::known(FrameIndex frame) {
+    const auto found = frames_.find(frame);
+    if (found != frames_.end()) return &found->second;
+    auto stored = source_.result_of(frame);
+    if (!stored) return nullptr;
+    // The frames farthest away are the least likely to be wanted again.
+    while (frames_.size() >= kMostFrames) {
+        const auto before = frames_.begin();
+        const auto after = std::prev(frames_.end());
+        frames_.erase(frame - before->first > after->first - frame ? before : after);
+    }
+    Known& made = frames_[frame];
+    made.stored = std::move(*stored);
+    return &made;
+}
+
+void Preview::makeWindows(const ChainOptions& options) {
+    const std::string registration = textOf(options, PreviewStart::registration, PreviewStart::registration);
+    if (windows_for_ == registration && window_) return;
+    window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
+    track_window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
+    windows_for_ = registration;
+}
+
+void Preview::warmUp(FrameIndex frame, const std::stop_token& stop) {
+    if (frame < source_.first_frame) return;
+    makeWindows(source_.options);
+    window_->cover(std::max(0, frame - MotionWindow::reachFor(source_.options.motion)), frame, source_.pixels, stop);
+}
+
+bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int range, const std::stop_token& stop) {
+    const std::string wanted = textOf(options, PreviewStart::registration, PreviewStart::motion);
+    if (wanted == textOf(source_.options, PreviewStart::registration, PreviewStart::motion)) {
+        if (!motions_.empty()) frames_.clear();
+        motions_.clear();
+        motions_for_.clear();
+        return true;
+    }
+    const FrameIndex first = std::max(source_.first_frame, frame - range);
+    if (motions_for_ == wanted && motions_.count(frame) > 0 && motions_.count(first) > 0) return true;
+    makeWindows(options);
+    MotionWindow& window = range == 0 ? *window_ : *track_window_;
+    const FrameIndex begin = std::max(0, first - MotionWindow::reachFor(options.motion));
+    if (!window.cover(begin, frame, source_.pixels, stop)) return false;
+    motions_.clear();
+    for (auto& [index, kept] : frames_) kept.clusters_for.clear();  // corners are numbered anew in another window
+    for (FrameMotion& motion : window.motions(options.motion, frame - first + 1)) {
+        const FrameIndex index = motion.frame;
+        motions_[index] = std::move(motion);
+    }
+    motions_for_ = wanted;
+    return true;
+}
+
+const FrameMotion& Preview::motionOf(const Known& known) const {
+    const auto found = motions_.find(known.stored.motion.frame);
+    return found == motions_.end() ? known.stored.motion : found->second;
+}
+
+FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
+    FrameResult result;
+    result.motion = motionOf(known);
+    const std::string clusters_for = textOf(options, PreviewStart::registration, PreviewStart::clustering);
+    if (known.clusters_for != clusters_for) {
+        known.clusters = MotionClustering(options.clustering, source_.scale).cluster(result.motion);
+        known.clusters_for = clusters_for;
+        known.found_for.clear();
+    }
+    const std::string detector_for = textOf(options, PreviewStart::detection, PreviewStart::detection);
+    if (known.found_for != detector_for) {
+        if (!detector_ || detector_for_ != detector_for) {
+            detector_ = makeDetector(options.detection, source_.scale);
+            detector_for_ = detector_for;
+        }
+        if (known.frame.gray.empty()) known.frame = source_.pixels(result.motion.frame);
+        const auto count = known.clusters.size();
+        std::vector<std::vector<Detection>> per_cluster(count);
+        known.rois.assign(count, {});
+        cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& part) {
+            for (int i = part.start; i < part.end; ++i) {
+                const auto at = static_cast<std::size_t>(i);
+                const MotionRoi roi =
+                    cutMotionRoi(known.frame, known.clusters[at], i, result.motion, options.detection, source_.scale);
+                known.rois[at] = roi.box;
+                per_cluster[at] = detector_->detect(roi);
+            }
+        });
+        known.found.clear();
+        for (auto& found : per_cluster)
+            for (Detection& detection : found) known.found.push_back(std::move(detection));
+        known.found_for = detector_for;
+    }
+    result.clusters = known.clusters;
+    result.rois = known.rois;
+    result.detections = removeDuplicates(known.found, result.motion, duplicatesFor(options), source_.scale);
+    result.detections = removeOutliers(std::move(result.detections), result.motion, options.outliers, source_.scale);
+    return result;
+}
+
+cv::Mat Preview::looksOf(Known& known, const ChainOptions& options) {
+    if (options.tracking.appearance == AppearanceUse::none) return {};
+    if (known.frame.gray.empty()) known.frame = source_.pixels(known.stored.motion.frame);
+    return known.frame.gray;
+}
+
+std::optional<PreviewedFrame> Preview::byReplay(FrameIndex frame, const ChainOptions& options,
+                                                const std::stop_token& stop) {
+    const std::string wanted = textOf(options, PreviewStart::registration, PreviewStart::finishing);
+    if (!replay_ || replay_for_ != wanted) {
+        ReplaySource source = source_;
+        source.options = options;
+        source.motion_of = [this](FrameIndex index) -> std::optional<FrameMotion> {
+            const Known* known = this->known(index);
+            if (known == nullptr) return std::nullopt;
+            return motionOf(*known);
+        };
+        replay_ = std::make_unique<Replay>(std::move(source));
+        replay_for_ = wanted;
+    }
+    const ReplayedFrame* replayed = replay_->at(frame, stop);
+    if (replayed == nullptr) return std::nullopt;
+    PreviewedFrame previewed;
+    previewed.result = replayed->result;
+    return previewed;
+}
+
+void Preview::adoptIds(std::vector<TrackState>& tracks, const std::vector<TrackState>& stored) const {
+    TrackId next = 1;
+    for (const TrackState& state : stored) next = std::max(next, state.id + 1);
+    std::vector<char> taken(stored.size(), 0);
+    for (TrackState& track : tracks) {
+        double best = kSameTrack;
+        std::size_t found = stored.size();
+        for (std::size_t i = 0; i < stored.size(); ++i) {
+            const double shared = taken[i] ? 0 : overlap(track.box, stored[i].box);
+            if (shared <= best) continue;
+            best = shared;
+            found = i;
+        }
+        if (found < stored.size()) taken[found] = 1;
+        track.id = found < stored.size() ? stored[found].id : next++;
+    }
+    std::sort(tracks.begin(), tracks.end(), [](const TrackState& a, const TrackState& b) { return a.id < b.id; });
+}
+
+std::optional<PreviewedFrame> Preview::now(FrameIndex frame, const ChainOptions& options, int range,
+                                           const std::stop_token& stop) {
+    if (known(frame) == nullptr) throw Error(ErrorKind::project, "the run has not done frame " + std::to_string(frame));
+    if (!prepareMotion(frame, options, 0, stop) || stop.stop_requested()) return std::nullopt;
+    PreviewedFrame previewed;
+    if (reachesBack(options)) {
+        auto replayed = byReplay(frame, options, stop);
+        if (!replayed) return std::nullopt;
+        previewed = std::move(*replayed);
+    } else {
+        previewed.result = secondHalf(*known(frame), options);
+    }
+    previewed.start = firstDifference(source_.options, options);
+    previewed.approximate = !motions_.empty();
+    if (stop.stop_requested()) return std::nullopt;
+    Tracker tracker(options.tracking, source_.scale);
+    for (FrameIndex before = std::max(source_.first_frame, frame - range); before < frame; ++before) {
+        Known* past = known(before);
+        if (past == nullptr) continue;
+        tracker.next(past->stored.motion, past->stored.detections, nullptr, looksOf(*past, options));
+    }
+    previewed.result.tracks =
+        tracker.next(previewed.result.motion, previewed.result.detections, nullptr, looksOf(*known(frame), options));
+    previewed.tracks_final = previewed.start >= PreviewStart::tracking;
+    if (const Known* present = known(frame)) adoptIds(previewed.result.tracks, present->stored.tracks);
+    return previewed;
+}
+
+std::optional<PreviewedFrame> Preview::withTracks(FrameIndex frame, const ChainOptions& options, int range,
+                                                  const std::stop_token& stop,
+                                                  const std::function<void(int)>& progress) {
+    auto previewed = now(frame, options, range, stop);
+    if (!previewed || previewed->tracks_final || reachesBack(options)) return previewed;
+    if (!prepareMotion(frame, options, range, stop)) return std::nullopt;
+    Tracker tracker(options.tracking, source_.scale);
+    for (FrameIndex before = std::max(source_.first_frame, frame - range); before < frame; ++before) {
+        if (stop.stop_requested()) return std::nullopt;
+        if (progress) progress(frame - before);
+        Known* past = known(before);
+        if (past == nullptr) continue;
+        const FrameResult result = secondHalf(*past, options);
+        tracker.next(result.motion, result.detections, nullptr, looksOf(*past, options));
+    }
+    // By the longer window, which is nearer to a run.
+    if (previewed->approximate) previewed->result = secondHalf(*known(frame), options);
+    previewed->result.tracks =
+        tracker.next(previewed->result.motion, previewed->result.detections, nullptr, looksOf(*known(frame), options));
+    previewed->tracks_final = true;
+    if (const Known* present = known(frame)) adoptIds(previewed->result.tracks, present->stored.tracks);
+    return previewed;
+}
+
+}  // namespace eyrie

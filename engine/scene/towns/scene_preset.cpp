@@ -1,0 +1,40 @@
+#include "scene/towns/scene_preset.h"
+
+#include <array>
+
+#include "core/error.h"
+#include "scene/towns/presets.h"
+
+namespace eyrie {
+namespace {
+
+struct Preset {
+    const char* name;
+    SceneDescription (*make)(std::uint32_t seed);
+    std::uint32_t seed;
+};
+
+constexpr std::array<Preset, 4> kPresets{
+    {{"seq1", presetSeq1, 1}, {"seq2", presetSeq2, 1}, {"egtest01", presetEgTest01, 1}, {"demo", presetDemo, 1}}};
+
+}  // namespace
+
+const std::vector<std::string>& scenePresetNames() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list;
+        for (const Preset& preset : kPresets) list.emplace_back(preset.name);
+        return list;
+    }();
+    return names;
+}
+
+SceneDescription scenePreset(const std::string& name, std::uint32_t seed) {
+    std::string known;
+    for (const Preset& preset : kPresets) {
+        if (name == preset.name) return preset.make(seed == 0 ? preset.seed : seed);
+        known += (known.empty() ? "" : ", ") + std::string(preset.name);
+    }
+    throw Error(ErrorKind::parameter, "There is no scene '" + name + "'; the scenes are " + known + ".");
+}
+
+}  // namespace eyrie

@@ -1,0 +1,161 @@
+#include "store/health/project_repair.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <optional>
+
+#include "store/database/database_error.h"
+#include "store/database/new_place.h"
+#include "store/database/stop_handler.h"
+#include "store/health/damaged_copy.h"
+#include "store/health/file_check.h"
+#include "store/health/raw_file.h"
+#include "store/health/report_text.h"
+#include "store/health/rescued_rows.h"
+#include "store/health/table_rescue.h"
+#include "store/project/project_file.h"
+
+namespace eyrie {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// A folder beside the new project that vanishes with all that was needed on the way.
+class Workshop {
+ public:
+    explicit Workshop(const Path& fresh) : path_(lockFileBeside(fresh, ".repair-" + std::to_string(getpid()))) {
+        std::error_code failed;
+        std::filesystem::remove_all(path_, failed);
+        if (!std::filesystem::create_directory(path_, failed)) {
+            throw Error(ErrorKind::output, "the project " + fresh.string() + " cannot be made (" + failed.message() +
+                                               "); check that its folder exists and may be written");
+        }
+    }
+    ~Workshop() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Workshop(const Workshop&) = delete;
+    Workshop& operator=(const Workshop&) = delete;
+    const Path& path() const { return path_; }
+
+ private:
+    Path path_;
+};
+
+void refuseWithoutRoom(const Path& damaged, const Path& fresh) {
+    std::error_code failed;
+    if (std::filesystem::exists(fresh, failed)) {
+        throw Error(ErrorKind::output,
+                    fresh.string() + " exists already; choose another name for the repaired project");
+    }
+    const auto file = RawFile::open(damaged);
+    const auto space = std::filesystem::space(std::filesystem::absolute(fresh).parent_path(), failed);
+    if (failed || !file || space.available / 2 > file->size()) return;
+    throw Error(ErrorKind::output, "there is too little room beside " + fresh.string() + ": " +
+                                       std::to_string(space.available / 1'000'000) + " MB are free, " +
+                                       std::to_string(2 * file->size() / 1'000'000 + 1) + " MB are needed");
+}
+
+/// Those that others belong to first: their numbers tell which rows to look for.
+constexpr char kTables[] =
+    "SELECT name FROM main.sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite_%' ORDER BY name NOT IN "
+    "('sequence', 'run', 'sweep', 'preset'), name";
+
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
+}
+
+std::vector<std::string> summaryOf(SQLite::Database& database) {
+    std::vector<std::string> saved;
+    SQLite::Statement runs(database,
+                           "SELECT id, name, (SELECT count(*) FROM frame WHERE run_id = run.id), (SELECT count(*) FROM "
+                           "track WHERE run_id = run.id AND confirmed) FROM run ORDER BY id");
+    while (runs.executeStep()) {
+        const std::string name = runs.getColumn(1).getString();
+        saved.push_back("run " + runs.getColumn(0).getString() + (name.empty() ? "" : " \"" + name + "\"") + ": " +
+                        counted(runs.getColumn(2).getInt(), "frame") + ", " +
+                        counted(runs.getColumn(3).getInt(), "track"));
+    }
+    struct Kind {
+        const char* table;
+        const char* one;
+        const char* many;
+    };
+    for (const Kind& kind :
+         {Kind{"labelled_object", "labelled object", "labelled objects"},
+          Kind{"ignore_region", "ignore region", "ignore regions"}, Kind{"review_mark", "review mark", "review marks"},
+          Kind{"edit_journal", "step of work on the labels", "steps of work on the labels"},
+          Kind{"preset", "preset", "presets"}, Kind{"sweep", "sweep", "sweeps"},
+          Kind{"sweep_point", "point of a sweep", "points of sweeps"},
+          Kind{"comparison", "comparison", "comparisons"}}) {
+        const auto count = database.execAndGet(std::string("SELECT count(*) FROM ") + kind.table).getInt64();
+        if (count > 0) saved.push_back(counted(count, kind.one, kind.many));
+    }
+    return saved;
+}
+
+/// Fills a new project from the copy of a damaged one; false when stopped.
+bool fill(SQLite::Database& database, const DamagedCopy& copy, const CopyWatch& watch, RepairReport& report) {
+    database.exec("PRAGMA foreign_keys = OFF");
+    // So that SQLite opens what contradicts itself; nothing but rows is taken from there.
+    sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 0, nullptr);
+    database.exec("PRAGMA writable_schema = ON");
+    {
+        SQLite::Statement attach(database, "ATTACH ? AS damaged");
+        attach.bind(1, copy.path.string());
+        attach.exec();
+    }
+    const StopHandler handler(database, watch.stop);
+    try {
+        const auto tables = textsOf(database, kTables);
+        bool frames_whole = true;
+        for (std::size_t i = 0; i < tables.size(); ++i) {
+            const TableRescue rescue = rescueTable(database, tables[i]);
+            if (tables[i] == "frame") frames_whole = rescue.whole;
+            if (!rescue.whole) report.lost.push_back("part of the rows of " + tables[i] + " (" + rescue.fault + ")");
+            if (watch.progress) watch.progress(static_cast<double>(i + 1) / static_cast<double>(tables.size()));
+        }
+        database.exec("DETACH damaged");
+        SQLite::Transaction transaction(database);
+        append(report.lost, dropImpossibleRows(database));
+        append(report.lost, mendReferences(database));
+        append(report.lost, mendRuns(database, frames_whole));
+        append(report.lost, mendLabels(database));
+        transaction.commit();
+    } catch (const SQLite::Exception& exception) {
+        if (exception.getErrorCode() == SQLITE_INTERRUPT) return false;
+        throw;
+    }
+    report.saved = summaryOf(database);
+    return true;
+}
+
+}  // namespace
+
+RepairReport repairProject(const Path& damaged, const Path& fresh, const CopyWatch& watch) {
+    std::error_code missing;
+    if (!std::filesystem::is_regular_file(damaged, missing)) checkFile(damaged);  // throws
+    refuseWithoutRoom(damaged, fresh);
+    const Workshop workshop(fresh);
+    RepairReport report;
+    const DamagedCopy copy = copyDamaged(damaged, workshop.path(), watch);
+    report.lost = copy.notes;
+    const Path made = workshop.path() / "new.eyrie";
+    report.stopped = copy.stopped || !guarded(fresh, "saving what can be read", [&] {
+                         ProjectFile project = ProjectFile::create(made);
+                         const bool whole = fill(project.database(), copy, watch, report);
+                         project.database().exec("PRAGMA journal_mode = DELETE");
+                         return whole;
+                     });
+    if (report.stopped) return report;
+    const NewPlace place(fresh);
+    if (const auto error = renameWithoutReplacing(made, fresh)) {
+        throw Error(ErrorKind::output, "the project " + fresh.string() + " cannot be made (" + error.message() + ")");
+    }
+    return report;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,168 @@
+#include "store/health/rescued_rows.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "store/database/rows.h"
+#include "store/health/report_text.h"
+#include "store/health/row_rules.h"
+#include "store/labels/journal_check.h"
+#include "store/labels/label_rows.h"
+#include "store/project/sequence_rows.h"
+
+namespace eyrie {
+namespace {
+
+struct Reference {
+    std::string table;
+    std::string column;
+    std::string parent;
+    std::string parent_column;
+};
+
+std::vector<Reference> referencesOf(SQLite::Database& database) {
+    SQLite::Statement statement(database,
+                                "SELECT entry.name, fk.\"from\", fk.\"table\", coalesce(fk.\"to\", 'id') FROM "
+                                "sqlite_schema AS entry, pragma_foreign_key_list(entry.name) AS fk WHERE entry.type = "
+                                "'table'");
+    std::vector<Reference> references;
+    while (statement.executeStep()) {
+        RowReader row(statement);
+        Reference reference;
+        reference.table = row.text();
+        reference.column = row.text();
+        reference.parent = row.text();
+        reference.parent_column = row.text();
+        references.push_back(std::move(reference));
+    }
+    return references;
+}
+
+/// Numbers of `parent` that rows of other tables name and that are not there.
+std::vector<int> lostParents(SQLite::Database& database, const std::vector<Reference>& references,
+                             const std::string& parent) {
+    std::string query;
+    for (const Reference& reference : references) {
+        if (reference.parent != parent) continue;
+        query += (query.empty() ? "" : " UNION ") + ("SELECT " + reference.column + " AS id FROM " + reference.table);
+    }
+    SQLite::Statement statement(
+        database,
+        "SELECT id FROM (" + query + ") WHERE id BETWEEN 1 AND 100000 AND id NOT IN (SELECT id FROM " + parent + ")");
+    std::vector<int> ids;
+    while (statement.executeStep()) ids.push_back(statement.getColumn(0).getInt());
+    return ids;
+}
+
+void makeRun(SQLite::Database& database, int id) {
+    // It is of the only video if there is one; else of one that is made below.
+    SQLite::Statement add(database, R"sql(
+INSERT INTO run (id, sequence_id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, frame_rate_hz,
+    first_frame, last_frame, state, message)
+SELECT ?1, CASE (SELECT count(*) FROM sequence) WHEN 1 THEN (SELECT id FROM sequence)
+        ELSE (SELECT coalesce(max(id), 0) + 1 FROM sequence) END, '', ?2, '', '', 0.25, 0, 25,
+    coalesce(min(frame), 0), coalesce(max(frame), 0), 'failed', 'its description was lost'
+FROM (SELECT frame FROM frame WHERE run_id = ?1 UNION ALL SELECT frame FROM track_state WHERE run_id = ?1)
+)sql");
+    RowWriter(add).integer(id).text(nowUtc()).run();
+}
+
+void makeSequence(SQLite::Database& database, int id) {
+    SQLite::Statement add(database, R"sql(
+INSERT INTO sequence (id, path, width, height, frame_count, frame_rate_hz)
+SELECT ?1, '/lost/video ' || ?1,
+    coalesce((SELECT max(frame.width) FROM frame JOIN run ON run.id = run_id WHERE sequence_id = ?1), 1),
+    coalesce((SELECT max(frame.height) FROM frame JOIN run ON run.id = run_id WHERE sequence_id = ?1), 1),
+    coalesce((SELECT max(last_frame) + 1 FROM run WHERE sequence_id = ?1), 1), 25
+)sql");
+    RowWriter(add).integer(id).run();
+}
+
+}  // namespace
+
+std::vector<std::string> dropImpossibleRows(SQLite::Database& database) {
+    addRowFunctions(database);
+    std::vector<std::string> lost;
+    for (const RowRule& rule : rowRules()) {
+        const int dropped = database.exec("DELETE FROM " + rule.table + " WHERE NOT (" + rule.condition + ")");
+        if (dropped > 0) lost.push_back(counted(dropped, "row") + " of " + rule.table + " left out: " + rule.what);
+    }
+    return lost;
+}
+
+std::vector<std::string> mendReferences(SQLite::Database& database) {
+    const auto references = referencesOf(database);
+    std::vector<std::string> lost;
+    for (const int id : lostParents(database, references, "run")) {
+        makeRun(database, id);
+        lost.push_back("the description of run " + std::to_string(id) + ": video, scale and parameters");
+    }
+    for (const int id : lostParents(database, references, "sequence")) {
+        makeSequence(database, id);
+        lost.push_back("name and frame rate of video " + std::to_string(id));
+    }
+    for (const Reference& reference : references) {
+        const int dropped =
+            database.exec("DELETE FROM " + reference.table + " WHERE " + reference.column + " NOT IN (SELECT " +
+                          reference.parent_column + " FROM " + reference.parent + ")");
+        if (dropped > 0) {
+            lost.push_back(counted(dropped, "row") + " of " + reference.table + " left out: their " + reference.parent +
+                           " is lost");
+        }
+    }
+    return lost;
+}
+
+std::vector<std::string> mendRuns(SQLite::Database& database, bool frames_whole) {
+    // As TrackRows adds them up.
+    database.exec("DELETE FROM track");
+    database.exec(R"sql(
+INSERT INTO track (run_id, id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, width_sum)
+SELECT run_id, track_id, min(frame), max(frame), count(*), max(status <> 'tentative'), sum(sqrt(vx * vx + vy * vy)),
+    sum(length), sum(width) FROM track_state GROUP BY run_id, track_id
+)sql");
+    database.exec("UPDATE run SET state = 'stopped' WHERE state = 'running'");
+
+    std::vector<std::string> lost;
+    SQLite::Statement statement(database, R"sql(
+SELECT id, first_frame, coalesce((SELECT max(frame) FROM (
+    SELECT max(frame) AS frame FROM frame WHERE run_id = run.id
+    UNION ALL SELECT max(frame) FROM track_state WHERE run_id = run.id
+    UNION ALL SELECT max(frame) FROM motion_vectors WHERE run_id = run.id
+    UNION ALL SELECT last_frame FROM run AS planned WHERE planned.id = run.id AND state = 'finished' AND ?1 = 0)), -1),
+    (SELECT count(*) FROM frame WHERE run_id = run.id) FROM run
+)sql");
+    statement.bind(1, frames_whole ? 1 : 0);
+    SQLite::Statement fail(database, "UPDATE run SET state = 'failed', message = ? WHERE id = ?");
+    while (statement.executeStep()) {
+        RowReader row(statement);
+        const int id = row.integer();
+        const int first = row.integer();
+        const int last = row.integer();
+        const int there = row.integer();
+        const int expected = last < first ? 0 : last - first + 1;
+        if (there >= expected) continue;
+        const std::string words = std::to_string(expected - there) + " of " + counted(expected, "frame") +
+                                  " were lost when the project was damaged";
+        RowWriter(fail).text(words).integer(id).run();
+        lost.push_back("run " + std::to_string(id) + ": " + std::to_string(expected - there) + " of " +
+                       counted(expected, "frame"));
+    }
+    return lost;
+}
+
+std::vector<std::string> mendLabels(SQLite::Database& database) {
+    raiseCounter(database, "object",
+                 database.execAndGet("SELECT coalesce(max(id), 0) + 1 FROM labelled_object").getInt64());
+    raiseCounter(database, "region",
+                 database.execAndGet("SELECT coalesce(max(id), 0) + 1 FROM ignore_region").getInt64());
+    int dropped = 0;
+    for (const std::string& id : textsOf(database, "SELECT id FROM sequence")) {
+        const JournalCheck journal = checkJournal(database, std::stoi(id));
+        dropMisfits(database, std::stoi(id), journal);
+        dropped += journal.done - journal.done_fitting + journal.undone - journal.undone_fitting;
+    }
+    if (dropped == 0) return {};
+    return {counted(dropped, "step") + " of work on the labels that could be undone or redone"};
+}
+
+}  // namespace eyrie

@@ -1,0 +1,125 @@
+#include "store/health/row_rules.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include "store/labels/packed_labels.h"
+#include "store/project/sequence_rows.h"
+#include "store/runs/packed_arrays.h"
+#include "store/runs/stored_words.h"
+
+namespace eyrie {
+namespace {
+
+constexpr char kPixels[] = " BETWEEN 1 AND 65536";
+constexpr char kRate[] = " BETWEEN 1e-9 AND 1e9";
+
+template <class Enum, std::size_t count>
+std::string isOneOf(const std::string& column, const std::array<stored::Word<Enum>, count>& words) {
+    std::string condition;
+    for (const auto& entry : words)
+        condition += std::string(condition.empty() ? "'" : ", '").append(entry.word).append("'");
+    return column + " IN (" + condition + ")";
+}
+
+/// Texts that are read as a whole, of columns "a, b".
+std::string areShort(const std::string& columns) {
+    std::string condition;
+    for (std::size_t at = 0; at < columns.size();) {
+        const std::size_t end = std::min(columns.find(',', at), columns.size());
+        condition += (condition.empty() ? "" : " AND ") + ("octets(" + columns.substr(at, end - at) + ") <= 65536");
+        at = end + 2;
+    }
+    return condition;
+}
+
+void answerOctets(sqlite3_context* context, int, sqlite3_value** values) {
+    sqlite3_result_int(context, sqlite3_value_bytes(values[0]));
+}
+
+/// SQL function of one value: whether `unpack` reads it. NULL is no array; rows have it for none.
+template <auto unpack>
+void answerReadable(sqlite3_context* context, int, sqlite3_value** values) {
+    const auto* data = static_cast<const std::byte*>(sqlite3_value_blob(values[0]));
+    const auto size = static_cast<std::size_t>(sqlite3_value_bytes(values[0]));
+    sqlite3_result_int(context, unpack(ByteView(data, size)).has_value() ? 1 : 0);
+}
+
+}  // namespace
+
+void addRowFunctions(SQLite::Database& database) {
+    const auto add = [&](const char* name, auto function) {
+        sqlite3_create_function(database.getHandle(), name, 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr, function,
+                                nullptr, nullptr);
+    };
+    add("are_motion_vectors", answerReadable<unpackMotionVectors>);
+    add("octets", answerOctets);
+    add("are_points", answerReadable<unpackPoints>);
+    add("are_indices", answerReadable<unpackIndices>);
+    add("are_keyframes", answerReadable<unpackKeyframes>);
+    add("are_corners", answerReadable<unpackPolygon>);
+}
+
+std::vector<RowRule> rowRules() {
+    const std::string frames = " BETWEEN 0 AND " + std::to_string(kLastFrame + 1);
+    const std::string frame = "frame" + frames;
+    const std::string range = "first_frame" + frames + " AND last_frame" + frames;
+    // Labels may end where nothing ends: there the video's length was unknown.
+    static_assert(kFinestGsd == 1e-4 && kCoarsestGsd == 1e4);  // written out below: no locale may turn their points
+    const std::string life = "first_frame >= 0 AND last_frame >= first_frame";
+    return {
+        {"sequence",
+         std::string("width") + kPixels + " AND height" + kPixels + " AND frame_count" + frames + " AND frame_rate_hz" +
+             kRate + " AND " + areShort("path"),
+         "size, length or frame rate of a video is impossible"},
+        {"run",
+         range + " AND gsd_m_per_px BETWEEN 1e-4 AND 1e4 AND frame_rate_hz" + kRate + " AND " +
+             isOneOf("state", stored::kRunStates) + " AND " +
+             areShort("name, started_utc, engine_version, preset, message"),
+         "range, scale or state of a run is impossible"},
+        {"frame",
+         frame + " AND width" + kPixels + " AND height" + kPixels + " AND corner_count >= 0 AND " +
+             isOneOf("registration_state", stored::kRegistrationStates) + " AND " + areShort("reason"),
+         "number, size or state of a frame is impossible"},
+        {"motion_vectors", frame + " AND are_motion_vectors(data)", "motion vectors of a frame cannot be read"},
+        {"stationary_corners", frame + " AND are_points(data)", "corners of a frame cannot be read"},
+        {"motion_cluster", frame + " AND are_indices(members)", "a cluster cannot be read"},
+        {"roi", frame, "frame of a search area is impossible"},
+        {"detection", frame + " AND are_indices(vectors) AND " + isOneOf("rejection", stored::kRejections),
+         "a detection cannot be read"},
+        {"track", range + " AND last_frame >= first_frame AND frames > 0", "life of a track is impossible"},
+        {"track_state",
+         frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
+             isOneOf("origin", stored::kStateOrigins),
+         "state of a track is impossible"},
+        {"unfinished_track_state",
+         frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
+             isOneOf("origin", stored::kStateOrigins),
+         "state of a track is impossible"},
+        {"run_state", frame, "state of a run is impossible"},
+        {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),
+         "a state left out of a track is impossible"},
+        {"labelled_object",
+         "id > 0 AND last_frame >= 0 AND are_keyframes(keyframes) AND length(keyframes) > 1 AND " +
+             isOneOf("origin", stored::kObjectOrigins) + " AND " + areShort("class, notes"),
+         "a labelled object cannot be read"},
+        {"ignore_region",
+         "id > 0 AND are_corners(polygon) AND " + life + " AND " + isOneOf("anchor", stored::kRegionAnchors) + " AND " +
+             areShort("notes"),
+         "an ignore region cannot be read"},
+        {"review_mark",
+         life + " AND " + isOneOf("state", stored::kReviewStates) + " AND " + areShort("person, when_utc"),
+         "a review mark is impossible"},
+        {"object_class", areShort("name"), "name of a class is impossible"},
+        {"edit_journal", "undone IN (0, 1) AND " + areShort("name, made_utc"), "a step of work cannot be read"},
+        {"run_parameter", areShort("name, value"), "a parameter of a run cannot be read"},
+        {"preset", areShort("name, saved_utc"), "a preset cannot be read"},
+        {"preset_value", areShort("preset, name, value"), "a value of a preset cannot be read"},
+        {"label_counter", "typeof(value) = 'integer' AND value >= 0", "a counter of the labels is impossible"},
+        {"sweep", std::string("json_valid(plan) AND point_count") + frames, "plan of a sweep cannot be read"},
+        {"sweep_point", "json_valid(figures) AND position >= 0", "figures of a sweep cannot be read"},
+        {"comparison", "json_valid(report)", "a comparison cannot be read"},
+    };
+}
+
+}  // namespace eyrie

@@ -1,0 +1,363 @@
+#include "store/project/schema.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "store/database/database_error.h"
+
+namespace eyrie::schema {
+namespace {
+
+// Headings are radians, as in the engine, so that a frame reads back to the bit. Packed arrays: packed_arrays.h.
+// Words (state, status, …): stored_words.h. A real that was not a number is NULL.
+void addRuns(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE sequence (
+    id INTEGER PRIMARY KEY,
+    path TEXT NOT NULL,
+    width INTEGER NOT NULL,
+    height INTEGER NOT NULL,
+    frame_count INTEGER NOT NULL,
+    frame_rate_hz REAL NOT NULL,
+    UNIQUE (path, width, height)
+);
+CREATE TABLE run (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    name TEXT NOT NULL,
+    started_utc TEXT NOT NULL,
+    engine_version TEXT NOT NULL,
+    preset TEXT NOT NULL,
+    gsd_m_per_px REAL NOT NULL,
+    gsd_known INTEGER NOT NULL,
+    frame_rate_hz REAL NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    state TEXT NOT NULL,
+    message TEXT NOT NULL
+);
+CREATE INDEX run_of_sequence ON run (sequence_id);
+CREATE TABLE run_parameter (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    value TEXT NOT NULL,
+    PRIMARY KEY (run_id, position)
+) WITHOUT ROWID;
+CREATE TABLE frame (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    time_us INTEGER NOT NULL,
+    width INTEGER NOT NULL,
+    height INTEGER NOT NULL,
+    registration_state TEXT NOT NULL,
+    reason TEXT NOT NULL,
+    from_frame INTEGER NOT NULL,
+    to_frame INTEGER NOT NULL,
+    h00 REAL, h01 REAL, h02 REAL, h10 REAL, h11 REAL, h12 REAL, h20 REAL, h21 REAL, h22 REAL,
+    inliers INTEGER NOT NULL,
+    rms_px REAL,
+    corner_count INTEGER NOT NULL,
+    motion_vector_count INTEGER NOT NULL,
+    detection_count INTEGER NOT NULL,
+    track_count INTEGER NOT NULL,
+    background_speed_sigma REAL,
+    read_ms REAL, corners_ms REAL, corner_tracking_ms REAL, homography_ms REAL, motion_ms REAL, clustering_ms REAL,
+    stacking_ms REAL, detection_ms REAL, removal_ms REAL, tracking_ms REAL, store_ms REAL,
+    PRIMARY KEY (run_id, frame)
+) WITHOUT ROWID;
+CREATE TABLE motion_vectors (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    data BLOB,
+    UNIQUE (run_id, frame)
+);
+CREATE TABLE stationary_corners (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    data BLOB,
+    UNIQUE (run_id, frame)
+);
+CREATE TABLE motion_cluster (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    members BLOB,
+    PRIMARY KEY (run_id, frame, number)
+) WITHOUT ROWID;
+CREATE TABLE roi (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    PRIMARY KEY (run_id, frame, number)
+) WITHOUT ROWID;
+CREATE TABLE detection (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    score REAL,
+    cluster INTEGER NOT NULL,
+    rejection TEXT NOT NULL,
+    vectors BLOB,
+    PRIMARY KEY (run_id, frame, number)
+) WITHOUT ROWID;
+CREATE TABLE track (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    id INTEGER NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    frames INTEGER NOT NULL,
+    confirmed INTEGER NOT NULL,
+    speed_sum REAL, length_sum REAL, width_sum REAL,
+    PRIMARY KEY (run_id, id)
+) WITHOUT ROWID;
+CREATE TABLE track_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    status TEXT NOT NULL,
+    origin TEXT NOT NULL,
+    age INTEGER NOT NULL,
+    hits INTEGER NOT NULL,
+    score REAL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame);
+)sql");
+}
+
+// Keyframes, polygons and steps of work as packed bytes: packed_labels.h. Counters: the next number of each kind, never
+// used again ("object", "region"), and how often labels were changed ("change").
+void addLabels(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE label_counter (
+    kind TEXT PRIMARY KEY,
+    value INTEGER NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE labelled_object (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    class TEXT NOT NULL,
+    colour INTEGER NOT NULL,
+    notes TEXT NOT NULL,
+    origin TEXT NOT NULL,
+    last_frame INTEGER NOT NULL,
+    keyframes BLOB NOT NULL
+);
+CREATE INDEX labelled_object_of_sequence ON labelled_object (sequence_id);
+CREATE TABLE ignore_region (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    polygon BLOB NOT NULL,
+    anchor TEXT NOT NULL,
+    reference_frame INTEGER NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    notes TEXT NOT NULL
+);
+CREATE INDEX ignore_region_of_sequence ON ignore_region (sequence_id);
+CREATE TABLE review_mark (
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    object_id INTEGER NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    state TEXT NOT NULL,
+    person TEXT NOT NULL,
+    when_utc TEXT NOT NULL,
+    PRIMARY KEY (sequence_id, position)
+) WITHOUT ROWID;
+CREATE TABLE object_class (
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    vehicle INTEGER NOT NULL,
+    colour INTEGER NOT NULL,
+    length_m REAL,
+    width_m REAL,
+    PRIMARY KEY (sequence_id, position)
+) WITHOUT ROWID;
+CREATE TABLE edit_journal (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    name TEXT NOT NULL,
+    made_utc TEXT NOT NULL,
+    undone INTEGER NOT NULL,
+    data BLOB NOT NULL
+);
+CREATE INDEX edit_journal_of_sequence ON edit_journal (sequence_id, undone, id);
+)sql");
+}
+
+void addComparisonsAndCompleteBoxes(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE comparison (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    made_utc TEXT NOT NULL,
+    sequence TEXT NOT NULL,
+    report TEXT NOT NULL
+);
+ALTER TABLE detection ADD COLUMN complete INTEGER NOT NULL DEFAULT 0;
+)sql");
+}
+
+// A plan and the figures of a point are JSON texts that engine/sweep writes and reads.
+void addSweeps(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE sweep (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    made_utc TEXT NOT NULL,
+    name TEXT NOT NULL,
+    point_count INTEGER NOT NULL,
+    plan TEXT NOT NULL
+);
+CREATE TABLE sweep_point (
+    sweep_id INTEGER NOT NULL REFERENCES sweep (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    seconds REAL,
+    figures TEXT NOT NULL,
+    PRIMARY KEY (sweep_id, position)
+) WITHOUT ROWID;
+)sql");
+}
+
+void addPresets(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE preset (
+    name TEXT PRIMARY KEY,
+    saved_utc TEXT NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE preset_value (
+    preset TEXT NOT NULL REFERENCES preset (name) ON DELETE CASCADE ON UPDATE CASCADE,
+    position INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    value TEXT NOT NULL,
+    PRIMARY KEY (preset, position)
+) WITHOUT ROWID;
+)sql");
+}
+
+// What was left out when the tracks of a run were finished, and why.
+void addDroppedStates(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE dropped_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    reason TEXT NOT NULL,
+    beside INTEGER NOT NULL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+)sql");
+}
+
+// When a run was removed by a person who can still change her mind; empty: it was not.
+void addRemovalOfRuns(SQLite::Database& database) {
+    database.exec("ALTER TABLE run ADD COLUMN removed_utc TEXT NOT NULL DEFAULT ''");
+}
+
+// What a run that ended early needs to be gone on with: the state of the chain after some frame (written by
+// engine/chain), and the tracks as they were before they were finished.
+void addRunStates(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE run_state (
+    run_id INTEGER PRIMARY KEY REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    data BLOB NOT NULL
+);
+CREATE TABLE unfinished_track_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    status TEXT NOT NULL,
+    origin TEXT NOT NULL,
+    age INTEGER NOT NULL,
+    hits INTEGER NOT NULL,
+    score REAL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+)sql");
+}
+
+constexpr std::array kMigrations{addRuns,          addLabels,   addComparisonsAndCompleteBoxes,
+                                 addSweeps,        addPresets,  addDroppedStates,
+                                 addRemovalOfRuns, addRunStates};
+
+}  // namespace
+
+std::span<const Migration> migrations() {
+    return kMigrations;
+}
+
+int currentNumber() {
+    return static_cast<int>(kMigrations.size());
+}
+
+int numberOf(SQLite::Database& database) {
+    return database.execAndGet("PRAGMA user_version").getInt();
+}
+
+void migrate(SQLite::Database& database, std::span<const Migration> steps) {
+    const int newest = static_cast<int>(steps.size());
+    while (numberOf(database) < newest) {
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        // Read again under the lock: another program may have been quicker.
+        const int number = numberOf(database);
+        if (number >= newest) break;
+        steps[static_cast<std::size_t>(number)](database);
+        database.exec("PRAGMA user_version = " + std::to_string(number + 1));
+        transaction.commit();
+    }
+}
+
+namespace {
+
+using Columns = std::map<std::string, std::vector<std::string>>;  // by table
+
+Columns columnsOf(SQLite::Database& database) {
+    Columns columns;
+    SQLite::Statement statement(database,
+                                "SELECT master.name, info.name FROM sqlite_master AS master, "
+                                "pragma_table_info(master.name) AS info WHERE master.type = 'table'");
+    while (statement.executeStep())
+        columns[statement.getColumn(0).getString()].push_back(statement.getColumn(1).getString());
+    return columns;
+}
+
+Columns columnsOfNewest() {
+    SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    migrate(database, migrations());
+    return columnsOf(database);
+}
+
+}  // namespace
+
+void checkTables(SQLite::Database& database) {
+    static const Columns expected = columnsOfNewest();
+    const Columns present = columnsOf(database);
+    for (const auto& [table, columns] : expected) {
+        const auto found = present.find(table);
+        if (found == present.end()) throw MalformedRow{"it has no table " + table};
+        for (const std::string& column : columns) {
+            if (std::find(found->second.begin(), found->second.end(), column) == found->second.end())
+                throw MalformedRow{"its table " + table + " has no column " + column};
+        }
+    }
+}
+
+}  // namespace eyrie::schema

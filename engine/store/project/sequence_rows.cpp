@@ -1,0 +1,56 @@
+#include "store/project/sequence_rows.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "store/database/database_error.h"
+#include "store/database/rows.h"
+
+namespace eyrie {
+
+std::string nowUtc() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return text;
+}
+
+FrameIndex readFrameNumber(RowReader& row) {
+    const FrameIndex frame = row.integer();
+    if (frame < 0 || frame > kLastFrame) throw MalformedRow{"a frame " + std::to_string(frame) + " that no video has"};
+    return frame;
+}
+
+void checkSequence(const SequenceRecord& sequence) {
+    const auto refuse = [&](const char* what) {
+        throw MalformedRow{"video " + std::to_string(sequence.id) + " has " + what};
+    };
+    constexpr int kLargestSide = 1 << 16;
+    const cv::Size size = sequence.size;
+    if (size.width < 1 || size.height < 1 || size.width > kLargestSide || size.height > kLargestSide)
+        refuse("an impossible size");
+    if (sequence.frame_count < 0 || sequence.frame_count > kLastFrame + 1) refuse("an impossible number of frames");
+    if (!(sequence.frame_rate_hz > 0 && std::isfinite(sequence.frame_rate_hz))) refuse("an impossible frame rate");
+}
+
+int storeSequence(SQLite::Database& database, const SequenceRecord& sequence) {
+    SQLite::Statement statement(database,
+                                "INSERT INTO sequence (path, width, height, frame_count, frame_rate_hz) "
+                                "VALUES (?, ?, ?, ?, ?) ON CONFLICT (path, width, height) DO UPDATE SET "
+                                "frame_count = excluded.frame_count, frame_rate_hz = excluded.frame_rate_hz "
+                                "RETURNING id");
+    statement.bind(1, sequence.path);
+    statement.bind(2, sequence.size.width);
+    statement.bind(3, sequence.size.height);
+    statement.bind(4, sequence.frame_count);
+    statement.bind(5, sequence.frame_rate_hz);
+    statement.executeStep();
+    return statement.getColumn(0).getInt();
+}
+
+}  // namespace eyrie

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "store/runs/run_store.h"
+
+namespace SQLite {
+class Database;
+}
+
+namespace eyrie {
+
+/// Now, ISO 8601.
+std::string nowUtc();
+
+/// No video is longer: a day at 230 frames a second.
+inline constexpr FrameIndex kLastFrame = 20'000'000;
+
+/// Metres per pixel of a stored run; beyond them a vehicle has no size in whole pixels.
+inline constexpr double kFinestGsd = 1e-4;
+inline constexpr double kCoarsestGsd = 1e4;
+
+class RowReader;
+/// The next column as the number of a frame. Throws MalformedRow for one that no video has.
+FrameIndex readFrameNumber(RowReader& row);
+
+/// Throws MalformedRow for a video that cannot be.
+void checkSequence(const SequenceRecord& sequence);
+
+/// The row of a video, new or reused; a reused row takes over what is known of the video now. Answers its id. Throws
+/// SQLite::Exception.
+int storeSequence(SQLite::Database& database, const SequenceRecord& sequence);
+
+}  // namespace eyrie

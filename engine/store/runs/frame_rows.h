@@ -1,0 +1,54 @@
+#pragma once
+
+#include <SQLiteCpp/Statement.h>
+
+#include <vector>
+
+#include "core/values/frame_result.h"
+#include "store/runs/run_store.h"
+
+namespace SQLite {
+class Database;
+}
+
+namespace eyrie {
+
+/// Adds the states of one frame to a run's tracks, and keeps the sums in table `track` that summaries are read from.
+class TrackRows {
+ public:
+    explicit TrackRows(SQLite::Database& database);
+    void insert(int run_id, FrameIndex frame, const TrackState& state);
+    /// Takes the states of a frame out again, and the tracks that had no others. First and last frames of the others
+    /// stay: what comes in place is alike.
+    void erase(int run_id, FrameIndex frame);
+
+ private:
+    SQLite::Statement track_;
+    SQLite::Statement state_;
+    SQLite::Statement forget_states_;
+    SQLite::Statement forget_tracks_;
+    SQLite::Statement subtract_;
+};
+
+/// The prepared statements that add a frame to a run or take it out. The caller owns the transaction. `database` must
+/// outlive it.
+class FrameRows {
+ public:
+    explicit FrameRows(SQLite::Database& database);
+    /// Throws SQLite::Exception; then the caller's transaction must be rolled back.
+    void insert(int run_id, const FrameResult& result);
+    /// Leaves nothing of a frame, there or not. The same errors.
+    void erase(int run_id, FrameIndex frame);
+
+ private:
+    SQLite::Statement frame_;
+    SQLite::Statement vectors_;
+    SQLite::Statement corners_;
+    SQLite::Statement cluster_;
+    SQLite::Statement roi_;
+    SQLite::Statement detection_;
+    TrackRows tracks_;
+    std::vector<SQLite::Statement> forget_;  ///< one for each table but those of tracks
+};
+
+}  // namespace eyrie

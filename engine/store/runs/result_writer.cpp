@@ -1,0 +1,133 @@
+#include "store/runs/result_writer.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "store/database/rows.h"
+#include "store/project/sequence_rows.h"
+#include "store/runs/frame_rows.h"
+#include "store/runs/run_lock.h"
+#include "store/runs/run_state_store.h"
+
+namespace eyrie {
+namespace {
+
+int storeRun(SQLite::Database& database, const RunRecord& run) {
+    SQLite::Statement statement(
+        database,
+        "INSERT INTO run (sequence_id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, "
+        "frame_rate_hz, first_frame, last_frame, state, message) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    RowWriter(statement)
+        .integer(run.sequence.id)
+        .text(run.name)
+        .text(run.started_utc)
+        .text(run.engine_version)
+        .text(run.preset)
+        .real(run.scale.gsd_m_per_px)
+        .integer(run.scale.gsd_known)
+        .real(run.scale.frame_rate_hz)
+        .integer(run.first_frame)
+        .integer(run.last_frame)
+        .word(stored::kRunStates, run.state)
+        .text(run.message)
+        .run();
+    return static_cast<int>(database.getLastInsertRowid());
+}
+
+void storeParameters(SQLite::Database& database, int run_id,
+                     const std::vector<std::pair<std::string, std::string>>& parameters) {
+    SQLite::Statement statement(database,
+                                "INSERT INTO run_parameter (run_id, position, name, value) VALUES (?, ?, ?, ?)");
+    int position = 0;
+    for (const auto& [name, value] : parameters) {
+        RowWriter(statement).integer(run_id).integer(position++).text(name).text(value).run();
+    }
+}
+
+}  // namespace
+
+struct ResultWriter::Implementation {
+    explicit Implementation(const std::filesystem::path& path)
+        : project(ProjectFile::open(path)), rows(project.database()) {}
+
+    ProjectFile project;
+    FrameRows rows;
+    std::unique_ptr<FileLock> lock;
+    int run_id = 0;
+    FrameIndex replaced_up_to = -1;  ///< frames up to here may be stored already
+};
+
+ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
+                           const std::vector<std::pair<std::string, std::string>>& parameters)
+    : implementation_(std::make_unique<Implementation>(project)) {
+    SQLite::Database& database = implementation_->project.database();
+    const std::filesystem::path& path = implementation_->project.path();
+    for (const RunRecord& earlier : RunStore(implementation_->project).runs()) {
+        if (earlier.state == RunState::running) clearRunLock(path, earlier.id);
+    }
+    guarded(implementation_->project.path(), "adding a run", [&] {
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        run.sequence.id = storeSequence(database, run.sequence);
+        if (run.started_utc.empty()) run.started_utc = nowUtc();
+        implementation_->run_id = storeRun(database, run);
+        // Taken before others can see the run. Where nothing can be locked the run is written all the same.
+        implementation_->lock = FileLock::tryTake(runLockFile(path, implementation_->run_id)).lock;
+        storeParameters(database, implementation_->run_id, parameters);
+        transaction.commit();
+    });
+}
+
+ResultWriter::ResultWriter(const std::filesystem::path& project, int run_id, FrameIndex last)
+    : implementation_(std::make_unique<Implementation>(project)) {
+    const std::filesystem::path& path = implementation_->project.path();
+    FileLock::Attempt attempt = FileLock::tryTake(runLockFile(path, run_id));
+    if (attempt.outcome == FileLock::Outcome::held) {
+        throw Error(ErrorKind::project, "run " + std::to_string(run_id) + " of " + path.string() +
+                                            " is being written by " + attempt.words + "; let it end there first");
+    }
+    implementation_->lock = std::move(attempt.lock);
+    implementation_->run_id = run_id;
+    implementation_->replaced_up_to = RunStateStore(implementation_->project).takeUp(run_id, last);
+}
+
+ResultWriter::~ResultWriter() = default;
+
+int ResultWriter::runId() const {
+    return implementation_->run_id;
+}
+
+void ResultWriter::write(const FrameResult& result) {
+    const std::string doing = "storing frame " + std::to_string(result.motion.frame);
+    implementation_->project.checkInPlace();
+    guarded(implementation_->project.path(), doing, [&] {
+        SQLite::Transaction transaction(implementation_->project.database(), SQLite::TransactionBehavior::IMMEDIATE);
+        if (result.motion.frame <= implementation_->replaced_up_to) {
+            implementation_->rows.erase(implementation_->run_id, result.motion.frame);
+        }
+        implementation_->rows.insert(implementation_->run_id, result);
+        transaction.commit();
+    });
+}
+
+void ResultWriter::keepState(FrameIndex frame, const std::string& bytes) {
+    implementation_->project.checkInPlace();
+    RunStateStore(implementation_->project).keep(implementation_->run_id, frame, bytes);
+}
+
+void ResultWriter::finish(RunState state, const std::string& message) {
+    implementation_->project.checkInPlace();
+    guarded(implementation_->project.path(), "recording how the run ended", [&] {
+        SQLite::Database& database = implementation_->project.database();
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        SQLite::Statement statement(database, "UPDATE run SET state = ?, message = ? WHERE id = ?");
+        RowWriter(statement).word(stored::kRunStates, state).text(message).integer(implementation_->run_id).run();
+        if (state == RunState::finished) {
+            for (const char* table : {"run_state", "unfinished_track_state"}) {
+                SQLite::Statement rest(database, std::string("DELETE FROM ") + table + " WHERE run_id = ?");
+                RowWriter(rest).integer(implementation_->run_id).run();
+            }
+        }
+        transaction.commit();
+    });
+}
+
+}  // namespace eyrie

@@ -1,0 +1,258 @@
+#include "store/runs/run_store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "store/database/rows.h"
+#include "store/project/sequence_rows.h"
+#include "store/runs/frame_rows.h"
+#include "store/runs/of_run.h"
+#include "store/runs/run_lock.h"
+
+namespace eyrie {
+namespace {
+
+/// What the rest of Eyrie divides by and counts up to.
+void check(const RunRecord& run) {
+    const auto refuse = [&](const char* what) { throw MalformedRow{"run " + std::to_string(run.id) + " has " + what}; };
+    if (!(run.scale.gsd_m_per_px >= kFinestGsd && run.scale.gsd_m_per_px <= kCoarsestGsd))
+        refuse("an impossible scale");
+    if (!(run.scale.frame_rate_hz > 0 && std::isfinite(run.scale.frame_rate_hz)))
+        refuse("a frame rate that is not above 0");
+    if (run.first_frame < 0 || run.last_frame > kLastFrame) refuse("frames outside every video");
+    checkSequence(run.sequence);
+}
+
+RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& project) {
+    RowReader row(statement);
+    RunRecord run;
+    run.id = row.integer();
+    run.name = row.text();
+    run.started_utc = row.text();
+    run.engine_version = row.text();
+    run.preset = row.text();
+    run.scale.gsd_m_per_px = row.real();
+    run.scale.gsd_known = row.integer() != 0;
+    run.scale.frame_rate_hz = row.real();
+    run.first_frame = row.integer();
+    run.last_frame = row.integer();
+    run.state = row.word(stored::kRunStates);
+    run.message = row.text();
+    run.sequence.id = row.integer();
+    run.sequence.path = row.text();
+    run.sequence.size.width = row.integer();
+    run.sequence.size.height = row.integer();
+    run.sequence.frame_count = row.integer();
+    run.sequence.frame_rate_hz = row.real();
+    run.frames_done = row.integer();
+    check(run);
+    if (run.state == RunState::running) {
+        const auto writer = FileLock::holderOf(runLockFile(project, run.id));
+        run.live = writer.has_value();
+        run.writer = writer.value_or("");
+    }
+    return run;
+}
+
+enum class Shown { yes, removed };
+
+/// Reads all runs, or the one with `run_id` if it is above 0.
+std::vector<RunRecord> readRuns(ProjectFile& project, int run_id, Shown shown = Shown::yes) {
+    SQLite::Statement statement(
+        project.database(),
+        "SELECT run.id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, run.frame_rate_hz, "
+        "first_frame, last_frame, state, message, sequence.id, path, width, height, frame_count, "
+        "sequence.frame_rate_hz, (SELECT count(*) FROM frame WHERE frame.run_id = run.id) "
+        "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE ?1 IN (0, run.id) AND (removed_utc <> '') = ?2 "
+        "ORDER BY run.id");
+    statement.bind(1, run_id);
+    statement.bind(2, shown == Shown::removed ? 1 : 0);
+    std::vector<RunRecord> runs;
+    while (statement.executeStep()) runs.push_back(readRun(statement, project.path()));
+    return runs;
+}
+
+}  // namespace
+
+const char* nameOf(RunState state) {
+    switch (state) {
+        case RunState::running:
+            return "running";
+        case RunState::finished:
+            return "finished";
+        case RunState::stopped:
+            return "stopped";
+        case RunState::failed:
+            return "failed";
+    }
+    return "";
+}
+
+FrameSummary summaryOf(const FrameResult& result) {
+    FrameSummary summary;
+    summary.frame = result.motion.frame;
+    summary.time_us = result.motion.time_us;
+    summary.state = result.motion.registration.state;
+    summary.inliers = result.motion.registration.current_from_previous.inliers;
+    summary.rms_px = result.motion.registration.current_from_previous.rms_px;
+    summary.corners = result.motion.corner_count;
+    summary.motion_vectors = static_cast<int>(result.motion.motion_vectors.size());
+    summary.detections = static_cast<int>(
+        std::count_if(result.detections.begin(), result.detections.end(),
+                      [](const Detection& detection) { return detection.rejection == Rejection::none; }));
+    summary.tracks =
+        static_cast<int>(std::count_if(result.tracks.begin(), result.tracks.end(),
+                                       [](const TrackState& state) { return state.status != TrackStatus::tentative; }));
+    summary.stage_ms = result.stage_ms;
+    return summary;
+}
+
+std::vector<RunRecord> RunStore::runs() const {
+    return guarded(project_.path(), "listing the runs", [&] { return readRuns(project_, 0); });
+}
+
+std::optional<RunRecord> RunStore::run(int run_id) const {
+    if (run_id <= 0) return std::nullopt;
+    return guarded(project_.path(), "reading run " + std::to_string(run_id), [&]() -> std::optional<RunRecord> {
+        auto found = readRuns(project_, run_id);
+        if (found.empty()) return std::nullopt;
+        return std::move(found.front());
+    });
+}
+
+std::vector<std::pair<std::string, std::string>> RunStore::parameters(int run_id) const {
+    return guarded(project_.path(), "reading the parameters" + ofRun(run_id), [&] {
+        SQLite::Statement statement(project_.database(),
+                                    "SELECT name, value FROM run_parameter WHERE run_id = ? ORDER BY position");
+        statement.bind(1, run_id);
+        std::vector<std::pair<std::string, std::string>> parameters;
+        while (statement.executeStep()) {
+            RowReader row(statement);
+            std::string name = row.text();
+            parameters.emplace_back(std::move(name), row.text());
+        }
+        return parameters;
+    });
+}
+
+std::vector<FrameSummary> RunStore::frameSummaries(int run_id) const {
+    return guarded(project_.path(), "reading the frames" + ofRun(run_id), [&] {
+        std::string query =
+            "SELECT frame, time_us, registration_state, inliers, rms_px, corner_count, motion_vector_count, "
+            "detection_count, track_count";
+        for (const char* stage : stored::kStageColumns) query += std::string(", ") + stage;
+        SQLite::Statement statement(project_.database(), query + " FROM frame WHERE run_id = ? ORDER BY frame");
+        statement.bind(1, run_id);
+        std::vector<FrameSummary> summaries;
+        while (statement.executeStep()) {
+            RowReader row(statement);
+            FrameSummary summary;
+            summary.frame = readFrameNumber(row);
+            summary.time_us = row.wide();
+            summary.state = row.word(stored::kRegistrationStates);
+            summary.inliers = row.integer();
+            summary.rms_px = row.real();
+            summary.corners = row.integer();
+            summary.motion_vectors = row.integer();
+            summary.detections = row.integer();
+            summary.tracks = row.integer();
+            for (float& ms : summary.stage_ms) ms = static_cast<float>(row.real());
+            summaries.push_back(summary);
+        }
+        return summaries;
+    });
+}
+
+void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
+                                  const std::vector<std::pair<FrameIndex, DroppedState>>& dropped) {
+    const auto all = [&](const StateVisitor& visitor) {
+        for (const TrackFrame& state : states) visitor(state.frame, state.state);
+    };
+    replaceTracks(run_id, all, [&](const DropVisitor& visitor) {
+        for (const auto& [frame, state] : dropped) visitor(frame, state);
+    });
+}
+
+void RunStore::replaceTracks(int run_id, const std::function<void(const StateVisitor&)>& states,
+                             const std::function<void(const DropVisitor&)>& dropped) {
+    guarded(project_.path(), "replacing the tracks" + ofRun(run_id), [&] {
+        SQLite::Database& database = project_.database();
+        SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        const auto removeFrom = [&](const std::string& table) {
+            SQLite::Statement statement(database, "DELETE FROM " + table + " WHERE run_id = ?");
+            RowWriter(statement).integer(run_id).run();
+        };
+        removeFrom("dropped_state");
+        SQLite::Statement left_out(database,
+                                   "INSERT OR REPLACE INTO dropped_state (run_id, frame, track_id, x, y, length, "
+                                   "width, heading_rad, reason, beside) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        dropped([&](FrameIndex frame, const DroppedState& state) {
+            RowWriter(left_out)
+                .integer(run_id)
+                .integer(frame)
+                .integer(state.id)
+                .box(state.box)
+                .word(stored::kTrackDrops, state.why)
+                .integer(state.beside)
+                .run();
+        });
+        removeFrom("track_state");
+        removeFrom("track");
+        TrackRows rows(database);
+        states([&](FrameIndex frame, const TrackState& state) { rows.insert(run_id, frame, state); });
+        SQLite::Statement counts(database,
+                                 "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE "
+                                 "track_state.run_id = frame.run_id AND track_state.frame = frame.frame AND "
+                                 "status <> 'tentative') WHERE run_id = ?");
+        RowWriter(counts).integer(run_id).run();
+        transaction.commit();
+    });
+}
+
+void RunStore::rename(int run_id, const std::string& name) {
+    guarded(project_.path(), "renaming run " + std::to_string(run_id), [&] {
+        SQLite::Statement statement(project_.database(), "UPDATE run SET name = ? WHERE id = ?");
+        RowWriter(statement).text(name).integer(run_id).run();
+        refuseUnchanged(run_id);
+    });
+}
+
+void RunStore::remove(int run_id) {
+    const auto present = run(run_id);
+    if (present && present->live) {
+        throw Error(ErrorKind::project, "run " + std::to_string(run_id) + " of " + project_.path().string() +
+                                            " is being written by " + present->writer + "; stop it there first");
+    }
+    markRemoved(run_id, nowUtc());
+}
+
+void RunStore::restore(int run_id) {
+    markRemoved(run_id, "");
+}
+
+void RunStore::markRemoved(int run_id, const std::string& when_utc) {
+    guarded(project_.path(), "removing run " + std::to_string(run_id), [&] {
+        SQLite::Statement statement(project_.database(), "UPDATE run SET removed_utc = ? WHERE id = ?");
+        RowWriter(statement).text(when_utc).integer(run_id).run();
+        refuseUnchanged(run_id);
+    });
+}
+
+std::vector<RunRecord> RunStore::removedRuns() const {
+    return guarded(project_.path(), "listing the removed runs", [&] { return readRuns(project_, 0, Shown::removed); });
+}
+
+void RunStore::purgeRemoved() {
+    guarded(project_.path(), "deleting removed runs",
+            [&] { project_.database().exec("DELETE FROM run WHERE removed_utc <> ''"); });
+}
+
+void RunStore::refuseUnchanged(int run_id) const {
+    if (project_.database().getChanges() > 0) return;
+    throw Error(ErrorKind::project, "the project " + project_.path().string() + " has no run " +
+                                        std::to_string(run_id) + "; eyrie-cli info lists its runs");
+}
+
+}  // namespace eyrie

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/labels/box_record.h"
+#include "core/values/frame_result.h"
+#include "core/values/scene_scale.h"
+#include "store/project/project_file.h"
+
+namespace eyrie {
+
+enum class RunState { running, finished, stopped, failed };
+const char* nameOf(RunState state);
+
+/// The video a run worked on.
+struct SequenceRecord {
+    int id = 0;
+    std::string path;  ///< absolute path of the video file or image folder
+    cv::Size size;     ///< px
+    int frame_count = 0;
+    double frame_rate_hz = 25;
+};
+
+/// One run of the chain over a sequence.
+struct RunRecord {
+    int id = 0;
+    SequenceRecord sequence;
+    std::string name;         ///< given by the user; may be empty
+    std::string started_utc;  ///< ISO 8601, e.g. 2026-11-21T08:00:00Z
+    std::string engine_version;
+    std::string preset;  ///< name of the preset it started from
+    SceneScale scale;
+    FrameIndex first_frame = 0;  ///< planned range, inclusive
+    FrameIndex last_frame = 0;
+    int frames_done = 0;                 ///< whole frames in the file
+    RunState state = RunState::running;  ///< as stored; a killed run is found as `running` and is not `live`
+    bool live = false;                   ///< some program writes it at this moment
+    std::string writer;                  ///< who, if live: "process 4711 on oak (since 2026-11-21T08:00:00Z)"
+    std::string message;                 ///< why it failed
+};
+
+/// How a run stands: as stored, but a killed one is stopped.
+inline RunState stateNow(const RunRecord& run) {
+    return run.state == RunState::running && !run.live ? RunState::stopped : run.state;
+}
+
+/// One frame of a run, for the timeline.
+struct FrameSummary {
+    FrameIndex frame = 0;
+    std::int64_t time_us = 0;
+    RegistrationState state = RegistrationState::first;
+    int inliers = 0;
+    double rms_px = 0;
+    int corners = 0;
+    int motion_vectors = 0;
+    int detections = 0;  ///< kept ones
+    int tracks = 0;      ///< confirmed or coasting ones
+    StageTimes stage_ms{};
+};
+
+/// The same of a frame that was not stored yet, for live views.
+FrameSummary summaryOf(const FrameResult& result);
+
+/// One track of a run, for lists.
+struct TrackSummary {
+    TrackId id = 0;
+    FrameIndex first_frame = 0;
+    FrameIndex last_frame = 0;
+    int frames = 0;            ///< states
+    bool confirmed = false;    ///< was confirmed at least once; others are not part of the result
+    double mean_speed_px = 0;  ///< px/frame relative to the ground
+    double mean_length_px = 0;
+    double mean_width_px = 0;
+    double score = 0;  ///< of its first state; in a result the same in all: the probability of a vehicle that moves
+};
+
+/// One state of a track in a frame.
+struct TrackFrame {
+    FrameIndex frame = 0;
+    TrackState state;
+};
+
+/// Reads, and where said changes, the runs of a project. Throws Error(project) for contents that no writer wrote, a run
+/// to change that does not exist, or a project locked for seconds by another program.
+class RunStore {
+ public:
+    /// `project` must outlive the store.
+    explicit RunStore(ProjectFile& project) : project_(project) {}
+
+    std::vector<RunRecord> runs() const;  ///< oldest first
+    std::optional<RunRecord> run(int run_id) const;
+    std::vector<std::pair<std::string, std::string>> parameters(int run_id) const;
+    std::vector<FrameSummary> frameSummaries(int run_id) const;  ///< ascending frames
+    /// How each frame from `from` on was registered onto the one before it, ascending frames; for trails.
+    std::vector<Homography> homographies(int run_id, FrameIndex from = 0) const;
+    /// The same of all frames, with how each registration ended; for labelling over a moving camera.
+    std::vector<Registration> registrations(int run_id) const;
+    /// The same, one by one.
+    void visitRegistrations(int run_id, const std::function<void(const Registration&)>& visitor) const;
+    /// All a run knows of a frame; nothing when the run has no such frame.
+    std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
+    /// Its motion vectors alone, by ascending id; none when the run has no such frame.
+    std::vector<MotionVector> motionVectors(int run_id, FrameIndex frame) const;
+    /// Boxes of its kept detections that a classifier took for whole vehicles.
+    std::vector<OrientedBox> vehicleBoxes(int run_id, FrameIndex frame) const;
+    std::vector<TrackSummary> tracks(int run_id) const;                    ///< ascending id
+    std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;  ///< ascending frames
+    std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame,
+                                            int trail) const;  ///< states of frames (frame − trail, frame], for trails
+    /// Every state of every track, one by one, ordered by frame, then track.
+    void visitTrackStates(int run_id, const std::function<void(FrameIndex, const TrackState&)>& visitor) const;
+    /// The run's result as boxes: every state of the confirmed tracks, or the kept detections (id empty).
+    BoxesByFrame trackBoxes(int run_id) const;
+    BoxesByFrame detectionBoxes(int run_id) const;
+
+    /// Replaces all track states of a run, and what was left out of them, in one transaction (used once, when the
+    /// tracks of a run are finished).
+    void replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
+                            const std::vector<std::pair<FrameIndex, DroppedState>>& dropped = {});
+    /// The same with states one by one: `states` hands them to the visitor it is given, ordered by frame, and `dropped`
+    /// what was left out; only that one may still read the present states of the run meanwhile.
+    using StateVisitor = std::function<void(FrameIndex, const TrackState&)>;
+    using DropVisitor = std::function<void(FrameIndex, const DroppedState&)>;
+    void replaceTracks(int run_id, const std::function<void(const StateVisitor&)>& states,
+                       const std::function<void(const DropVisitor&)>& dropped);
+    void rename(int run_id, const std::string& name);
+    /// Takes a run out of all lists; it can be brought back until it is purged. Throws Error(project) naming the
+    /// program that writes the run at this moment.
+    void remove(int run_id);
+    void restore(int run_id);
+    std::vector<RunRecord> removedRuns() const;  ///< oldest first
+    /// Deletes what was removed, for good.
+    void purgeRemoved();
+
+ private:
+    void refuseUnchanged(int run_id) const;
+    void markRemoved(int run_id, const std::string& when_utc);
+    ProjectFile& project_;
+};
+
+}  // namespace eyrie

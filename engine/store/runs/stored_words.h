@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/labels/annotation.h"
+#include "core/values/corner.h"
+#include "core/values/detection.h"
+#include "core/values/dropped_state.h"
+#include "core/values/frame_result.h"
+#include "core/values/track_state.h"
+#include "store/runs/run_store.h"
+
+/// Enumerators as words in the file, apart from the words on screen: they may not change when those do.
+namespace eyrie::stored {
+
+template <class Enum>
+struct Word {
+    Enum value;
+    std::string_view word;
+};
+
+inline constexpr std::array<Word<RunState>, 4> kRunStates{{{RunState::running, "running"},
+                                                           {RunState::finished, "finished"},
+                                                           {RunState::stopped, "stopped"},
+                                                           {RunState::failed, "failed"}}};
+inline constexpr std::array<Word<RegistrationState>, 4> kRegistrationStates{
+    {{RegistrationState::first, "first"},
+     {RegistrationState::registered, "registered"},
+     {RegistrationState::frozen, "frozen"},
+     {RegistrationState::failed, "failed"}}};
+inline constexpr std::array<Word<Rejection>, 4> kRejections{{{Rejection::none, "none"},
+                                                             {Rejection::duplicate, "duplicate"},
+                                                             {Rejection::outlier, "outlier"},
+                                                             {Rejection::size, "size"}}};
+inline constexpr std::array<Word<TrackStatus>, 3> kTrackStatuses{{{TrackStatus::tentative, "tentative"},
+                                                                  {TrackStatus::confirmed, "confirmed"},
+                                                                  {TrackStatus::coasting, "coasting"}}};
+inline constexpr std::array<Word<TrackDrop>, 7> kTrackDrops{{{TrackDrop::unconfirmed, "unconfirmed"},
+                                                             {TrackDrop::too_small, "too small"},
+                                                             {TrackDrop::shares_place, "shares place"},
+                                                             {TrackDrop::shadow, "shadow"},
+                                                             {TrackDrop::hardly_detected, "hardly detected"},
+                                                             {TrackDrop::could_stand, "could stand"},
+                                                             {TrackDrop::unlikely, "unlikely"}}};
+inline constexpr std::array<Word<StateOrigin>, 3> kStateOrigins{{{StateOrigin::detected, "detected"},
+                                                                 {StateOrigin::reconstructed, "reconstructed"},
+                                                                 {StateOrigin::predicted, "predicted"}}};
+
+inline constexpr std::array<Word<ObjectOrigin>, 4> kObjectOrigins{
+    {{ObjectOrigin::hand, "hand"},
+     {ObjectOrigin::proposal_accepted, "proposal accepted"},
+     {ObjectOrigin::proposal_corrected, "proposal corrected"},
+     {ObjectOrigin::imported, "imported"}}};
+inline constexpr std::array<Word<RegionAnchor>, 2> kRegionAnchors{
+    {{RegionAnchor::image, "image"}, {RegionAnchor::ground, "ground"}}};
+inline constexpr std::array<Word<ReviewState>, 3> kReviewStates{
+    {{ReviewState::unseen, "unseen"}, {ReviewState::checked, "checked"}, {ReviewState::questionable, "questionable"}}};
+
+/// Columns of table `frame`, in the order of `Stage`.
+inline constexpr std::array<const char*, kStageCount> kStageColumns{
+    "read_ms",     "corners_ms",   "corner_tracking_ms", "homography_ms", "motion_ms", "clustering_ms",
+    "stacking_ms", "detection_ms", "removal_ms",         "tracking_ms",   "store_ms"};
+
+}  // namespace eyrie::stored

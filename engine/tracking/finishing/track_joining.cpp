@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/geometry/angle.h"
+#include "tracking/association/best_assignment.h"
+#include "tracking/finishing/track_paths.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kAcceleration = 3;        ///< m/s² by which a vehicle may change its motion unseen
+constexpr double kSizeRatio = 2.2;         ///< between the areas of fragments of one vehicle
+constexpr double kJoinedSpeedShare = 0.4;  ///< difference of velocities, as a share of the speed
+constexpr double kJoinedSpeedFloor = 0.3;  ///< px/frame
+constexpr double kMaxTurn = kPi / 3;       ///< between the directions of fast fragments
+constexpr double kFastSpeed = 1;           ///< px/frame from which directions are compared
+
+/// The last frame an earlier track may keep when a later one continues it; its unseen states from there on are cut.
+FrameIndex usableEnd(const TrackPath& earlier, const TrackPath& later) {
+    return std::min(earlier.lastFrame(), later.firstFrame() - 1);
+}
+
+FrameIndex lastDetected(const TrackPath& path) {
+    for (auto state = path.states.rbegin(); state != path.states.rend(); ++state) {
+        if (state->second.origin == StateOrigin::detected) return state->first;
+    }
+    return path.lastFrame();
+}
+
+class Joiner {
+ public:
+    Joiner(const GroundMotion& ground, const FinishingOptions& options, const SceneScale& scale)
+        : ground_(ground),
+          max_gap_(static_cast<int>(std::lround(std::min(options.join_gap_s * scale.frame_rate_hz, 1e6)))),
+          distance_(std::max(options.join_distance_px, scale.px(options.join_distance_m))),
+          acceleration_(scale.pxPerFrame(kAcceleration) / scale.frame_rate_hz) {}
+
+    /// Above 0 when `later` continues `earlier`, the more the better.
+    double worth(const TrackPath& earlier, const TrackPath& later) const {
+        const FrameIndex end = usableEnd(earlier, later);
+        const int gap = later.firstFrame() - end;
+        if (end < earlier.firstFrame() || gap > max_gap_ || lastDetected(earlier) > end) return 0;
+        const TimedPathState* last = earlier.at(end);
+        if (!last) return 0;
+        const auto expected = ground_.carried(movingOf(last->second), end, later.firstFrame(), true);
+        if (!expected) return 0;
+        const MovingState found = movingOf(later.states.front().second);
+
+        const double area_ratio = found.box.area() / expected->box.area();
+        if (!(area_ratio <= kSizeRatio && area_ratio * kSizeRatio >= 1)) return 0;
+        const double speed = std::hypot(expected->velocity.x, expected->velocity.y);
+        const double found_speed = std::hypot(found.velocity.x, found.velocity.y);
+        if (std::min(speed, found_speed) > kFastSpeed &&
+            std::abs(turnBetween(std::atan2(expected->velocity.y, expected->velocity.x),
+                                 std::atan2(found.velocity.y, found.velocity.x))) > kMaxTurn) {
+            return 0;
+        }
+        const cv::Point2d faster = found.velocity - expected->velocity;
+        const double speed_allowed =
+            std::max(kJoinedSpeedFloor, kJoinedSpeedShare * std::max(speed, found_speed)) + acceleration_ * gap;
+        const double speed_cost = std::hypot(faster.x, faster.y) / speed_allowed;
+        const cv::Point2d apart = found.box.centre - expected->box.centre;
+        const double distance_cost = std::hypot(apart.x, apart.y) / (distance_ + acceleration_ * gap * gap / 2);
+        if (!(speed_cost <= 1 && distance_cost <= 1)) return 0;
+        return 2.5 - speed_cost - distance_cost;
+    }
+
+    /// Appends `later` to `earlier` and fills the gap.
+    void append(TrackPath& earlier, TrackPath&& later) const {
+        const FrameIndex end = usableEnd(earlier, later);
+        while (earlier.lastFrame() > end) earlier.states.pop_back();
+        const PathState before = earlier.states.back().second;
+        const PathState after = later.states.front().second;
+        const FrameIndex start = later.firstFrame();
+        earlier.states.reserve(earlier.states.size() + static_cast<std::size_t>(start - end) + later.states.size());
+        for (FrameIndex frame = end + 1; frame < start; ++frame) {
+            const auto from_before = ground_.carried(movingOf(before), end, frame, true);
+            const auto from_after = ground_.carried(movingOf(after), start, frame, true);
+            if (!from_before || !from_after) continue;
+            const double share = static_cast<double>(frame - end) / (start - end);
+            PathState between = before;
+            between.status = TrackStatus::coasting;
+            between.origin = StateOrigin::predicted;
+            const OrientedBox& a = from_before->box;
+            const OrientedBox& b = from_after->box;
+            between.box = OrientedBox{a.centre + (b.centre - a.centre) * share,
+                                      a.length + (b.length - a.length) * share, a.width + (b.width - a.width) * share,
+                                      wrapPi(a.heading + axisTurnBetween(a.heading, b.heading) * share)};
+            between.velocity = from_before->velocity + (from_after->velocity - from_before->velocity) * share;
+            earlier.states.emplace_back(frame, between);
+        }
+        for (TimedPathState& state : later.states) {
+            state.second.hits += before.hits;
+            earlier.states.push_back(state);
+        }
+    }
+
+    int maxGap() const { return max_gap_; }
+
+ private:
+    const GroundMotion& ground_;
+    int max_gap_;
+    double distance_;
+    double acceleration_;
+};
+
+}  // namespace
+
+std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundMotion& ground,
+                                     const FinishingOptions& options, const SceneScale& scale) {
+    const Joiner joiner(ground, options, scale);
+    if (joiner.maxGap() < 1) return paths;
+    std::vector<WeightedPair> pairs;
+    for (std::size_t later = 0; later < paths.size(); ++later) {
+        for (std::size_t earlier = 0; earlier < paths.size(); ++earlier) {
+            if (earlier == later || paths[earlier].firstFrame() >= paths[later].firstFrame()) continue;
+            if (paths[later].firstFrame() - paths[earlier].lastFrame() > joiner.maxGap()) continue;
+            const double worth = joiner.worth(paths[earlier], paths[later]);
+            if (worth > 0) pairs.push_back({static_cast<int>(earlier), static_cast<int>(later), worth});
+        }
+    }
+    std::vector<int> continued_by(paths.size(), -1);
+    std::vector<char> is_continuation(paths.size(), 0);
+    for (const int chosen : bestAssignment(pairs)) {
+        const WeightedPair& pair = pairs[static_cast<std::size_t>(chosen)];
+        continued_by[static_cast<std::size_t>(pair.row)] = pair.column;
+        is_continuation[static_cast<std::size_t>(pair.column)] = 1;
+    }
+    std::vector<TrackPath> joined;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        if (is_continuation[i]) continue;
+        TrackPath whole = std::move(paths[i]);
+        for (int next = continued_by[i]; next >= 0; next = continued_by[static_cast<std::size_t>(next)]) {
+            joiner.append(whole, std::move(paths[static_cast<std::size_t>(next)]));
+        }
+        joined.push_back(std::move(whole));
+    }
+    return joined;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "core/geometry/oriented_box.h"
+#include "tracking/finishing/track_paths.h"
+
+namespace eyrie {
+
+/// Where tracks are, frame by frame, so that what extends one keeps off the others. Looks them up in the tracks
+/// themselves, which must outlive it where they are.
+class TakenPlaces {
+ public:
+    explicit TakenPlaces(const std::vector<TrackPath>& paths);
+
+    /// All boxes in a frame.
+    std::vector<OrientedBox> in(FrameIndex frame) const;
+    /// Whether a box of that frame overlaps no other by more than 0.15.
+    bool isFree(FrameIndex frame, const OrientedBox& box) const;
+    /// To be told when a track got earlier states.
+    void extended(const TrackPath& path);
+
+ private:
+    template <class Visit>
+    void visit(FrameIndex frame, Visit visit) const;
+
+    std::unordered_map<int, std::vector<const TrackPath*>> alive_;  ///< by span of frames
+};
+
+}  // namespace eyrie

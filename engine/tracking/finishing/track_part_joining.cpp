@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "core/geometry/angle.h"
+#include "tracking/finishing/shared_frames.h"
+#include "tracking/finishing/track_paths.h"
+#include "tracking/robust_statistics.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kSharedSeconds = 0.8;    ///< two tracks must be seen together this long
+constexpr double kPartOfShorter = 0.5;    ///< … and over this share of the shorter one's life
+constexpr double kTravelled = 8;          ///< m over the ground meanwhile: standing things say nothing
+constexpr double kSlowestForParts = 2.5;  ///< m/s; in slower traffic cars drive bumper to bumper
+constexpr double kPartGap = 0.6;          ///< m between parts
+constexpr double kAside = 1.0;            ///< m between the axes of parts
+constexpr double kLoose = 0.35;           ///< m by which the distance of parts scatters
+constexpr double kMostTurn = 0.35;        ///< radians
+constexpr double kPart = 3.6;             ///< m; one of the two is shorter than any car
+constexpr double kLongest = 20;           ///< m
+constexpr double kWidest = 3.6;           ///< m
+constexpr double kPixel = 1;              ///< px of tolerance, whatever the scale
+
+/// What a whole box adds to one of its parts, in the part's own axes; px.
+struct Growth {
+    std::vector<double> front, rear, left, right;
+
+    void add(const OrientedBox& part, const OrientedBox& whole) {
+        const cv::Point2d centre = part.toBox(whole.centre);
+        front.push_back(centre.x + (whole.length - part.length) / 2);
+        rear.push_back(-centre.x + (whole.length - part.length) / 2);
+        right.push_back(centre.y + (whole.width - part.width) / 2);
+        left.push_back(-centre.y + (whole.width - part.width) / 2);
+    }
+    OrientedBox applied(const OrientedBox& part) const {
+        const double f = medianOf(front);
+        const double b = medianOf(rear);
+        const double l = medianOf(left);
+        const double r = medianOf(right);
+        OrientedBox whole = part;
+        whole.centre = part.toImage({(f - b) / 2, (r - l) / 2});
+        whole.length = part.length + f + b;
+        whole.width = part.width + l + r;
+        return whole;
+    }
+};
+
+struct Whole {
+    Growth of_leader;
+    Growth of_other;
+};
+
+/// How two tracks make one vehicle: they drive right behind each other as if fixed. Nothing if they do not.
+std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, const SceneScale& scale) {
+    Whole whole;
+    std::vector<double> along, across, gaps, parts, lengths, widths;
+    double travelled = 0;
+    forSharedFrames(leader, other, [&](const MovingState& state, const MovingState& of_other) {
+        const OrientedBox& part = of_other.box;
+        if (std::abs(axisTurnBetween(state.box.heading, part.heading)) > kMostTurn) return;
+        const cv::Point2d offset = state.box.toBox(part.centre);
+        along.push_back(offset.x);
+        across.push_back(std::abs(offset.y));
+        gaps.push_back(std::abs(offset.x) - (state.box.length + part.length) / 2);
+        parts.push_back(std::min(state.box.length, part.length));
+        travelled += std::hypot(state.velocity.x, state.velocity.y);
+        const OrientedBox both = unionBox(state.box, part);
+        lengths.push_back(both.length);
+        widths.push_back(both.width);
+        whole.of_leader.add(state.box, both);
+        whole.of_other.add(part, both);
+    });
+    const auto frames = static_cast<double>(along.size());
+    const auto shorter = static_cast<double>(std::min(leader.states.size(), other.states.size()));
+    if (frames < std::max(5.0, kSharedSeconds * scale.frame_rate_hz) || frames < kPartOfShorter * shorter) return {};
+    if (travelled < scale.px(kTravelled) || travelled / frames < scale.pxPerFrame(kSlowestForParts)) return {};
+    if (medianOf(gaps) > scale.px(kPartGap) + kPixel || medianOf(across) > scale.px(kAside) + kPixel) return {};
+    if (medianOf(parts) > scale.px(kPart)) return {};
+    if (spreadOf(along) > scale.px(kLoose) + kPixel / 2) return {};
+    if (medianOf(lengths) > scale.px(kLongest) || medianOf(widths) > scale.px(kWidest) + 2 * kPixel) return {};
+    return whole;
+}
+
+void join(TrackPath& leader, const TrackPath& other, const Whole& whole) {
+    std::vector<TimedPathState> joined;
+    joined.reserve(leader.states.size() + other.states.size());
+    auto b = other.states.begin();
+    const auto takeOther = [&] {
+        joined.push_back(*b++);
+        joined.back().second.box = whole.of_other.applied(joined.back().second.box);
+    };
+    for (TimedPathState& state : leader.states) {
+        while (b != other.states.end() && b->first < state.first) takeOther();
+        if (b != other.states.end() && b->first == state.first) ++b;
+        state.second.box = whole.of_leader.applied(state.second.box);
+        joined.push_back(state);
+    }
+    while (b != other.states.end()) takeOther();
+    leader.states = std::move(joined);
+}
+
+}  // namespace
+
+void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale) {
+    std::vector<std::size_t> order(paths.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return paths[a].states.size() > paths[b].states.size(); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        TrackPath& leader = paths[order[i]];
+        for (bool grown = true; grown;) {
+            grown = false;
+            for (std::size_t k = i + 1; k < order.size(); ++k) {
+                TrackPath& other = paths[order[k]];
+                if (leader.states.empty() || other.states.empty()) continue;
+                if (other.firstFrame() > leader.lastFrame() || other.lastFrame() < leader.firstFrame()) continue;
+                const auto whole = wholeOf(leader, other, scale);
+                if (!whole) continue;
+                join(leader, other, *whole);
+                other.states.clear();
+                grown = true;
+            }
+        }
+    }
+    std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
+}
+
+}  // namespace eyrie

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <vector>
+
+#include "tracking/finishing/track_finishing.h"
+#include "tracking/finishing/vehicle_looks.h"
+#include "tracking/ground_motion.h"
+
+namespace eyrie {
+
+/// Collects what is left out.
+using DropList = std::vector<DroppedPath>;
+
+/// Moves the states of a track to what is left out; it has none from then on.
+inline void drop(TrackPath& path, TrackDrop why, DropList& dropped, TrackId beside = 0) {
+    dropped.push_back({{path.id, std::move(path.states)}, why, beside});
+    path.states.clear();
+}
+
+/// Takes the states of tracks one by one.
+using PathVisitor = std::function<void(FrameIndex, const TrackPath&, const PathState&)>;
+/// All states, ordered by frame, then the tracks' ids.
+void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visitor);
+
+/// Puts earlier states, the latest first, before those of a path.
+void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards);
+
+/// Joins the fragments of one vehicle: where a track ends and another starts soon after at the predicted place with
+/// similar velocity and size, the later one continues the earlier one. Gaps are filled by interpolation.
+std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundMotion& ground,
+                                     const FinishingOptions& options, const SceneScale& scale);
+
+/// Joins tracks that are parts of one long vehicle: they drive one right behind the other as if fixed, faster and
+/// longer than bumper to bumper traffic would. The longer track's id stays.
+void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale);
+
+/// Replaces lengths and widths by their weighted median over a window, on the ground: enlargement by the camera is
+/// taken into account, detections count most.
+void steadySize(TrackPath& path, const GroundMotion& ground, int half_window);
+
+/// Replaces centres, velocities and headings by a local polynomial fit on the ground over `half_window` frames to
+/// either side.
+void smoothPath(TrackPath& path, const GroundMotion& ground, int half_window);
+
+/// Drops tracks whose boxes stayed smaller than any vehicle. Nothing is dropped where the GSD is unknown.
+void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale,
+                  DropList& dropped);
+
+/// Two vehicles cannot be in one place: of two tracks that share more than `max_sharing` of the smaller one's area on
+/// average (of the union where the larger box is wider than any vehicle), the one that was detected less often gives
+/// way where they meet, or wholly when little of it is left.
+void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale, DropList& dropped);
+
+/// Drops tracks that drive beside a vehicle as if fixed to it, touch it and were detected less than half as often: they
+/// are its shadow or its side.
+void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped);
+
+/// Drops tracks that were guessed rather than seen: detected in less than `min_share` of their frames, not counting
+/// predicted ones, and in less than 0.4 s altogether.
+void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale, DropList& dropped);
+
+/// Drops tracks that need not move at all: over windows of 24 frames they go along the camera's flow no faster than a
+/// standing thing of `standing_height` would seem to, or against it no faster than one of `standing_depth` below the
+/// plane of the registration, or never faster than that in any direction, and the classifier never took them for a
+/// vehicle. Nothing is dropped where the camera hardly moves.
+void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
+                  const FinishingOptions& options, DropList& dropped);
+
+/// Gives every state the probability that its track is a vehicle that moves, and drops tracks below `min_score`.
+void scoreTracks(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks, double min_score,
+                 const SceneScale& scale, DropList& dropped);
+
+/// Follows tracks back in time by the motion vectors in their boxes, by at most `frames`: where a vehicle starts slowly
+/// or hardly stands out, single vectors show it long before there are enough for a detection.
+void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const VectorsAt& vectors_at, int frames);
+
+/// Carries tracks that begin slowly and gather speed back to where they stood, as uniformly accelerated, and lets them
+/// stand there, in all by at most `frames`: nothing moves yet, but the vehicle is there. While the box stays in the
+/// image and off other tracks. Not where the GSD is unknown.
+void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, const SceneScale& scale);
+
+/// Extends paths back over frames in which the motion vectors were too young, by constant velocity over the ground,
+/// while the box stays in the image and off other tracks. Tracks that came in over the border less than `entry_frames`
+/// before they were found are extended back to it.
+void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, int entry_frames);
+
+}  // namespace eyrie

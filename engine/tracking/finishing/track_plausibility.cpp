@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tracking/finishing/shared_frames.h"
+#include "tracking/finishing/track_paths.h"
+#include "tracking/robust_statistics.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kFixedSeconds = 0.4;     ///< tracks that keep their places to each other for this long …
+constexpr double kFixedOfShorter = 0.8;   ///< … and for this share of the shorter one's life …
+constexpr double kFixedLoose = 0.15;      ///< m, … scattering no more than this …
+constexpr double kFixedLoosePx = 0.2;     ///< px, … and this …
+constexpr double kFixedShare = 0.35;      ///< … are one vehicle when they share this share of what is allowed
+constexpr int kFewestShared = 5;          ///< frames two tracks must share to be compared
+constexpr double kSharedOfShorter = 0.3;  ///< … and this share of the shorter one's life
+constexpr double kWidestVehicle = 3.2;    ///< m
+constexpr double kPlaceMargin = 1;        ///< px
+constexpr double kSureSeconds = 0.4;      ///< a track detected for so long altogether is not doubted
+constexpr double kSizeQuantile = 0.75;    ///< boxes miss parts more often than they exceed the vehicle
+
+double quantileOf(std::vector<double> values, double share) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+bool tooSmall(const TrackPath& path, double length, double width) {
+    std::vector<double> lengths;
+    std::vector<double> widths;
+    for (const auto& [frame, state] : path.states) {
+        lengths.push_back(state.box.length);
+        widths.push_back(state.box.width);
+    }
+    return quantileOf(std::move(lengths), kSizeQuantile) < length ||
+           quantileOf(std::move(widths), kSizeQuantile) < width;
+}
+
+/// How two tracks lie on each other in the frames they share.
+struct Sharing {
+    int frames = 0;
+    double share = 0;           ///< mean
+    std::vector<double> ahead;  ///< px, of the one's centre in the axes of the other, one a frame
+    std::vector<double> aside;
+    int too_wide = 0;  ///< frames in which one was wider than a vehicle: it may hold several
+};
+
+/// A box that is wider than a vehicle may hold several: then only boxes of like size share a place.
+double sharedBy(const OrientedBox& a, const OrientedBox& b, double widest) {
+    const double wider = a.area() >= b.area() ? a.width : b.width;
+    return wider > widest ? overlap(a, b) : containment(a, b);
+}
+
+Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
+    Sharing sharing;
+    forSharedFrames(a, b, [&](const MovingState& one, const MovingState& other) {
+        sharing.share += sharedBy(one.box, other.box, widest);
+        sharing.too_wide += std::max(one.box.width, other.box.width) > widest;
+        const cv::Point2d offset = one.box.toBox(other.box.centre);
+        sharing.ahead.push_back(offset.x);
+        sharing.aside.push_back(offset.y);
+        ++sharing.frames;
+    });
+    if (sharing.frames > 0) sharing.share /= sharing.frames;
+    return sharing;
+}
+
+/// Whether the two keep their places to each other as if fixed, for so long that they are parts of one vehicle or it
+/// and its shadow.
+bool areFixed(const Sharing& sharing, const SceneScale& scale) {
+    if (2 * sharing.too_wide > sharing.frames || sharing.frames < kFixedSeconds * scale.frame_rate_hz) return false;
+    const double loose = scale.px(kFixedLoose) + kFixedLoosePx;
+    return spreadOf(sharing.ahead) <= loose && spreadOf(sharing.aside) <= loose;
+}
+
+/// Removes the states of `weaker` that lie on `stronger`.
+void giveWay(TrackPath& weaker, const TrackPath& stronger, double allowed, DropList& dropped) {
+    std::map<FrameIndex, OrientedBox> taken;
+    for (const auto& [frame, state] : stronger.states) taken[frame] = state.box;
+    TrackPath given{weaker.id, {}};
+    std::erase_if(weaker.states, [&](const TimedPathState& state) {
+        const auto there = taken.find(state.first);
+        const bool lies_on_it = there != taken.end() && containment(there->second, state.second.box) > allowed;
+        if (lies_on_it) given.states.push_back(state);
+        return lies_on_it;
+    });
+    drop(given, TrackDrop::shares_place, dropped, stronger.id);
+}
+
+}  // namespace
+
+void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale,
+                  DropList& dropped) {
+    if (!scale.gsd_known) return;
+    const double length = scale.px(options.min_length_m);
+    const double width = scale.px(options.min_width_m);
+    std::erase_if(paths, [&](TrackPath& path) {
+        if (!tooSmall(path, length, width)) return false;
+        drop(path, TrackDrop::too_small, dropped);
+        return true;
+    });
+}
+
+void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale, DropList& dropped) {
+    std::erase_if(paths, [&](TrackPath& path) {
+        const int detected = path.statesOf(StateOrigin::detected);
+        const int supposed = path.statesOf(StateOrigin::reconstructed);
+        if (detected >= kSureSeconds * scale.frame_rate_hz || detected >= min_share * (detected + supposed))
+            return false;
+        drop(path, TrackDrop::hardly_detected, dropped);
+        return true;
+    });
+}
+
+void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale, DropList& dropped) {
+    if (!(max_sharing < 1)) return;
+    const double widest = scale.px(kWidestVehicle) + kPlaceMargin;
+    std::vector<std::size_t> order(paths.size());
+    std::vector<int> strength;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        order[i] = i;
+        strength.push_back(paths[i].statesOf(StateOrigin::detected));
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return strength[a] > strength[b]; });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        TrackPath& weaker = paths[order[k]];
+        for (std::size_t s = 0; s < k && !weaker.states.empty(); ++s) {
+            const TrackPath& stronger = paths[order[s]];
+            if (stronger.states.empty() || stronger.firstFrame() > weaker.lastFrame() ||
+                weaker.firstFrame() > stronger.lastFrame()) {
+                continue;
+            }
+            const Sharing sharing = sharingOf(stronger, weaker, widest);
+            const auto shorter = static_cast<double>(std::min(stronger.states.size(), weaker.states.size()));
+            if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
+            const bool fixed = sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scale);
+            if (fixed && sharing.share > kFixedShare * max_sharing) {
+                drop(weaker, TrackDrop::shares_place, dropped, stronger.id);
+                continue;
+            }
+            if (sharing.share <= max_sharing) continue;
+            const std::size_t before = weaker.states.size();
+            giveWay(weaker, stronger, max_sharing / 2, dropped);
+            if (2 * weaker.states.size() < before) drop(weaker, TrackDrop::shares_place, dropped, stronger.id);
+        }
+    }
+    std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
+}
+
+}  // namespace eyrie

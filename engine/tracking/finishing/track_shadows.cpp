@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tracking/finishing/shared_frames.h"
+#include "tracking/finishing/track_paths.h"
+#include "tracking/robust_statistics.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kShortest = 0.5;     ///< s that vehicle and shadow are seen together …
+constexpr double kOfShadow = 0.8;     ///< … and share of the shadow's life
+constexpr double kSlowest = 2.5;      ///< m/s; queueing vehicles move alike, too
+constexpr double kWay = 4;            ///< m together over the ground
+constexpr double kDetected = 0.5;     ///< a shadow is detected less often than this share of its vehicle's detections
+constexpr double kApart = 0.1;        ///< share of the speed by which velocities may differ
+constexpr double kGap = 0.3;          ///< m between the long sides
+constexpr double kGapPx = 0.2;        ///< px, added to it
+constexpr double kLooseAcross = 0.5;  ///< m by which their distance scatters across the heading …
+constexpr double kLooseAlong = 1.5;   ///< m … and along: corners on a shadow's outline come and go
+
+/// How one track drives beside another in the frames they share; px and px/frame.
+struct Beside {
+    std::vector<double> along, across;            ///< centre in the axes of the other
+    std::vector<double> gaps_along, gaps_across;  ///< between the boxes; negative where they overlap
+    std::vector<double> speeds, apart;
+};
+
+Beside besideOf(const TrackPath& vehicle, const TrackPath& other) {
+    Beside beside;
+    forSharedFrames(vehicle, other, [&](const MovingState& a, const MovingState& b) {
+        const cv::Point2d offset = a.box.toBox(b.box.centre);
+        beside.along.push_back(offset.x);
+        beside.across.push_back(offset.y);
+        beside.gaps_along.push_back(std::abs(offset.x) - (a.box.length + b.box.length) / 2);
+        beside.gaps_across.push_back(std::abs(offset.y) - (a.box.width + b.box.width) / 2);
+        beside.speeds.push_back(std::hypot(a.velocity.x, a.velocity.y));
+        beside.apart.push_back(std::hypot(a.velocity.x - b.velocity.x, a.velocity.y - b.velocity.y));
+    });
+    return beside;
+}
+
+bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneScale& scale) {
+    if (shadow.firstFrame() > vehicle.lastFrame() || vehicle.firstFrame() > shadow.lastFrame()) return false;
+    const Beside beside = besideOf(vehicle, shadow);
+    const auto frames = static_cast<double>(beside.along.size());
+    if (frames < std::max(1.0, kShortest * scale.frame_rate_hz)) return false;
+    if (frames < kOfShadow * static_cast<double>(shadow.states.size())) return false;
+    const double speed = medianOf(beside.speeds);
+    if (speed < scale.pxPerFrame(kSlowest) || speed * frames < scale.px(kWay)) return false;
+    return medianOf(beside.apart) <= kApart * speed && medianOf(beside.gaps_along) < 0 &&
+           medianOf(beside.gaps_across) < scale.px(kGap) + kGapPx &&
+           spreadOf(beside.across) <= scale.px(kLooseAcross) && spreadOf(beside.along) <= scale.px(kLooseAlong);
+}
+
+}  // namespace
+
+void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped) {
+    std::vector<TrackId> vehicle_of(paths.size(), 0);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const double detected = paths[i].statesOf(StateOrigin::detected);
+        const auto vehicle = std::find_if(paths.begin(), paths.end(), [&](const TrackPath& other) {
+            return detected < kDetected * other.statesOf(StateOrigin::detected) && isShadowOf(paths[i], other, scale);
+        });
+        if (vehicle == paths.end()) continue;
+        vehicle_of[i] = vehicle->id;
+    }
+    std::size_t at = 0;
+    std::erase_if(paths, [&](TrackPath& path) {
+        const TrackId vehicle = vehicle_of[at++];
+        if (vehicle != 0) drop(path, TrackDrop::shadow, dropped, vehicle);
+        return vehicle != 0;
+    });
+}
+
+}  // namespace eyrie
