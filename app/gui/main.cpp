@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "gui/ending_signals.h"
-#include "main_window/main_window.h"
-#include "main_window/screenshot.h"
-#include "main_window/theme.h"
+#include "window/main_window.h"
+#include "window/screenshot.h"
+#include "window/theme.h"
 
 namespace {
 

@@ -5,11 +5,11 @@
 #include <functional>
 #include <random>
 
-#include "main_window/label_workspace.h"
-#include "main_window/main_window.h"
-#include "main_window/window_actions.h"
-#include "panels/message_bar.h"
-#include "session/label_session.h"
+#include "label/label_session.h"
+#include "label/label_workspace.h"
+#include "widgets/message_bar.h"
+#include "window/main_window.h"
+#include "workspace/window_actions.h"
 
 /// window_driver WORD…: works in the window as a person would, without one. Words, done in order:
 ///   open PATH          a project, a video or a folder of images

@@ -70,6 +70,24 @@ const std::map<std::string, std::set<std::string>> allowed = {
      {"core", "annotation", "chain", "rerun", "evaluation", "exchange", "formats", "io", "motion", "store"}},
 };
 
+/// What a room of the window may include besides itself; no engine rooms named: any.
+struct WindowRoom {
+    std::set<std::string> window;
+    std::set<std::string> engine;
+};
+
+const std::map<std::string, WindowRoom> allowed_in_window = {
+    {"canvas", {{}, {"core"}}},
+    {"widgets", {{}, {"core", "store"}}},
+    {"session", {{"canvas"}, {"core", "chain", "rerun", "io", "scene", "store"}}},
+    {"workspace", {{"canvas", "widgets", "session"}, {"core"}}},
+    {"review", {{"canvas", "widgets", "session", "workspace"}, {"core", "chain", "store"}}},
+    {"label",
+     {{"canvas", "widgets", "session", "workspace"}, {"core", "annotation", "exchange", "formats", "io", "store"}}},
+    {"tune", {{"canvas", "widgets", "session", "workspace"}, {}}},
+    {"window", {{"canvas", "widgets", "session", "workspace", "review", "label", "tune"}, {}}},
+};
+
 }  // namespace
 
 TEST(IncludeRules, engineRoomsIncludeOnlyTheRoomsTheyMay) {
@@ -93,14 +111,49 @@ TEST(IncludeRules, engineAndCommandLineAreFreeOfQt) {
     }
 }
 
-TEST(IncludeRules, viewsAndModelsSeeOnlyValues) {
+TEST(IncludeRules, roomsOfTheWindowIncludeOnlyTheRoomsTheyMay) {
     for (const auto& include : includesBelow(source_dir / "ui")) {
-        if (include.room != "view" && include.room != "models") continue;
+        const std::size_t slash = include.included.find('/');
+        if (slash == std::string::npos) continue;
+        const std::string target = include.included.substr(0, slash);
+        ASSERT_TRUE(allowed_in_window.count(include.room)) << include.room << " is not in the plan";
+        const auto& rooms = allowed_in_window.at(include.room);
+        if (allowed_in_window.count(target) && target != include.room) {
+            EXPECT_TRUE(rooms.window.count(target)) << include.file.string() << " includes " << include.included;
+        }
+        if (allowed.count(target)) {
+            EXPECT_TRUE(rooms.engine.empty() || rooms.engine.count(target))
+                << include.file.string() << " includes " << include.included;
+        }
+    }
+}
+
+TEST(IncludeRules, commandLineKnowsNothingOfTheWindow) {
+    for (const auto& include : includesBelow(source_dir / "app" / "cli")) {
         const std::string target = include.included.substr(0, include.included.find('/'));
-        const bool engine_room = allowed.count(target) && include.included.find('/') != std::string::npos;
-        const bool value_header = target == "core" || include.included == "store/runs/run_store.h" ||
-                                  include.included == "chain/recording/run_facts.h";
-        EXPECT_TRUE(!engine_room || value_header) << include.file.string() << " includes " << include.included;
+        EXPECT_FALSE(allowed_in_window.count(target)) << include.file.string() << " includes " << include.included;
+    }
+}
+
+TEST(IncludeRules, noTwoFilesHaveOneName) {
+    const std::set<std::string> of_every_folder = {"CMakeLists.txt", "main.cpp", "run"};
+    std::map<std::string, fs::path> places;
+    for (const char* folder : {"engine", "app", "ui", "tests"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(source_dir / folder)) {
+            const std::string name = entry.path().filename();
+            if (!entry.is_regular_file() || of_every_folder.count(name)) continue;
+            EXPECT_TRUE(places.emplace(name, entry.path()).second) << entry.path() << " and " << places.at(name);
+        }
+    }
+}
+
+TEST(IncludeRules, noFolderHoldsMoreThan25Files) {
+    for (const char* folder : {"engine", "app", "ui", "tests"}) {
+        std::map<fs::path, int> files;
+        for (const auto& entry : fs::recursive_directory_iterator(source_dir / folder)) {
+            if (entry.is_regular_file()) ++files[entry.path().parent_path()];
+        }
+        for (const auto& [place, count] : files) EXPECT_LE(count, 25) << place;
     }
 }
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/geometry/angle.h"
-#include "tracking/moving_scene.h"
+#include "tracking/tracked_scene.h"
 #include "tracking/tracker.h"
 
 namespace eyrie {

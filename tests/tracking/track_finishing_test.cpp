@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "tracking/moving_scene.h"
+#include "tracking/tracked_scene.h"
 
 namespace eyrie {
 namespace {

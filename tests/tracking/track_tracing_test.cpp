@@ -3,7 +3,7 @@
 #include <map>
 
 #include "tracking/finishing/track_finishing.h"
-#include "tracking/moving_scene.h"
+#include "tracking/tracked_scene.h"
 
 namespace eyrie {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tracking/moving_scene.h"
+#include "tracking/tracked_scene.h"
 
 namespace eyrie {
 namespace {

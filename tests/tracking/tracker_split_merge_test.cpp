@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tracking/moving_scene.h"
+#include "tracking/tracked_scene.h"
 
 namespace eyrie {
 namespace {

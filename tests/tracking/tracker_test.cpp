@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "tracking/measurement_model.h"
-#include "tracking/moving_scene.h"
+#include "tracking/tracked_scene.h"
 
 namespace eyrie {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "view/image_convert.h"
+#include "canvas/image_convert.h"
 
 namespace eyrie::ui {
 

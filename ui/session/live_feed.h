@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "chain/chain_run.h"
-#include "session/frame_mailbox.h"
-#include "session/trail_history.h"
+#include "session/background/frame_mailbox.h"
+#include "session/frames/trail_history.h"
 #include "store/runs/run_store.h"
 
 namespace eyrie::ui {

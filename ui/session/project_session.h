@@ -9,10 +9,10 @@
 #include <optional>
 #include <vector>
 
-#include "session/media.h"
-#include "session/playback.h"
-#include "session/project_reader.h"
-#include "session/result_loader.h"
+#include "session/frames/playback.h"
+#include "session/frames/result_loader.h"
+#include "session/project/media.h"
+#include "session/project/project_reader.h"
 #include "session/run_controller.h"
 #include "session/run_settings.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "session/project_location.h"
+#include "session/project/project_location.h"
 #include "session/project_session.h"
 #include "store/health/file_check.h"
 

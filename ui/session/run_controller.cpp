@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "chain/scale_estimation.h"
-#include "session/queued_call.h"
+#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 

@@ -11,7 +11,7 @@
 #include "chain/chain_options.h"
 #include "chain/chain_run.h"
 #include "session/live_feed.h"
-#include "session/media.h"
+#include "session/project/media.h"
 
 namespace eyrie::ui {
 

@@ -7,7 +7,7 @@
 namespace eyrie {
 namespace {
 
-bool same(const ReviewMark& a, const ReviewMark& b) {
+bool sameMark(const ReviewMark& a, const ReviewMark& b) {
     return a.object == b.object && a.first_frame == b.first_frame && a.last_frame == b.last_frame &&
            a.state == b.state && a.person == b.person && a.when_utc == b.when_utc;
 }
@@ -15,7 +15,7 @@ bool same(const ReviewMark& a, const ReviewMark& b) {
 /// The change from one list of marks to another; nothing when they are the same.
 std::optional<TailChange<ReviewMark>> tailChange(const std::vector<ReviewMark>& before,
                                                  const std::vector<ReviewMark>& after) {
-    const auto [a, b] = std::mismatch(before.begin(), before.end(), after.begin(), after.end(), same);
+    const auto [a, b] = std::mismatch(before.begin(), before.end(), after.begin(), after.end(), sameMark);
     if (a == before.end() && b == after.end()) return std::nullopt;
     return TailChange<ReviewMark>{static_cast<std::size_t>(a - before.begin()), {a, before.end()}, {b, after.end()}};
 }

@@ -30,10 +30,10 @@ cv::Mat thumbnailOf(const ImagePyramid& pyramid, int level) {
 }
 
 int thumbnailLevel(const ImagePyramid& pyramid) {
-    constexpr int kLongestSide = 72;
+    constexpr int kThumbnailSide = 72;
     int level = 0;
     while (level + 1 < pyramid.levels() &&
-           std::max(pyramid.level(level).width(), pyramid.level(level).height()) > kLongestSide) {
+           std::max(pyramid.level(level).width(), pyramid.level(level).height()) > kThumbnailSide) {
         ++level;
     }
     return level;

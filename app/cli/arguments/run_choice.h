@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "chain/chain_options.h"
+#include "chain/chain_run.h"
+#include "cli/arguments/input.h"
+#include "store/runs/run_store.h"
+
+namespace eyrie::cli {
+
+/// What `run --resume` was told; only what stands on the command line counts.
+struct ResumeWishes {
+    std::string video;  ///< as a project stores it; empty: any
+    std::optional<int> run;
+    std::optional<double> gsd_m_per_px;
+    std::optional<double> frame_rate_hz;
+    std::optional<ParsedRange> frames;
+    std::optional<ChainOptions> options;
+};
+
+/// The run that `run --resume` is about.
+struct ResumeChoice {
+    std::optional<RunRecord> run;  ///< to be gone on with, or finished; nothing: begin a new one
+    std::string why_new;           ///< for people; may be empty
+};
+
+/// By its number, or the newest of the project that is not finished; with a video but no number the newest run of that
+/// video that was begun with what is wished, finished or not, so that a command given again with --resume does what is
+/// left of it. Throws Error(parameter) when there is no such run, or it was begun with something else than is wished.
+ResumeChoice chooseRun(const RunStore& store, const std::string& project, const ResumeWishes& wishes);
+
+}  // namespace eyrie::cli

@@ -1,0 +1,292 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "chain/scale_estimation.h"
+#include "cli/arguments/earlier_state.h"
+#include "cli/arguments/evaluation_files.h"
+#include "cli/arguments/input.h"
+#include "cli/arguments/output_arguments.h"
+#include "cli/arguments/preset_arguments.h"
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/reports/comparison_report.h"
+#include "cli/reports/console_progress.h"
+#include "core/error.h"
+#include "detection/sliding_window/model_location.h"
+#include "evaluation/comparison/published_figures.h"
+#include "io/atomic_file.h"
+#include "rerun/method_run.h"
+#include "store/runs/comparison_store.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct CompareArguments {
+    std::string sequence;
+    std::string ground_truth;
+    std::optional<double> gsd_m_per_px;
+    std::optional<double> frame_rate_hz;
+    std::string frames;
+    std::vector<std::string> methods;
+    std::vector<std::string> stacking{"off"};
+    std::vector<std::string> tracking{"off", "on"};
+    std::vector<double> overlaps{0.1, 0.2, 0.3};
+    EvaluationOptions options;
+    std::optional<double> mot_origin;
+    PresetArguments preset;
+    std::string project;
+    std::string csv;
+    std::string published;
+    OutputArguments outputs;
+    bool json = false;
+    bool quiet = false;
+};
+
+/// What is asked for by "on" and "off", without repetition.
+std::vector<bool> switches(const std::vector<std::string>& words) {
+    std::vector<bool> values;
+    for (const std::string& word : words) {
+        const bool on = word == "on";
+        if (std::find(values.begin(), values.end(), on) == values.end()) values.push_back(on);
+    }
+    return values;
+}
+
+bool needsModel(const MethodVariant& variant) {
+    return variant.options.detection.method == DetectionMethod::sliding_window;
+}
+
+bool hasModel(const ChainOptions& options) {
+    try {
+        modelLocation(options.detection.sliding_window.model);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+/// A method to run, and how its rows are called.
+struct Planned {
+    std::string word;
+    bool stacking = false;
+    MethodVariant variant;
+};
+
+std::vector<Planned> plan(const CompareArguments& arguments, std::vector<std::string>& remarks) {
+    const ChainOptions base = arguments.preset.options();
+    const bool chosen = !arguments.methods.empty();
+    const std::vector<std::string> words = chosen ? arguments.methods : std::vector<std::string>{"detectors"};
+    std::vector<Planned> all;
+    for (const std::string& group : words) {
+        for (const std::string& word : methodsNamed(group)) {
+            const MethodVariant variant = methodVariant(word, base);
+            if (!chosen && needsModel(variant) && !hasModel(base)) {
+                remarks.push_back(word + " was left out: the model that comes with Eyrie is missing");
+                continue;
+            }
+            for (const bool stacking : switches(arguments.stacking)) {
+                if (stacking && variant.global_window) continue;
+                all.push_back({word, stacking, withStacking(variant, stacking)});
+            }
+        }
+    }
+    return all;
+}
+
+/// Stores every method as a run of a project.
+class Recorders {
+ public:
+    Recorders(const std::string& project, const std::vector<Planned>& planned, const RunRecord& like) {
+        for (const Planned& method : planned) {
+            RunRecord run = like;
+            run.name = "compare: " + method.variant.name;
+            recorders_.push_back(std::make_unique<RunRecorder>(project, run, method.variant.options));
+        }
+    }
+    void onFrame(std::size_t method, const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
+        recorders_[method]->onFrame(result, frame);
+    }
+    void finish(bool whole) {
+        RunSummary summary;
+        summary.outcome = whole ? RunOutcome::finished : RunOutcome::stopped;
+        summary.message.clear();
+        for (const auto& recorder : recorders_) recorder->finish(summary);
+    }
+
+ private:
+    std::vector<std::unique_ptr<RunRecorder>> recorders_;
+};
+
+double laterMs(const StageTimes& times) {
+    double sum = 0;
+    for (const Stage stage : {Stage::clustering, Stage::stacking, Stage::detection, Stage::removal, Stage::tracking})
+        sum += static_cast<double>(times[static_cast<std::size_t>(stage)]);
+    return sum;
+}
+
+/// Measures every result; the first row is what the others are compared with.
+std::vector<ComparisonRow> rowsAt(double overlap, const CompareArguments& arguments, const EvaluationOptions& given,
+                                  const BoxesByFrame& truth, const std::vector<Planned>& planned,
+                                  const std::vector<MethodResult>& results, std::pair<FrameIndex, FrameIndex> frames,
+                                  double frame_rate_hz) {
+    EvaluationOptions options = given;
+    options.overlap = overlap;
+    std::vector<ComparisonRow> rows;
+    std::vector<PairedTallies> tallies;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        for (const bool tracking : switches(arguments.tracking)) {
+            if (tracking && planned[i].variant.global_window) continue;
+            const BoxesByFrame& boxes = tracking ? results[i].tracks : results[i].detections;
+            ComparisonRow row;
+            row.method = planned[i].word;
+            row.stacking = planned[i].stacking;
+            row.tracking = tracking;
+            row.ms_per_frame = laterMs(results[i].median_ms);
+            row.measures = evaluate(truth, boxes, options);
+            if (!tracking) row.measures.tracking.reset();  // a frame without results looks like one with ids
+            const TrackTallies* tracks = row.measures.tracking ? &row.measures.tracks : nullptr;
+            tallies.push_back(pairedTallies(truth, matchFrames(truth, boxes, options), tracks, frames,
+                                            std::max(1, cvRound(frame_rate_hz))));
+            row.f_score = fScoreInterval(tallies.back());
+            if (!rows.empty()) {
+                // Like with like: tracks with the first method's tracks, those themselves with its detections.
+                const auto like = std::find_if(rows.begin(), rows.end(),
+                                               [&](const ComparisonRow& other) { return other.tracking == tracking; });
+                const auto reference = static_cast<std::size_t>(like == rows.end() ? 0 : like - rows.begin());
+                row.compared_with = rows[reference].name();
+                row.difference = methodDifference(tallies.back(), tallies[reference]);
+            }
+            rows.push_back(std::move(row));
+        }
+    }
+    return rows;
+}
+
+int compare(const CompareArguments& arguments) {
+    if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
+    if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
+    const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
+    arguments.outputs.check({growingProject(arguments.project), {arguments.csv, FileKind::text}},
+                            {arguments.sequence, arguments.ground_truth, arguments.preset.preset});
+    ComparisonReport report;
+    report.options = arguments.options;
+    const std::vector<Planned> planned = plan(arguments, report.remarks);
+    const InterruptGuard interrupt;
+    const auto source = openInput(arguments.sequence, arguments.frame_rate_hz.value_or(0), interrupt.token(),
+                                  rememberedRate(arguments.project, arguments.sequence));
+    const VideoInfo& video = source->info();
+    BoxFile truth = readTruthBoxes(arguments.ground_truth, arguments.mot_origin, video.size);
+    if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
+    report.remarks.insert(report.remarks.end(), truth.remarks.begin(), truth.remarks.end());
+    const FrameRange range{frames.first, frames.last < 0 ? video.frame_count - 1 : frames.last};
+    const SceneScale scale = chooseScale(*source, range, planned.front().variant.options,
+                                         arguments.gsd_m_per_px.value_or(0), interrupt.token());
+
+    std::vector<MethodVariant> methods;
+    for (const Planned& method : planned) methods.push_back(method.variant);
+    std::optional<Recorders> recorders;
+    if (!arguments.project.empty()) {
+        if (!keepEarlierState(arguments.project, interrupt.token())) return exit_stopped;
+        recorders.emplace(arguments.project, planned, plannedRun(video, scale, range, arguments.preset.preset));
+    }
+    ConsoleProgress console("frames");
+    FrameIndex reached = range.first - 1;
+    const std::vector<MethodResult> results = runMethods(
+        *source, range, methods, scale, interrupt.token(),
+        [&](const RunProgress& progress) {
+            reached = range.first + progress.frames_done - 1;
+            if (!arguments.quiet) {
+                console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
+                             progress.seconds_left);
+            }
+        },
+        [&](std::size_t method, const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
+            if (recorders) recorders->onFrame(method, result, frame);
+        });
+    const bool whole = reached == range.last;
+    if (recorders) recorders->finish(whole);
+
+    const std::size_t all = truth.boxes.size();
+    std::erase_if(truth.boxes, [&](const auto& entry) { return entry.first < range.first || entry.first > reached; });
+    if (truth.boxes.size() < all) {
+        report.remarks.push_back(std::to_string(all - truth.boxes.size()) + " of " + std::to_string(all) +
+                                 " frames of the ground truth lie outside the frames that were run");
+    }
+    report.sequence = arguments.sequence;
+    report.ground_truth = arguments.ground_truth;
+    report.frames = reached - range.first + 1;
+    report.options.image_size = video.size;
+    if (!report.options.upright && !truth.has_headings) {
+        report.options.upright = true;
+        report.remarks.push_back(truth.format +
+                                 ": boxes are upright, so the enclosing boxes of the results are compared");
+    } else if (!report.options.upright && allUpright(truth.boxes)) {
+        report.remarks.push_back("the ground truth has upright boxes only; if it has no headings, add --upright");
+    }
+    if (truth.boxes.empty()) {
+        throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box in the frames that were run");
+    }
+    for (const double overlap : arguments.overlaps) {
+        report.blocks.push_back(rowsAt(overlap, arguments, report.options, truth.boxes, planned, results,
+                                       {range.first, reached}, scale.frame_rate_hz));
+    }
+    if (!arguments.project.empty()) {
+        ProjectFile project = ProjectFile::open(arguments.project);
+        addComparison(project, video.path.string(), jsonText(report));
+    }
+    if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(report));
+    report.published = arguments.published;
+    std::fputs((arguments.json ? jsonText(report) : tableText(report)).c_str(), stdout);
+    return whole ? exit_ok : exit_stopped;
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<CompareArguments>();
+    CLI::App* command = app.add_subcommand("compare", "Measure several methods on one sequence with ground truth");
+    command->add_option("--sequence", arguments->sequence, "A video file, a folder of images, or scene:NAME")
+        ->required();
+    command->add_option("--ground-truth", arguments->ground_truth, "True boxes, in any format that import reads")
+        ->required();
+    command->add_option("--methods", arguments->methods,
+                        "Methods, or groups of them: detectors (default), gradients, rescaling, motion; the first one "
+                        "is what the others are compared with");
+    command->add_option("--stacking", arguments->stacking, "off, on, or both: off,on")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str();
+    command->add_option("--tracking", arguments->tracking, "off: detections are measured; on: tracks")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str();
+    command->add_option("--overlap", arguments->overlaps, "Overlaps T_ov from which on a box counts as found")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel");
+    command->add_option("--fps", arguments->frame_rate_hz, "Frames per second, when the video does not tell");
+    command->add_option("--frames", arguments->frames, "First and last frame, both included, from 0: A:B, A: or :B");
+    command->add_flag("--vehicles", arguments->options.vehicles_only,
+                      "Only vehicles count; other objects of the ground truth count neither way");
+    command->add_flag("--upright", arguments->options.upright,
+                      "Compare enclosing upright boxes, for ground truth without headings");
+    command->add_option("--border", arguments->options.border,
+                        "Leave out results that come this close to the image's edge, px");
+    command->add_option("--mot-origin", arguments->mot_origin, motOriginHelp());
+    arguments->preset.addTo(*command);
+    command->add_option("--project", arguments->project,
+                        "Store every method as a run of this project, and the figures beside them");
+    command->add_option("--csv", arguments->csv, "Write the figures as CSV, too");
+    command
+        ->add_option("--published", arguments->published,
+                     "Print what the thesis publishes for this sequence below: seq1, seq2, egtest01")
+        ->check(CLI::IsMember(publishedSequences()));
+    arguments->outputs.addTo(*command);
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->add_flag("--quiet", arguments->quiet, "No progress");
+    command->callback([arguments, &exit_code] { exit_code = compare(*arguments); });
+}
+
+}  // namespace eyrie::cli

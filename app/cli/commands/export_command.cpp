@@ -1,0 +1,127 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/arguments/earlier_state.h"
+#include "cli/arguments/evaluation_files.h"
+#include "cli/arguments/label_arguments.h"
+#include "cli/arguments/output_arguments.h"
+#include "cli/command.h"
+#include "cli/labels_of_project.h"
+#include "cli/project_runs.h"
+#include "core/error.h"
+#include "exchange/project_labels.h"
+#include "store/labels/annotation_store.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct ExportArguments {
+    std::string project;
+    std::optional<int> run;
+    bool labels = false;
+    bool detections = false;
+    std::optional<int> sequence;
+    std::string from;
+    LabelArguments from_labels;
+    std::string format;
+    std::string out;
+    ExportOptions options;
+    OutputArguments outputs;
+    bool clip = false;
+    bool keep = false;
+};
+
+/// What is to be exported; names the sequence after its video where nobody did.
+LabelFile gathered(const ExportArguments& arguments, ExportOptions& options) {
+    std::string source = arguments.from;
+    LabelFile labels;
+    if (!arguments.from.empty()) {
+        labels = readLabels(arguments.from, arguments.from_labels.format, importOptionsOf(arguments.from_labels));
+        const MotSequence described = describedBeside(arguments.from);
+        if (!labels.image_size && !arguments.from_labels.size.empty())
+            labels.image_size = parseSize(arguments.from_labels.size);
+        if (!labels.image_size) labels.image_size = described.image_size;
+        if (!labels.frame_count) labels.frame_count = described.frame_count;
+        if (!labels.frame_rate_hz) labels.frame_rate_hz = described.frame_rate_hz;
+    } else {
+        ProjectFile project = openForReading(arguments.project);
+        if (arguments.labels) {
+            const SequenceRecord sequence = chosenSequence(project, arguments.sequence);
+            source = sequence.path;
+            const AnnotationSet annotations = readAnnotations(project, sequence.id);
+            if (annotations.objects.empty())
+                throw Error(ErrorKind::project, arguments.project + ": nobody has labelled " + sequence.path +
+                                                    " yet; without --labels the tracks of a run are exported");
+            labels = labelsOf(annotations, sequence, cameraMotionOf(RunStore(project), sequence.id));
+        } else {
+            const RunStore store(project);
+            const RunRecord run = chosenRun(store, arguments.project, arguments.run);
+            source = run.sequence.path;
+            labels = labelsOf(store, run, arguments.detections);
+        }
+    }
+    if (options.sequence.empty()) options.sequence = std::filesystem::path(source).stem().string();
+    if (options.sequence.empty()) options.sequence = "sequence";
+    return labels;
+}
+
+void exportLabels(const ExportArguments& arguments) {
+    ExportOptions options = arguments.options;
+    if (arguments.clip) options.clip = true;
+    if (arguments.keep) options.clip = false;
+    // The names of some files follow from what is exported, which is read quickly; nothing is written before.
+    const LabelFile labels = gathered(arguments, options);
+    std::vector<std::filesystem::path> inputs(labels.further_files.begin(), labels.further_files.end());
+    inputs.insert(inputs.end(), {arguments.project, arguments.from});
+    arguments.outputs.check(outputFiles(arguments.out, arguments.format, options), inputs);
+    std::fputs(reportText(writeLabels(labels, arguments.out, arguments.format, options)).c_str(), stdout);
+    for (const std::string& note : labels.notes) std::printf("  note        %s\n", note.c_str());
+}
+
+}  // namespace
+
+void addExportCommand(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<ExportArguments>();
+    arguments->options.sequence.clear();
+    CLI::App* command =
+        app.add_subcommand("export", "Write labels or tracks for other programs; says what their format cannot carry");
+    CLI::Option* project = command->add_option("--project", arguments->project, "Project with the labels or runs");
+    CLI::Option* run =
+        command->add_option("--run", arguments->run, "Tracks of this run (default: the last)")->needs(project);
+    command->add_flag("--labels", arguments->labels, "What people labelled instead of a run")
+        ->needs(project)
+        ->excludes(run);
+    command->add_flag("--detections", arguments->detections, "The run's detections instead of its tracks")
+        ->needs(project);
+    command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
+        ->needs(project);
+    command->add_option("--from", arguments->from, "File or folder of labels to convert")->excludes(project);
+    addLabelOptions(*command, arguments->from_labels, "--from-format", "--from-columns");
+    command->add_option("--format", arguments->format, "One of " + formatNames(true))->required();
+    command->add_option("--out", arguments->out, "File, or folder for formats with a text per image")->required();
+    command->add_option("--columns", arguments->options.columns, "Columns of a table of one's own, for format columns");
+    command->add_option("--out-first-frame", arguments->options.first_frame_number,
+                        "Number of a video's first frame in such a table (else 0)");
+    command->add_option("--out-pixel-origin", arguments->options.first_pixel_edge,
+                        "Where the first pixel begins in such a table (else 0) and in MOTChallenge text (else 1)");
+    CLI::Option* clip = command->add_flag("--clip", arguments->clip, "Cut boxes at the image's border");
+    command->add_flag("--keep-outside", arguments->keep, "Do not cut, not even for YOLO-OBB")->excludes(clip);
+    command->add_flag("--unrotated-bounds", arguments->options.unrotated_bounds,
+                      "COCO and KWCOCO: bbox is the unrotated box, as DIVE reads it");
+    command->add_option("--name", arguments->options.sequence, "Name of the sequence (default: the video's)");
+    command->add_option("--benchmark", arguments->options.benchmark, "TrackEval: name of the benchmark")
+        ->capture_default_str();
+    command->add_option("--split", arguments->options.split, "TrackEval: name of the split")->capture_default_str();
+    command->add_option("--tracker", arguments->options.tracker, "TrackEval: write a tracker's result of this name");
+    arguments->outputs.addTo(*command);
+    command->callback([arguments, &exit_code] {
+        if (arguments->from.empty() == arguments->project.empty()) {
+            throw Error(ErrorKind::parameter, "export needs what to write: --project P.eyrie or --from FILE");
+        }
+        exportLabels(*arguments);
+        exit_code = exit_ok;
+    });
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,162 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "chain/scale_estimation.h"
+#include "cli/arguments/earlier_state.h"
+#include "cli/arguments/input.h"
+#include "cli/command.h"
+#include "io/video/frame_source.h"
+#include "store/health/file_check.h"
+#include "store/labels/annotation_store.h"
+#include "store/runs/run_store.h"
+#include "store/runs/sweep_store.h"
+
+namespace eyrie::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json factsOf(const FrameSource& source) {
+    const VideoInfo& info = source.info();
+    const double last_us = static_cast<double>(source.timeOf(info.frame_count - 1));
+    return {{"file", info.path.string()},
+            {"kind", info.is_image_sequence ? "images" : "video"},
+            {"container", info.container},
+            {"codec", info.codec},
+            {"width", info.size.width},
+            {"height", info.size.height},
+            {"frames", info.frame_count},
+            {"frame_rate_hz", info.frame_rate_hz},
+            {"variable_frame_rate", info.variable_frame_rate},
+            {"duration_s", last_us / 1e6 + 1 / info.frame_rate_hz}};
+}
+
+Json factsOf(RunStore& store, const RunRecord& run) {
+    const SequenceRecord& sequence = run.sequence;
+    Json facts{{"id", run.id},
+               {"name", run.name},
+               {"state", nameOf(stateNow(run))},
+               {"message", run.message},
+               {"started", run.started_utc},
+               {"engine_version", run.engine_version},
+               {"preset", run.preset},
+               {"video", sequence.path},
+               {"width", sequence.size.width},
+               {"height", sequence.size.height},
+               {"first_frame", run.first_frame},
+               {"last_frame", run.last_frame},
+               {"frames_done", run.frames_done},
+               {"frame_rate_hz", sequence.frame_rate_hz}};
+    facts["gsd_m_per_px"] = run.scale.gsd_known ? Json(run.scale.gsd_m_per_px) : Json(nullptr);
+    if (!run.scale.gsd_known) {
+        facts["worked_with_m_per_px"] = run.scale.gsd_m_per_px;
+        facts["scale_is_fallback"] = isFallbackScale(run.scale);
+    }
+    int confirmed = 0;
+    for (const TrackSummary& track : store.tracks(run.id)) confirmed += track.confirmed ? 1 : 0;
+    facts["tracks"] = confirmed;
+    return facts;
+}
+
+void printVideo(const Json& facts) {
+    std::printf("%s\n", facts["file"].get<std::string>().c_str());
+    std::printf("  %s, %s\n", facts["codec"].get<std::string>().c_str(), facts["container"].get<std::string>().c_str());
+    std::printf("  %d×%d px, %d frames, %.4g frames a second%s, %.2f s\n", facts["width"].get<int>(),
+                facts["height"].get<int>(), facts["frames"].get<int>(), facts["frame_rate_hz"].get<double>(),
+                facts["variable_frame_rate"].get<bool>() ? " on average (variable)" : "",
+                facts["duration_s"].get<double>());
+}
+
+std::string guessText(const Json& run) {
+    char text[80];
+    std::snprintf(text, sizeof text, "scale unknown, %s %.2g m/px",
+                  run["scale_is_fallback"].get<bool>() ? "worked with a fallback of" : "estimated",
+                  run["worked_with_m_per_px"].get<double>());
+    return text;
+}
+
+void printProject(const Json& facts) {
+    std::printf("%s\n", facts["file"].get<std::string>().c_str());
+    if (facts["runs"].empty()) std::printf("  no runs\n");
+    for (const Json& run : facts["runs"]) {
+        const std::string name = run["name"].get<std::string>();
+        const std::string message = run["message"].get<std::string>();
+        const int planned = run["last_frame"].get<int>() - run["first_frame"].get<int>() + 1;
+        std::printf("  run %d%s: %s%s%s\n", run["id"].get<int>(), name.empty() ? "" : (" \"" + name + "\"").c_str(),
+                    run["state"].get<std::string>().c_str(), message.empty() ? "" : ", ", message.c_str());
+        std::printf("    %s, %d×%d px\n", run["video"].get<std::string>().c_str(), run["width"].get<int>(),
+                    run["height"].get<int>());
+        std::printf("    frames %d to %d, %d of %d done, %d tracks\n", run["first_frame"].get<int>(),
+                    run["last_frame"].get<int>(), run["frames_done"].get<int>(), planned, run["tracks"].get<int>());
+        const Json& gsd = run["gsd_m_per_px"];
+        std::printf("    %s, engine %s, preset %s, %s\n", run["started"].get<std::string>().c_str(),
+                    run["engine_version"].get<std::string>().c_str(), run["preset"].get<std::string>().c_str(),
+                    gsd.is_null() ? guessText(run).c_str() : (gsd.dump() + " m/px").c_str());
+    }
+    for (const Json& labels : facts["labels"])
+        std::printf("  labels of %s: %d objects\n", labels["video"].get<std::string>().c_str(),
+                    labels["objects"].get<int>());
+    for (const Json& sweep : facts["sweeps"])
+        std::printf("  sweep %d: %s, %d of %d points done\n", sweep["id"].get<int>(),
+                    sweep["name"].get<std::string>().c_str(), sweep["points_done"].get<int>(),
+                    sweep["points"].get<int>());
+}
+
+Json projectFacts(const std::filesystem::path& path) {
+    ProjectFile project = openForReading(path);
+    RunStore store(project);
+    Json facts{{"file", std::filesystem::absolute(path).string()}, {"kind", "project"}, {"runs", Json::array()}};
+    for (const RunRecord& run : store.runs()) facts["runs"].push_back(factsOf(store, run));
+    facts["labels"] = Json::array();
+    for (const SequenceRecord& sequence : sequencesOf(project)) {
+        const AnnotationSet labels = readAnnotations(project, sequence.id);
+        if (!labels.objects.empty())
+            facts["labels"].push_back({{"video", sequence.path}, {"objects", labels.objects.size()}});
+    }
+    facts["sweeps"] = Json::array();
+    for (const SweepRecord& sweep : SweepStore(project).sweeps())
+        facts["sweeps"].push_back({{"id", sweep.id},
+                                   {"name", sweep.name},
+                                   {"points", sweep.point_count},
+                                   {"points_done", sweep.points_done}});
+    return facts;
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& app, int&) {
+    struct Arguments {
+        std::string file;
+        double frame_rate_hz = 0;
+        bool json = false;
+    };
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("info", "Tell what a video, a folder of images or a project holds");
+    command->add_option("FILE", arguments->file, "Video, folder of images or project (.eyrie)")->required();
+    command->add_option("--fps", arguments->frame_rate_hz, "Frames a second, in place of the video's own")
+        ->check(CLI::PositiveNumber);
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->callback([arguments] {
+        const bool is_project = isProject(arguments->file);
+        Json facts;
+        if (is_project) {
+            facts = projectFacts(arguments->file);
+        } else {
+            SourceOptions options;
+            options.frame_rate_hz = arguments->frame_rate_hz;
+            facts = factsOf(*openSource(arguments->file, options));
+        }
+        if (arguments->json) {
+            std::printf("%s\n", facts.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+        } else {
+            is_project ? printProject(facts) : printVideo(facts);
+        }
+    });
+}
+
+}  // namespace eyrie::cli

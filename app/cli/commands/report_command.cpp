@@ -1,0 +1,103 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+
+#include "cli/arguments/earlier_state.h"
+#include "cli/arguments/input.h"
+#include "cli/arguments/output_arguments.h"
+#include "cli/command.h"
+#include "cli/labels_of_project.h"
+#include "cli/project_runs.h"
+#include "core/error.h"
+#include "report/evaluation_report.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct ReportArguments {
+    EvaluationRequest request;
+    std::string project;
+    std::string ground_truth;
+    std::optional<int> run;
+    std::optional<int> against;
+    std::optional<double> border;
+    std::size_t chips = ReportOptions().chips;
+    std::string out;
+    OutputArguments outputs;
+};
+
+std::string nowUtcText() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+void makeReport(const ReportArguments& arguments) {
+    arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, arguments.ground_truth});
+    EvaluationRequest request = arguments.request;
+    request.project = arguments.project;
+    request.truth_file = arguments.ground_truth;
+    {
+        ProjectFile project = openForReading(arguments.project);
+        const RunStore store(project);
+        const RunRecord run = chosenRun(store, arguments.project, arguments.run);
+        if (arguments.against) chosenRun(store, arguments.project, arguments.against, "--against");
+        if (arguments.ground_truth.empty()) needLabels(project, run);
+        request.run_id = run.id;
+    }
+    request.other_run = arguments.against;
+    request.options.border = arguments.border;
+    RunEvaluator evaluator;
+    const auto evaluation = evaluator.evaluate(request);
+    std::unique_ptr<FrameSource> pixels;
+    if (arguments.chips > 0) {
+        try {
+            pixels = openInput(evaluation->run.sequence.path, evaluation->run.sequence.frame_rate_hz, {});
+        } catch (const Error& error) {
+            std::fprintf(stderr, "eyrie-cli: the report has no chips: %s\n", error.what());
+        }
+    }
+    ReportOptions options;
+    options.made_utc = nowUtcText();
+    options.chips = arguments.chips;
+    writeHtmlReport(arguments.out, makeEvaluationReport(*evaluation, pixels.get(), options));
+    std::printf("Report: %s, f-score %.4f at T_ov %g, %zu errors\n", arguments.out.c_str(),
+                evaluation->shown.detection.f_score, evaluation->options.overlap, evaluation->mistakes.size());
+}
+
+}  // namespace
+
+void addReportCommand(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<ReportArguments>();
+    CLI::App* command = app.add_subcommand(
+        "report", "Write the evaluation of a run as one HTML file: parameters, measures, curves, errors with pictures");
+    command->add_option("--project", arguments->project, "Project that holds the run")->required();
+    command->add_option("--run", arguments->run, "Number of the run (default: the last)");
+    command->add_option("--ground-truth", arguments->ground_truth,
+                        "True boxes, in any format that import reads (default: the project's labels of the video)");
+    command->add_option("--out", arguments->out, "HTML file to write")->required();
+    command->add_option("--against", arguments->against,
+                        "Another run over the same video; tells whether the difference is more than chance");
+    command->add_flag("--detections", arguments->request.detections, "Measure the run's detections, not its tracks");
+    command->add_option("--overlap", arguments->request.shown_overlap, "T_ov of errors and curves")
+        ->capture_default_str();
+    command->add_flag("--vehicles", arguments->request.options.vehicles_only,
+                      "Only vehicles count; other objects of the ground truth count neither way");
+    command->add_flag("--upright", arguments->request.options.upright,
+                      "Compare enclosing upright boxes, for ground truth without headings");
+    command->add_option("--border", arguments->border,
+                        "Leave out results that come this close to the image's edge, px");
+    command->add_option("--chips", arguments->chips, "Errors with a picture, at most")->capture_default_str();
+    arguments->outputs.addTo(*command);
+    command->callback([arguments, &exit_code] {
+        makeReport(*arguments);
+        exit_code = exit_ok;
+    });
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,318 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "chain/recording/run_resume.h"
+#include "chain/scale_estimation.h"
+#include "cli/annotator.h"
+#include "cli/arguments/earlier_state.h"
+#include "cli/arguments/input.h"
+#include "cli/arguments/output_arguments.h"
+#include "cli/arguments/preset_arguments.h"
+#include "cli/arguments/run_choice.h"
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/reports/console_progress.h"
+#include "cli/reports/run_report.h"
+#include "core/error.h"
+#include "io/folder.h"
+#include "io/tables/box_csv.h"
+#include "io/video/video_writer.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct RunArguments {
+    std::string input;
+    std::string project;
+    std::optional<double> gsd_m_per_px;
+    std::optional<double> frame_rate_hz;
+    std::string frames;
+    std::string name;
+    PresetArguments preset;
+    std::string tracks_csv;
+    std::string detections_csv;
+    std::string annotated;
+    std::string timing;
+    bool resume = false;
+    std::optional<int> run_id;
+    bool preset_given = false;
+    OutputArguments outputs;
+    bool quiet = false;
+};
+
+/// Shows progress and, if wanted, writes the annotated video.
+class ConsoleObserver : public ChainObserver {
+ public:
+    ConsoleObserver(const RunArguments& arguments, const VideoInfo& video) : quiet_(arguments.quiet) {
+        if (arguments.annotated.empty()) return;
+        const int zoom = annotationZoom(video.size);
+        VideoWriterOptions options;
+        options.frame_rate_hz = video.frame_rate_hz;
+        writer_ = std::make_unique<VideoWriter>(arguments.annotated, video.size * zoom, options);
+    }
+    void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override {
+        if (writer_) writer_->write(annotator_.draw(frame, *result));
+    }
+    /// Draws frames that the project holds, as if they were done now.
+    void drawStored(const RunStore& store, int run_id, FrameSource& source, FrameRange frames,
+                    const std::stop_token& stop) {
+        for (FrameIndex frame = frames.first; writer_ && frame <= frames.last && !stop.stop_requested(); ++frame) {
+            const auto result = store.frameResult(run_id, frame);
+            if (result) writer_->write(annotator_.draw(source.read(frame, true), *result));
+        }
+    }
+    /// Completes the annotated video, of a failed run as far as it came; answers whether there is one.
+    bool finishVideo(bool failed) {
+        try {
+            if (writer_) writer_->finish();
+            return writer_ != nullptr;
+        } catch (const Error&) {
+            if (!failed) throw;
+            return false;  // what made the run fail is told
+        }
+    }
+    void onProgress(const RunProgress& progress) override {
+        if (quiet_) return;
+        progress_.show(progress.frames_done, progress.frames_total, progress.frames_per_second, progress.seconds_left);
+    }
+
+ private:
+    bool quiet_;
+    ConsoleProgress progress_{"frames"};
+    Annotator annotator_;
+    std::unique_ptr<VideoWriter> writer_;
+};
+
+SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const RunArguments& arguments,
+                   const std::stop_token& stop) {
+    ConsoleProgress console("looks");
+    return chooseScale(source, range, options, arguments.gsd_m_per_px.value_or(0), stop,
+                       [&](const RunProgress& progress) {
+                           if (!arguments.quiet)
+                               console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
+                                            progress.seconds_left);
+                       });
+}
+
+/// Said before the work and not after it.
+void checkRange(FrameRange range, const VideoInfo& video) {
+    const FrameIndex end = video.frame_count - 1;
+    if (range.first <= end && range.last <= end) return;
+    throw Error(ErrorKind::parameter, "--frames: " + video.path.string() + " has frames 0 to " + std::to_string(end));
+}
+
+std::filesystem::path projectPath(const RunArguments& arguments) {
+    if (!arguments.project.empty()) return arguments.project;
+    const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
+    const auto stem = std::filesystem::path(input).lexically_normal().stem().string();
+    return (stem.empty() || stem == "." || stem == ".." ? "video" : stem) + ".eyrie";
+}
+
+/// A run that has ended, and what is to be told of it.
+struct EndedRun {
+    RunRecord record;
+    RunSummary summary;
+    bool has_video = false;  ///< the annotated video was written
+};
+
+EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
+                 const InterruptGuard& interrupt) {
+    const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
+    const FrameRange range{frames.first, frames.last};
+    const ChainOptions options = arguments.preset.options();
+    const VideoInfo& video = source.info();
+    checkRange(range, video);
+    if (!arguments.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
+        std::fputs("GSD unknown: looking at the traffic for the scale\n", stderr);
+    }
+    const SceneScale scale = scaleOf(source, range, options, arguments, interrupt.token());
+    RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
+    planned.name = arguments.name;
+    ConsoleObserver console(arguments, video);
+    RunRecorder recorder(project, planned, options, &console);
+    EndedRun ended;
+    ended.summary =
+        ChainRun(options, scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
+    ended.record = recorder.finish(ended.summary);
+    ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
+    return ended;
+}
+
+void tellWhereItGoesOn(const ResumedRun& resumed) {
+    const int done = resumed.last_done - resumed.run.first_frame + 1;
+    const int total = resumed.run.last_frame - resumed.run.first_frame + 1;
+    const std::string which = "run " + std::to_string(resumed.run.id);
+    switch (resumed.restart) {
+        case RestartReason::none:
+            std::fprintf(stderr, "going on with %s: %d of %d frames are done\n", which.c_str(), done, total);
+            break;
+        case RestartReason::nothing_kept:
+            std::fprintf(stderr, "%s begins again at its first frame: nothing was kept to go on from\n", which.c_str());
+            break;
+        case RestartReason::damaged_state:
+            std::fprintf(stderr, "%s begins again at its first frame: what was kept to go on from is damaged\n",
+                         which.c_str());
+            break;
+    }
+}
+
+/// A finished run: there is nothing to do but the outputs.
+EndedRun asItIs(const RunArguments& arguments, const RunRecord& run, FrameSource& source,
+                const std::filesystem::path& project, const InterruptGuard& interrupt) {
+    if (!arguments.quiet) std::fprintf(stderr, "run %d is finished: nothing is left to do\n", run.id);
+    EndedRun ended;
+    ended.record = run;
+    ended.summary.outcome = RunOutcome::finished;
+    ended.summary.message.clear();
+    ended.summary.frames_done = ended.summary.frames_total = run.frames_done;
+    ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+    const RunStore store(file);
+    for (const FrameSummary& frame : store.frameSummaries(run.id)) {
+        if (frame.state == RegistrationState::failed) ++ended.summary.unregistered_frames;
+    }
+    ConsoleObserver console(arguments, source.info());
+    console.drawStored(store, run.id, source, {run.first_frame, run.last_frame}, interrupt.token());
+    ended.has_video = console.finishVideo(false);
+    return ended;
+}
+
+EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& source,
+              const std::filesystem::path& project, const InterruptGuard& interrupt) {
+    const ResumedRun resumed = resumedRun(project, run.id, source);
+    if (!arguments.quiet) tellWhereItGoesOn(resumed);
+    ConsoleObserver console(arguments, source.info());
+    RunRecorder recorder(project, resumed, &console);
+    if (!arguments.annotated.empty()) {
+        ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+        console.drawStored(RunStore(file), run.id, source, {run.first_frame, resumed.last_done}, interrupt.token());
+    }
+    EndedRun ended;
+    ended.summary =
+        ChainRun(resumed.options, run.scale)
+            .run(source, resumed.range(), recorder, interrupt.token(), !arguments.annotated.empty(), resumed.start);
+    ended.record = recorder.finish(ended.summary);
+    ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
+    return ended;
+}
+
+/// Which run --resume is about; `source` is the input, if one was given.
+ResumeChoice choiceOf(const RunArguments& arguments, const FrameSource* source, const std::filesystem::path& project) {
+    if (source != nullptr && !arguments.run_id && !isFile(project)) return {};
+    ResumeWishes wishes;
+    if (source != nullptr) wishes.video = source->info().path.string();
+    wishes.run = arguments.run_id;
+    wishes.gsd_m_per_px = arguments.gsd_m_per_px;
+    wishes.frame_rate_hz = arguments.frame_rate_hz;
+    if (!arguments.frames.empty()) wishes.frames = parseFrames(arguments.frames);
+    if (arguments.preset_given) wishes.options = arguments.preset.options();
+    ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+    return chooseRun(RunStore(file), project.string(), wishes);
+}
+
+/// Before a long video is indexed, not after a long run.
+void checkOutputs(const RunArguments& arguments, const std::filesystem::path& project,
+                  const std::filesystem::path& video) {
+    OutputArguments outputs = arguments.outputs;
+    outputs.force = outputs.force || arguments.resume;  // the same command again replaces what it wrote
+    outputs.check({growingProject(project),
+                   {arguments.tracks_csv, FileKind::text},
+                   {arguments.detections_csv, FileKind::text},
+                   {arguments.annotated, FileKind::video},
+                   {arguments.timing, FileKind::json}},
+                  {video, arguments.preset.preset});
+}
+
+int run(const RunArguments& arguments) {
+    if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
+    if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
+    if (!arguments.frames.empty()) parseFrames(arguments.frames);
+    arguments.preset.options();
+    if (arguments.input.empty() && !(arguments.resume && !arguments.project.empty())) {
+        throw Error(ErrorKind::parameter,
+                    "INPUT is missing: name a video, a folder of images or a scene; --resume can do with --project");
+    }
+    if (arguments.run_id && !arguments.resume) {
+        throw Error(ErrorKind::parameter, "--run names the run to go on with; add --resume, or leave it out");
+    }
+    const InterruptGuard interrupt;
+    const std::filesystem::path project = projectPath(arguments);
+    std::unique_ptr<FrameSource> source;
+    if (!arguments.input.empty()) {
+        checkOutputs(arguments, project, arguments.input);
+        source = openInput(arguments.input, arguments.frame_rate_hz.value_or(0), interrupt.token(),
+                           rememberedRate(project, arguments.input));
+    }
+    ResumeChoice choice;
+    if (arguments.resume) {
+        choice = choiceOf(arguments, source.get(), project);
+        if (!choice.run && !choice.why_new.empty() && !arguments.quiet) {
+            std::fprintf(stderr, "a new run is begun: %s\n", choice.why_new.c_str());
+        }
+    }
+    if (!source) {
+        checkOutputs(arguments, project, choice.run->sequence.path);
+        source = openInput(choice.run->sequence.path, 0, interrupt.token(), choice.run->scale.frame_rate_hz);
+    }
+    if (!keepEarlierState(project, interrupt.token())) return exit_stopped;
+    const auto [record, summary, has_video] = !choice.run ? runAnew(arguments, *source, project, interrupt)
+                                              : choice.run->state == RunState::finished
+                                                  ? asItIs(arguments, *choice.run, *source, project, interrupt)
+                                                  : goOn(arguments, *choice.run, *source, project, interrupt);
+    ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+    const RunStore store(file);
+    if (!arguments.tracks_csv.empty()) writeResultCsv(arguments.tracks_csv, store.trackBoxes(record.id));
+    if (!arguments.detections_csv.empty()) writeResultCsv(arguments.detections_csv, store.detectionBoxes(record.id));
+    if (!arguments.timing.empty()) writeTiming(arguments.timing, summary);
+    std::fputs(
+        summaryText(source->info(), record, summary, factsOf(file, record), store.tracks(record.id), project).c_str(),
+        stdout);
+    if (has_video) std::printf("Annotated video: %s\n", arguments.annotated.c_str());
+    if (summary.outcome == RunOutcome::failed) {
+        std::fprintf(stderr, "eyrie-cli: the run failed after %d frames: %s\n", summary.frames_done,
+                     summary.message.c_str());
+        return exitCodeOf(summary.error);
+    }
+    if (summary.outcome == RunOutcome::stopped && !arguments.quiet) {
+        std::fprintf(stderr, "stopped; eyrie-cli run --resume --project %s does the rest\n", project.c_str());
+    }
+    return summary.outcome == RunOutcome::stopped ? exit_stopped : exit_ok;
+}
+
+}  // namespace
+
+void addRunCommand(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<RunArguments>();
+    CLI::App* command =
+        app.add_subcommand("run", "Find and follow the moving vehicles of a video and store them in a project");
+    command->add_option("input", arguments->input,
+                        "A video file, a folder of images, or scene:NAME for a built-in scene; with --resume and "
+                        "--project it may be left out");
+    command->add_option(
+        "--project", arguments->project,
+        "Project file; made when it does not exist, else a run is added (default: INPUT's name in this folder)");
+    command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel");
+    command->add_option("--fps", arguments->frame_rate_hz,
+                        "Frames per second, when the video does not tell or is wrong");
+    command->add_option("--frames", arguments->frames, "First and last frame, both included, from 0: A:B, A: or :B");
+    command->add_flag("--resume", arguments->resume,
+                      "Go on with a run that ended early; the result is that of a run that never did. With INPUT: the "
+                      "newest of that video begun with the same options, or a new one");
+    command->add_option("--run", arguments->run_id, "Number of the run to go on with (default: the newest)");
+    command->add_option("--name", arguments->name, "A name for the run");
+    arguments->preset.addTo(*command);
+    command->add_option("--tracks", arguments->tracks_csv, "Write the tracks as CSV");
+    command->add_option("--detections", arguments->detections_csv, "Write the detections as CSV");
+    command->add_option("--annotated", arguments->annotated, "Write the video with everything drawn in (mp4)");
+    command->add_option("--timing", arguments->timing, "Write median times per stage as JSON");
+    arguments->outputs.addTo(*command);
+    command->add_flag("--quiet", arguments->quiet, "No progress");
+    command->callback([arguments, command, &exit_code] {
+        arguments->preset_given = command->count("--preset") + command->count("--set") > 0;
+        exit_code = run(*arguments);
+    });
+}
+
+}  // namespace eyrie::cli

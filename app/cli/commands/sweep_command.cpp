@@ -1,0 +1,297 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+
+#include "chain/recording/run_recorder.h"
+#include "cli/arguments/earlier_state.h"
+#include "cli/arguments/evaluation_files.h"
+#include "cli/arguments/output_arguments.h"
+#include "cli/arguments/preset_arguments.h"
+#include "cli/arguments/sweep_arguments.h"
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/reports/console_progress.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/tables/preset_file.h"
+#include "sweep/results/sweep_report.h"
+#include "sweep/sweep_lock.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct SweepArguments {
+    SweepSources sources;
+    std::vector<std::string> axes;
+    std::vector<double> overlaps{0.1, 0.2, 0.3};
+    bool vehicles_only = false;
+    std::optional<double> border;
+    PresetArguments preset;
+    bool preset_given = false;
+    std::string out;
+    std::string name;
+    std::string shard;
+    bool resume = false;
+    bool yes = false;
+    std::string criterion = "f_score";
+    std::string of;
+    std::string csv;
+    std::string save_preset;
+    OutputArguments outputs;
+    bool json = false;
+    bool quiet = false;
+};
+
+/// The positions to do, from "3/8".
+std::vector<int> chosenPositions(const SweepPlan& plan, const std::string& shard) {
+    const std::vector<int> order = workOrder(plan);
+    if (shard.empty()) return order;
+    int number = 0;
+    int count = 0;
+    const char* end = shard.data() + shard.size();
+    const auto first = std::from_chars(shard.data(), end, number);
+    const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+    const auto second = slash ? std::from_chars(first.ptr + 1, end, count) : first;
+    if (!slash || second.ec != std::errc() || second.ptr != end)
+        throw Error(ErrorKind::parameter, "--shard " + shard + ": expected I/N with I from 1 to N, e.g. 3/8");
+    return shardOf(order, number, count);
+}
+
+/// Parameters that all points share. Of stored runs they are those of the first, unless a preset is named.
+ChainOptions baseOptions(const SweepArguments& arguments, const std::vector<StoredRun>& runs) {
+    if (runs.empty() || arguments.preset_given) return arguments.preset.options();
+    ChainOptions options = runs.front().options;
+    PresetArguments settings = arguments.preset;
+    settings.preset = "default";
+    settings.applySettings(options);
+    return options;
+}
+
+SweepCriterion criterionOf(const SweepArguments& arguments, const SweepPlan& plan) {
+    SweepCriterion criterion = usualCriterion(plan);
+    criterion.key = measureText(arguments.criterion).key;
+    if (!arguments.of.empty()) criterion.tracks = arguments.of == "tracks";
+    const std::string group = measureText(criterion.key).group;
+    if (group == "tracking" || group == "identity") criterion.tracks = true;
+    return criterion;
+}
+
+/// Before anything is read: a million values take their time.
+void refuseTooMany(const std::vector<std::string>& axes, bool yes) {
+    double points = 1;
+    for (const std::string& axis : axes) points *= countValues(axis);
+    if (yes || points <= kManyPoints) return;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.0f", points);
+    throw Error(ErrorKind::parameter,
+                "the sweep has " + std::string(text) + " points; add --yes if that is meant, or use a larger step");
+}
+
+/// Runs what is missing; answers whether all was done.
+bool runMissing(const SweepArguments& arguments, const SweepPlan& plan, const std::vector<SweepInput>& inputs,
+                std::vector<int> positions, ProjectFile& project, int sweep, const std::stop_token& stop) {
+    const std::set<int> done = SweepStore(project).pointsDone(sweep);
+    std::erase_if(positions, [&](int position) { return done.count(position) > 0; });
+    if (positions.empty()) return true;
+    const auto lock = lockSweep(project, sweep);
+    ConsoleProgress console("points");
+    SweepRunOptions options;
+    options.on_point = [&](const SweepPoint& point) { storePoint(project, sweep, point); };
+    std::string doing;
+    options.on_progress = [&](const SweepProgress& progress) {
+        if (arguments.quiet) return;
+        if (progress.doing.empty() || progress.points_done > 0) {
+            console.show(progress.points_done, progress.points_total, progress.points_per_second,
+                         progress.seconds_left);
+            return;
+        }
+        const std::string stage = progress.doing.substr(0, progress.doing.find(','));
+        if (stage != doing) std::fprintf(stderr, "%s once for all points\n", stage.c_str());
+        doing = stage;
+    };
+    const int reached = runSweep(plan, inputs, positions, stop, options);
+    return reached == static_cast<int>(positions.size());
+}
+
+void savePreset(const std::string& file, const SweepTable& table, const SweepCriterion& criterion) {
+    const auto best = bestPoint(table, criterion);
+    if (!best) throw Error(ErrorKind::parameter, "--save-preset: there is no best point yet");
+    const ChainOptions options = table.plan.optionsOf(best->position);
+    writePreset(file, {"best of " + table.plan.describe(best->position), parameterValues(options)});
+}
+
+void checkOutputs(const SweepArguments& arguments) {
+    const SweepSources& sources = arguments.sources;
+    std::vector<std::filesystem::path> inputs(sources.sequences.begin(), sources.sequences.end());
+    inputs.insert(inputs.end(), sources.ground_truths.begin(), sources.ground_truths.end());
+    inputs.insert(inputs.end(), {sources.project, arguments.preset.preset});
+    OutputArguments outputs = arguments.outputs;
+    outputs.force = outputs.force || arguments.resume;  // the same command again replaces what it wrote
+    outputs.check({growingProject(arguments.out.empty() ? sources.project : arguments.out),
+                   {arguments.csv, FileKind::text},
+                   {arguments.save_preset, FileKind::json}},
+                  inputs);
+}
+
+int sweep(const SweepArguments& arguments) {
+    if (arguments.sources.sequences.empty() == arguments.sources.project.empty()) {
+        throw Error(ErrorKind::parameter,
+                    "sweep needs what to work on: either --sequence with --ground-truth, or --project");
+    }
+    if (arguments.out.empty() && arguments.sources.project.empty())
+        throw Error(ErrorKind::parameter,
+                    "--out: name the file that the points are written to, e.g. --out sweep.eyrie");
+    measureText(arguments.criterion);
+    refuseTooMany(arguments.axes, arguments.yes);
+    checkOutputs(arguments);
+    std::vector<StoredRun> runs;
+    if (!arguments.sources.project.empty()) {
+        ProjectFile project = ProjectFile::open(arguments.sources.project, ProjectFile::Mode::read_only);
+        for (const int run : arguments.sources.runs) runs.push_back(readStoredRun(project, run));
+        if (runs.empty()) runs.push_back(readStoredRun(project));
+    }
+    const ChainOptions base = baseOptions(arguments, runs);
+    SweepPlan plan;
+    plan.engine_version = engineVersion();
+    for (const std::string& axis : arguments.axes) plan.axes.push_back(parseAxis(axis, base));
+    plan.base = parameterValues(base);
+    plan.overlaps = arguments.overlaps;
+    plan.vehicles_only = arguments.vehicles_only;
+    plan.border = arguments.border;
+    chosenPositions(plan, arguments.shard);  // shows a wrong shard before anything is opened
+
+    const InterruptGuard interrupt;
+    OpenedSources opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, interrupt.token())
+                                        : openStoredRuns(arguments.sources, std::move(runs), base);
+    plan.clips = opened.clips;
+    check(plan);
+    const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;
+    if (!keepEarlierState(out, interrupt.token())) return exit_stopped;
+    ProjectFile project = ProjectFile::openOrCreate(out);
+    const int id = beginSweep(project, plan, arguments.name, arguments.resume || !arguments.shard.empty());
+    const bool whole = runMissing(arguments, plan, opened.inputs, chosenPositions(plan, arguments.shard), project, id,
+                                  interrupt.token());
+
+    const SweepTable table = readSweep(project, id);
+    const SweepCriterion criterion = criterionOf(arguments, plan);
+    if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(table));
+    if (!arguments.save_preset.empty()) savePreset(arguments.save_preset, table, criterion);
+    std::fputs((arguments.json ? jsonText(table, criterion) : tableText(table, criterion)).c_str(), stdout);
+    for (const std::string& remark : opened.remarks) std::fprintf(stderr, "note: %s\n", remark.c_str());
+    if (!whole) {
+        std::fprintf(stderr, "stopped; %s keeps what is done, the same command with --resume does the rest\n",
+                     project.path().string().c_str());
+    }
+    return whole ? exit_ok : exit_stopped;
+}
+
+}  // namespace
+
+void addSweepCommand(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<SweepArguments>();
+    CLI::App* command =
+        app.add_subcommand("sweep", "Try many values of one or two parameters on sequences with ground truth");
+    SweepSources& sources = arguments->sources;
+    CLI::Option* sequence = command->add_option("--sequence", sources.sequences,
+                                                "A video file, a folder of images, or scene:NAME; may be repeated");
+    command->add_option("--ground-truth", sources.ground_truths,
+                        "True boxes of each sequence, in any format that import reads (with --project: default the "
+                        "project's labels)");
+    command->add_option("--project", sources.project, "Sweep over a stored run, whose motion vectors are used again")
+        ->excludes(sequence);
+    command
+        ->add_option("--run", sources.runs,
+                     "Numbers of the runs, e.g. 2 or 2,5 (default: the last); parameters are those of the first")
+        ->delimiter(',')
+        ->needs("--project");
+    command
+        ->add_option("--parameter", arguments->axes,
+                     "What to change: NAME=FIRST:STEP:LAST or NAME=VALUE,VALUE,…; once or twice")
+        ->required();
+    command->add_option("--overlap", arguments->overlaps, "Overlaps T_ov from which on a box counts as found")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--gsd", sources.gsds,
+                        "Ground sampling distance in metres per pixel: one, or one for each sequence");
+    command->add_option("--fps", sources.frame_rate_hz, "Frames per second, when the video does not tell");
+    command->add_option("--frames", sources.frames, "First and last frame, both included, from 0: A:B, A: or :B");
+    command->add_flag("--vehicles", arguments->vehicles_only,
+                      "Only vehicles count; other objects of the ground truth count neither way");
+    command->add_flag("--upright", sources.upright,
+                      "Compare enclosing upright boxes, for ground truth without headings");
+    command->add_option("--border", arguments->border,
+                        "Leave out results that come this close to the image's edge, px");
+    command->add_option("--mot-origin", sources.mot_origin, motOriginHelp());
+    arguments->preset.addTo(*command);
+    command->add_option("--out", arguments->out, "Project file for the points; made when it does not exist");
+    command->add_option("--name", arguments->name, "A name for the sweep");
+    command->add_option("--shard", arguments->shard, "Do only part I of N, written I/N; eyrie-cli merge joins them");
+    command->add_flag("--resume", arguments->resume, "Go on with a sweep that was stopped");
+    command->add_flag("--yes", arguments->yes, "Begin even with more than 10000 points");
+    command->add_option("--best", arguments->criterion, "The measure that decides which point is best")
+        ->capture_default_str();
+    command->add_option("--of", arguments->of, "Judge detections or tracks (default: by the parameters)")
+        ->check(CLI::IsMember({"detections", "tracks"}));
+    command->add_option("--csv", arguments->csv, "Write all figures as CSV");
+    command->add_option("--save-preset", arguments->save_preset, "Write the parameters of the best point as a preset");
+    arguments->outputs.addTo(*command);
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->add_flag("--quiet", arguments->quiet, "No progress");
+    command->callback([arguments, command, &exit_code] {
+        arguments->preset_given = command->count("--preset") > 0;
+        exit_code = sweep(*arguments);
+    });
+}
+
+void addMergeCommand(CLI::App& app, int& exit_code) {
+    struct MergeArguments {
+        std::vector<std::string> files;
+        std::string out;
+        std::string criterion = "f_score";
+        std::string csv;
+        OutputArguments outputs;
+        bool add = false;
+        bool json = false;
+    };
+    const auto arguments = std::make_shared<MergeArguments>();
+    CLI::App* command = app.add_subcommand("merge", "Join the parts of a sweep that several machines did");
+    command->add_option("files", arguments->files, "Project files written by sweep --shard")->required();
+    command->add_option("--out", arguments->out, "Project file for the whole sweep, none of the parts")->required();
+    command->add_flag("--add", arguments->add, "Add the sweep to --out where that project exists already");
+    command->add_option("--best", arguments->criterion, "The measure that decides which point is best")
+        ->capture_default_str();
+    command->add_option("--csv", arguments->csv, "Write all figures as CSV");
+    arguments->outputs.addTo(*command);
+    command->add_flag("--json", arguments->json, "Print JSON");
+    command->callback([arguments, &exit_code] {
+        std::error_code ignored;
+        const bool exists = std::filesystem::exists(arguments->out, ignored);
+        const bool is_part = std::any_of(arguments->files.begin(), arguments->files.end(), [&](const auto& file) {
+            return std::filesystem::equivalent(file, arguments->out, ignored);
+        });
+        if (exists && !is_part && !arguments->add) {
+            throw Error(ErrorKind::parameter, "--out " + arguments->out +
+                                                  ": exists already; choose another name, or say --add to put the "
+                                                  "sweep into that project");
+        }
+        arguments->outputs.check({growingProject(arguments->out), {arguments->csv, FileKind::text}},
+                                 {arguments->files.begin(), arguments->files.end()});
+        keepEarlierState(arguments->out);
+        const SweepTable table = mergeSweeps({arguments->files.begin(), arguments->files.end()}, arguments->out);
+        SweepCriterion criterion = usualCriterion(table.plan);
+        criterion.key = measureText(arguments->criterion).key;
+        if (!arguments->csv.empty()) writeFileAtomically(arguments->csv, csvText(table));
+        std::fputs((arguments->json ? jsonText(table, criterion) : tableText(table, criterion)).c_str(), stdout);
+        const std::vector<int> missing = table.missing();
+        if (exists) std::fprintf(stderr, "note: the sweep was added to %s\n", arguments->out.c_str());
+        if (!missing.empty()) {
+            std::fprintf(stderr, "eyrie-cli: %zu of %d points are missing: %s\n", missing.size(),
+                         table.plan.pointCount(), listOf(table.plan, missing).c_str());
+        }
+        exit_code = missing.empty() ? exit_ok : exit_input;
+    });
+}
+
+}  // namespace eyrie::cli

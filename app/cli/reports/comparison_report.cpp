@@ -1,0 +1,237 @@
+#include "cli/reports/comparison_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "evaluation/comparison/published_figures.h"
+
+namespace eyrie::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kSmallestName = 24;
+
+std::string number(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string right(const std::string& text, std::size_t width) {
+    return std::string(width - std::min(width, text.size()), ' ') + text;
+}
+
+std::string left(const std::string& text, std::size_t width) {
+    return text + std::string(width - std::min(width, text.size()), ' ');
+}
+
+/// A measure of the tables; empty where a result has none.
+struct MeasureColumn {
+    const char* title;
+    const char* key;
+    std::size_t width;
+    int decimals;
+    std::optional<double> (*value)(const Measures&);
+};
+
+std::optional<double> ofTracking(const Measures& m, double (*read)(const TrackingMeasures&)) {
+    if (!m.tracking) return std::nullopt;
+    return read(*m.tracking);
+}
+
+const std::vector<MeasureColumn>& columns() {
+    static const std::vector<MeasureColumn> all{
+        {"TP", "tp", 7, 0, [](const Measures& m) { return std::optional<double>(m.detection.true_positives); }},
+        {"FP", "fp", 7, 0, [](const Measures& m) { return std::optional<double>(m.detection.false_positives); }},
+        {"FN", "fn", 7, 0, [](const Measures& m) { return std::optional<double>(m.detection.false_negatives); }},
+        {"precision", "precision", 10, 3, [](const Measures& m) { return std::optional(m.detection.precision); }},
+        {"recall", "recall", 8, 3, [](const Measures& m) { return std::optional(m.detection.recall); }},
+        {"f-score", "f_score", 8, 3, [](const Measures& m) { return std::optional(m.detection.f_score); }},
+        {"N-MODA", "n_moda", 8, 3, [](const Measures& m) { return std::optional(m.detection.n_moda); }},
+        {"N-MODP", "n_modp", 8, 3, [](const Measures& m) { return std::optional(m.detection.n_modp); }},
+        {"MOTA", "mota", 8, 3,
+         [](const Measures& m) { return ofTracking(m, [](const TrackingMeasures& t) { return t.mota; }); }},
+        {"MOTP", "motp", 8, 3,
+         [](const Measures& m) { return ofTracking(m, [](const TrackingMeasures& t) { return t.motp; }); }},
+        {"IDS", "id_switches", 6, 0,
+         [](const Measures& m) {
+             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.id_switches); });
+         }},
+        {"MT", "mostly_tracked", 5, 0,
+         [](const Measures& m) {
+             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.mostly_tracked); });
+         }},
+        {"PT", "partially_tracked", 5, 0,
+         [](const Measures& m) {
+             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.partially_tracked); });
+         }},
+        {"MLT", "mostly_lost", 5, 0,
+         [](const Measures& m) {
+             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.mostly_lost); });
+         }},
+        {"FM", "fragments", 5, 0,
+         [](const Measures& m) {
+             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.fragments); });
+         }},
+    };
+    return all;
+}
+
+std::string valueText(const MeasureColumn& column, const Measures& measures) {
+    const std::optional<double> value = column.value(measures);
+    if (!value) return "-";
+    return column.decimals == 0 ? number("%.0f", *value) : number("%.3f", *value);
+}
+
+std::string intervalText(const BootstrapInterval& interval) {
+    return number("%+.3f", interval.value) + " [" + number("%+.3f", interval.low) + ", " +
+           number("%+.3f", interval.high) + "]";
+}
+
+void addBlock(std::string& text, const std::vector<ComparisonRow>& rows) {
+    std::size_t width = kSmallestName;
+    for (const ComparisonRow& row : rows) width = std::max(width, row.name().size() + 1);
+    text += '\n';
+    text += left("T_ov " + number("%g", rows.front().measures.overlap), width);
+    for (const MeasureColumn& column : columns()) text += right(column.title, column.width);
+    text += right("ms", 8) + "\n";
+    for (const ComparisonRow& row : rows) {
+        text += left(row.name(), width);
+        for (const MeasureColumn& column : columns()) text += right(valueText(column, row.measures), column.width);
+        text += right(number("%.1f", row.ms_per_frame), 8) + "\n";
+    }
+    if (rows.size() < 2) return;
+    text += '\n';
+    text += left("difference", width + 2) + left("f-score [95 %]", 28) + left("MOTA [95 %]", 28) + "to\n";
+    for (const ComparisonRow& row : rows) {
+        if (!row.difference) continue;
+        text += left(row.name(), width + 2);
+        text += left(intervalText(row.difference->f_score), 28);
+        text += left(row.difference->mota ? intervalText(*row.difference->mota) : "-", 28);
+        text += row.compared_with + "\n";
+    }
+}
+
+Json jsonOf(const BootstrapInterval& interval) {
+    return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
+}
+
+Json publishedJson(const std::string& sequence) {
+    const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(); };
+    Json rows = Json::array();
+    for (const PublishedFigures& row : publishedFigures(sequence)) {
+        rows.push_back({{"name", row.method},
+                        {"source", row.source},
+                        {"overlap", kPublishedOverlap},
+                        {"tp", orNull(row.true_positives)},
+                        {"fp", orNull(row.false_positives)},
+                        {"fn", orNull(row.false_negatives)},
+                        {"precision", row.precision},
+                        {"recall", row.recall},
+                        {"f_score", row.f_score},
+                        {"n_moda", orNull(row.n_moda)},
+                        {"n_modp", orNull(row.n_modp)},
+                        {"mota", orNull(row.mota)},
+                        {"motp", orNull(row.motp)},
+                        {"mostly_tracked", orNull(row.mostly_tracked)},
+                        {"partially_tracked", orNull(row.partially_tracked)},
+                        {"mostly_lost", orNull(row.mostly_lost)},
+                        {"fragments", orNull(row.fragments)}});
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::string ComparisonRow::name() const {
+    return method + (stacking ? " + stacking" : "") + (tracking ? " + tracking" : "");
+}
+
+std::string tableText(const ComparisonReport& report) {
+    std::string text = "Sequence      " + report.sequence + ", " + std::to_string(report.frames) + " frames\n";
+    text += "Ground truth  " + report.ground_truth + "\n";
+    text +=
+        std::string("Compared      ") + (report.options.upright ? "enclosing upright boxes" : "oriented boxes") +
+        (report.options.vehicles_only ? ", vehicles only" : "") +
+        (report.options.border ? ", without results within " + number("%g", *report.options.border) + " px of the edge"
+                               : "") +
+        "\n";
+    for (const auto& rows : report.blocks) {
+        if (!rows.empty()) addBlock(text, rows);
+    }
+    if (!report.remarks.empty()) text += "\n";
+    for (const std::string& remark : report.remarks) text += "Note: " + remark + "\n";
+    if (!report.published.empty()) text += "\n" + publishedText(report.published);
+    return text;
+}
+
+std::string csvText(const ComparisonReport& report) {
+    std::string text = "method,stacking,tracking,overlap";
+    for (const MeasureColumn& column : columns()) text += std::string(",") + column.key;
+    text +=
+        ",ms_per_frame,f_score_low,f_score_high,f_score_difference,f_score_difference_low,f_score_difference_high,"
+        "mota_difference,mota_difference_low,mota_difference_high\n";
+    const auto interval = [](const BootstrapInterval& i) {
+        return number(",%.6g", i.value) + number(",%.6g", i.low) + number(",%.6g", i.high);
+    };
+    for (const auto& rows : report.blocks) {
+        for (const ComparisonRow& row : rows) {
+            text += row.method + (row.stacking ? ",1" : ",0") + (row.tracking ? ",1" : ",0") +
+                    number(",%g", row.measures.overlap);
+            for (const MeasureColumn& column : columns()) {
+                const std::optional<double> value = column.value(row.measures);
+                text += value ? number(",%.6g", *value) : ",";
+            }
+            text += number(",%.3f", row.ms_per_frame) + number(",%.6g", row.f_score.low) +
+                    number(",%.6g", row.f_score.high);
+            text += row.difference ? interval(row.difference->f_score) : ",,,";
+            text += row.difference && row.difference->mota ? interval(*row.difference->mota) : ",,,";
+            text += "\n";
+        }
+    }
+    return text;
+}
+
+std::string jsonText(const ComparisonReport& report) {
+    Json json{{"sequence", report.sequence},
+              {"ground_truth", report.ground_truth},
+              {"frames", report.frames},
+              {"upright", report.options.upright},
+              {"vehicles_only", report.options.vehicles_only}};
+    json["border_px"] = report.options.border ? Json(*report.options.border) : Json();
+    json["results"] = Json::array();
+    for (const auto& rows : report.blocks) {
+        for (const ComparisonRow& row : rows) {
+            Json entry{{"name", row.name()},
+                       {"method", row.method},
+                       {"stacking", row.stacking},
+                       {"tracking", row.tracking},
+                       {"overlap", row.measures.overlap},
+                       {"ms_per_frame", row.ms_per_frame}};
+            for (const NamedMeasure& measure : listMeasures(row.measures)) {
+                if (!measure.value) {
+                    entry[measure.key] = nullptr;
+                } else if (measure.decimals == 0) {
+                    entry[measure.key] = std::llround(*measure.value);
+                } else {
+                    entry[measure.key] = *measure.value;
+                }
+            }
+            entry["f_score_interval"] = jsonOf(row.f_score);
+            if (row.difference) {
+                Json difference{{"to", row.compared_with}, {"f_score", jsonOf(row.difference->f_score)}};
+                if (row.difference->mota) difference["mota"] = jsonOf(*row.difference->mota);
+                entry["difference"] = difference;
+            }
+            json["results"].push_back(std::move(entry));
+        }
+    }
+    json["remarks"] = report.remarks;
+    if (!report.published.empty()) json["published"] = publishedJson(report.published);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace eyrie::cli

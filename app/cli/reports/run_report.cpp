@@ -1,0 +1,126 @@
+#include "cli/reports/run_report.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cli/reports/console_progress.h"
+#include "io/atomic_file.h"
+
+namespace eyrie::cli {
+namespace {
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+    char text[512];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+const char* nameOf(RunOutcome outcome) {
+    switch (outcome) {
+        case RunOutcome::finished:
+            return "finished";
+        case RunOutcome::stopped:
+            return "stopped";
+        case RunOutcome::failed:
+            return "failed";
+    }
+    return "";
+}
+
+std::string speedText(const SceneScale& scale, double px_per_frame) {
+    return scale.gsd_known ? formatted("%.0f km/h", scale.metresPerSecond(px_per_frame) * 3.6)
+                           : formatted("%.2f px/frame", px_per_frame);
+}
+
+std::string scaleText(const RunFacts& facts) {
+    switch (facts.scale_origin) {
+        case ScaleOrigin::given:
+            return formatted("%.3g m/px", facts.gsd_m_per_px);
+        case ScaleOrigin::estimated:
+            return formatted("GSD unknown, estimated %.2g m/px from the traffic (give --gsd for metres and km/h)",
+                             facts.gsd_m_per_px);
+        case ScaleOrigin::fallback:
+            break;
+    }
+    return formatted(
+        "GSD unknown and the traffic shows none: works with a fallback of %.2g m/px, which may be far off; give --gsd",
+        facts.gsd_m_per_px);
+}
+
+/// "Not registered: 12 frames (too few corners 9, cut 3)"; empty when all were.
+std::string unregisteredText(const RunCounts& counts) {
+    if (counts.unregistered == 0) return {};
+    std::string text =
+        formatted("Not registered: %d frame%s (", counts.unregistered, counts.unregistered == 1 ? "" : "s");
+    for (const ReasonCount& count : counts.reasons) text += formatted("%s %d, ", count.reason.c_str(), count.frames);
+    text.resize(text.size() - 2);
+    return text + ")\n";
+}
+
+const char* whyNothing(NothingFollowed nothing) {
+    switch (nothing) {
+        case NothingFollowed::has_tracks:
+            return "";
+        case NothingFollowed::no_frames:
+            return "no frame was processed";
+        case NothingFollowed::not_registered:
+            return "no frame could be registered onto the one before it, so nothing could be told to move";
+        case NothingFollowed::no_motion:
+            return "nothing moved otherwise than the ground (motion.min_speed decides)";
+        case NothingFollowed::no_detections:
+            return "something moved, but nothing looked like a vehicle (detection.method decides, and --gsd)";
+        case NothingFollowed::all_rejected:
+            return "every detection was rejected as duplicate, outlier or for its size; check --gsd";
+        case NothingFollowed::none_confirmed:
+            return "nothing was detected often enough to become a track (tracking.confirm_hits decides)";
+        case NothingFollowed::all_dropped:
+            return "what was followed was left out when the tracks were finished (the finishing parameters decide)";
+    }
+    return "";
+}
+
+}  // namespace
+
+std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,
+                        const std::vector<TrackSummary>& tracks, const std::filesystem::path& project) {
+    std::string text =
+        formatted("%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(), video.size.width,
+                  video.size.height, video.frame_count, video.frame_rate_hz, scaleText(facts).c_str());
+    text += formatted("Run %d %s: %d of %d frames in %s (%.1f frames/s)", run.id, nameOf(summary.outcome),
+                      summary.frames_done, summary.frames_total, clockText(summary.seconds).c_str(),
+                      summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0);
+    text += "\n" + unregisteredText(facts.counts);
+    int confirmed = 0;
+    double speed = 0;
+    for (const auto& track : tracks) {
+        if (!track.confirmed) continue;
+        ++confirmed;
+        speed += track.mean_speed_px;
+    }
+    text += formatted("Vehicles followed: %d", confirmed);
+    if (confirmed > 0) text += formatted(", mean speed %s", speedText(run.scale, speed / confirmed).c_str());
+    if (facts.nothing != NothingFollowed::has_tracks) text += formatted(": %s", whyNothing(facts.nothing));
+    text += "\nMedian per frame:";
+    for (int i = 0; i < kStageCount; ++i) {
+        const float ms = summary.median_ms[static_cast<std::size_t>(i)];
+        if (ms > 0.005F)
+            text += formatted(" %s %.2f ms;", eyrie::nameOf(static_cast<Stage>(i)), static_cast<double>(ms));
+    }
+    if (text.back() == ';') text.pop_back();
+    text += "\nProject: " + project.string() + "\n";
+    return text;
+}
+
+void writeTiming(const std::filesystem::path& path, const RunSummary& summary) {
+    nlohmann::ordered_json json;
+    json["frames"] = summary.frames_done;
+    json["seconds"] = summary.seconds;
+    json["frames_per_second"] = summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0;
+    for (int i = 0; i < kStageCount; ++i) {
+        json["median_ms"][eyrie::nameOf(static_cast<Stage>(i))] = summary.median_ms[static_cast<std::size_t>(i)];
+    }
+    writeFileAtomically(path, json.dump(2) + "\n");
+}
+
+}  // namespace eyrie::cli

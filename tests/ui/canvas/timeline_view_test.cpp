@@ -1,0 +1,106 @@
+#include "canvas/timeline/timeline_view.h"
+
+#include <QSignalSpy>
+#include <QTest>
+#include <QWheelEvent>
+
+namespace eyrie::ui {
+
+class TimelineViewTest : public QObject {
+    Q_OBJECT
+
+    static std::vector<std::int64_t> times(int count) {
+        std::vector<std::int64_t> result;
+        for (int i = 0; i < count; ++i) result.push_back(i * 40'000);
+        return result;
+    }
+    static QPoint at(const TimelineView& view, FrameIndex frame) {
+        return {static_cast<int>(view.axis().centreOf(frame)), view.height() / 2};
+    }
+
+ private slots:
+    void clickingAndDraggingScrubs() {
+        TimelineView view;
+        view.resize(1000, 104);
+        view.setTimes(times(100));
+        std::vector<FrameIndex> requested;
+        connect(&view, &TimelineView::frameRequested, this,
+                [&](FrameIndex frame, bool) { requested.push_back(frame); });
+        QTest::mousePress(&view, Qt::LeftButton, {}, at(view, 20));
+        QTest::mouseMove(&view, at(view, 55));
+        QTest::mouseRelease(&view, Qt::LeftButton, {}, at(view, 60));
+        QCOMPARE(requested, (std::vector<FrameIndex>{20, 55, 60}));
+    }
+
+    void wheelZoomsAroundTheCursor() {
+        TimelineView view;
+        view.resize(1000, 104);
+        view.setTimes(times(1000));
+        const QPointF cursor = at(view, 600);
+        const FrameIndex under = view.axis().frameAt(cursor.x());
+        QWheelEvent event(cursor, cursor, {}, {0, 600}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+        QApplication::sendEvent(&view, &event);
+        QCOMPARE(view.axis().frameAt(cursor.x()), under);
+        QVERIFY(!view.axis().showsAll());
+    }
+
+    void qualityHasAColourPerState() {
+        const auto colour = [](RegistrationState state, double rms) {
+            return qualityColour({.done = true, .state = state, .rms_px = rms});
+        };
+        const QColor good = colour(RegistrationState::registered, 0.02);
+        const QColor poor = colour(RegistrationState::registered, 0.6);
+        const QColor failed = colour(RegistrationState::failed, 0);
+        const QColor frozen = colour(RegistrationState::frozen, 0);
+        QVERIFY(good.green() > good.red());
+        QVERIFY(poor.red() > poor.green());
+        QVERIFY(failed.red() > 2 * failed.green());
+        QVERIFY(frozen.blue() > frozen.red());
+    }
+
+    void aFailedFrameIsSeenEvenAmongManyInOneColumn() {
+        TimelineView view;
+        view.resize(400, 104);
+        view.setTimes(times(20000));
+        std::vector<TimelineFrame> frames(20000, {.done = true,
+                                                  .state = RegistrationState::registered,
+                                                  .rms_px = 0.05,
+                                                  .inliers = 90,
+                                                  .corners = 100,
+                                                  .motion_vectors = 10,
+                                                  .tracks = 3});
+        frames[7003].state = RegistrationState::failed;
+        view.setFrames(frames);
+        const QImage picture = view.grab().toImage();
+        int red = 0;
+        for (int y = 0; y < picture.height(); ++y)
+            for (int x = 0; x < picture.width(); ++x)
+                if (picture.pixelColor(x, y) == qualityColour(frames[7003])) ++red;
+        QVERIFY(red > 0);
+    }
+
+    void framesOfARunningRunAppearOneByOne() {
+        TimelineView view;
+        view.resize(600, 104);
+        view.setTimes(times(50));
+        view.setRunRange(std::pair(0, 49));
+        const QImage before = view.grab().toImage();
+        view.setFrameDone(10, {.done = true, .state = RegistrationState::registered, .corners = 10, .tracks = 2});
+        view.setFrameDone(99, {.done = true});  // not a frame of this video: ignored
+        QVERIFY(before != view.grab().toImage());
+    }
+
+    void withoutAVideoItIsEmptyAndHarmless() {
+        TimelineView view;
+        view.resize(600, 104);
+        QSignalSpy requested(&view, &TimelineView::frameRequested);
+        QTest::mouseClick(&view, Qt::LeftButton, {}, {300, 50});
+        QCOMPARE(requested.count(), 0);
+        view.grab();
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::TimelineViewTest)
+#include "timeline_view_test.moc"

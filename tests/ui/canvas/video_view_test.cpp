@@ -1,0 +1,167 @@
+#include "canvas/video_view.h"
+
+#include <QSignalSpy>
+#include <QTest>
+#include <QWheelEvent>
+
+#include "canvas/image_convert.h"
+
+namespace eyrie::ui {
+
+class VideoViewTest : public QObject {
+    Q_OBJECT
+
+    static ViewFrame checkered(QSize size) {
+        ViewFrame frame;
+        frame.image = QImage(size, QImage::Format_RGB32);
+        for (int y = 0; y < size.height(); ++y)
+            for (int x = 0; x < size.width(); ++x)
+                frame.image.setPixel(x, y, (x + y) % 2 == 0 ? qRgb(255, 255, 255) : qRgb(0, 0, 0));
+        return frame;
+    }
+    static std::shared_ptr<FrameResult> oneTrack() {
+        auto result = std::make_shared<FrameResult>();
+        result->motion.image_size = {200, 100};
+        TrackState state;
+        state.id = 7;
+        state.status = TrackStatus::confirmed;
+        state.box = {{60, 40}, 30, 14, 0};
+        result->tracks.push_back(state);
+        return result;
+    }
+    static void wheel(VideoView& view, QPointF position, int steps) {
+        QWheelEvent event(position, view.mapToGlobal(position), {}, {0, 120 * steps}, Qt::NoButton, Qt::NoModifier,
+                          Qt::NoScrollPhase, false);
+        QApplication::sendEvent(&view, &event);
+    }
+
+ private slots:
+    void wheelZoomsToTheCursor() {
+        OverlaySettings settings;
+        VideoView view(settings);
+        view.resize(600, 400);
+        view.show();
+        view.setFrame(checkered({200, 100}));
+        const QPointF cursor(412, 133);
+        const QPointF point = view.transform().imageFromView(cursor);
+        const double before = view.transform().zoom();
+        wheel(view, cursor, 3);
+        QVERIFY(view.transform().zoom() > before * 1.5);
+        QVERIFY(QLineF(view.transform().imageFromView(cursor), point).length() < 1e-9);
+        wheel(view, cursor, -3);
+        QVERIFY(qAbs(view.transform().zoom() - before) < 1e-9);
+    }
+
+    void draggingMovesThePictureWithTheCursor() {
+        OverlaySettings settings;
+        VideoView view(settings);
+        view.resize(600, 400);
+        view.show();
+        view.setFrame(checkered({200, 100}));
+        wheel(view, {300, 200}, 8);
+        const QPointF point = view.transform().imageFromView({300, 200});
+        QTest::mousePress(&view, Qt::LeftButton, {}, {300, 200});
+        QTest::mouseMove(&view, {330, 190});
+        QTest::mouseMove(&view, {350, 180});
+        QTest::mouseRelease(&view, Qt::LeftButton, {}, {350, 180});
+        QVERIFY(QLineF(view.transform().imageFromView({350, 180}), point).length() < 1e-6);
+    }
+
+    void cursorIsReportedToTheSubPixelAndOnlyInsideTheImage() {
+        OverlaySettings settings;
+        VideoView view(settings);
+        view.resize(600, 400);
+        view.show();
+        view.setFrame(checkered({200, 100}));  // fitted: scale 3, picture from y = 50 to 350
+        std::optional<QPointF> reported;
+        connect(&view, &VideoView::cursorMoved, this, [&](std::optional<QPointF> point) { reported = point; });
+        QTest::mouseMove(&view, {301, 200});
+        QVERIFY(reported);
+        QVERIFY(qAbs(reported->x() - (301 / 3.0 - 0.5)) < 1e-9);
+        QTest::mouseMove(&view, {301, 20});
+        QVERIFY(!reported);
+    }
+
+    void atEightHundredPercentPixelsAreSharpSquares() {
+        OverlaySettings settings;
+        VideoView view(settings);
+        view.resize(400, 320);
+        view.show();
+        view.setFrame(checkered({50, 40}));  // fitted: exactly 8 screen pixels per pixel
+        QCOMPARE(view.transform().zoom(), 8.0);
+        const QImage picture = view.picture();
+        for (const QPoint inside : {QPoint(0, 0), QPoint(7, 7), QPoint(3, 4)}) {
+            QCOMPARE(picture.pixelColor(inside), QColor(Qt::white));
+            QCOMPARE(picture.pixelColor(inside + QPoint(8, 0)), QColor(Qt::black));
+        }
+    }
+
+    void clickingATrackSelectsIt() {
+        OverlaySettings settings;
+        VideoView view(settings);
+        view.resize(600, 400);
+        view.show();
+        ViewFrame frame = checkered({200, 100});
+        frame.result = oneTrack();
+        view.setFrame(frame);
+        std::optional<TrackId> clicked;
+        connect(&view, &VideoView::trackClicked, this, [&](std::optional<TrackId> track) { clicked = track; });
+        QTest::mouseClick(&view, Qt::LeftButton, {}, view.transform().viewFromImage({60, 40}).toPoint());
+        QCOMPARE(clicked, std::optional<TrackId>(7));
+        QTest::mouseClick(&view, Qt::LeftButton, {}, view.transform().viewFromImage({150, 80}).toPoint());
+        QVERIFY(!clicked);
+    }
+
+    void aTapOnTheSpaceBarPlaysButPanningWithItDoesNot() {
+        OverlaySettings settings;
+        VideoView view(settings);
+        view.resize(600, 400);
+        view.show();
+        view.setFrame(checkered({200, 100}));
+        QSignalSpy played(&view, &VideoView::playToggled);
+        QTest::keyClick(&view, Qt::Key_Space);
+        QCOMPARE(played.count(), 1);
+        QTest::keyPress(&view, Qt::Key_Space);
+        QTest::mousePress(&view, Qt::LeftButton, {}, {300, 200});
+        QTest::mouseMove(&view, {340, 200});
+        QTest::mouseMove(&view, {360, 200});
+        QTest::mouseRelease(&view, Qt::LeftButton, {}, {360, 200});
+        QTest::keyRelease(&view, Qt::Key_Space);
+        QCOMPARE(played.count(), 1);
+    }
+
+    void aMissingPictureStillShowsItsOverlays() {
+        OverlaySettings settings;
+        VideoView view(settings);
+        view.resize(600, 400);
+        view.show();
+        view.clear({});
+        ViewFrame frame;
+        frame.result = oneTrack();
+        view.setFrame(frame);
+        QCOMPARE(view.transform().imageSize(), QSize(200, 100));
+        const QImage with = view.picture();
+        settings.setVisible(OverlayKind::tracks, false);
+        QVERIFY(with != view.picture());
+    }
+
+    void wrappedImagesShareTheirPixels() {
+        cv::Mat gray(20, 30, CV_8UC1, cv::Scalar(77));
+        const QImage image = wrapImage(gray);
+        QCOMPARE(static_cast<const void*>(image.constBits()), static_cast<const void*>(gray.data));
+        cv::Mat colour(20, 30, CV_8UC3, cv::Scalar(10, 20, 30));
+        QCOMPARE(wrapImage(colour).pixelColor(3, 4), QColor(30, 20, 10));
+        QImage outlives;
+        {
+            cv::Mat part = cv::Mat(40, 40, CV_8UC3, cv::Scalar(1, 2, 3))(cv::Rect(5, 5, 10, 10));
+            outlives = wrapImage(part);
+        }
+        QCOMPARE(outlives.pixelColor(9, 9), QColor(3, 2, 1));
+        QVERIFY(wrapImage({}).isNull());
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::VideoViewTest)
+#include "video_view_test.moc"

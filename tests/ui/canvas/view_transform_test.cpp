@@ -1,0 +1,145 @@
+#include "canvas/view_transform.h"
+
+#include <QTest>
+#include <numbers>
+
+namespace eyrie::ui {
+
+namespace {
+ViewTransform shown(QSize image, QSizeF view, double density = 1) {
+    ViewTransform transform;
+    transform.setView(view, density);
+    transform.setImageSize(image);
+    return transform;
+}
+
+void compare(QPointF a, QPointF b) {
+    QVERIFY2(QLineF(a, b).length() < 1e-9,
+             qPrintable(QStringLiteral("(%1, %2) and (%3, %4)").arg(a.x()).arg(a.y()).arg(b.x()).arg(b.y())));
+}
+}  // namespace
+
+class ViewTransformTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void fitShowsTheWholeImageCentred() {
+        const ViewTransform t = shown({400, 200}, {800, 800});
+        QCOMPARE(t.scale(), 2.0);
+        QCOMPARE(t.imageRect(), QRectF(0, 200, 800, 400));
+        // The centre of the top left pixel lies half a pixel inside the image.
+        compare(t.viewFromImage({0, 0}), {1, 201});
+        compare(t.imageFromView({400, 400}), {199.5, 99.5});
+    }
+
+    void mappingThereAndBackIsTheIdentity() {
+        ViewTransform t = shown({641, 479}, {1013, 777}, 1.5);
+        t.zoomAround({100, 50}, 3.7);
+        t.panBy({-33, 12});
+        for (const QPointF p : {QPointF(0, 0), QPointF(640, 478), QPointF(12.25, 300.75)})
+            compare(t.imageFromView(t.viewFromImage(p)), p);
+    }
+
+    void zoomKeepsThePointUnderTheCursor() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        const QPointF cursor(731, 122);
+        const QPointF point = t.imageFromView(cursor);
+        for (const double factor : {1.25, 1.25, 8.0, 0.3, 0.01, 1000.0}) {
+            t.zoomAround(cursor, factor);
+            compare(t.imageFromView(cursor), point);
+        }
+    }
+
+    void zoomThereAndBackIsTheIdentity() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        const QRectF before = t.imageRect();
+        t.zoomAround({10, 20}, 2.5);
+        t.zoomAround({10, 20}, 1 / 2.5);
+        compare(t.imageRect().topLeft(), before.topLeft());
+        QVERIFY(std::abs(t.imageRect().width() - before.width()) < 1e-9);
+    }
+
+    void zoomHasLimits() {
+        ViewTransform t = shown({640, 480}, {1000, 700}, 2);
+        t.zoomAround({0, 0}, 1e9);
+        QCOMPARE(t.zoom(), ViewTransform::kMaxZoom);
+        t.zoomAround({0, 0}, 1e-9);
+        QVERIFY(t.zoom() > 0.05);
+    }
+
+    void oneToOneIsOneScreenPixelPerImagePixel() {
+        ViewTransform t = shown({640, 480}, {1000, 700}, 2);
+        t.setZoomAround({500, 350}, 1);
+        QCOMPARE(t.scale(), 0.5);
+        QCOMPARE(t.zoom(), 1.0);
+    }
+
+    void pixelsAreSharpFromFourHundredPercent() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        t.setZoomAround({0, 0}, 3.99);
+        QVERIFY(!t.sharp());
+        t.setZoomAround({0, 0}, 4);
+        QVERIFY(t.sharp());
+    }
+
+    void panningNeverLosesTheImage() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        for (const QPointF far : {QPointF(1e6, 0), QPointF(-1e6, -1e6), QPointF(0, 1e6)}) {
+            t.panBy(far);
+            QVERIFY(!t.imageRect().intersected(QRectF(0, 0, 1000, 700)).isEmpty());
+        }
+    }
+
+    void resizingKeepsAFittedImageFitted() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        t.setView({500, 900}, 1);
+        QVERIFY(t.fitted());
+        QCOMPARE(t.imageRect().width(), 500.0);
+    }
+
+    void resizingKeepsTheMiddleOfAZoomedImage() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        t.zoomAround({300, 300}, 5);
+        const QPointF middle = t.imageFromView({500, 350});
+        t.setView({800, 500}, 1);
+        compare(t.imageFromView({400, 250}), middle);
+    }
+
+    void anotherDensityKeepsTheZoom() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        t.setZoomAround({500, 350}, 2);
+        t.setView({1000, 700}, 2);
+        QCOMPARE(t.zoom(), 2.0);
+    }
+
+    void aTurnedPictureMapsThereAndBack() {
+        ViewTransform transform;
+        transform.setView({800, 600}, 1);
+        transform.setImageSize({320, 224});
+        transform.setZoomAround({100, 80}, 3);
+        transform.centreOn({40, 60});
+        transform.setRotation(-1.1);
+        compare(transform.viewFromImage({40, 60}), {400, 300});  // the middle stays
+        const QPointF somewhere(12.25, 91.5);
+        compare(transform.imageFromView(transform.viewFromImage(somewhere)), somewhere);
+        const QPointF before = transform.imageFromView({150, 500});
+        transform.zoomAround({150, 500}, 1.7);
+        compare(transform.imageFromView({150, 500}), before);
+        transform.panBy({10, -4});
+        compare(transform.viewFromImage(before), {160, 496});
+        transform.setRotation(std::numbers::pi / 2);  // clockwise: what pointed right points down
+        const QPointF along = transform.viewVector({1, 0});
+        QVERIFY(std::abs(along.x()) < 1e-9 && along.y() > 0);
+        compare(transform.turn().map(transform.unturnedFromImage(somewhere)), transform.viewFromImage(somewhere));
+    }
+
+    void visibleImageEndsAtTheImage() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        QCOMPARE(t.visibleImage(), QRectF(-0.5, -0.5, 640, 480));
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_APPLESS_MAIN(eyrie::ui::ViewTransformTest)
+#include "view_transform_test.moc"

@@ -1,0 +1,84 @@
+#include <cmath>
+
+#include "ui/label/labelling.h"
+#include "ui/support/full_disk.h"
+#include "widgets/message_bar.h"
+
+namespace eyrie::ui {
+
+/// Nothing labelled is lost, and only one window labels.
+class LabelKeepingTest : public QObject, test::Labelling {
+    Q_OBJECT
+
+ private slots:
+    void init() { begin(); }
+    void cleanup() { end(); }
+
+    void undoSurvivesARestart() {
+        ObjectId id = 0;
+        {
+            const auto window = labellingWindow(6);
+            QVERIFY(window);
+            id = draw(*window, {40, 60}, {58, 60});
+            key(*window, Qt::Key_Right);
+            key(*window, Qt::Key_3);
+            window->close();
+        }
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        QCOMPARE(object(*window, id).object_class, std::string("bus"));
+        const double x = object(*window, id).keyframes[0].box.centre.x;
+        QVERIFY(labels.undoName().contains(QStringLiteral("bus")));
+        key(*window, Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(object(*window, id).object_class, std::string("car"));
+        key(*window, Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(std::abs(object(*window, id).keyframes[0].box.centre.x - x + 1) < 1e-9);
+        key(*window, Qt::Key_Y, Qt::ControlModifier);
+        QVERIFY(std::abs(object(*window, id).keyframes[0].box.centre.x - x) < 1e-9);
+    }
+
+    void aSecondWindowReadsOnlyAndSaysWhy() {
+        auto first = labellingWindow(6);
+        QVERIFY(first);
+        const ObjectId id = draw(*first, {40, 60}, {58, 60});
+        const auto second = labellingWindow(6);
+        QVERIFY(second);
+        QVERIFY(second->labelling().labels().readOnly());
+        QVERIFY(!second->messages().texts().isEmpty());
+        QVERIFY(
+            second->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("The labels can only be read")));
+        second->labelling().labels().select(id);
+        const double x = object(*second, id).keyframes[0].box.centre.x;
+        key(*second, Qt::Key_Right);
+        key(*second, Qt::Key_B);
+        QVERIFY(!second->labelling().tool().drawing());
+        QVERIFY(std::abs(object(*second, id).keyframes[0].box.centre.x - x) < 1e-9);
+        first->labelling().editor().nudge(1, 0);
+        first.reset();
+        second->labelling().actions().try_to_write->trigger();
+        QVERIFY(second->labelling().labels().canEdit());
+        QVERIFY(std::abs(object(*second, id).keyframes[0].box.centre.x - x - 1) < 1e-9);
+    }
+
+    void onAFullDiskNothingIsShownThatIsNotStored() {
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        const ObjectId id = draw(*window, {40, 60}, {58, 60});
+        const double x = object(*window, id).keyframes[0].box.centre.x;
+        {
+            const test::FullDisk full;
+            key(*window, Qt::Key_Right);
+        }
+        QCOMPARE(object(*window, id).keyframes[0].box.centre.x, x);
+        const QString told = window->messages().texts().join(QLatin1Char(' '));
+        QVERIFY2(told.contains(QStringLiteral("disk")), qPrintable(told));
+        key(*window, Qt::Key_Right);  // there is room again
+        QVERIFY(std::abs(object(*window, id).keyframes[0].box.centre.x - x - 1) < 1e-9);
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::LabelKeepingTest)
+#include "label_keeping_test.moc"

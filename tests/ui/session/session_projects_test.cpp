@@ -1,0 +1,178 @@
+#include "session/project/project_location.h"
+#include "store/labels/annotation_store.h"
+#include "ui/session/session_support.h"
+
+namespace eyrie::ui {
+
+using test::kPatience_ms;
+using test::openAndWait;
+using test::runAndWait;
+using test::shows;
+
+/// Where a project and its video lie, and what stays with them.
+class SessionProjectsTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+
+    static bool waitFor(const std::function<bool()>& condition) { return QTest::qWaitFor(condition, kPatience_ms); }
+    static bool open(ProjectSession& session, const std::filesystem::path& path) {
+        QSignalSpy ready(&session, &ProjectSession::ready);
+        session.open(path);
+        return ready.wait(kPatience_ms);
+    }
+    /// A folder of images whose project, beside it, holds a run.
+    std::filesystem::path folderWithRun(int frames = 12) {
+        const auto folder = test::writeScene(*home_ / "flights" / "images", frames);
+        ProjectSession session;
+        if (!open(session, folder) || !runAndWait(session)) return {};
+        return folder;
+    }
+    std::filesystem::path project() { return *home_ / "flights" / "images.eyrie"; }
+
+ private slots:
+    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void cleanup() { home_.reset(); }
+
+    void theProjectLiesBesideItsVideo() {
+        const auto folder = folderWithRun();
+        QVERIFY(!folder.empty());
+        QVERIFY(std::filesystem::exists(project()));
+        ProjectSession session;
+        QVERIFY(open(session, folder));
+        QCOMPARE(session.project(), project());
+        QCOMPARE(session.runs().size(), std::size_t(1));
+    }
+
+    void aFolderThatCannotBeWrittenLeavesTheDataFolder() {
+        ProjectSession session;
+        Media media = test::sceneUnderTest(5);
+        media.identity = (*home_ / "nowhere" / "clip.mp4").string();  // a project could not be made beside it
+        QVERIFY(openAndWait(session, media));
+        QCOMPARE(session.project(), projectInDataFolder(media.name, media.identity));
+    }
+
+    void aFrameRateGivenOnceStays() {
+        const auto folder = test::writeScene(*home_ / "flights" / "images", 12);
+        {
+            ProjectSession session;
+            QVERIFY(open(session, folder));
+            QCOMPARE(session.video()->frame_rate_hz, 25.0);
+            session.setFrameRate(30);
+            QVERIFY(waitFor([&] { return session.video()->frame_rate_hz == 30; }));
+            session.goToFrame(3);
+            QVERIFY(shows(session, 3));
+            QCOMPARE(session.timesUs()[3], std::int64_t(100'000));
+        }
+        for (const auto& path : {folder, project()}) {
+            ProjectSession session;
+            QVERIFY(open(session, path));
+            QCOMPARE(session.video()->frame_rate_hz, 30.0);
+            QVERIFY(runAndWait(session));
+            QVERIFY(waitFor([&] { return session.runData() != nullptr; }));
+            QCOMPARE(session.runData()->record.scale.frame_rate_hz, 30.0);
+        }
+    }
+
+    void aRunAskedForWhileTheRateChangesIsMadeWithIt() {
+        ProjectSession session;
+        QVERIFY(open(session, test::writeScene(*home_ / "flights" / "images", 8)));
+        QSignalSpy finished(&session, &ProjectSession::runFinished);
+        session.setFrameRate(10);
+        session.startRun();
+        QVERIFY(finished.wait(kPatience_ms));
+        QCOMPARE(session.runs().back().scale.frame_rate_hz, 10.0);
+    }
+
+    void saveAsGoesOnInTheNewFileAndACopyDoesNot() {
+        const auto folder = folderWithRun();
+        ProjectSession session;
+        QVERIFY(open(session, folder));
+        QSignalSpy notice(&session, &ProjectSession::notice);
+        session.saveProjectCopy(*home_ / "copy.eyrie");
+        QVERIFY(notice.wait(kPatience_ms));
+        QCOMPARE(session.project(), project());
+        const auto other = *home_ / "other.eyrie";
+        session.saveProjectAs(other);
+        QVERIFY(waitFor([&] { return session.project() == other; }));
+        QVERIFY(runAndWait(session));
+        ProjectFile former = ProjectFile::open(project());
+        ProjectFile present = ProjectFile::open(other);
+        QCOMPARE(RunStore(former).runs().size(), std::size_t(1));
+        QCOMPARE(RunStore(present).runs().size(), std::size_t(2));
+    }
+
+    void aVideoThatMovedWithItsProjectIsFound() {
+        QVERIFY(!folderWithRun().empty());
+        const auto moved = *home_ / "archive";
+        std::filesystem::rename(*home_ / "flights", moved);
+        {
+            ProjectSession session;
+            QVERIFY(open(session, moved / "images.eyrie"));
+            QVERIFY(!session.videoMissing());
+            QVERIFY(shows(session, 0));
+            QCOMPARE(session.media()->identity, (moved / "images").string());
+            QVERIFY(session.currentRun());
+        }
+        ProjectFile file = ProjectFile::open(moved / "images.eyrie");
+        QCOMPARE(sequencesOf(file).size(), std::size_t(1));
+        QCOMPARE(sequencesOf(file).front().path, (moved / "images").string());
+    }
+
+    void theRunsOfAMovedVideoAreShownWhenTheVideoIsOpened() {
+        QVERIFY(!folderWithRun().empty());
+        const auto moved = *home_ / "archive";
+        std::filesystem::rename(*home_ / "flights", moved);
+        ProjectSession session;
+        QVERIFY(open(session, moved / "images"));
+        QCOMPARE(session.project(), moved / "images.eyrie");
+        QVERIFY(session.currentRun());
+        QCOMPARE(session.runs().front().sequence.path, (moved / "images").string());
+    }
+
+    void aVideoThatIsNowhereCanBeLocated() {
+        const auto folder = folderWithRun();
+        const auto elsewhere = *home_ / "elsewhere";
+        std::filesystem::rename(folder, elsewhere);
+        const auto shorter = test::writeScene(*home_ / "shorter", 5);
+        ProjectSession session;
+        QSignalSpy not_found(&session, &ProjectSession::videoNotFound);
+        QVERIFY(open(session, project()));
+        QVERIFY(session.videoMissing());
+        QCOMPARE(not_found.count(), 1);
+        session.locateVideo(shorter);
+        QVERIFY(not_found.wait(kPatience_ms));
+        QVERIFY(not_found.last().at(0).toString().contains(QStringLiteral("another video")));
+        QVERIFY(session.videoMissing());
+        session.locateVideo(elsewhere);
+        QVERIFY(waitFor([&] { return !session.videoMissing(); }));
+        QVERIFY(shows(session, 0));
+        QVERIFY(session.currentRun());
+        ProjectSession again;
+        QVERIFY(waitFor([&] {
+            ProjectFile file = ProjectFile::open(project(), ProjectFile::Mode::read_only);
+            return RunStore(file).runs().front().sequence.path == elsewhere.string();
+        }));
+        QVERIFY(open(again, project()));
+        QVERIFY(!again.videoMissing());
+    }
+
+    void theGsdFollowsTheRunThatIsShown() {
+        const auto folder = folderWithRun();
+        ProjectSession session;
+        QVERIFY(open(session, folder));
+        session.settings().gsd_m_per_px = 0.5;
+        QVERIFY(runAndWait(session));
+        QVERIFY(waitFor([&] { return session.runs().size() == 2; }));
+        session.settings().gsd_m_per_px = 0.3;
+        session.showRun(session.runs()[0].id);
+        QCOMPARE(session.settings().gsd_m_per_px, 0.0);  // made without one
+        session.showRun(session.runs()[1].id);
+        QCOMPARE(session.settings().gsd_m_per_px, 0.5);
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_GUILESS_MAIN(eyrie::ui::SessionProjectsTest)
+#include "session_projects_test.moc"

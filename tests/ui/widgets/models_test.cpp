@@ -1,0 +1,212 @@
+#include <QAbstractItemModelTester>
+#include <QSignalSpy>
+#include <QTest>
+#include <cmath>
+#include <limits>
+
+#include "panels_support.h"
+#include "review/runs_model.h"
+#include "review/tracks_model.h"
+#include "widgets/display_text.h"
+#include "widgets/tables/table_roles.h"
+#include "widgets/tables/table_sort_proxy.h"
+#include "widgets/tables/table_text.h"
+
+using namespace eyrie;
+using namespace eyrie::ui;
+using eyrie::ui::test::sampleRun;
+using eyrie::ui::test::sampleTrack;
+using eyrie::ui::test::several;
+
+class ModelsTest : public QObject {
+    Q_OBJECT
+
+    static QString cell(const QAbstractItemModel& model, int row, int column) {
+        return model.index(row, column).data().toString();
+    }
+    static constexpr auto kFatal = QAbstractItemModelTester::FailureReportingMode::QtTest;
+
+ private slots:
+    void initTestCase() { QLocale::setDefault(QLocale::c()); }
+
+    void runsKeepTheRulesOfModels() {
+        RunsModel model;
+        TableSortProxy proxy;
+        proxy.setSourceModel(&model);
+        const QAbstractItemModelTester tester(&model, kFatal);
+        const QAbstractItemModelTester proxy_tester(&proxy, kFatal);
+        model.setRuns({});
+        model.setRuns(several(3, sampleRun));
+        proxy.sort(RunsModel::state_column, Qt::DescendingOrder);
+        model.setRuns({sampleRun(1), sampleRun(3)});
+        model.setRuns({sampleRun(1), sampleRun(3), sampleRun(4)});
+        model.updateRun(sampleRun(4));
+        model.updateRun(sampleRun(5));
+        model.setLiveRun(5);
+        model.setRuns(several(40, sampleRun));
+        proxy.setFilterText(QStringLiteral("thesis"));
+        QCOMPARE(proxy.rowCount(), 20);
+        model.setRuns({sampleRun(9)});
+        model.setRuns({});
+        QCOMPARE(model.rowCount(), 0);
+    }
+
+    void tracksKeepTheRulesOfModels() {
+        TracksModel model;
+        TableSortProxy proxy;
+        proxy.setSourceModel(&model);
+        const QAbstractItemModelTester tester(&model, kFatal);
+        const QAbstractItemModelTester proxy_tester(&proxy, kFatal);
+        model.setTracks(several(5, sampleTrack), {});
+        model.setTracks(several(8, sampleTrack), {0.3, 25, true});
+        proxy.sort(TracksModel::speed_column);
+        model.setTracks({sampleTrack(2), sampleTrack(7)}, {});
+        model.setTracks({sampleTrack(1), sampleTrack(2)}, {});
+        QCOMPARE(model.rowCount(), 2);
+    }
+
+    void newContentsKeepTheRowsThatStay() {
+        TracksModel model;
+        model.setTracks(several(3, sampleTrack), {});
+        const QPersistentModelIndex second = model.index(1, 0);
+        const QSignalSpy resets(&model, &QAbstractItemModel::modelReset);
+        model.setTracks(several(5, sampleTrack), {});
+        QVERIFY(second.isValid());
+        model.setTracks({sampleTrack(2), sampleTrack(3), sampleTrack(5), sampleTrack(6)}, {});
+        QVERIFY(second.isValid());
+        QCOMPARE(second.row(), 0);
+        QCOMPARE(second.data(id_role).toInt(), 2);
+        QCOMPARE(resets.count(), 0);
+    }
+
+    void runsAreReadable() {
+        RunsModel model;
+        RunRecord named = sampleRun(2);
+        named.name = "with “shadows”";
+        RunRecord killed = sampleRun(3);
+        killed.state = RunState::running;
+        killed.frames_done = 63;
+        RunRecord failed = sampleRun(4);
+        failed.state = RunState::failed;
+        failed.message = "the video ends at frame 12";
+        failed.scale.gsd_known = false;
+        model.setRuns({sampleRun(1), named, killed, failed});
+        QCOMPARE(cell(model, 0, RunsModel::name_column), QStringLiteral("Run 1"));
+        QCOMPARE(cell(model, 1, RunsModel::name_column), QStringLiteral("with “shadows”"));
+        QCOMPARE(cell(model, 0, RunsModel::frames_column), QStringLiteral("100"));
+        QCOMPARE(cell(model, 2, RunsModel::frames_column), QStringLiteral("63/100"));
+        QCOMPARE(cell(model, 0, RunsModel::length_column), QStringLiteral("4.0 s"));
+        QCOMPARE(cell(model, 2, RunsModel::state_column), QStringLiteral("stopped"));
+        model.setLiveRun(3);
+        QCOMPARE(cell(model, 2, RunsModel::state_column), QStringLiteral("running"));
+        QCOMPARE(cell(model, 3, RunsModel::state_column), QStringLiteral("failed"));
+        QVERIFY(model.index(3, 0).data(Qt::ToolTipRole).toString().contains(QStringLiteral("ends at frame 12")));
+        QCOMPARE(cell(model, 0, RunsModel::gsd_column), QStringLiteral("0.250"));
+        QCOMPARE(cell(model, 3, RunsModel::gsd_column), QStringLiteral("unknown"));
+        QCOMPARE(cell(model, 0, RunsModel::video_column), QStringLiteral("street.mp4"));
+        QCOMPARE(model.rowOf(3), 2);
+        QCOMPARE(model.rowOf(9), -1);
+        QVERIFY(model.recordAt(9) == nullptr);
+    }
+
+    void aRunIsRenamedInItsRow() {
+        RunsModel model;
+        model.setRuns({sampleRun(7)});
+        QSignalSpy renamed(&model, &RunsModel::renameRequested);
+        const QModelIndex name = model.index(0, RunsModel::name_column);
+        QVERIFY(model.flags(name) & Qt::ItemIsEditable);
+        QVERIFY(!(model.flags(model.index(0, RunsModel::state_column)) & Qt::ItemIsEditable));
+        QVERIFY(model.setData(name, QStringLiteral("  mine "), Qt::EditRole));
+        QCOMPARE(renamed.count(), 1);
+        QCOMPARE(renamed[0][0].toInt(), 7);
+        QCOMPARE(renamed[0][1].toString(), QStringLiteral("mine"));
+        QCOMPARE(name.data().toString(), QStringLiteral("mine"));
+        QVERIFY(!model.setData(name, QStringLiteral("mine"), Qt::EditRole));
+        QCOMPARE(renamed.count(), 1);
+    }
+
+    // 2 px a frame at 0.25 m/px and 25 Hz are 12.5 m/s, which are 45 km/h.
+    void tracksShowMetresOnlyWhenTheGsdIsKnown() {
+        TracksModel model;
+        model.setTracks({sampleTrack(1)}, {0.25, 25, true});
+        QCOMPARE(cell(model, 0, TracksModel::speed_column), QStringLiteral("45.0"));
+        QCOMPARE(cell(model, 0, TracksModel::length_column), QStringLiteral("4.5"));
+        QCOMPARE(cell(model, 0, TracksModel::width_column), QStringLiteral("2.0"));
+        QCOMPARE(cell(model, 0, TracksModel::life_column), QStringLiteral("2.0"));
+        QCOMPARE(model.headerData(TracksModel::speed_column, Qt::Horizontal, Qt::DisplayRole).toString(),
+                 QStringLiteral("Speed (km/h)"));
+        model.setTracks({sampleTrack(1)}, {0.25, 25, false});
+        QCOMPARE(cell(model, 0, TracksModel::speed_column), QStringLiteral("2.00"));
+        QCOMPARE(cell(model, 0, TracksModel::length_column), QStringLiteral("18.0"));
+        QCOMPARE(model.headerData(TracksModel::length_column, Qt::Horizontal, Qt::DisplayRole).toString(),
+                 QStringLiteral("Length (px)"));
+    }
+
+    void numbersSortAsNumbers() {
+        TracksModel model;
+        TableSortProxy proxy;
+        proxy.setSourceModel(&model);
+        model.setTracks({sampleTrack(2), sampleTrack(10), sampleTrack(1)}, {});
+        for (const int column :
+             {int(TracksModel::id_column), int(TracksModel::first_column), int(TracksModel::speed_column)}) {
+            proxy.sort(column);
+            QCOMPARE(cell(proxy, 0, 0), QStringLiteral("1"));
+            QCOMPARE(cell(proxy, 2, 0), QStringLiteral("10"));
+            proxy.sort(column, Qt::DescendingOrder);
+            QCOMPARE(cell(proxy, 0, 0), QStringLiteral("10"));
+        }
+    }
+
+    void everyWordOfTheFilterMustBeThere() {
+        TracksModel model;
+        TableSortProxy proxy;
+        proxy.setSourceModel(&model);
+        model.setTracks(several(9, sampleTrack), {});
+        proxy.setFilterText(QStringLiteral("tentative"));
+        QCOMPARE(proxy.rowCount(), 3);
+        proxy.setFilterText(QStringLiteral("  30  TENTATIVE "));
+        QCOMPARE(proxy.rowCount(), 1);
+        proxy.setFilterText(QString());
+        QCOMPARE(proxy.rowCount(), 9);
+        proxy.setRowFilter([&](int row) { return model.recordAt(row)->confirmed; });
+        QCOMPARE(proxy.rowCount(), 6);
+    }
+
+    void rowsCopyAsText() {
+        RunsModel model;
+        RunRecord run = sampleRun(1);
+        run.name = "a\tb\nc";
+        model.setRuns({run, sampleRun(2)});
+        QCOMPARE(tableText(model, {0, 1}, {RunsModel::preset_column, RunsModel::name_column}),
+                 QStringLiteral("Preset\tRun\ndefault\ta b c\nthesis\tRun 2\n"));
+    }
+
+    void durations_data() {
+        QTest::addColumn<double>("seconds");
+        QTest::addColumn<QString>("text");
+        QTest::newRow("none") << 0.0 << "0.0 s";
+        QTest::newRow("short") << 4.92 << "4.9 s";
+        QTest::newRow("nearly a minute") << 59.97 << "1:00.0";
+        QTest::newRow("minutes") << 124.94 << "2:04.9";
+        QTest::newRow("nearly an hour") << 3599.99 << "1:00:00";
+        QTest::newRow("hours") << 3724.0 << "1:02:04";
+        QTest::newRow("no number") << std::numeric_limits<double>::quiet_NaN() << "–";
+    }
+    void durations() {
+        QFETCH(double, seconds);
+        QFETCH(QString, text);
+        QCOMPARE(durationText(seconds), text);
+    }
+
+    void textsOfNumbers() {
+        QCOMPARE(speedText(2, {0.25, 25, true}), QStringLiteral("45.0 km/h"));
+        QCOMPARE(speedText(2, {0.25, 25, false}), QStringLiteral("2.00 px/frame"));
+        QCOMPARE(lengthText(10, {0.25, 25, true}), QStringLiteral("2.5 m"));
+        QCOMPARE(numberText(std::numeric_limits<double>::infinity(), 1), QStringLiteral("–"));
+        QCOMPARE(localTimeText("yesterday"), QStringLiteral("yesterday"));
+        QVERIFY(!localTimeText("2026-11-21T08:00:00Z").contains(QLatin1Char('Z')));
+    }
+};
+
+QTEST_MAIN(ModelsTest)
+#include "models_test.moc"

@@ -1,0 +1,115 @@
+#include <QSignalSpy>
+#include <QTest>
+#include <QToolButton>
+
+#include "panels_support.h"
+#include "review/track_inspector.h"
+#include "widgets/charts/origin_bar.h"
+
+using namespace eyrie;
+using namespace eyrie::ui;
+
+namespace {
+
+/// Frames 10 … 19; the last three are predicted, the two before reconstructed. Speed 5 px/frame, 18 × 8 px.
+std::vector<TrackFrame> life() {
+    std::vector<TrackFrame> states;
+    for (int i = 0; i < 10; ++i) {
+        TrackFrame state;
+        state.frame = 10 + i;
+        state.state.id = 4;
+        state.state.box = {{100.0 + 3 * i, 50.0 + 4 * i}, 18, 8, 0.9273};
+        state.state.velocity = {3, 4};
+        state.state.status = TrackStatus::confirmed;
+        state.state.origin = i < 5   ? StateOrigin::detected
+                             : i < 7 ? StateOrigin::reconstructed
+                                     : StateOrigin::predicted;
+        states.push_back(state);
+    }
+    return states;
+}
+
+}  // namespace
+
+class InspectorTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void initTestCase() { QLocale::setDefault(QLocale::c()); }
+
+    void showsTheWholeAndTheMoment() {
+        TrackInspector inspector;
+        QVERIFY(inspector.text().isEmpty());
+        inspector.showTrack(4, life(), {0.25, 25, true});
+        inspector.setCurrentFrame(12);
+        const QString text = inspector.text();
+        // 5 px a frame at 0.25 m/px and 25 Hz are 112.5 km/h.
+        for (const char* part : {"Track 4", "frames 10 to 19, 0.4 s", "112.5 km/h", "4.5 × 2.0 m", "5 detected",
+                                 "2 reconstructed", "3 predicted", "106.0, 58.0 px", "53°", "confirmed, detected"}) {
+            QVERIFY2(text.contains(QString::fromUtf8(part)), qPrintable(text));
+        }
+        inspector.setCurrentFrame(30);
+        QVERIFY(inspector.text().contains(QStringLiteral("not there")));
+    }
+
+    void showsPixelsWithoutGsd() {
+        TrackInspector inspector;
+        inspector.showTrack(4, life(), {0.25, 25, false});
+        QVERIFY(inspector.text().contains(QStringLiteral("5.00 px/frame")));
+        QVERIFY(inspector.text().contains(QStringLiteral("18.0 × 8.0 px")));
+    }
+
+    void nothingIsExplained() {
+        TrackInspector inspector;
+        inspector.showTrack(4, life(), {});
+        inspector.showTrack(5, {}, {});
+        QCOMPARE(inspector.track(), 0);
+        QVERIFY(inspector.text().isEmpty());
+        inspector.setCurrentFrame(3);
+    }
+
+    void goesToItsEndsAndWhereTheBarIsClicked() {
+        TrackInspector inspector;
+        inspector.showTrack(4, life(), {});
+        inspector.resize(300, 400);
+        inspector.show();
+        QSignalSpy frames(&inspector, &TrackInspector::frameActivated);
+        for (auto* button : inspector.findChildren<QToolButton*>()) button->click();
+        QCOMPARE(frames.count(), 2);
+        QCOMPARE(frames[0][0].toInt() + frames[1][0].toInt(), 29);
+        auto* bar = inspector.findChild<OriginBar*>();
+        QTest::mouseClick(bar, Qt::LeftButton, Qt::NoModifier, QPoint(bar->width() - 1, 2));
+        QCOMPARE(frames.last()[0].toInt(), 19);
+        QTest::mouseClick(bar, Qt::LeftButton, Qt::NoModifier, QPoint(0, 2));
+        QCOMPARE(frames.last()[0].toInt(), 10);
+    }
+
+    void theBarShowsWhereBoxesCameFrom() {
+        OriginBar bar;
+        bar.resize(100, 10);
+        bar.setStates(life());
+        bar.setCurrentFrame(-1);
+        const QImage image = bar.grab().toImage();
+        const double scale = image.devicePixelRatio();
+        const auto colourAt = [&](int x) { return image.pixelColor(static_cast<int>(x * scale), 3); };
+        QCOMPARE(colourAt(20), originColour(StateOrigin::detected, bar.palette()));
+        QCOMPARE(colourAt(60), originColour(StateOrigin::reconstructed, bar.palette()));
+        QCOMPARE(colourAt(90), originColour(StateOrigin::predicted, bar.palette()));
+    }
+
+    void looksRightInBothThemes() {
+        for (const bool dark : {false, true}) {
+            TrackInspector inspector;
+            if (dark) inspector.setPalette(ui::test::darkPalette());
+            inspector.showTrack(4, life(), {0.25, 25, true});
+            inspector.setCurrentFrame(16);
+            inspector.resize(320, 380);
+            inspector.show();
+            ui::test::keepPicture(inspector,
+                                  dark ? QStringLiteral("inspector_dark") : QStringLiteral("inspector_light"));
+        }
+    }
+};
+
+QTEST_MAIN(InspectorTest)
+#include "panels_inspector_test.moc"

@@ -1,0 +1,213 @@
+#include <QClipboard>
+#include <QHeaderView>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QSlider>
+#include <QTableView>
+#include <QTest>
+#include <memory>
+
+#include "panels_support.h"
+#include "review/runs_panel.h"
+#include "review/tracks_panel.h"
+#include "widgets/empty_state.h"
+
+using namespace eyrie;
+using namespace eyrie::ui;
+using eyrie::ui::test::sampleRun;
+using eyrie::ui::test::sampleTrack;
+using eyrie::ui::test::several;
+
+class TablesTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<ui::test::OwnSettings> settings_;
+
+    static void clickRow(const TablePanel& panel, int row, int column = 0) {
+        const QTableView* table = panel.table();
+        QTest::mouseClick(table->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          table->visualRect(table->model()->index(row, column)).center());
+    }
+
+ private slots:
+    void init() {
+        QLocale::setDefault(QLocale::c());
+        settings_ = std::make_unique<ui::test::OwnSettings>();
+    }
+
+    void emptyListsTeach() {
+        RunsModel model;
+        RunsPanel panel(&model);
+        panel.show();
+        QVERIFY(panel.emptyState()->isVisible());
+        QVERIFY(!panel.emptyState()->explanation().isEmpty());
+        QSignalSpy run(&panel, &RunsPanel::runRequested);
+        panel.emptyState()->findChild<QPushButton*>()->click();
+        QCOMPARE(run.count(), 1);
+        model.setRuns({sampleRun(1)});
+        QVERIFY(!panel.emptyState()->isVisible());
+        QVERIFY(panel.table()->isVisible());
+        panel.setFilterText(QStringLiteral("nowhere"));
+        QVERIFY(!panel.table()->isVisible());
+        QVERIFY(!panel.emptyState()->isVisible());
+        panel.setFilterText(QString());
+        QVERIFY(panel.table()->isVisible());
+    }
+
+    void choosingARunTellsIt() {
+        RunsModel model;
+        RunsPanel panel(&model);
+        model.setRuns(several(3, sampleRun));
+        panel.show();
+        QSignalSpy activated(&panel, &RunsPanel::runActivated);
+        clickRow(panel, 1);
+        QCOMPARE(activated.count(), 1);
+        QCOMPARE(activated[0][0].toInt(), 2);
+        panel.selectId(3);
+        QCOMPARE(panel.currentId(), 3);
+        QCOMPARE(activated.count(), 1);
+        QSignalSpy removed(&panel, &RunsPanel::removeRequested);
+        QTest::keyClick(panel.table(), Qt::Key_Delete);
+        QCOMPARE(removed.count(), 1);
+        QCOMPARE(removed[0][0].toInt(), 3);
+    }
+
+    void clickingATrackGoesToIt() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        model.setTracks(several(5, sampleTrack), {});
+        panel.resize(700, 300);
+        panel.show();
+        QCOMPARE(panel.table()->model()->rowCount(), 4);  // the third is tentative
+        QSignalSpy selected(&panel, &TracksPanel::trackSelected);
+        QSignalSpy activated(&panel, &TracksPanel::trackActivated);
+        clickRow(panel, 1);
+        QCOMPARE(selected.count(), 1);
+        QCOMPARE(activated.count(), 1);
+        QCOMPARE(activated[0][0].toInt(), 2);
+        QCOMPARE(activated[0][1].toInt(), 20);
+        clickRow(panel, 1, TracksModel::last_column);
+        QCOMPARE(selected.count(), 1);
+        QCOMPARE(activated.last()[1].toInt(), 69);
+        QTest::keyClick(panel.table(), Qt::Key_Return);
+        QCOMPARE(activated.count(), 3);
+        panel.setTentativeShown(true);
+        QCOMPARE(panel.table()->model()->rowCount(), 5);
+    }
+
+    void sensitivityHidesUnsureTracks() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        std::vector<TrackSummary> tracks;
+        for (const double score : {0.3, 0.62, 0.97}) {
+            tracks.push_back(sampleTrack(static_cast<int>(tracks.size()) + 1));
+            tracks.back().confirmed = true;
+            tracks.back().score = score;
+        }
+        model.setTracks(tracks, {});
+        panel.show();
+        QCOMPARE(panel.countText(), QStringLiteral("3 of 3"));
+        QCOMPARE(model.index(1, TracksModel::score_column).data().toString(), QStringLiteral("0.62"));
+        QSignalSpy changed(&panel, &TracksPanel::minScoreChanged);
+        panel.sensitivity()->setValue(40);
+        QCOMPARE(panel.table()->model()->rowCount(), 2);
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 3"));
+        QCOMPARE(changed.last()[0].toDouble(), 0.6);
+        panel.sensitivity()->setFocus();
+        QTest::keyClick(panel.sensitivity(), Qt::Key_Home);
+        QCOMPARE(panel.table()->model()->rowCount(), 0);
+        QTest::keyClick(panel.sensitivity(), Qt::Key_End);
+        QCOMPARE(panel.table()->model()->rowCount(), 3);
+        QCOMPARE(changed.last()[0].toDouble(), 0.0);
+        // Those of another run, too.
+        panel.sensitivity()->setValue(10);
+        tracks[0].score = 0.95;
+        model.setTracks(tracks, {});
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 3"));
+    }
+
+    void theSelectionSurvivesNewContentsWithoutBeingTold() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.setTentativeShown(true);
+        model.setTracks(several(5, sampleTrack), {});
+        panel.show();
+        panel.selectId(4);
+        QSignalSpy selected(&panel, &TracksPanel::trackSelected);
+        model.setTracks(several(9, sampleTrack), {});
+        QCOMPARE(panel.currentId(), 4);
+        panel.table()->sortByColumn(TracksModel::id_column, Qt::DescendingOrder);
+        QCOMPARE(panel.currentId(), 4);
+        panel.setFilterText(QStringLiteral("no such"));
+        panel.setFilterText(QString());
+        QCOMPARE(panel.currentId(), 4);
+        model.setTracks(several(60, sampleTrack), {});
+        model.setTracks({sampleTrack(1), sampleTrack(4)}, {});
+        QCOMPARE(panel.currentId(), 4);
+        model.setTracks({sampleTrack(1), sampleTrack(2)}, {});
+        QVERIFY(panel.currentId() != 4);
+        QCOMPARE(selected.count(), 0);
+        model.setTracks(several(5, sampleTrack), {});
+        QCOMPARE(panel.currentId(), 4);
+    }
+
+    void rowsCopyAsTheyAreShown() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        model.setTracks(several(2, sampleTrack), {0.25, 25, true});
+        panel.show();
+        for (int column = 3; column < TracksModel::column_count; ++column) panel.table()->hideColumn(column);
+        panel.table()->horizontalHeader()->moveSection(0, 2);
+        QCOMPARE(panel.selectedText(), QStringLiteral("First\tLast\tId\n10\t59\t1\n20\t69\t2\n"));
+        panel.selectId(2);
+        QTest::keyClick(panel.table(), Qt::Key_C, Qt::ControlModifier);
+        QCOMPARE(QApplication::clipboard()->text(), QStringLiteral("First\tLast\tId\n20\t69\t2\n"));
+    }
+
+    void columnsAreRemembered() {
+        TracksModel model;
+        {
+            TracksPanel panel(&model);
+            panel.table()->hideColumn(TracksModel::width_column);
+            panel.table()->setColumnWidth(TracksModel::speed_column, 137);
+            panel.table()->sortByColumn(TracksModel::speed_column, Qt::DescendingOrder);
+        }
+        TracksPanel panel(&model);
+        QVERIFY(panel.table()->isColumnHidden(TracksModel::width_column));
+        QCOMPARE(panel.table()->columnWidth(TracksModel::speed_column), 137);
+        QCOMPARE(panel.table()->horizontalHeader()->sortIndicatorSection(), int(TracksModel::speed_column));
+        model.setTracks(several(2, sampleTrack), {});
+        QCOMPARE(panel.table()->model()->index(0, 0).data().toInt(), 2);
+    }
+
+    void thousandsOfTracksAreNoTrouble() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.show();
+        for (int count = 1000; count <= 5000; count += 1000) model.setTracks(several(count, sampleTrack), {});
+        panel.selectId(4000);
+        QCOMPARE(panel.currentId(), 4000);
+    }
+
+    void looksRightInBothThemes() {
+        for (const bool dark : {false, true}) {
+            RunsModel runs;
+            RunsPanel panel(&runs);
+            if (dark) panel.setPalette(ui::test::darkPalette());
+            runs.setRuns(several(6, sampleRun));
+            panel.resize(640, 240);
+            panel.show();
+            ui::test::keepPicture(panel, dark ? QStringLiteral("runs_dark") : QStringLiteral("runs_light"));
+            TracksModel tracks;
+            TracksPanel track_panel(&tracks);
+            tracks.setTracks(several(8, sampleTrack), {0.25, 25, true});
+            if (dark) track_panel.setPalette(ui::test::darkPalette());
+            track_panel.resize(560, 240);
+            track_panel.show();
+            ui::test::keepPicture(track_panel, dark ? QStringLiteral("tracks_dark") : QStringLiteral("tracks_light"));
+        }
+    }
+};
+
+QTEST_MAIN(TablesTest)
+#include "panels_tables_test.moc"

@@ -1,0 +1,305 @@
+#include <QDropEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenu>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSignalSpy>
+
+#include <QTableView>
+#include <QTest>
+
+#include "canvas/video_view.h"
+#include "review/runs_panel.h"
+#include "review/tracks_panel.h"
+#include "store/health/project_contents.h"
+#include "ui/session/session_support.h"
+#include "ui/support/ui_support.h"
+#include "widgets/empty_state.h"
+#include "widgets/message_bar.h"
+#include "window/docks/review_docks.h"
+#include "window/earlier_state_dialog.h"
+#include "window/main_window.h"
+#include "window/run_guard.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+using test::Door;
+using test::kPatience_ms;
+
+/// Runs, files and projects through the window: what is asked, what is said, what is remembered.
+class WindowFilesTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+
+    static bool waitFor(const std::function<bool()>& condition) { return QTest::qWaitFor(condition, kPatience_ms); }
+    static bool open(MainWindow& window, const std::filesystem::path& path, double gsd_m_per_px = 0) {
+        window.show();
+        QSignalSpy ready(&window.session(), &ProjectSession::ready);
+        StartOptions options;
+        options.input = path;
+        options.gsd_m_per_px = gsd_m_per_px;
+        window.start(options);
+        return ready.wait(kPatience_ms);
+    }
+    static bool opensMedia(MainWindow& window, const Media& media) {
+        window.show();
+        QSignalSpy ready(&window.session(), &ProjectSession::ready);
+        window.session().openMedia(media);
+        return ready.wait(kPatience_ms);
+    }
+    /// The run that starting with a folder of images makes.
+    static bool runs(MainWindow& window, const std::filesystem::path& folder) {
+        QSignalSpy finished(&window.session(), &ProjectSession::runFinished);
+        return open(window, folder, 0.25) && finished.wait(kPatience_ms);
+    }
+    static QLineEdit& gsd(MainWindow& window) { return *window.findChild<QLineEdit*>(QStringLiteral("gsd")); }
+    static bool says(MainWindow& window, const QString& part) {
+        return window.messages().texts().join(QLatin1Char('\n')).contains(part);
+    }
+    static bool asks(const MainWindow& window) {
+        const auto boxes = window.findChildren<QMessageBox*>();
+        return std::any_of(boxes.begin(), boxes.end(), [](const QMessageBox* box) { return box->isVisible(); });
+    }
+    std::filesystem::path images(const std::string& name, int frames = 12) {
+        return test::writeScene(*home_ / name / "images", frames);
+    }
+
+ private slots:
+    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void cleanup() { home_.reset(); }
+
+    void aGsdThatWasTypedCountsWithoutReturn() {
+        MainWindow window;
+        QVERIFY(runs(window, images("a")));
+        QVERIFY(waitFor([&] { return window.actions().run->isEnabled(); }));
+        gsd(window).setFocus();
+        gsd(window).selectAll();
+        QTest::keyClicks(&gsd(window), QStringLiteral("0,08"));
+        QSignalSpy finished(&window.session(), &ProjectSession::runFinished);
+        window.actions().run->trigger();
+        QVERIFY(finished.wait(kPatience_ms));
+        QVERIFY(waitFor([&] { return window.session().runs().size() == 2; }));
+        QVERIFY(window.session().runs()[1].scale.gsd_known);
+        QCOMPARE(window.session().runs()[1].scale.gsd_m_per_px, 0.08);
+    }
+
+    void aGsdThatIsNoneIsToldAndNotWiped() {
+        MainWindow window;
+        QVERIFY(runs(window, images("a")));
+        QVERIFY(waitFor([&] { return window.actions().run->isEnabled(); }));
+        gsd(window).selectAll();
+        QTest::keyClicks(&gsd(window), QStringLiteral("0.0.8"));
+        window.actions().run->trigger();
+        QVERIFY(!window.session().running());
+        QVERIFY(says(window, QStringLiteral("“0.0.8”")));
+        QCOMPARE(gsd(window).text(), QStringLiteral("0.0.8"));
+        QTest::keyClick(&gsd(window), Qt::Key_Backspace);
+        QVERIFY(!says(window, QStringLiteral("“0.0.8”")));  // it is being mended
+    }
+
+    void theCounterNamesThePicture() {
+        auto door = std::make_shared<Door>();
+        MainWindow window;
+        QVERIFY(opensMedia(window, test::sceneUnderTest(80, [door](FrameIndex f) { door->pass(f); })));
+        QVERIFY(waitFor([&] { return !window.canvas().frame().image.isNull(); }));
+        const auto counter = [&](const QString& number) {
+            const auto labels = window.findChildren<QLabel*>();
+            return std::any_of(labels.begin(), labels.end(), [&](const QLabel* label) {
+                return label->text().startsWith(QStringLiteral("frame ") + number + QStringLiteral(" / 79"));
+            });
+        };
+        QVERIFY(counter(QStringLiteral("0")));
+        door->closeFrom(30);
+        window.session().goToFrame(60);
+        QCOMPARE(window.canvas().frame().index, 0);
+        QVERIFY(counter(QStringLiteral("0")));
+        door->open();
+        QVERIFY(waitFor([&] { return window.canvas().frame().index == 60; }));
+        QVERIFY(counter(QStringLiteral("60")));
+    }
+
+    void removingARunAsksAndCanBeUndone() {
+        MainWindow window;
+        QVERIFY(runs(window, images("a")));
+        auto* list = window.findChild<RunsPanel*>();
+        const int id = window.session().runs().front().id;
+        list->selectId(id);
+        QTest::keyClick(list->table(), Qt::Key_Delete);
+        QVERIFY(asks(window));
+        QVERIFY(test::answer(window, QStringLiteral("Cancel")));
+        QCOMPARE(window.session().runs().size(), std::size_t(1));
+        QVERIFY(waitFor([&] { return !asks(window); }));
+        QTest::keyClick(list->table(), Qt::Key_Delete);
+        QVERIFY(test::answer(window, QStringLiteral("Remove")));
+        QVERIFY(waitFor([&] { return window.session().runs().empty(); }));
+        QVERIFY(waitFor([&] { return window.actions().restore_run->isEnabled(); }));
+        QVERIFY(!window.session().currentRun());
+        QVERIFY(!says(window, QStringLiteral("has no run")));
+        QVERIFY(waitFor([&] { return window.canvas().frame().result == nullptr; }));
+        window.actions().restore_run->trigger();
+        QVERIFY(waitFor([&] { return window.session().runs().size() == 1; }));
+        QCOMPARE(window.session().runs().front().id, id);
+        QVERIFY(!window.actions().restore_run->isEnabled());
+    }
+
+    void closingDuringARunAsks() {
+        auto door = std::make_shared<Door>();
+        MainWindow window;
+        QVERIFY(opensMedia(window, test::sceneUnderTest(60, [door](FrameIndex f) { door->pass(f); })));
+        door->closeFrom(20);
+        window.actions().run->trigger();
+        QVERIFY(waitFor(
+            [&] { return !window.session().runs().empty() && window.session().runs().back().frames_done >= 8; }));
+        window.close();
+        QVERIFY(window.isVisible() && asks(window));
+        QVERIFY(test::answer(window, QStringLiteral("Cancel")));
+        QVERIFY(window.isVisible() && window.session().running());
+        QVERIFY(waitFor([&] { return !asks(window); }));
+        window.close();
+        QVERIFY(test::answer(window, QStringLiteral("Wait for its end")));
+        QVERIFY(window.isVisible());
+        door->open();
+        QVERIFY(waitFor([&] { return !window.isVisible(); }));
+        ProjectFile file = ProjectFile::open(window.session().project());
+        QCOMPARE(RunStore(file).runs().front().state, RunState::finished);
+    }
+
+    void openingAnotherVideoDuringARunAsksAndBeginsAfresh() {
+        const auto folder = images("a");
+        auto door = std::make_shared<Door>();
+        MainWindow window;
+        QVERIFY(opensMedia(window, test::sceneUnderTest(200, [door](FrameIndex f) { door->pass(f); })));
+        door->closeFrom(20);
+        window.actions().run->trigger();
+        QVERIFY(waitFor(
+            [&] { return !window.session().runs().empty() && window.session().runs().back().frames_done >= 8; }));
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(folder.string()))});
+        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &enter);
+        QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &drop);
+        QVERIFY(asks(window));
+        QSignalSpy ready(&window.session(), &ProjectSession::ready);
+        QVERIFY(test::answer(window, QStringLiteral("Stop the run")));
+        door->open();
+        QVERIFY(ready.wait(kPatience_ms));
+        QCOMPARE(window.session().video()->frame_count, 12);
+        QVERIFY(waitFor([&] { return !window.canvas().frame().image.isNull(); }));
+        QCOMPARE(window.session().currentFrame(), 0);
+        QVERIFY(!says(window, QStringLiteral("was stopped")));  // that was the former video's
+    }
+
+    void theEndOfARunIsSummarised() {
+        MainWindow window;
+        QVERIFY(runs(window, images("a", 40)));
+        QVERIFY(waitFor([&] { return says(window, QStringLiteral("Run 1 finished")); }));
+        QVERIFY(says(window, QStringLiteral("Scale: 0.25 m/px.")));
+    }
+
+    void aRunWithoutTracksSaysWhy() {
+        const auto folder = *home_ / "blank";
+        std::filesystem::create_directories(folder);
+        for (int i = 0; i < 12; ++i)
+            cv::imwrite((folder / (std::to_string(10 + i) + ".png")).string(),
+                        cv::Mat(120, 160, CV_8UC1, cv::Scalar(i)));
+        MainWindow window;
+        QVERIFY(runs(window, folder));
+        QVERIFY(waitFor([&] { return says(window, QStringLiteral("No frame could be registered")); }));
+        auto* tracks = window.findChild<TracksPanel*>();
+        QVERIFY(waitFor([&] {
+            return tracks->emptyState()->explanation().contains(QStringLiteral("No frame could be registered"));
+        }));
+    }
+
+    void theTitleNamesTheProjectAndRecentEntriesAreProjects() {
+        const auto first = images("a", 4);
+        const auto second = images("b", 4);
+        MainWindow window;
+        QVERIFY(runs(window, first));
+        QCOMPARE(window.windowTitle(), QStringLiteral("images – images.eyrie – Eyrie"));
+        QVERIFY(runs(window, second));
+        const auto menus = window.findChildren<QMenu*>();
+        const auto recent =
+            std::find_if(menus.begin(), menus.end(), [](QMenu* menu) { return menu->title().contains("recent"); });
+        QVERIFY(recent != menus.end());
+        const QList<QAction*> entries = (*recent)->actions();
+        QVERIFY(entries.size() >= 2);
+        QVERIFY(entries[0]->text().contains(QStringLiteral("images.eyrie")));
+        QVERIFY(entries[0]->text() != entries[1]->text());
+        QSignalSpy ready(&window.session(), &ProjectSession::ready);
+        entries[1]->trigger();
+        QVERIFY(ready.wait(kPatience_ms));
+        QCOMPARE(window.session().project(), *home_ / "a" / "images.eyrie");
+        QVERIFY(window.session().currentRun());
+    }
+
+    void aMissingVideoOffersToBeLocated() {
+        const auto folder = images("a", 4);
+        {
+            MainWindow window;
+            QVERIFY(runs(window, folder));
+        }
+        std::filesystem::remove_all(folder);
+        MainWindow window;
+        QVERIFY(open(window, *home_ / "a" / "images.eyrie"));
+        QVERIFY(waitFor([&] { return says(window, QStringLiteral("images")); }));
+        const auto buttons = window.messages().findChildren<QPushButton*>();
+        QVERIFY(std::any_of(buttons.begin(), buttons.end(),
+                            [](const QPushButton* button) { return button->text() == QStringLiteral("Locate…"); }));
+        QVERIFY(!window.session().running());
+    }
+
+    void anEarlierStateIsRestored() {
+        MainWindow window;
+        QVERIFY(runs(window, images("a", 6)));
+        const auto project = window.session().project();
+        QVERIFY(waitFor([&] { return !listBackups(project).empty() || window.session().runs().size() == 1; }));
+        QCOMPARE(backUp(project, BackupRequest()).outcome, BackupOutcome::made);  // as on another day
+        QSignalSpy finished(&window.session(), &ProjectSession::runFinished);
+        QVERIFY(waitFor([&] { return window.actions().run->isEnabled(); }));
+        window.actions().run->trigger();
+        QVERIFY(finished.wait(kPatience_ms));
+        QVERIFY(waitFor([&] { return window.session().runs().size() == 2; }));
+        window.actions().restore_state->trigger();
+        auto* dialog = window.findChild<EarlierStateDialog*>();
+        QVERIFY(dialog);
+        QVERIFY(waitFor([&] { return dialog->list()->count() > 0; }));
+        QVERIFY(test::says(*dialog, QStringLiteral("run 2")));  // it would be gone
+        QSignalSpy ready(&window.session(), &ProjectSession::ready);
+        QVERIFY(test::press(*dialog, QStringLiteral("Restore")));
+        QVERIFY(ready.wait(kPatience_ms));
+        QCOMPARE(window.session().project(), project);
+        QCOMPARE(window.session().runs().size(), std::size_t(1));
+        const auto kept = listBackups(project);
+        QVERIFY(std::any_of(kept.begin(), kept.end(), [](const ProjectBackup& backup) {
+            return backup.reason == BackupReason::before_restoring && contentsOf(backup.path).runs.size() == 2;
+        }));
+    }
+
+    void whatWasWrongBeforeIsNotSaidAboutTheNextFile() {
+        MainWindow window;
+        window.show();
+        window.session().open(*home_ / "missing.mp4");
+        QVERIFY(waitFor([&] { return says(window, QStringLiteral("missing.mp4")); }));
+        const auto folder = images("a", 4);
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(folder.string()))});
+        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &enter);
+        QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QSignalSpy ready(&window.session(), &ProjectSession::ready);
+        QApplication::sendEvent(&window, &drop);
+        QVERIFY(ready.wait(kPatience_ms));
+        QVERIFY(!says(window, QStringLiteral("missing.mp4")));
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::WindowFilesTest)
+#include "window_files_test.moc"

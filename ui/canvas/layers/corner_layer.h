@@ -1,0 +1,14 @@
+#pragma once
+
+#include "canvas/layers/overlay_layer.h"
+
+namespace eyrie::ui {
+
+/// Corners of the ground: dots.
+class CornerLayer : public OverlayLayer {
+ public:
+    OverlayKind kind() const override { return OverlayKind::corners; }
+    void paint(QPainter& painter, const OverlayScene& scene) const override;
+};
+
+}  // namespace eyrie::ui

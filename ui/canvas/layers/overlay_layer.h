@@ -1,0 +1,52 @@
+#pragma once
+
+#include <QFont>
+#include <QRectF>
+#include <optional>
+
+#include "canvas/overlay_colours.h"
+#include "canvas/view_frame.h"
+#include "canvas/view_transform.h"
+#include "core/values/ids.h"
+
+class QPainter;
+
+namespace eyrie::ui {
+
+/// The kinds of overlay, in the order they are painted.
+enum class OverlayKind { rois, corners, vectors, clusters, ground_truth, detections, tracks, stacks, verdicts };
+inline constexpr int kOverlayKindCount = 9;
+
+/// How overlays are drawn, whichever frame they belong to.
+struct OverlayStyle {
+    OverlayColours colours = overlayColours(PaletteKind::thesis);
+    PaletteKind palette = PaletteKind::thesis;
+    double vector_length_factor = 5;  ///< a vector is drawn as long as this many frames of motion
+    bool labels = true;
+    bool trails = true;
+    bool rejected_detections = false;
+    bool tentative_tracks = false;
+    double min_score = 0;     ///< tracks of a lower score are not shown
+    double line_width = 1.6;  ///< logical px, whatever the zoom
+};
+
+/// One frame to be drawn over, as seen through a view.
+struct OverlayScene {
+    const ViewFrame& frame;
+    const FrameResult& result;
+    const ViewTransform& transform;
+    const OverlayStyle& style;
+    std::optional<TrackId> selected_track;
+    QRectF view;  ///< what lies outside need not be drawn; logical px
+};
+
+/// Draws one kind of thing over the video. Painters come in view coordinates (logical px), antialiasing on; a layer
+/// maps its own points and leaves no state but pen and brush behind.
+class OverlayLayer {
+ public:
+    virtual ~OverlayLayer() = default;
+    virtual OverlayKind kind() const = 0;
+    virtual void paint(QPainter& painter, const OverlayScene& scene) const = 0;
+};
+
+}  // namespace eyrie::ui

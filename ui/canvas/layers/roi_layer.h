@@ -1,0 +1,14 @@
+#pragma once
+
+#include "canvas/layers/overlay_layer.h"
+
+namespace eyrie::ui {
+
+/// Motion ROIs, the areas searched by the detector: dashed boxes.
+class RoiLayer : public OverlayLayer {
+ public:
+    OverlayKind kind() const override { return OverlayKind::rois; }
+    void paint(QPainter& painter, const OverlayScene& scene) const override;
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,133 @@
+#include "canvas/layers/track_layer.h"
+
+#include <QFontMetricsF>
+#include <QPainterPath>
+#include <algorithm>
+
+#include "canvas/caption_placer.h"
+#include "canvas/edged_painter.h"
+#include "canvas/upright_in_view.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+bool isShown(const TrackState& state, const OverlayStyle& style) {
+    return (state.status != TrackStatus::tentative || style.tentative_tracks) && state.score >= style.min_score;
+}
+
+bool isShown(const TrackState& state, const OverlayScene& scene) {
+    return isShown(state, scene.style) || scene.selected_track == state.id;
+}
+
+}  // namespace
+
+void TrackLayer::paint(QPainter& painter, const OverlayScene& scene) const {
+    if (scene.style.trails) paintTrails(painter, scene);
+    paintBoxes(painter, scene);
+    if (scene.style.labels) paintLabels(painter, scene);
+}
+
+void TrackLayer::paintTrails(QPainter& painter, const OverlayScene& scene) const {
+    // Trails fade with age in three steps, each one batch.
+    constexpr int kSteps = 3;
+    QVector<QLineF> steps[kSteps];
+    QVector<QLineF> selected;
+    for (const Trail& trail : scene.frame.trails) {
+        const auto state = std::lower_bound(scene.result.tracks.begin(), scene.result.tracks.end(), trail.id,
+                                            [](const TrackState& s, TrackId id) { return s.id < id; });
+        if (state == scene.result.tracks.end() || state->id != trail.id || !isShown(*state, scene)) continue;
+        const size_t count = trail.points.size();
+        for (size_t i = 1; i < count; ++i) {
+            const QPointF from = scene.transform.viewFromImage(QPointF(trail.points[i - 1].x, trail.points[i - 1].y));
+            const QPointF to = scene.transform.viewFromImage(QPointF(trail.points[i].x, trail.points[i].y));
+            QVector<QLineF>& lines = scene.selected_track == trail.id ? selected : steps[kSteps * i / count];
+            lines.append({from, to});
+        }
+    }
+    for (int step = 0; step < kSteps; ++step) {
+        // Darker with age; the rim only under the newest part.
+        const QColor colour = scene.style.colours.track.darker(190 - 40 * step);
+        const QColor edge = step == kSteps - 1 ? scene.style.colours.edge : colour.darker(200);
+        drawEdgedLines(painter, steps[step], {colour, edge, 1.2});
+    }
+    drawEdgedLines(painter, selected, {scene.style.colours.selected_track, scene.style.colours.edge, 2});
+}
+
+void TrackLayer::paintBoxes(QPainter& painter, const OverlayScene& scene) const {
+    QVector<QLineF> seen;
+    QVector<QLineF> coasting;
+    QVector<QLineF> tentative;
+    QVector<QLineF> selected;
+    Qt::PenStyle selected_style = Qt::SolidLine;
+    for (const TrackState& state : scene.result.tracks) {
+        if (!isShown(state, scene)) continue;
+        const bool is_selected = scene.selected_track == state.id;
+        if (is_selected && state.status == TrackStatus::coasting) selected_style = Qt::DashLine;
+        QVector<QLineF>& lines = is_selected                              ? selected
+                                 : state.status == TrackStatus::coasting  ? coasting
+                                 : state.status == TrackStatus::tentative ? tentative
+                                                                          : seen;
+        appendBox(lines, state.box, scene.transform, scene.view);
+        appendHeading(lines, state.box, scene.transform, scene.view);
+    }
+    const OverlayColours& colours = scene.style.colours;
+    QColor faint = colours.track;
+    faint.setAlphaF(0.6F);
+    drawEdgedLines(painter, tentative, {faint, QColor(0, 0, 0, 60), 1.1, Qt::DotLine});
+    drawEdgedLines(painter, coasting, {colours.track, colours.edge, scene.style.line_width, Qt::DashLine});
+    drawEdgedLines(painter, seen, {colours.track, colours.edge, scene.style.line_width});
+    drawEdgedLines(painter, selected,
+                   {colours.selected_track, colours.edge, scene.style.line_width + 1.4, selected_style});
+}
+
+void TrackLayer::paintLabels(QPainter& painter, const OverlayScene& scene) const {
+    struct Labelled {
+        const TrackState* state;
+        QRectF object;
+    };
+    std::vector<Labelled> labelled;
+    std::vector<QRectF> objects;
+    for (const TrackState& state : scene.result.tracks) {
+        if (!isShown(state, scene)) continue;
+        const QRectF object = uprightInView(state.box, scene.transform);
+        if (!object.intersects(scene.view)) continue;
+        labelled.push_back({&state, object});
+        objects.push_back(object);
+    }
+    // The order decides who is left out in a crowd: the selected one never, then the older (lower) id stays, so that
+    // labels do not flicker from frame to frame.
+    std::stable_partition(labelled.begin(), labelled.end(),
+                          [&](const Labelled& l) { return scene.selected_track == l.state->id; });
+    LabelPlacer placer(scene.view, objects);
+    const QFontMetricsF metrics(painter.font());
+    for (const Labelled& label : labelled) {
+        const QString text = QString::number(label.state->id);
+        const QSizeF size(metrics.horizontalAdvance(text) + 6, metrics.height());
+        const auto rectangle = placer.place(label.object, size);
+        if (!rectangle) continue;
+        const bool is_selected = scene.selected_track == label.state->id;
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(is_selected ? scene.style.colours.selected_track : QColor(0, 0, 0, 165));
+        painter.drawRoundedRect(*rectangle, 2.5, 2.5);
+        painter.setBrush(Qt::NoBrush);
+        painter.setPen(is_selected ? QColor(0, 0, 0) : scene.style.colours.track);
+        painter.drawText(*rectangle, Qt::AlignCenter, text);
+    }
+}
+
+std::optional<TrackId> trackAt(const FrameResult& result, const OverlayStyle& style, QPointF image_point,
+                               double margin) {
+    std::optional<TrackId> hit;
+    double smallest_area = 0;
+    for (const TrackState& state : result.tracks) {
+        if (!isShown(state, style)) continue;
+        if (!state.box.contains({image_point.x(), image_point.y()}, margin)) continue;
+        if (hit && state.box.area() >= smallest_area) continue;
+        hit = state.id;
+        smallest_area = state.box.area();
+    }
+    return hit;
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "canvas/layers/overlay_layer.h"
+
+namespace eyrie::ui {
+
+/// Ground truth: boxes; objects that count neither way dotted.
+class TruthLayer : public OverlayLayer {
+ public:
+    OverlayKind kind() const override { return OverlayKind::ground_truth; }
+    void paint(QPainter& painter, const OverlayScene& scene) const override;
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,46 @@
+#include "canvas/overlay_settings.h"
+
+namespace eyrie::ui {
+
+template <class Value>
+void OverlaySettings::adopt(Value& field, Value value) {
+    if (field == value) return;
+    field = value;
+    emit changed();
+}
+
+void OverlaySettings::setVisible(OverlayKind kind, bool visible) {
+    adopt(visible_[static_cast<size_t>(kind)], visible);
+}
+
+void OverlaySettings::setPalette(PaletteKind palette) {
+    style_.colours = overlayColours(palette);
+    style_.palette = palette;
+    adopt(palette_, palette);
+}
+
+void OverlaySettings::setVectorLengthFactor(double factor) {
+    adopt(style_.vector_length_factor, factor);
+}
+
+void OverlaySettings::setLabels(bool shown) {
+    adopt(style_.labels, shown);
+}
+
+void OverlaySettings::setTrails(bool shown) {
+    adopt(style_.trails, shown);
+}
+
+void OverlaySettings::setRejectedDetections(bool shown) {
+    adopt(style_.rejected_detections, shown);
+}
+
+void OverlaySettings::setTentativeTracks(bool shown) {
+    adopt(style_.tentative_tracks, shown);
+}
+
+void OverlaySettings::setMinScore(double score) {
+    adopt(style_.min_score, score);
+}
+
+}  // namespace eyrie::ui

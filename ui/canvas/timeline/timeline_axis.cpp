@@ -1,0 +1,139 @@
+#include "canvas/timeline/timeline_axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace eyrie::ui {
+
+void TimelineAxis::setFrameCount(int count) {
+    if (count == count_) return;
+    count_ = std::max(0, count);
+    showAll();
+}
+
+void TimelineAxis::setSpan(double left, double width) {
+    const bool all = showsAll();
+    left_ = left;
+    width_ = std::max(1.0, width);
+    if (all)
+        showAll();
+    else
+        limit();
+}
+
+bool TimelineAxis::showsAll() const {
+    return count_ == 0 || pixels_per_frame_ * count_ <= width_ + 1e-6;
+}
+
+FrameIndex TimelineAxis::frameAt(double x) const {
+    if (count_ == 0) return 0;
+    const double frame = std::floor((x - left_) / pixels_per_frame_ + first_);
+    return static_cast<FrameIndex>(std::clamp(frame, 0.0, count_ - 1.0));
+}
+
+FrameIndex TimelineAxis::firstVisible() const {
+    return frameAt(left_);
+}
+
+FrameIndex TimelineAxis::lastVisible() const {
+    return frameAt(left_ + width_);
+}
+
+void TimelineAxis::showAll() {
+    first_ = 0;
+    pixels_per_frame_ = count_ > 0 ? width_ / count_ : 1;
+}
+
+void TimelineAxis::zoomAround(double x, double factor) {
+    if (count_ == 0) return;
+    const double frame = (x - left_) / pixels_per_frame_ + first_;
+    const double smallest = width_ / count_;
+    pixels_per_frame_ = std::clamp(pixels_per_frame_ * factor, smallest, std::max(smallest, kMaxPixelsPerFrame));
+    first_ = frame - (x - left_) / pixels_per_frame_;
+    limit();
+}
+
+void TimelineAxis::panBy(double pixels) {
+    first_ -= pixels / pixels_per_frame_;
+    limit();
+}
+
+void TimelineAxis::reveal(FrameIndex frame) {
+    const double shown = width_ / pixels_per_frame_;
+    if (frame < first_)
+        first_ = frame;
+    else if (frame + 1 > first_ + shown)
+        first_ = frame + 1 - shown;
+    limit();
+}
+
+void TimelineAxis::limit() {
+    if (count_ == 0) return;
+    pixels_per_frame_ = std::max(pixels_per_frame_, width_ / count_);
+    const double shown = width_ / pixels_per_frame_;
+    first_ = std::clamp(first_, 0.0, std::max(0.0, count_ - shown));
+}
+
+std::vector<TimelineTick> TimelineAxis::ticks(const std::vector<std::int64_t>& times_us, double min_gap_px) const {
+    if (count_ < 2 || times_us.size() != static_cast<size_t>(count_)) return {};
+    const FrameIndex first = firstVisible();
+    const FrameIndex last = lastVisible();
+    const double shown_us =
+        static_cast<double>(times_us[static_cast<size_t>(last)] - times_us[static_cast<size_t>(first)]);
+    const double shown_px = (last - first) * pixels_per_frame_;
+    if (shown_us <= 0 || shown_px <= 0) return {};
+    const double wanted_us = shown_us / shown_px * min_gap_px;
+    constexpr std::array<double, 17> steps_s{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1,   2,   5,
+                                             10,   20,   30,   60,  120, 300, 600, 1800};
+    double step_s = 3600;
+    for (const double candidate : steps_s)
+        if (candidate * 1e6 >= wanted_us) {
+            step_s = candidate;
+            break;
+        }
+    // Five small marks per label, or as many as make round numbers.
+    const auto step_us = static_cast<std::int64_t>(std::llround(step_s * 1e6));
+    const std::int64_t small_us = std::max<std::int64_t>(1, step_us / 5);
+    std::vector<TimelineTick> result;
+    FrameIndex frame = first;
+    for (std::int64_t time = times_us[static_cast<size_t>(first)] / small_us * small_us;
+         time <= times_us[static_cast<size_t>(last)]; time += small_us) {
+        while (frame < last && times_us[static_cast<size_t>(frame) + 1] <= time) ++frame;
+        const std::int64_t from = times_us[static_cast<size_t>(frame)];
+        if (time < from) continue;
+        const bool has_next = frame + 1 < count_;
+        const std::int64_t length = has_next ? times_us[static_cast<size_t>(frame) + 1] - from : 0;
+        const double part = length > 0 ? static_cast<double>(time - from) / static_cast<double>(length) : 0;
+        result.push_back({xOf(frame + part), time, time % step_us == 0});
+    }
+    return result;
+}
+
+std::string timeText(std::int64_t time_us, int decimals) {
+    const bool negative = time_us < 0;
+    constexpr std::array<std::int64_t, 4> units{1'000'000, 100'000, 10'000, 1'000};
+    const int places = std::clamp(decimals, 0, 3);
+    const std::int64_t unit = units[static_cast<size_t>(places)];
+    const std::int64_t rounded = (std::llabs(time_us) + unit / 2) / unit * unit;
+    const std::int64_t seconds = rounded / 1'000'000;
+    std::array<char, 48> text{};
+    if (seconds >= 3600)
+        std::snprintf(text.data(), text.size(), "%lld:%02lld:%02lld", static_cast<long long>(seconds / 3600),
+                      static_cast<long long>(seconds / 60 % 60), static_cast<long long>(seconds % 60));
+    else
+        std::snprintf(text.data(), text.size(), "%lld:%02lld", static_cast<long long>(seconds / 60),
+                      static_cast<long long>(seconds % 60));
+    std::string result = negative ? "-" : "";
+    result += text.data();
+    if (places > 0) {
+        const std::string digits = std::to_string(rounded % 1'000'000 / unit);
+        result += '.';
+        result.append(static_cast<size_t>(places) - digits.size(), '0');
+        result += digits;
+    }
+    return result;
+}
+
+}  // namespace eyrie::ui

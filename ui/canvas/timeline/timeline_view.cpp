@@ -1,0 +1,395 @@
+#include "canvas/timeline/timeline_view.h"
+
+#include <QHelpEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <QToolTip>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+namespace eyrie::ui {
+
+namespace {
+constexpr double kRightMargin = 10;
+constexpr double kRulerHeight = 22;
+constexpr double kQualityHeight = 14;
+constexpr double kTrackHeight = 14;
+constexpr double kGap = 6;
+
+QColor blend(const QColor& a, const QColor& b, double share) {
+    const auto mix = [share](int from, int to) { return static_cast<int>(std::lround(from + (to - from) * share)); };
+    return {mix(a.red(), b.red()), mix(a.green(), b.green()), mix(a.blue(), b.blue())};
+}
+
+/// How much attention a frame deserves when several share a screen column.
+double badness(const TimelineFrame& frame) {
+    switch (frame.state) {
+        case RegistrationState::failed:
+            return 1000;
+        case RegistrationState::frozen:
+            return 500;
+        case RegistrationState::registered:
+            return frame.rms_px;
+        case RegistrationState::first:
+            break;
+    }
+    return 0;
+}
+}  // namespace
+
+struct TimelineView::Rows {
+    QRectF ruler, quality, activity, track;
+};
+
+QColor qualityColour(const TimelineFrame& frame) {
+    switch (frame.state) {
+        case RegistrationState::failed:
+            return {224, 58, 48};
+        case RegistrationState::frozen:
+            return {122, 142, 170};
+        case RegistrationState::first:
+        case RegistrationState::registered:
+            break;
+    }
+    return blend(QColor(70, 170, 90), QColor(235, 165, 40), std::clamp(frame.rms_px / kPoorRms, 0.0, 1.0));
+}
+
+TimelineView::TimelineView(QWidget* parent) : QWidget(parent) {
+    setMouseTracking(true);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    setAccessibleName(tr("Timeline"));
+    layoutAxis();
+}
+
+void TimelineView::setTimes(std::vector<std::int64_t> times_us) {
+    times_us_ = std::move(times_us);
+    frames_.clear();
+    track_life_.reset();
+    run_range_.reset();
+    axis_.setFrameCount(static_cast<int>(times_us_.size()));
+    axis_.showAll();
+    current_ = 0;
+    update();
+}
+
+void TimelineView::setFrames(std::vector<TimelineFrame> frames) {
+    frames_ = std::move(frames);
+    update();
+}
+
+void TimelineView::setFrameDone(FrameIndex index, const TimelineFrame& frame) {
+    if (index < 0 || index >= axis_.frameCount()) return;
+    if (frames_.size() <= static_cast<size_t>(index)) frames_.resize(static_cast<size_t>(index) + 1);
+    frames_[static_cast<size_t>(index)] = frame;
+    update();
+}
+
+void TimelineView::setCurrentFrame(FrameIndex frame) {
+    if (frame == current_) return;
+    current_ = frame;
+    if (!scrubbing_) axis_.reveal(frame);
+    update();
+}
+
+void TimelineView::setRunRange(std::optional<std::pair<FrameIndex, FrameIndex>> range) {
+    run_range_ = range;
+    update();
+}
+
+void TimelineView::setTrackLife(std::optional<std::pair<FrameIndex, FrameIndex>> life, const QString& name) {
+    track_life_ = life;
+    track_name_ = name;
+    update();
+}
+
+void TimelineView::setPalette(PaletteKind palette) {
+    colours_ = overlayColours(palette);
+    update();
+}
+
+void TimelineView::showAll() {
+    axis_.showAll();
+    update();
+}
+
+void TimelineView::layoutAxis() {
+    const double gutter = fontMetrics().horizontalAdvance(tr("vectors ≤ 20000")) + 18.0;
+    axis_.setSpan(gutter, width() - gutter - kRightMargin);
+}
+
+TimelineView::Rows TimelineView::rows() const {
+    Rows rows;
+    const double left = axis_.left();
+    const double width = axis_.right() - left;
+    rows.ruler = QRectF(left, 0, width, kRulerHeight);
+    rows.quality = QRectF(left, rows.ruler.bottom() + 2, width, kQualityHeight);
+    rows.track = QRectF(left, height() - kTrackHeight - 4, width, kTrackHeight);
+    rows.activity =
+        QRectF(left, rows.quality.bottom() + kGap, width, rows.track.top() - kGap - rows.quality.bottom() - kGap);
+    return rows;
+}
+
+void TimelineView::resizeEvent(QResizeEvent*) {
+    layoutAxis();
+}
+
+void TimelineView::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    painter.fillRect(rect(), palette().window());
+    if (axis_.frameCount() == 0) return;
+    const Rows row = rows();
+    painter.setPen(palette().color(QPalette::PlaceholderText));
+    const auto name = [&](const QRectF& beside, const QString& text) {
+        painter.drawText(QRectF(8, beside.top(), axis_.left() - 16, beside.height()), Qt::AlignVCenter | Qt::AlignRight,
+                         fontMetrics().elidedText(text, Qt::ElideRight, static_cast<int>(axis_.left()) - 16));
+    };
+    name(row.ruler, tr("Time"));
+    name(row.quality, tr("Registration"));
+    if (frames_.empty()) {
+        name(row.activity, tr("Activity"));
+    } else {
+        // Name, colour and height of both curves.
+        const auto [most_tracks, most_vectors] = highest();
+        const double half = row.activity.height() / 2;
+        painter.setPen(trackCurveColour());
+        name(row.activity.adjusted(0, 0, 0, -half), tr("tracks ≤ %1").arg(most_tracks));
+        painter.setPen(vectorCurveColour());
+        name(row.activity.adjusted(0, half, 0, 0), tr("vectors ≤ %1").arg(most_vectors));
+        painter.setPen(palette().color(QPalette::PlaceholderText));
+    }
+    name(row.track, track_life_ ? track_name_ : tr("Selected"));
+    paintRuler(painter, row.ruler);
+    painter.save();
+    painter.setClipRect(QRectF(axis_.left() - 1, 0, axis_.right() - axis_.left() + 2, height()));
+    paintQuality(painter, row.quality);
+    paintActivity(painter, row.activity);
+    paintTrackLife(painter, row.track);
+    painter.restore();
+    paintCursor(painter);
+}
+
+void TimelineView::paintRuler(QPainter& painter, const QRectF& row) const {
+    const auto ticks = axis_.ticks(times_us_, 80);
+    const QColor text = palette().color(QPalette::WindowText);
+    QColor faint = text;
+    faint.setAlphaF(0.35F);
+    std::int64_t step = 1'000'000;
+    std::int64_t previous = -1;
+    for (const TimelineTick& tick : ticks) {
+        if (!tick.labelled) continue;
+        if (previous >= 0) step = std::min(step, tick.time_us - previous);
+        previous = tick.time_us;
+    }
+    const int decimals = step >= 1'000'000 ? 0 : step >= 100'000 ? 1 : 2;
+    for (const TimelineTick& tick : ticks) {
+        const double x = std::floor(tick.x) + 0.5;
+        painter.setPen(faint);
+        painter.drawLine(QLineF(x, row.bottom() - (tick.labelled ? 7 : 3), x, row.bottom()));
+        if (!tick.labelled) continue;
+        const QString label = QString::fromStdString(timeText(tick.time_us, decimals));
+        const double label_width = fontMetrics().horizontalAdvance(label);
+        if (x + 3 + label_width > row.right()) continue;
+        painter.setPen(text);
+        painter.drawText(QPointF(x + 3, row.bottom() - 6), label);
+    }
+}
+
+void TimelineView::paintQuality(QPainter& painter, const QRectF& row) const {
+    painter.fillRect(row, palette().color(QPalette::Base));
+    if (run_range_) {
+        const double from = axis_.xOf(run_range_->first);
+        const double to = axis_.xOf(run_range_->second + 1);
+        painter.fillRect(QRectF(from, row.top(), to - from, row.height()),
+                         QBrush(palette().color(QPalette::Mid), Qt::BDiagPattern));
+    }
+    // One bar per frame, or per screen column with the worst frame in it. Its height says how many corners agree.
+    const FrameIndex last = std::min(axis_.lastVisible(), static_cast<FrameIndex>(frames_.size()) - 1);
+    FrameIndex frame = axis_.firstVisible();
+    while (frame <= last) {
+        const double left = std::floor(axis_.xOf(frame));
+        FrameIndex end = frame + 1;
+        while (end <= last && std::floor(axis_.xOf(end)) <= left) ++end;
+        const TimelineFrame* worst = nullptr;
+        for (FrameIndex f = frame; f < end; ++f) {
+            const TimelineFrame& candidate = frames_[static_cast<size_t>(f)];
+            if (candidate.done && (worst == nullptr || badness(candidate) > badness(*worst))) worst = &candidate;
+        }
+        if (worst != nullptr) {
+            const double right = std::floor(axis_.xOf(end));
+            const double gap = axis_.pixelsPerFrame() > 6 ? 1 : 0;
+            const bool measured = worst->state == RegistrationState::registered && worst->corners > 0;
+            const double share =
+                measured ? std::clamp(worst->inliers / static_cast<double>(worst->corners), 0.25, 1.0) : 1;
+            const double height = std::round(row.height() * share);
+            painter.fillRect(QRectF(left, row.bottom() - height, std::max(1.0, right - left - gap), height),
+                             qualityColour(*worst));
+        }
+        frame = end;
+    }
+}
+
+void TimelineView::paintActivity(QPainter& painter, const QRectF& row) const {
+    painter.fillRect(row, palette().color(QPalette::Base));
+    const auto [most_tracks, most_vectors] = highest();
+    const FrameIndex first = axis_.firstVisible();
+    const FrameIndex last = std::min(axis_.lastVisible(), static_cast<FrameIndex>(frames_.size()) - 1);
+    QPainterPath tracks;
+    QPainterPath vectors;
+    bool drawing = false;
+    const auto close = [&](FrameIndex before) {
+        if (!drawing) return;
+        tracks.lineTo(axis_.xOf(before), row.bottom());
+        drawing = false;
+    };
+    for (FrameIndex f = first; f <= last; ++f) {
+        const TimelineFrame& frame = frames_[static_cast<size_t>(f)];
+        if (!frame.done) {
+            close(f);
+            continue;
+        }
+        const double track_y = row.bottom() - (row.height() - 3) * frame.tracks / most_tracks;
+        const double vector_y = row.bottom() - (row.height() - 3) * frame.motion_vectors / most_vectors;
+        if (!drawing) {
+            tracks.moveTo(axis_.xOf(f), row.bottom());
+            tracks.lineTo(axis_.xOf(f), track_y);
+            vectors.moveTo(axis_.centreOf(f), vector_y);
+            drawing = true;
+        }
+        tracks.lineTo(axis_.xOf(f), track_y);
+        tracks.lineTo(axis_.xOf(f + 1), track_y);
+        vectors.lineTo(axis_.centreOf(f), vector_y);
+    }
+    close(last + 1);
+    QColor area = blend(colours_.track, palette().color(QPalette::Base), 0.45);
+    painter.fillPath(tracks, area);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(vectorCurveColour(), 1.2));
+    painter.drawPath(vectors);
+    painter.setRenderHint(QPainter::Antialiasing, false);
+}
+
+std::pair<int, int> TimelineView::highest() const {
+    std::pair<int, int> most{1, 1};
+    for (const TimelineFrame& frame : frames_) {
+        most.first = std::max(most.first, frame.tracks);
+        most.second = std::max(most.second, frame.motion_vectors);
+    }
+    return most;
+}
+
+// The overlays' colours are made for video; on the window's ground they are darkened until they read.
+QColor TimelineView::trackCurveColour() const {
+    return darkGround() ? colours_.track.darker(115) : colours_.track.darker(190);
+}
+
+QColor TimelineView::vectorCurveColour() const {
+    return darkGround() ? colours_.motion_vector.darker(115) : colours_.motion_vector.darker(190);
+}
+
+bool TimelineView::darkGround() const {
+    return palette().color(QPalette::Base).lightness() < 128;
+}
+
+void TimelineView::paintTrackLife(QPainter& painter, const QRectF& row) const {
+    painter.fillRect(row, palette().color(QPalette::Base));
+    if (!track_life_) return;
+    const double from = axis_.xOf(track_life_->first);
+    const double to = axis_.xOf(track_life_->second + 1);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(blend(colours_.track, palette().color(QPalette::Base), 0.25));
+    painter.drawRoundedRect(QRectF(from, row.top() + 2, std::max(2.0, to - from), row.height() - 4), 3, 3);
+    painter.setBrush(Qt::NoBrush);
+    painter.setRenderHint(QPainter::Antialiasing, false);
+}
+
+void TimelineView::paintCursor(QPainter& painter) const {
+    const double x = std::floor(axis_.centreOf(current_)) + 0.5;
+    if (x < axis_.left() - 1 || x > axis_.right() + 1) return;
+    const QColor colour = palette().color(QPalette::Highlight);
+    if (axis_.pixelsPerFrame() > 3) {
+        QColor cell = colour;
+        cell.setAlphaF(0.25F);
+        painter.fillRect(QRectF(axis_.xOf(current_), kRulerHeight, axis_.pixelsPerFrame(), height() - kRulerHeight),
+                         cell);
+    }
+    painter.setPen(QPen(colour, 1));
+    painter.drawLine(QLineF(x, kRulerHeight - 4, x, height()));
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(colour);
+    painter.drawPolygon(
+        QPolygonF({QPointF(x - 5, kRulerHeight - 9), QPointF(x + 5, kRulerHeight - 9), QPointF(x + 5, kRulerHeight - 5),
+                   QPointF(x, kRulerHeight), QPointF(x - 5, kRulerHeight - 5)}));
+    painter.setRenderHint(QPainter::Antialiasing, false);
+}
+
+QString TimelineView::describeFrame(FrameIndex frame) const {
+    const auto index = static_cast<size_t>(frame);
+    QString text = tr("Frame %1, %2").arg(frame).arg(QString::fromStdString(timeText(times_us_[index])));
+    if (index >= frames_.size() || !frames_[index].done) return text;
+    const TimelineFrame& done = frames_[index];
+    switch (done.state) {
+        case RegistrationState::first:
+            text += tr("\nnothing before it to register onto");
+            break;
+        case RegistrationState::registered:
+            text += tr("\nregistered: %1 of %2 corners agree, rms %3 px")
+                        .arg(done.inliers)
+                        .arg(done.corners)
+                        .arg(done.rms_px, 0, 'f', 3);
+            break;
+        case RegistrationState::frozen:
+            text += tr("\nthe same picture as the frame before");
+            break;
+        case RegistrationState::failed:
+            text += tr("\ncould not be registered; tracks coast");
+            break;
+    }
+    return text + tr("\n%1 motion vectors, %2 tracks").arg(done.motion_vectors).arg(done.tracks);
+}
+
+bool TimelineView::event(QEvent* event) {
+    if (event->type() == QEvent::ToolTip && axis_.frameCount() > 0) {
+        const auto* help = static_cast<QHelpEvent*>(event);
+        if (help->pos().x() >= axis_.left())
+            QToolTip::showText(help->globalPos(), describeFrame(axis_.frameAt(help->pos().x())), this);
+        return true;
+    }
+    if (event->type() == QEvent::FontChange) layoutAxis();
+    return QWidget::event(event);
+}
+
+void TimelineView::mousePressEvent(QMouseEvent* event) {
+    if (event->button() != Qt::LeftButton || axis_.frameCount() == 0) return;
+    scrubbing_ = true;
+    emit frameRequested(axis_.frameAt(event->position().x()), true);
+}
+
+void TimelineView::mouseMoveEvent(QMouseEvent* event) {
+    if (scrubbing_) emit frameRequested(axis_.frameAt(event->position().x()), true);
+}
+
+void TimelineView::mouseReleaseEvent(QMouseEvent* event) {
+    if (!scrubbing_ || event->button() != Qt::LeftButton) return;
+    scrubbing_ = false;
+    emit frameRequested(axis_.frameAt(event->position().x()), false);
+}
+
+void TimelineView::mouseDoubleClickEvent(QMouseEvent* event) {
+    if (event->button() == Qt::LeftButton && event->position().x() < axis_.left()) showAll();
+}
+
+void TimelineView::wheelEvent(QWheelEvent* event) {
+    const QPoint delta = event->angleDelta();
+    if (event->modifiers() & Qt::ShiftModifier || std::abs(delta.x()) > std::abs(delta.y()))
+        axis_.panBy(delta.x() != 0 ? delta.x() : delta.y());
+    else
+        axis_.zoomAround(event->position().x(), std::pow(1.25, delta.y() / 120.0));
+    update();
+    event->accept();
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <QWidget>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "canvas/overlay_colours.h"
+#include "canvas/timeline/timeline_axis.h"
+#include "core/values/corner.h"
+
+namespace eyrie::ui {
+
+/// What the timeline knows of a frame that a run has done.
+struct TimelineFrame {
+    bool done = false;
+    RegistrationState state = RegistrationState::first;
+    double rms_px = 0;
+    int inliers = 0;
+    int corners = 0;
+    int motion_vectors = 0;
+    int tracks = 0;
+};
+
+/// Ruler with the video's own times, registration quality, activity, the life of the selected track and the place
+/// shown. Clicking and dragging scrub; the wheel zooms; arrow keys are left to the window.
+class TimelineView : public QWidget {
+    Q_OBJECT
+
+ public:
+    explicit TimelineView(QWidget* parent = nullptr);
+
+    /// A new video: presentation time of every frame, microseconds. Forgets all frames.
+    void setTimes(std::vector<std::int64_t> times_us);
+    /// All frames of a run, by index; may be shorter than the video.
+    void setFrames(std::vector<TimelineFrame> frames);
+    /// One more frame of a running run.
+    void setFrameDone(FrameIndex index, const TimelineFrame& frame);
+    void setCurrentFrame(FrameIndex frame);
+    /// The range a running run is going to work on; nothing when none works.
+    void setRunRange(std::optional<std::pair<FrameIndex, FrameIndex>> range);
+    /// First and last frame and the name of the selected track.
+    void setTrackLife(std::optional<std::pair<FrameIndex, FrameIndex>> life, const QString& name = {});
+    void setPalette(PaletteKind palette);
+
+    FrameIndex currentFrame() const { return current_; }
+    const TimelineAxis& axis() const { return axis_; }
+    void showAll();
+
+    QSize sizeHint() const override { return {600, 104}; }
+    QSize minimumSizeHint() const override { return {240, 104}; }
+
+ signals:
+    /// The user wants to see this frame; `scrubbing` while the mouse is held.
+    void frameRequested(FrameIndex frame, bool scrubbing);
+
+ protected:
+    bool event(QEvent* event) override;
+    void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+
+ private:
+    struct Rows;
+    Rows rows() const;
+    void layoutAxis();
+    void paintRuler(QPainter& painter, const QRectF& row) const;
+    void paintQuality(QPainter& painter, const QRectF& row) const;
+    void paintActivity(QPainter& painter, const QRectF& row) const;
+    void paintTrackLife(QPainter& painter, const QRectF& row) const;
+    void paintCursor(QPainter& painter) const;
+    QString describeFrame(FrameIndex frame) const;
+    /// Most tracks and most motion vectors of any frame, at least 1.
+    std::pair<int, int> highest() const;
+    QColor trackCurveColour() const;
+    QColor vectorCurveColour() const;
+    bool darkGround() const;
+
+    TimelineAxis axis_;
+    std::vector<std::int64_t> times_us_;
+    std::vector<TimelineFrame> frames_;
+    std::optional<std::pair<FrameIndex, FrameIndex>> run_range_;
+    std::optional<std::pair<FrameIndex, FrameIndex>> track_life_;
+    QString track_name_;
+    OverlayColours colours_ = overlayColours(PaletteKind::thesis);
+    FrameIndex current_ = 0;
+    bool scrubbing_ = false;
+};
+
+/// Colour of a frame's registration: green at rms 0 towards amber at `kPoorRms`, red when it failed, blue-grey when the
+/// picture was frozen.
+QColor qualityColour(const TimelineFrame& frame);
+inline constexpr double kPoorRms = 0.5;  ///< px
+
+}  // namespace eyrie::ui

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <QImage>
+#include <memory>
+#include <vector>
+
+#include "canvas/layers/stack_mark.h"
+#include "canvas/layers/verdict_mark.h"
+#include "canvas/trail.h"
+#include "core/labels/box_record.h"
+#include "core/values/frame_result.h"
+
+namespace eyrie::ui {
+
+/// Everything the canvas shows of one frame: the picture and what belongs on it. Live runs and stored runs make the
+/// same. A value; picture and result are shared, never changed.
+struct ViewFrame {
+    FrameIndex index = 0;
+    std::int64_t time_us = 0;
+    QImage image;                               ///< null when the picture could not be read
+    std::shared_ptr<const FrameResult> result;  ///< null when the run has no such frame
+    std::vector<Trail> trails;                  ///< ascending track id
+    std::vector<BoxRecord> ground_truth;
+    bool evaluated = false;             ///< the frame was compared with ground truth
+    std::vector<VerdictMark> verdicts;  ///< what came of it
+    std::vector<StackMark> stacks;      ///< empty until somebody asked for them: they are not stored
+};
+
+}  // namespace eyrie::ui

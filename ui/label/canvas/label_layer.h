@@ -1,0 +1,21 @@
+#pragma once
+
+#include <QRectF>
+
+#include "canvas/view_transform.h"
+#include "label/canvas/label_mark.h"
+
+class QPainter;
+
+namespace eyrie::ui {
+
+/// Draws the labels of a frame: keyframes solid, interpolated boxes dashed, what is only expected dotted, ignored ones
+/// faint and crossed, occluded ones with a bar; ids where there is room.
+void paintLabels(QPainter& painter, const LabelScene& scene, const ViewTransform& transform, const QRectF& view,
+                 bool with_text);
+
+/// The mark under an image point, the smallest if several are; `margin` px around boxes count as hit. Objects win over
+/// proposals.
+const LabelMark* markAt(const LabelScene& scene, QPointF image_point, double margin);
+
+}  // namespace eyrie::ui

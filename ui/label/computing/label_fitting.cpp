@@ -1,0 +1,135 @@
+#include "label/computing/label_fitting.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "annotation/edits/identity_edits.h"
+#include "annotation/edits/object_pieces.h"
+#include "annotation/review/proposals.h"
+#include "session/background/lru_cache.h"
+#include "session/background/queued_call.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr std::size_t kFittingBudget_bytes = 256U * 1024 * 1024;  ///< pictures kept while several objects are fitted
+
+bool hasBoth(const LabelledObject& object) {
+    const auto& keyframes = object.keyframes;
+    const auto computed =
+        std::count_if(keyframes.begin(), keyframes.end(), [](const Keyframe& k) { return k.computed; });
+    return computed > 0 && computed < static_cast<std::ptrdiff_t>(keyframes.size());
+}
+
+bool sameKeyframes(const LabelledObject& a, const LabelledObject& b) {
+    return std::equal(a.keyframes.begin(), a.keyframes.end(), b.keyframes.begin(), b.keyframes.end(),
+                      [](const Keyframe& p, const Keyframe& q) {
+                          return p.frame == q.frame && p.box.centre == q.box.centre && p.box.length == q.box.length &&
+                                 p.box.width == q.box.width && p.box.heading == q.box.heading &&
+                                 p.computed == q.computed && p.outside == q.outside && p.occlusion == q.occlusion &&
+                                 p.ignore == q.ignore && p.heading_set == q.heading_set;
+                      }) &&
+           a.last_frame == b.last_frame;
+}
+
+}  // namespace
+
+LabelFitting::LabelFitting(ProjectSession& session, LabelSession& labels, QObject* parent)
+    : QObject(parent), session_(session), labels_(labels) {
+    connect(&labels_, &LabelSession::closed, this, &LabelFitting::stop);
+}
+
+LabelFitting::~LabelFitting() {
+    request_.request_stop();
+}
+
+void LabelFitting::stop() {
+    request_.request_stop();
+}
+
+void LabelFitting::start() {
+    if (working_ || !labels_.selected() || !session_.media() || !labels_.mayEdit()) return;
+    std::vector<LabelledObject> objects;
+    for (const ObjectId id : labels_.selection())
+        if (const LabelledObject* object = labels_.object(id); object != nullptr && hasBoth(*object))
+            objects.push_back(*object);
+    if (objects.empty()) {
+        emit labels_.notice(tr(
+            "There is nothing to lay on the pictures: correct one box of an object taken over from a run, or press K "
+            "where its box is right; the others follow."));
+        return;
+    }
+    working_ = true;
+    request_ = {};
+    emit workingChanged(true);
+    thread_.post([this, ticket = ++ticket_, objects = std::move(objects), media = *session_.media(),
+                  camera = labels_.sharedCamera(), request = request_.get_token()](const std::stop_token& stop) {
+        std::vector<Fitted> fitted;
+        QString failure;
+        try {
+            std::stop_source either;
+            const std::stop_callback on_request(request, [&] { either.request_stop(); });
+            const std::stop_callback on_end(stop, [&] { either.request_stop(); });
+            const auto source = media.open({}, either.get_token());
+            LruCache<FrameIndex, cv::Mat> kept(kFittingBudget_bytes);
+            const GrayFrames frames = [&](FrameIndex frame) {
+                if (const cv::Mat* known = kept.find(frame)) return *known;
+                cv::Mat picture;
+                try {
+                    picture = source->read(frame, false).gray.clone();
+                } catch (const std::exception&) {
+                    return cv::Mat();  // compared with others, then
+                }
+                kept.put(frame, picture, picture.total());
+                return picture;
+            };
+            for (const LabelledObject& object : objects) {
+                PictureFit fit = fittedToPictures(object, *camera, frames, {}, either.get_token());
+                if (either.stop_requested()) break;
+                fitted.push_back({object, std::move(fit)});
+            }
+        } catch (const std::exception& error) {
+            failure = QString::fromUtf8(error.what());
+        }
+        queuedCall(this, [this, ticket, fitted = std::move(fitted), failure] {
+            if (ticket != ticket_) return;
+            working_ = false;
+            emit workingChanged(false);
+            if (!failure.isEmpty()) emit labels_.problem(failure);
+            take(fitted);
+        });
+    });
+}
+
+void LabelFitting::take(const std::vector<Fitted>& fitted) {
+    std::vector<LabelledObject> changed;
+    int frames = 0;
+    int sure = 0;
+    for (const auto& [before, fit] : fitted) {
+        // What was changed meanwhile stays as it is.
+        const LabelledObject* now = labels_.object(before.id);
+        if (now == nullptr || !sameKeyframes(*now, before) || sameKeyframes(fit.object, before)) continue;
+        LabelledObject object = *now;
+        object.keyframes = fit.object.keyframes;
+        object.origin = originAfterChange(object.origin);
+        changed.push_back(std::move(object));
+        frames += fit.frames;
+        sure += fit.sure;
+    }
+    if (changed.empty()) {
+        if (!fitted.empty()) emit labels_.notice(tr("The boxes already lie where the pictures look most alike."));
+        return;
+    }
+    const QString name = changed.size() == 1
+                             ? tr("Lay %1 on the pictures").arg(QString::fromStdString(nameOf(changed.front())))
+                             : tr("Lay %1 objects on the pictures").arg(changed.size());
+    if (!labels_.apply(editOf(name.toStdString(), labels_.annotations(), std::move(changed)))) return;
+    if (sure < frames)
+        emit labels_.notice(tr("Laid on the pictures; %1 of %2 frames look different from the boxes set by hand.")
+                                .arg(frames - sure)
+                                .arg(frames));
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,226 @@
+#include "label/computing/label_proposals.h"
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+
+#include "annotation/edits/identity_edits.h"
+#include "annotation/keyframes/interpolation.h"
+#include "label/label_classes.h"
+#include "session/background/queued_call.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+std::vector<DenseTrack> tracksOf(const std::filesystem::path& path, int run_id, const std::stop_token& stop) {
+    ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+    const RunStore store(project);
+    std::vector<DenseTrack> tracks;
+    for (const TrackSummary& summary : store.tracks(run_id)) {
+        if (stop.stop_requested()) break;
+        if (!summary.confirmed) continue;
+        DenseTrack track;
+        track.id = summary.id;
+        for (const TrackFrame& state : store.trackStates(run_id, summary.id))
+            track.boxes.push_back({state.frame, state.state.box});
+        if (!track.boxes.empty()) tracks.push_back(std::move(track));
+    }
+    return tracks;
+}
+
+bool livesIn(const Proposal& proposal, FrameIndex frame) {
+    return proposal.object.keyframes.front().frame <= frame && proposal.object.last_frame >= frame;
+}
+
+}  // namespace
+
+LabelProposals::LabelProposals(ProjectSession& session, LabelSession& labels, QObject* parent)
+    : QObject(parent), session_(session), labels_(labels) {
+    const auto forget = [this] {
+        ++ticket_;
+        working_ = false;
+        run_.reset();
+        proposals_.clear();
+        taken_.clear();
+        rejected_.clear();
+        selection_.clear();
+        emit changed();
+        if (shown_) read();
+    };
+    connect(&session_, &ProjectSession::currentRunChanged, this, forget);
+    connect(&session_, &ProjectSession::runFinished, this, forget);
+    connect(&labels_, &LabelSession::opened, this, forget);
+    connect(&labels_, &LabelSession::closed, this, forget);
+}
+
+LabelProposals::~LabelProposals() = default;
+
+void LabelProposals::setShown(bool shown) {
+    if (shown_ == shown) return;
+    shown_ = shown;
+    if (!shown_) selection_.clear();
+    if (shown_) read();
+    emit changed();
+}
+
+void LabelProposals::read() {
+    if (working_ || !labels_.isOpen() || !session_.currentRun() || run_ == session_.currentRun()) return;
+    working_ = true;
+    run_ = session_.currentRun();
+    thread_.post([this, ticket = ++ticket_, path = session_.project(), run = *run_, labelled = labels_.annotations(),
+                  camera = labels_.sharedCamera(), tolerance = tolerance_px_](const std::stop_token& stop) {
+        std::vector<Proposal> proposals;
+        QString failure;
+        try {
+            ProposalOptions options;
+            options.reduction.tolerance_px = tolerance;
+            proposals = proposeTracks(tracksOf(path, run, stop), labelled, *camera, options);
+        } catch (const std::exception& error) {
+            failure = QString::fromUtf8(error.what());
+        }
+        std::erase_if(proposals, [](const Proposal& p) { return p.object.keyframes.empty(); });
+        queuedCall(this, [this, ticket, proposals = std::move(proposals), failure] {
+            if (ticket != ticket_) return;
+            working_ = false;
+            if (!failure.isEmpty()) emit labels_.problem(failure);
+            proposals_ = proposals;
+            emit changed();
+        });
+    });
+}
+
+bool LabelProposals::isPending(const Proposal& proposal) const {
+    if (rejected_.contains(proposal.track)) return false;
+    if (proposal.same_as != 0 && labels_.object(proposal.same_as) != nullptr) return false;
+    const auto taken = taken_.find(proposal.track);
+    return taken == taken_.end() || labels_.object(taken->second) == nullptr;  // taking over may have been undone
+}
+
+std::vector<const Proposal*> LabelProposals::pending() const {
+    std::vector<const Proposal*> found;
+    if (!shown_) return found;
+    for (const Proposal& proposal : proposals_)
+        if (isPending(proposal)) found.push_back(&proposal);
+    return found;
+}
+
+std::vector<const Proposal*> LabelProposals::pendingIn(FrameIndex frame) const {
+    std::vector<const Proposal*> found = pending();
+    std::erase_if(found, [&](const Proposal* proposal) { return !livesIn(*proposal, frame); });
+    return found;
+}
+
+const Proposal* LabelProposals::find(TrackId track) const {
+    for (const Proposal& proposal : proposals_)
+        if (proposal.track == track) return &proposal;
+    return nullptr;
+}
+
+const Proposal* LabelProposals::next(FrameIndex frame) const {
+    const auto here = pendingIn(frame);
+    if (!here.empty()) return here.front();
+    const Proposal* earliest = nullptr;
+    for (const Proposal* proposal : pending())
+        if (earliest == nullptr || proposal->object.keyframes.front().frame < earliest->object.keyframes.front().frame)
+            earliest = proposal;
+    return earliest;
+}
+
+std::optional<TrackId> LabelProposals::selected() const {
+    return selection_.empty() ? std::nullopt : std::optional(selection_.back());
+}
+
+bool LabelProposals::isSelected(TrackId track) const {
+    return std::find(selection_.begin(), selection_.end(), track) != selection_.end();
+}
+
+void LabelProposals::select(std::optional<TrackId> track) {
+    std::vector<TrackId> selection;
+    if (track) selection.push_back(*track);
+    if (selection_ == selection) return;
+    selection_ = std::move(selection);
+    emit changed();
+}
+
+void LabelProposals::toggle(TrackId track) {
+    if (isSelected(track))
+        forgetSelected(track);
+    else
+        selection_.push_back(track);
+    emit changed();
+}
+
+void LabelProposals::forgetSelected(TrackId track) {
+    std::erase(selection_, track);
+}
+
+void LabelProposals::setTolerance(double px) {
+    if (tolerance_px_ == px) return;
+    tolerance_px_ = px;
+    ++ticket_;
+    working_ = false;
+    run_.reset();
+    // Those taken stay what they are.
+    std::erase_if(proposals_, [this](const Proposal& proposal) { return isPending(proposal); });
+    selection_.clear();
+    emit changed();
+    if (shown_) read();
+}
+
+std::vector<ObjectId> LabelProposals::accept(const std::vector<TrackId>& tracks) {
+    return take(tracks, 0, std::numeric_limits<FrameIndex>::max());
+}
+
+std::vector<ObjectId> LabelProposals::acceptRange(FrameIndex first, FrameIndex last) {
+    std::vector<TrackId> tracks;
+    for (const Proposal* proposal : pending())
+        if (proposal->object.keyframes.front().frame <= last && proposal->object.last_frame >= first)
+            tracks.push_back(proposal->track);
+    return take(tracks, first, last);
+}
+
+std::vector<ObjectId> LabelProposals::take(const std::vector<TrackId>& tracks, FrameIndex first, FrameIndex last) {
+    std::vector<ObjectId> ids;
+    if (tracks.empty() || !labels_.mayEdit()) return ids;
+    AnnotationEdit edit;
+    std::map<TrackId, ObjectId> taken;
+    for (const TrackId track : tracks) {
+        const Proposal* proposal = find(track);
+        if (proposal == nullptr || !isPending(*proposal)) continue;
+        const ObjectId id = labels_.newObjectId();
+        const ObjectClass object_class = classNamed(labels_.annotations(), labels_.drawnClass());
+        LabelledObject object = accepted(*proposal, id, object_class.colour);
+        object.object_class = object_class.name;
+        if (firstFrameOf(object) < first || object.last_frame > last)
+            object = cutToRange(object, first, last, labels_.camera());
+        if (object.keyframes.empty()) continue;
+        edit.objects.push_back({std::nullopt, std::move(object)});
+        taken[track] = id;
+        ids.push_back(id);
+    }
+    edit.name = (ids.size() == 1 ? tr("Take over track %1").arg(taken.empty() ? 0 : taken.begin()->first)
+                                 : tr("Take over %1 tracks").arg(ids.size()))
+                    .toStdString();
+    if (!labels_.apply(edit)) return {};
+    for (const auto& [track, object] : taken) taken_[track] = object;
+    for (const auto& [track, object] : taken) forgetSelected(track);
+    emit changed();
+    return ids;
+}
+
+void LabelProposals::reject(const std::vector<TrackId>& tracks) {
+    for (const TrackId track : std::vector<TrackId>(tracks)) {
+        if (find(track) == nullptr) continue;
+        rejected_.insert(track);
+        forgetSelected(track);
+    }
+    emit changed();
+}
+
+void LabelProposals::offerAgain() {
+    rejected_.clear();
+    emit changed();
+}
+
+}  // namespace eyrie::ui

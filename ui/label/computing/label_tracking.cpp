@@ -1,0 +1,109 @@
+#include "label/computing/label_tracking.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "annotation/edits/identity_edits.h"
+#include "annotation/edits/object_pieces.h"
+#include "annotation/keyframes/keyframe_reduction.h"
+#include "annotation/review/proposals.h"
+#include "label/label_editor.h"
+#include "session/background/queued_call.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr double kTolerance_px = 1;
+}
+
+LabelTracking::LabelTracking(ProjectSession& session, LabelSession& labels, QObject* parent)
+    : QObject(parent), session_(session), labels_(labels) {
+    connect(&labels_, &LabelSession::closed, this, &LabelTracking::stop);
+}
+
+LabelTracking::~LabelTracking() {
+    request_.request_stop();
+}
+
+void LabelTracking::stop() {
+    request_.request_stop();
+}
+
+void LabelTracking::start(int direction) {
+    if (working_ || !labels_.selected() || !session_.media() || !labels_.mayEdit()) return;
+    const LabelledObject* object = labels_.object(*labels_.selected());
+    const FrameIndex from = session_.shownFrame();
+    const auto box = LabelEditor::expectedBox(*object, from, labels_.camera());
+    if (!box) return;
+    // A keyframe that is there already is never touched: the way goes up to it.
+    FrameIndex last = direction > 0 ? session_.lastFrame() : 0;
+    if (const Keyframe* next = direction > 0 ? nextKeyframe(*object, from) : previousKeyframe(*object, from))
+        last = next->frame - direction;
+    if (last == from || (last - from > 0) != (direction > 0)) {
+        emit ended(from, tr("there is nothing between this keyframe and the next one"));
+        return;
+    }
+    working_ = true;
+    request_ = {};
+    emit workingChanged(true);
+    thread_.post([this, ticket = ++ticket_, id = object->id, media = *session_.media(), box = *box, from, last,
+                  camera = labels_.sharedCamera(), request = request_.get_token()](const std::stop_token& stop) {
+        FollowResult result;
+        QString failure;
+        try {
+            std::stop_source either;
+            const std::stop_callback on_request(request, [&] { either.request_stop(); });
+            const std::stop_callback on_end(stop, [&] { either.request_stop(); });
+            const auto source = media.open({}, either.get_token());
+            const GrayFrames frames = [&](FrameIndex frame) {
+                try {
+                    return source->read(frame, false).gray;
+                } catch (const std::exception&) {
+                    return cv::Mat();
+                }
+            };
+            const FollowProgress progress = [this](const FollowedBox& followed) {
+                if (followed.frame % 5 == 0) queuedCall(this, [this, frame = followed.frame] { emit advanced(frame); });
+            };
+            result = followBox(box, from, last, frames, *camera, {}, progress, either.get_token());
+        } catch (const std::exception& error) {
+            failure = QString::fromUtf8(error.what());
+        }
+        queuedCall(this, [this, ticket, id, from, box, result, failure] {
+            if (ticket != ticket_) return;
+            working_ = false;
+            emit workingChanged(false);
+            if (!failure.isEmpty()) emit labels_.problem(failure);
+            take(id, from, box, result);
+        });
+    });
+}
+
+void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, const FollowResult& result) {
+    const LabelledObject* object = labels_.object(id);
+    if (object == nullptr) return;
+    FrameIndex end = start;
+    if (!result.boxes.empty()) {
+        std::vector<FrameBox> boxes{{start, box}};
+        for (const FollowedBox& followed : result.boxes) boxes.push_back({followed.frame, followed.box});
+        std::sort(boxes.begin(), boxes.end(), [](const FrameBox& a, const FrameBox& b) { return a.frame < b.frame; });
+        end = result.boxes.back().frame;
+        ReductionOptions options;
+        options.tolerance_px = kTolerance_px;
+        LabelledObject changed = *object;
+        for (const Keyframe& keyframe : reduceToKeyframes(boxes, labels_.camera(), options))
+            if (keyframeAt(*object, keyframe.frame) == nullptr) {
+                changed = withBox(std::move(changed), keyframe.frame, keyframe.box, keyframe.heading_set);
+                Keyframe computed = *keyframeAt(changed, keyframe.frame);
+                computed.computed = true;
+                changed = withKeyframe(std::move(changed), computed);
+            }
+        changed.last_frame = std::max(changed.last_frame, end);
+        changed.origin = originAfterChange(changed.origin);
+        labels_.apply(editOf(tr("Track %1").arg(QString::fromStdString(nameOf(changed))).toStdString(),
+                             labels_.annotations(), std::vector{std::move(changed)}));
+    }
+    emit ended(end, QString::fromStdString(result.reason));
+}
+
+}  // namespace eyrie::ui

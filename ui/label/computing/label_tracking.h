@@ -1,0 +1,44 @@
+#pragma once
+
+#include <QObject>
+#include <stop_token>
+
+#include "annotation/pictures/box_tracker.h"
+#include "label/label_session.h"
+
+namespace eyrie::ui {
+
+/// Follows the selected box through the pictures, forward or backward, until it gets unsure; then takes what was sure
+/// over as few keyframes, in one step to undo. Keyframes that are there already end it and are never changed.
+class LabelTracking : public QObject {
+    Q_OBJECT
+
+ public:
+    /// Both must outlive it.
+    LabelTracking(ProjectSession& session, LabelSession& labels, QObject* parent = nullptr);
+    ~LabelTracking() override;
+
+    /// From the frame shown; `direction` 1 or −1.
+    void start(int direction);
+    void stop();
+    bool working() const { return working_; }
+
+ signals:
+    void workingChanged(bool working);
+    /// One more box is sure.
+    void advanced(FrameIndex frame);
+    /// It ended there, for this reason.
+    void ended(FrameIndex frame, const QString& reason);
+
+ private:
+    void take(ObjectId id, FrameIndex start, const OrientedBox& box, const FollowResult& result);
+
+    ProjectSession& session_;
+    LabelSession& labels_;
+    bool working_ = false;
+    int ticket_ = 0;
+    std::stop_source request_;
+    TaskThread thread_;  ///< last: stops before the rest goes
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,169 @@
+#include "label/label_actions.h"
+
+#include <QIcon>
+#include <QSet>
+#include <QWidget>
+
+#include "label/label_classes.h"
+
+namespace eyrie::ui {
+
+LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidget& canvas)
+    : QObject(&window), window_actions_(window_actions), window_(window), canvas_(canvas) {
+    section(tr("Labels"));
+    undo = add(tr("&Undo"), {QKeySequence(tr("Ctrl+Z"))});
+    redo = add(tr("&Redo"), {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))});
+    undo->setIcon(QIcon::fromTheme(QStringLiteral("edit-undo")));
+    redo->setIcon(QIcon::fromTheme(QStringLiteral("edit-redo")));
+    import_labels = add(tr("&Import labels…"), {QKeySequence(tr("Ctrl+I"))});
+    export_labels = add(tr("&Export labels…"), {QKeySequence(tr("Ctrl+Shift+E"))});
+    import_labels->setIcon(QIcon::fromTheme(QStringLiteral("document-import")));
+    export_labels->setIcon(QIcon::fromTheme(QStringLiteral("document-export")));
+    try_to_write = add(tr("Try again to label in this window"), {});
+
+    section(tr("Box"));
+    draw = addToggle(tr("&Draw: click rear, then front (Shift: then width)"), {QKeySequence(Qt::Key_B)}, false);
+    draw->setIcon(QIcon::fromTheme(QStringLiteral("draw-rectangle")));
+    draw->setIconText(tr("Draw"));
+    redraw = add(tr("Draw the box of the selected object anew in this frame"), {QKeySequence(tr("Ctrl+B"))});
+    region = addToggle(tr("Draw an ignore region: corners, double click ends"), {QKeySequence(Qt::Key_Z)}, false);
+    delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Shift+Z"))});
+    region_begins = add(tr("The ignore region under the cursor begins here"), {QKeySequence(tr("Ctrl+["))});
+    region_ends = add(tr("The ignore region under the cursor ends here"), {QKeySequence(tr("Ctrl+]"))});
+    region_anchor =
+        add(tr("Fix the ignore region under the cursor to the ground or to the image"), {QKeySequence(tr("Alt+Z"))});
+    keyframe = add(tr("Set a keyframe here"), {QKeySequence(Qt::Key_K)});
+    spread_size = add(tr("Give this size to all keyframes of the object"), {QKeySequence(tr("Shift+K"))});
+    spread_correction =
+        add(tr("Correct all keyframes of the object as this one was corrected"), {QKeySequence(tr("Ctrl+K"))});
+    fit_pictures = add(tr("Lay the object's computed boxes on the pictures, by the boxes set by hand"),
+                       {QKeySequence(tr("Ctrl+F"))});
+    carry_corrections = addToggle(tr("Corrections go on to computed keyframes"), {}, true);
+    copy_on = add(tr("Copy the box to the next frame and go there"), {QKeySequence(Qt::Key_C)});
+    copy_back = add(tr("Copy the box to the frame before and go there"), {QKeySequence(tr("Shift+C"))});
+    delete_keyframe = add(tr("Delete this keyframe"), {QKeySequence(Qt::Key_Delete)});
+    delete_object = add(tr("Delete the object"), {QKeySequence(tr("Shift+Delete"))});
+    end_here = add(tr("The object ends here"), {QKeySequence(Qt::Key_T)});
+    occluded = add(tr("Occluded: no, partly, fully"), {QKeySequence(Qt::Key_O)});
+    outside = add(tr("Outside the image from here"), {QKeySequence(Qt::Key_L)});
+    ignore = add(tr("Ignore from here"), {QKeySequence(Qt::Key_I)});
+    spread_flags = add(tr("Give these flags to the selected objects over the range of frames above"),
+                       {QKeySequence(tr("Shift+O"))});
+    turn_left = add(tr("Turn by 1° counter-clockwise"), {QKeySequence(Qt::Key_BracketLeft)});
+    turn_right = add(tr("Turn by 1° clockwise"), {QKeySequence(Qt::Key_BracketRight)});
+    const Qt::Key arrows[] = {Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down};
+    const Qt::KeyboardModifier steps[] = {Qt::NoModifier, Qt::ControlModifier, Qt::ShiftModifier};
+    const QString names[] = {tr("left"), tr("right"), tr("up"), tr("down")};
+    const QString amounts[] = {tr("1 px"), tr("0.1 px"), tr("5 px")};
+    for (std::size_t i = 0; i < nudge.size(); ++i)
+        nudge[i] = add(tr("Move the box %1 by %2").arg(names[i % 4], amounts[i / 4]),
+                       {QKeySequence(QKeyCombination(steps[i / 4], arrows[i % 4]))}, true);
+    loupe = addToggle(tr("Loupe beside the cursor"), {QKeySequence(Qt::Key_M)}, true);
+    stack_loupe = addToggle(tr("The object's image stack beside the loupe"), {QKeySequence(tr("Shift+M"))}, true);
+
+    section(tr("Class"));
+    for (std::size_t i = 0; i < object_class.size(); ++i)
+        object_class[i] = add(classText(builtInClasses()[i].name), {QKeySequence(Qt::Key_1 + static_cast<int>(i))});
+
+    section(tr("Go"));
+    next_frame = add(tr("Next frame"), {QKeySequence(Qt::Key_D), QKeySequence(Qt::Key_Period)});
+    previous_frame = add(tr("Previous frame"), {QKeySequence(Qt::Key_A), QKeySequence(Qt::Key_Comma)});
+    ten_on = add(tr("10 frames forward"), {QKeySequence(tr("Shift+D"))});
+    ten_back = add(tr("10 frames back"), {QKeySequence(tr("Shift+A"))});
+    next_object = add(tr("Next object"), {QKeySequence(Qt::Key_N)});
+    previous_object = add(tr("Object before"), {QKeySequence(tr("Shift+N"))});
+    next_keyframe = add(tr("Next keyframe"), {QKeySequence(Qt::Key_E)});
+    previous_keyframe = add(tr("Keyframe before"), {QKeySequence(Qt::Key_Q)});
+    next_attention = add(tr("Next frame that needs attention"), {QKeySequence(Qt::Key_W)});
+    next_unchecked = add(tr("Next one not checked"), {QKeySequence(Qt::Key_U)});
+    follow = addToggle(tr("Keep the object in the middle"), {QKeySequence(Qt::Key_S)}, false);
+    follow_upright = addToggle(tr("… and turn the picture so that it heads up"), {}, true);
+    this_frame = addToggle(tr("List objects of this frame only"), {QKeySequence(Qt::Key_H)}, false);
+    deselect = add(tr("Stop drawing, select nothing"), {QKeySequence(Qt::Key_Escape)});
+
+    section(tr("Review"));
+    checked = add(tr("Mark as checked"), {QKeySequence(Qt::Key_V)});
+    questionable = add(tr("Mark as questionable"), {QKeySequence(Qt::Key_X)});
+    unseen = add(tr("Mark as not checked"), {QKeySequence(tr("Shift+V"))});
+
+    section(tr("Proposals"));
+    proposals = addToggle(tr("Show tracks of the run as proposals"), {QKeySequence(Qt::Key_P)}, false);
+    proposals->setIconText(tr("Proposals"));
+    proposals->setIcon(QIcon::fromTheme(QStringLiteral("tools-wizard")));
+    next_proposal = add(tr("Next proposal"), {QKeySequence(Qt::Key_G)});
+    accept =
+        add(tr("Take the selected proposals over"), {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
+    reject = add(tr("Reject the selected proposals"), {QKeySequence(Qt::Key_Backspace)}, true);
+    accept_all = add(tr("Take over all proposals of this frame"), {QKeySequence(tr("Shift+Return"))}, true);
+    accept_range =
+        add(tr("Take over all proposals in the range of frames above"), {QKeySequence(tr("Ctrl+Return"))}, true);
+    offer_again = add(tr("Offer rejected ones again"), {});
+    proposal_tolerance = add(tr("Keyframes of proposals…"), {});
+    track_on = add(tr("Track the box forward"), {QKeySequence(tr("Shift+F"))});
+    track_back = add(tr("Track the box backward"), {QKeySequence(tr("Shift+B"))});
+    stop_tracking = add(tr("Stop tracking (Esc)"), {});
+
+    section(tr("Identity"));
+    join = add(tr("&Join in time with…"), {QKeySequence(Qt::Key_J)});
+    fuse = add(tr("&Fuse in parallel with…"), {QKeySequence(tr("Shift+J"))});
+    split = add(tr("&Split here"), {QKeySequence(Qt::Key_Y)});
+    swap = add(tr("S&wap from here with the other selected one"), {QKeySequence(tr("Shift+S"))});
+    renumber = add(tr("&Renumber from here"), {QKeySequence(Qt::Key_R)});
+    delete_before = add(tr("Delete &before this frame"), {QKeySequence(tr("Ctrl+Backspace"))});
+    delete_after = add(tr("Delete &after this frame"), {QKeySequence(tr("Ctrl+Delete"))});
+}
+
+void LabelActions::section(const QString& title) {
+    sections_.append({title, {}});
+}
+
+QAction* LabelActions::add(const QString& text, const QList<QKeySequence>& keys, bool canvas_only) {
+    auto* action = new QAction(text, this);
+    action->setShortcuts(keys);
+    QString tip = QString(text).remove(QLatin1Char('&')).remove(QStringLiteral("…"));
+    if (!keys.isEmpty()) tip += QStringLiteral(" (%1)").arg(keys.front().toString(QKeySequence::NativeText));
+    action->setToolTip(tip);
+    action->setEnabled(false);
+    if (canvas_only) {
+        action->setShortcutContext(Qt::WidgetShortcut);
+        canvas_.addAction(action);
+    } else {
+        window_.addAction(action);
+    }
+    sections_.back().actions.append(action);
+    return action;
+}
+
+QAction* LabelActions::addToggle(const QString& text, const QList<QKeySequence>& keys, bool on) {
+    QAction* action = add(text, keys);
+    action->setCheckable(true);
+    action->setChecked(on);
+    return action;
+}
+
+void LabelActions::setActive(bool active) {
+    if (active == active_) return;
+    active_ = active;
+    QSet<QKeySequence> taken;
+    for (const ActionSection& group : sections_)
+        for (QAction* action : group.actions) {
+            action->setEnabled(active);
+            for (const QKeySequence& key : action->shortcuts()) taken.insert(key);
+        }
+    if (!active) {
+        for (auto lent = lent_.cbegin(); lent != lent_.cend(); ++lent) lent.key()->setShortcuts(lent.value());
+        lent_.clear();
+        return;
+    }
+    for (const ActionSection& group : window_actions_.sections())
+        for (QAction* action : group.actions) {
+            QList<QKeySequence> kept;
+            for (const QKeySequence& key : action->shortcuts())
+                if (!taken.contains(key)) kept << key;
+            if (kept.size() == action->shortcuts().size()) continue;
+            lent_.insert(action, action->shortcuts());
+            action->setShortcuts(kept);
+        }
+}
+
+}  // namespace eyrie::ui

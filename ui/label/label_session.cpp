@@ -1,0 +1,280 @@
+#include "label/label_session.h"
+
+#include <exception>
+#include <utility>
+
+#include "exchange/project_labels.h"
+#include "session/background/queued_call.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr int kReread_ms = 2000;
+}
+
+/// Labels as they were read on the other thread.
+struct LabelSession::Opened {
+    std::unique_ptr<ProjectFile> project;
+    std::unique_ptr<AnnotationStore> store;
+    int sequence_id = 0;
+};
+
+LabelSession::LabelSession(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
+    connect(&session_, &ProjectSession::videoChanged, this, &LabelSession::close);
+    connect(&session_, &ProjectSession::projectChanged, this, &LabelSession::refreshOpen);
+    connect(&session_, &ProjectSession::ready, this, &LabelSession::refreshOpen);
+    connect(&session_, &ProjectSession::runDataChanged, this, &LabelSession::readCamera);
+    connect(&session_, &ProjectSession::currentRunChanged, this, &LabelSession::readCamera);
+    connect(&session_, &ProjectSession::runFinished, this, &LabelSession::readCamera);
+    reread_.setInterval(kReread_ms);
+    connect(&reread_, &QTimer::timeout, this, &LabelSession::refreshReadOnly);
+}
+
+LabelSession::~LabelSession() = default;
+
+void LabelSession::setWanted(bool wanted) {
+    wanted_ = wanted;
+    if (wanted_) refreshOpen();
+}
+
+void LabelSession::refreshOpen() {
+    const auto& video = session_.video();
+    if (!wanted_ || !video || !session_.media() || session_.project().empty() || session_.opening()) return;
+    if (project_path_ == session_.project() && sequence_.path == session_.media()->identity) return;
+    close();
+    project_path_ = session_.project();
+    sequence_.path = session_.media()->identity;
+    sequence_.size = video->size;
+    sequence_.frame_count = video->frame_count;
+    sequence_.frame_rate_hz = video->frame_rate_hz;
+    thread_.post([this, ticket = ++ticket_, path = project_path_, sequence = sequence_](const std::stop_token&) {
+        try {
+            auto opened = std::make_shared<Opened>();
+            opened->project = std::make_unique<ProjectFile>(ProjectFile::open(path));
+            opened->sequence_id = ensureSequence(*opened->project, sequence);
+            opened->store = std::make_unique<AnnotationStore>(*opened->project, opened->sequence_id);
+            queuedCall(this, [this, ticket, opened] { adopt(ticket, opened); });
+        } catch (const std::exception& error) {
+            queuedCall(this, [this, text = QString::fromUtf8(error.what())] {
+                project_path_.clear();
+                emit problem(text);
+            });
+        }
+    });
+    readCamera();
+}
+
+void LabelSession::adopt(int ticket, const std::shared_ptr<Opened>& opened) {
+    if (ticket != ticket_) return;
+    project_ = std::move(opened->project);
+    store_ = std::move(opened->store);
+    sequence_.id = opened->sequence_id;
+    wasChanged();
+    emit this->opened();
+    if (store_->readOnly()) reread_.start();
+}
+
+void LabelSession::refreshReadOnly() {
+    if (!store_ || !store_->readOnly()) {
+        reread_.stop();
+        return;
+    }
+    try {
+        if (store_->refresh()) wasChanged();
+    } catch (const std::exception& error) {
+        reread_.stop();
+        emit problem(QString::fromUtf8(error.what()));
+    }
+}
+
+void LabelSession::readCamera() {
+    if (!wanted_ || session_.project().empty()) return;
+    thread_.post([this, ticket = ++camera_ticket_, path = session_.project(), run = session_.currentRun(),
+                  video = sequence_.path](const std::stop_token&) {
+        auto camera = std::make_shared<CameraMotion>();
+        QString failure;
+        try {
+            ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+            const RunStore store(project);
+            if (run) {
+                *camera = CameraMotion::fromRegistrations(store.registrations(*run));
+            } else {
+                for (const SequenceRecord& sequence : sequencesOf(project))
+                    if (sequence.path == video) *camera = cameraMotionOf(store, sequence.id);
+            }
+        } catch (const std::exception& error) {
+            failure = QString::fromUtf8(error.what());
+        }
+        queuedCall(this, [this, ticket, camera, failure] {
+            if (ticket != camera_ticket_) return;
+            if (!failure.isEmpty()) emit problem(failure);
+            camera_ = camera;
+            wasChanged();
+        });
+    });
+}
+
+void LabelSession::close() {
+    ++ticket_;
+    ++camera_ticket_;
+    project_path_.clear();
+    const bool was_open = store_ != nullptr;
+    store_.reset();
+    project_.reset();
+    camera_ = std::make_shared<CameraMotion>();
+    selected_.reset();
+    selection_.clear();
+    sequence_ = {};
+    if (!was_open) return;
+    wasChanged();
+    emit selectionChanged();
+    emit closed();
+}
+
+void LabelSession::wasChanged() {
+    ++version_;
+    review_.reset();
+    attention_.reset();
+    emit changed();
+}
+
+const LabelledObject* LabelSession::object(ObjectId id) const {
+    const auto found = annotations().objects.find(id);
+    return found == annotations().objects.end() ? nullptr : &found->second;
+}
+
+const ReviewIndex& LabelSession::review() const {
+    if (!review_) review_.emplace(annotations());
+    return *review_;
+}
+
+const std::vector<AttentionItem>& LabelSession::attention() const {
+    if (!attention_) {
+        AttentionOptions options;
+        options.image = sequence_.size;
+        options.frame_count = sequence_.frame_count;
+        attention_ = attentionList(annotations(), *camera_, options);
+    }
+    return *attention_;
+}
+
+// ---- changing -------------------------------------------------------------------------------------------------------
+
+bool LabelSession::mayEdit() {
+    if (store_ && store_->readOnly()) emit notice(QString::fromStdString(store_->readOnlyReason()));
+    return canEdit();
+}
+
+template <class Work>
+bool LabelSession::guarded(Work&& work) {
+    if (!mayEdit()) return false;
+    try {
+        work();
+        return true;
+    } catch (const std::exception& error) {
+        emit problem(QString::fromUtf8(error.what()));
+        return false;
+    }
+}
+
+bool LabelSession::apply(const AnnotationEdit& edit) {
+    if (edit.empty()) return false;
+    if (!guarded([&] { store_->apply(edit); })) return false;
+    wasChanged();
+    const std::set<ObjectId> before = selection_;
+    std::erase_if(selection_, [this](ObjectId id) { return object(id) == nullptr; });
+    if (selected_ && object(*selected_) == nullptr) selected_.reset();
+    if (before != selection_) emit selectionChanged();
+    return true;
+}
+
+void LabelSession::selectOf(const AnnotationEdit& edit) {
+    std::set<ObjectId> ids;
+    for (const auto& change : edit.objects)
+        for (const auto& side : {change.before, change.after})
+            if (side && object(side->id) != nullptr) ids.insert(side->id);
+    if (ids.empty() || ids.size() > 50) {
+        std::erase_if(selection_, [this](ObjectId id) { return object(id) == nullptr; });
+        if (selected_ && object(*selected_) == nullptr) selected_.reset();
+        emit selectionChanged();
+        return;
+    }
+    const ObjectId main = selected_ && ids.contains(*selected_) ? *selected_ : *ids.begin();
+    setSelection(std::move(ids), main);
+}
+
+void LabelSession::undo() {
+    std::optional<AnnotationEdit> step;
+    if (!guarded([&] { step = store_->undo(); }) || !step) return;
+    wasChanged();
+    selectOf(*step);
+}
+
+void LabelSession::redo() {
+    std::optional<AnnotationEdit> step;
+    if (!guarded([&] { step = store_->redo(); }) || !step) return;
+    wasChanged();
+    selectOf(*step);
+}
+
+QString LabelSession::undoName() const {
+    return store_ ? QString::fromStdString(store_->undoName()) : QString();
+}
+
+QString LabelSession::redoName() const {
+    return store_ ? QString::fromStdString(store_->redoName()) : QString();
+}
+
+void LabelSession::tryToWrite() {
+    if (!store_) return;
+    try {
+        const bool may = store_->tryToWrite();
+        wasChanged();
+        emit opened();
+        emit notice(may ? tr("This window labels now.") : QString::fromStdString(store_->readOnlyReason()));
+    } catch (const std::exception& error) {
+        emit problem(QString::fromUtf8(error.what()));
+    }
+}
+
+// ---- selection ------------------------------------------------------------------------------------------------------
+
+void LabelSession::select(std::optional<ObjectId> object) {
+    setSelection(object ? std::set<ObjectId>{*object} : std::set<ObjectId>(), object);
+}
+
+void LabelSession::setSelection(std::set<ObjectId> objects, std::optional<ObjectId> main) {
+    if (main) objects.insert(*main);
+    if (objects == selection_ && main == selected_) return;
+    selection_ = std::move(objects);
+    selected_ = main;
+    emit selectionChanged();
+}
+
+void LabelSession::toggle(ObjectId object) {
+    std::set<ObjectId> objects = selection_;
+    if (objects.erase(object) == 0) {
+        objects.insert(object);
+        setSelection(std::move(objects), selected_ ? selected_ : object);
+        return;
+    }
+    std::optional<ObjectId> main = selected_;
+    if (main == object) main = objects.empty() ? std::nullopt : std::optional(*objects.begin());
+    setSelection(std::move(objects), main);
+}
+
+void LabelSession::setDrawnClass(const std::string& name) {
+    if (name == drawn_class_) return;
+    drawn_class_ = name;
+    emit drawnClassChanged();
+}
+
+QString LabelSession::person() {
+    for (const char* variable : {"USER", "LOGNAME", "USERNAME"}) {
+        const QString name = qEnvironmentVariable(variable);
+        if (!name.isEmpty()) return name;
+    }
+    return tr("somebody");
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,192 @@
+#include "label/lists/object_inspector.h"
+
+#include <QColorDialog>
+#include <QComboBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenu>
+#include <QPainter>
+#include <QSignalBlocker>
+#include <QStackedLayout>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "widgets/empty_state.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+QToolButton* button(const QString& text, const QString& tip, bool checkable) {
+    auto* made = new QToolButton;
+    made->setText(text);
+    made->setToolTip(tip);
+    made->setCheckable(checkable);
+    made->setFocusPolicy(Qt::TabFocus);
+    made->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    return made;
+}
+
+QHBoxLayout* row(std::initializer_list<QWidget*> widgets) {
+    auto* layout = new QHBoxLayout;
+    layout->setSpacing(4);
+    for (QWidget* widget : widgets) layout->addWidget(widget, 1);
+    return layout;
+}
+
+}  // namespace
+
+ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
+    pages_ = new QStackedLayout(this);
+    empty_ = new EmptyState;
+    empty_->setTexts(
+        tr("Nothing is selected. Click a box in the video or a row in the list; N goes to the next object, "
+           "U to the next one that nobody has checked."));
+    auto* page = new QWidget;
+    auto* layout = new QVBoxLayout(page);
+    title_ = new QLabel;
+    QFont font = title_->font();
+    font.setPointSizeF(font.pointSizeF() * 1.25);
+    font.setBold(true);
+    title_->setFont(font);
+    life_ = new QLabel;
+    box_ = new QLabel;
+    review_ = new QLabel;
+    for (QLabel* label : {life_, box_, review_}) {
+        label->setWordWrap(true);
+        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    }
+    class_ = new QComboBox;
+    class_->setToolTip(tr("Class (keys 1 to 8); type a name and press Return for one of your own"));
+    class_->setEditable(true);
+    class_->setInsertPolicy(QComboBox::NoInsert);
+    colour_ = new QToolButton;
+    colour_->setPopupMode(QToolButton::InstantPopup);
+    colour_->setFocusPolicy(Qt::TabFocus);
+    colour_->setAccessibleName(tr("Colour"));
+    auto* colours = new QMenu(colour_);
+    colours->addAction(tr("A colour of its own…"), this, &ObjectInspector::chooseColour);
+    class_colour_ = colours->addAction(tr("Colour of its class"), this, [this] { emit colourChosen({}); });
+    colour_->setMenu(colours);
+    occluded_ = button(tr("Occluded"), tr("Not, partly or fully hidden from here (O)"), true);
+    outside_ = button(tr("Outside"), tr("Outside the image from here until the next keyframe (L)"), true);
+    ignore_ = button(tr("Ignore"), tr("Counts neither way from here until the next keyframe (I)"), true);
+    checked_ = button(tr("Checked"), tr("Somebody looked at all of it and it is right (V)"), false);
+    questionable_ = button(tr("Questionable"), tr("Somebody should look at it again (X)"), false);
+    notes_ = new QLineEdit;
+    notes_->setPlaceholderText(tr("Notes"));
+    joins_heading_ = new QLabel(tr("May be the same vehicle (double click joins):"));
+    joins_heading_->setWordWrap(true);
+    joins_ = new QListWidget;
+    joins_->setAlternatingRowColors(true);
+    joins_->setWordWrap(true);
+    joins_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    layout->addWidget(title_);
+    layout->addWidget(life_);
+    layout->addWidget(box_);
+    auto* kind = new QHBoxLayout;
+    kind->setSpacing(4);
+    kind->addWidget(class_, 1);
+    kind->addWidget(colour_);
+    layout->addLayout(kind);
+    layout->addLayout(row({occluded_, outside_, ignore_}));
+    layout->addWidget(review_);
+    layout->addLayout(row({checked_, questionable_}));
+    layout->addWidget(notes_);
+    layout->addWidget(joins_heading_);
+    layout->addWidget(joins_, 1);
+    layout->addStretch(0);
+    pages_->addWidget(empty_);
+    pages_->addWidget(page);
+    connect(class_, &QComboBox::textActivated, this, &ObjectInspector::classChosen);
+    connect(class_->lineEdit(), &QLineEdit::returnPressed, this, [this] {
+        const QString name = class_->currentText().simplified().toLower();
+        if (!name.isEmpty() && class_->findText(name) < 0) emit classChosen(name);
+    });
+    connect(occluded_, &QToolButton::clicked, this, &ObjectInspector::occlusionToggled);
+    connect(outside_, &QToolButton::clicked, this, &ObjectInspector::outsideToggled);
+    connect(ignore_, &QToolButton::clicked, this, &ObjectInspector::ignoreToggled);
+    connect(checked_, &QToolButton::clicked, this, &ObjectInspector::checkedRequested);
+    connect(questionable_, &QToolButton::clicked, this, &ObjectInspector::questionableRequested);
+    connect(notes_, &QLineEdit::editingFinished, this, [this] { emit notesEdited(notes_->text()); });
+    connect(joins_, &QListWidget::itemDoubleClicked, this,
+            [this](QListWidgetItem* item) { emit joinRequested(item->data(Qt::UserRole).toInt()); });
+    connect(joins_, &QListWidget::itemClicked, this,
+            [this](QListWidgetItem* item) { emit candidateChosen(item->data(Qt::UserRole).toInt()); });
+}
+
+void ObjectInspector::chooseColour() {
+    const QColor chosen = QColorDialog::getColor(shown_colour_, this, tr("Colour of %1").arg(title_->text()));
+    if (chosen.isValid()) emit colourChosen(chosen);
+}
+
+void ObjectInspector::showColour(const ObjectDetails& details) {
+    shown_colour_ = details.colour;
+    class_colour_->setEnabled(details.own_colour);
+    colour_->setEnabled(details.editable);
+    colour_->setToolTip(details.own_colour ? tr("Shown in a colour of its own")
+                                           : tr("Shown in the colour of its class"));
+    QPixmap swatch(16, 16);
+    swatch.fill(Qt::transparent);
+    QPainter painter(&swatch);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QColor(0, 0, 0, 150));
+    painter.setBrush(details.colour);
+    painter.drawRoundedRect(QRectF(1.5, 1.5, 13, 13), 3, 3);
+    colour_->setIcon(swatch);
+}
+
+void ObjectInspector::setClasses(const QStringList& classes) {
+    QStringList known;
+    for (int i = 0; i < class_->count(); ++i) known << class_->itemText(i);
+    if (known == classes) return;
+    const QSignalBlocker blocker(class_);
+    const QString chosen = class_->currentText();
+    class_->clear();
+    class_->addItems(classes);
+    class_->setCurrentText(chosen);
+}
+
+void ObjectInspector::showObject(const std::optional<ObjectDetails>& details) {
+    pages_->setCurrentIndex(details ? 1 : 0);
+    if (!details) return;
+    title_->setText(details->title);
+    life_->setText(details->life);
+    box_->setText(details->box);
+    review_->setText(details->review);
+    showColour(*details);
+    const QSignalBlocker class_blocker(class_);
+    class_->setCurrentText(details->object_class);
+    occluded_->setChecked(details->occlusion != Occlusion::none);
+    occluded_->setText(details->occlusion == Occlusion::fully    ? tr("Fully occluded")
+                       : details->occlusion == Occlusion::partly ? tr("Partly occluded")
+                                                                 : tr("Occluded"));
+    outside_->setChecked(details->outside);
+    ignore_->setChecked(details->ignore);
+    for (QWidget* widget :
+         {static_cast<QWidget*>(occluded_), static_cast<QWidget*>(outside_), static_cast<QWidget*>(ignore_)})
+        widget->setEnabled(details->editable && details->lives_here);
+    for (QWidget* widget : {static_cast<QWidget*>(class_), static_cast<QWidget*>(checked_),
+                            static_cast<QWidget*>(questionable_), static_cast<QWidget*>(notes_)})
+        widget->setEnabled(details->editable);
+    if (!notes_->hasFocus()) notes_->setText(details->notes);
+    joins_->clear();
+    for (const JoinOffer& offer : details->joins) {
+        auto* item = new QListWidgetItem(offer.text, joins_);
+        item->setData(Qt::UserRole, offer.object);
+    }
+    joins_heading_->setVisible(!details->joins.empty());
+    joins_->setVisible(!details->joins.empty());
+}
+
+QString ObjectInspector::title() const {
+    return pages_->currentIndex() == 1 ? title_->text() : QString();
+}
+
+QString ObjectInspector::boxText() const {
+    return pages_->currentIndex() == 1 ? box_->text() : QString();
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,150 @@
+#include "label/lists/objects_panel.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QProgressBar>
+#include <QSignalBlocker>
+#include <QTableView>
+#include <QToolButton>
+
+#include "widgets/empty_state.h"
+
+namespace eyrie::ui {
+
+namespace {
+enum StateFilter { any_state, new_state, checked_state, questionable_state };
+}  // namespace
+
+ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
+    : TablePanel(model, QStringLiteral("objects"), parent),
+      objects_(model),
+      class_(new QComboBox(this)),
+      state_(new QComboBox(this)),
+      this_frame_(new QToolButton(this)),
+      shortest_(new QDoubleSpinBox(this)),
+      slowest_(new QDoubleSpinBox(this)),
+      coverage_(new QProgressBar(this)) {
+    table()->setAccessibleName(tr("Objects"));
+    emptyState()->setTexts(
+        tr("Nothing is labelled yet. Press B and click the rear and the front of a vehicle, take over the tracks of a "
+           "run as proposals (P), or import labels from a file."),
+        tr("Draw an object (B)"));
+    this_frame_->setText(tr("This frame"));
+    this_frame_->setCheckable(true);
+    this_frame_->setToolTip(tr("List only objects that live in the frame shown"));
+    class_->addItem(tr("All classes"));
+    state_->addItems({tr("Any state"), tr("Not checked"), tr("Checked"), tr("Questionable")});
+    for (QDoubleSpinBox* box : {shortest_, slowest_}) {
+        box->setRange(0, 1e6);
+        box->setDecimals(1);
+        box->setMaximumWidth(90);
+        box->setKeyboardTracking(false);
+    }
+    shortest_->setPrefix(tr("life ≥ "));
+    shortest_->setSuffix(tr(" s"));
+    shortest_->setToolTip(tr("List only objects that live at least this long"));
+    slowest_->setPrefix(tr("v ≥ "));
+    slowest_->setToolTip(tr("List only objects at least this fast, in px/frame over the ground"));
+    coverage_->setRange(0, 1000);
+    coverage_->setTextVisible(true);
+    coverage_->setMaximumHeight(16);
+    coverage_->setAccessibleName(tr("Checked share"));
+    toolRow()->addWidget(this_frame_);
+    auto* filters = new QHBoxLayout;
+    filters->setContentsMargins(2, 0, 2, 2);
+    filters->setSpacing(4);
+    for (QComboBox* box : {class_, state_}) {
+        box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        box->setMinimumContentsLength(6);
+        filters->addWidget(box, 1);
+    }
+    filters->addWidget(shortest_);
+    filters->addWidget(slowest_);
+    if (auto* rows = qobject_cast<QBoxLayout*>(layout())) {
+        rows->insertLayout(1, filters);
+        rows->addWidget(coverage_);
+    }
+    setCheckedShare(0, 0);
+    for (QWidget* field : {static_cast<QWidget*>(class_), static_cast<QWidget*>(state_)})
+        connect(qobject_cast<QComboBox*>(field), &QComboBox::currentIndexChanged, this, &ObjectsPanel::refilter);
+    connect(shortest_, &QDoubleSpinBox::valueChanged, this, &ObjectsPanel::refilter);
+    connect(slowest_, &QDoubleSpinBox::valueChanged, this, &ObjectsPanel::refilter);
+    connect(this_frame_, &QToolButton::toggled, this, &ObjectsPanel::refilter);
+    connect(this, &TablePanel::idSelected, this, &ObjectsPanel::objectSelected);
+    connect(this, &TablePanel::idClicked, this, &ObjectsPanel::activate);
+    connect(this, &TablePanel::idDoubleClicked, this, [this](int id) { activate(id, ObjectsModel::first_column); });
+}
+
+void ObjectsPanel::setClasses(const QStringList& classes) {
+    QStringList known;
+    for (int i = 1; i < class_->count(); ++i) known << class_->itemText(i);
+    if (known == classes) return;
+    const QSignalBlocker blocker(class_);
+    const QString chosen = class_->currentIndex() > 0 ? class_->currentText() : QString();
+    while (class_->count() > 1) class_->removeItem(1);
+    class_->addItems(classes);
+    class_->setCurrentIndex(chosen.isEmpty() ? 0 : std::max(0, class_->findText(chosen)));
+}
+
+void ObjectsPanel::setFrame(FrameIndex frame) {
+    frame_ = frame;
+    if (this_frame_->isChecked()) refilter();
+}
+
+void ObjectsPanel::setThisFrameOnly(bool only) {
+    this_frame_->setChecked(only);
+}
+
+void ObjectsPanel::setCheckedShare(double share, int objects) {
+    coverage_->setValue(qRound(1000 * share));
+    coverage_->setFormat(objects == 0 ? tr("nothing to check") : tr("%1 % checked").arg(100 * share, 0, 'f', 1));
+}
+
+bool ObjectsPanel::passes(const ObjectRow& row) const {
+    if (class_->currentIndex() > 0 && row.object_class != class_->currentText()) return false;
+    if (this_frame_->isChecked() && (frame_ < row.first_frame || frame_ > row.last_frame)) return false;
+    if (objects_->secondsOf(row) < shortest_->value() || row.speed_px < slowest_->value()) return false;
+    switch (state_->currentIndex()) {
+        case new_state:
+            return row.state != ReviewState::checked;
+        case checked_state:
+            return row.state == ReviewState::checked;
+        case questionable_state:
+            return row.state == ReviewState::questionable;
+        default:
+            return true;
+    }
+}
+
+void ObjectsPanel::refilter() {
+    const bool filters = class_->currentIndex() > 0 || state_->currentIndex() > 0 || this_frame_->isChecked() ||
+                         shortest_->value() > 0 || slowest_->value() > 0;
+    if (!filters) {
+        proxy().setRowFilter({});
+        return;
+    }
+    proxy().setRowFilter([this](int row) {
+        const ObjectRow* object = objects_->recordAt(row);
+        return object != nullptr && passes(*object);
+    });
+}
+
+void ObjectsPanel::activate(int object, int column) {
+    const ObjectRow* row = objects_->recordAt(objects_->rowOf(object));
+    if (row == nullptr) return;
+    if (column == ObjectsModel::last_column)
+        emit objectActivated(object, row->last_frame);
+    else if (column == ObjectsModel::first_column || frame_ < row->first_frame || frame_ > row->last_frame)
+        emit objectActivated(object, row->first_frame);
+    else
+        emit objectSelected(object);
+}
+
+void ObjectsPanel::fillMenu(QMenu& menu, int object) {
+    menu.addAction(tr("Go to its first frame"), this, [this, object] { activate(object, ObjectsModel::first_column); });
+    menu.addAction(tr("Go to its last frame"), this, [this, object] { activate(object, ObjectsModel::last_column); });
+}
+
+}  // namespace eyrie::ui

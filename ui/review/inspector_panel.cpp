@@ -1,0 +1,169 @@
+#include "review/inspector_panel.h"
+
+#include <QFormLayout>
+#include <QLabel>
+#include <QLocale>
+#include <QPainter>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "core/geometry/angle.h"
+#include "review/track_inspector.h"
+#include "widgets/display_text.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr double kSurroundings = 1.8;  ///< the chip shows this many box lengths
+
+QString registrationText(const Registration& registration) {
+    switch (registration.state) {
+        case RegistrationState::first:
+            return QObject::tr("first frame");
+        case RegistrationState::frozen:
+            return QObject::tr("frozen picture");
+        case RegistrationState::failed:
+            return QObject::tr("failed: %1").arg(QString::fromStdString(registration.reason));
+        case RegistrationState::registered:
+            break;
+    }
+    return QObject::tr("rms %1 px, %2 corners agree")
+        .arg(numberText(registration.current_from_previous.rms_px, 3))
+        .arg(registration.current_from_previous.inliers);
+}
+
+}  // namespace
+
+void ChipView::show(const QImage& image, const OrientedBox& box) {
+    image_ = image;
+    box_ = box;
+    setVisible(!image.isNull());
+    update();
+}
+
+void ChipView::paintEvent(QPaintEvent*) {
+    if (image_.isNull()) return;
+    QPainter painter(this);
+    painter.fillRect(rect(), QColor(34, 36, 40));
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const double wanted = std::max({box_.length, box_.width, 8.0}) * kSurroundings;
+    const double scale = std::min(width(), height()) / wanted;
+    painter.translate(width() / 2.0, height() / 2.0);
+    painter.scale(scale, scale);
+    painter.rotate(-90 - box_.heading * 180 / kPi);
+    painter.translate(-box_.centre.x - 0.5, -box_.centre.y - 0.5);
+    painter.drawImage(QPointF(0, 0), image_);
+}
+
+InspectorPanel::InspectorPanel(ProjectSession& session, QWidget* parent) : QWidget(parent), session_(session) {
+    facts_ = new QWidget(this);
+    title_ = new QLabel(facts_);
+    QFont font = title_->font();
+    font.setBold(true);
+    font.setPointSizeF(font.pointSizeF() * 1.1);
+    title_->setFont(font);
+    rows_ = new QFormLayout;
+    rows_->setLabelAlignment(Qt::AlignRight);
+    rows_->setVerticalSpacing(3);
+    rows_->setHorizontalSpacing(10);
+    auto* facts_layout = new QVBoxLayout(facts_);
+    facts_layout->addWidget(title_);
+    facts_layout->addLayout(rows_);
+    facts_layout->addStretch(1);
+
+    track_page_ = new QWidget(this);
+    chip_ = new ChipView(track_page_);
+    track_ = new TrackInspector(track_page_);
+    auto* track_layout = new QVBoxLayout(track_page_);
+    track_layout->setContentsMargins(0, 0, 0, 0);
+    track_layout->addWidget(chip_);
+    track_layout->addWidget(track_, 1);
+
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(facts_);
+    layout->addWidget(track_page_);
+
+    connect(&session_, &ProjectSession::viewFrameChanged, this, &InspectorPanel::showFrame);
+    connect(&session_, &ProjectSession::videoChanged, this, [this] { showFrame({}); });
+    connect(&session_, &ProjectSession::selectionChanged, this, &InspectorPanel::showSelection);
+    connect(&session_, &ProjectSession::trackStatesRead, this,
+            [this](TrackId track, const std::vector<TrackFrame>& states) {
+                track_->showTrack(track, states, session_.scale());
+                track_->setCurrentFrame(session_.currentFrame());
+            });
+    connect(track_, &TrackInspector::frameActivated, &session_, &ProjectSession::goToFrame);
+    showSelection(std::nullopt);
+}
+
+void InspectorPanel::showSelection(std::optional<TrackId> track) {
+    facts_->setVisible(!track);
+    track_page_->setVisible(track.has_value());
+    if (!track) track_->clear();
+    showFrame(session_.viewFrame());
+}
+
+void InspectorPanel::showFrame(const ViewFrame& frame) {
+    if (session_.selectedTrack()) {
+        track_->setCurrentFrame(frame.index);
+        showChip();
+    } else {
+        showFacts();
+    }
+}
+
+void InspectorPanel::showChip() {
+    const ViewFrame& frame = session_.viewFrame();
+    const TrackState* shown = nullptr;
+    if (frame.result)
+        for (const TrackState& state : frame.result->tracks)
+            if (state.id == session_.selectedTrack()) shown = &state;
+    if (shown != nullptr)
+        chip_->show(frame.image, shown->box);
+    else
+        chip_->show({}, {});
+}
+
+void InspectorPanel::showFacts() {
+    const ViewFrame& frame = session_.viewFrame();
+    if (!frame.result) {
+        title_->setText(tr("Nothing selected"));
+        setRows({{QString(), session_.video() ? tr("Click a track in the picture or in the list.") : QString()}});
+        return;
+    }
+    title_->setText(tr("Frame %1").arg(frame.index));
+    const FrameResult& result = *frame.result;
+    const auto kept = std::count_if(result.detections.begin(), result.detections.end(),
+                                    [](const Detection& d) { return d.rejection == Rejection::none; });
+    const auto tracked = std::count_if(result.tracks.begin(), result.tracks.end(),
+                                       [](const TrackState& s) { return s.status != TrackStatus::tentative; });
+    setRows({{tr("Registration"), registrationText(result.motion.registration)},
+             {tr("Corners"), QLocale().toString(result.motion.corner_count)},
+             {tr("Motion vectors"), QLocale().toString(static_cast<int>(result.motion.motion_vectors.size()))},
+             {tr("Clusters"), QLocale().toString(static_cast<int>(result.clusters.size()))},
+             {tr("Detections"), tr("%1 of %2 kept").arg(kept).arg(result.detections.size())},
+             {tr("Tracks"), QLocale().toString(static_cast<int>(tracked))}});
+}
+
+void InspectorPanel::setRows(const QList<std::pair<QString, QString>>& rows) {
+    // Labels are reused: this runs for every frame that is played.
+    while (values_.size() < rows.size()) {
+        names_.append(new QLabel(this));
+        values_.append(new QLabel(this));
+        names_.back()->setForegroundRole(QPalette::PlaceholderText);
+        values_.back()->setWordWrap(true);
+        values_.back()->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        rows_->addRow(names_.back(), values_.back());
+    }
+    for (qsizetype i = 0; i < values_.size(); ++i) {
+        const bool used = i < rows.size();
+        names_[i]->setText(used ? rows[i].first : QString());
+        values_[i]->setText(used ? rows[i].second : QString());
+        names_[i]->setVisible(used && !rows[i].first.isEmpty());
+        values_[i]->setVisible(used);
+    }
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,102 @@
+#include "review/run_text.h"
+
+#include <QCoreApplication>
+#include <QLocale>
+#include <QStringList>
+
+#include "review/runs_model.h"
+
+namespace eyrie::ui {
+namespace {
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("RunText", text);
+}
+
+QString frames(int count) {
+    return count == 1 ? tr("1 frame") : tr("%1 frames").arg(QLocale().toString(count));
+}
+
+QString howItEnded(const RunRecord& run, const RunFacts& facts) {
+    const QString name = shownName(run);
+    const QString done = frames(facts.counts.frames);
+    switch (facts.state) {
+        case RunState::finished:
+            return tr("%1 finished").arg(name);
+        case RunState::failed:
+            return tr("%1 failed after %2").arg(name, done);
+        case RunState::running:
+            return tr("%1 is at work").arg(name);
+        case RunState::stopped:
+            break;
+    }
+    return tr("%1 was stopped after %2 of %3; they are kept")
+        .arg(name, QLocale().toString(facts.counts.frames), frames(facts.frames_planned));
+}
+
+/// "12 frames could not be registered (too few corners 9, cut 3)".
+QString unregisteredText(const RunCounts& counts) {
+    QStringList reasons;
+    for (const ReasonCount& count : counts.reasons)
+        reasons << tr("%1: %2").arg(QString::fromStdString(count.reason), QLocale().toString(count.frames));
+    return tr("%1 could not be registered (%2)").arg(frames(counts.unregistered), reasons.join(QStringLiteral(", ")));
+}
+
+}  // namespace
+
+QString scaleText(const SceneScale& scale) {
+    const QString value = QLocale().toString(scale.gsd_m_per_px, 'g', 3);
+    switch (originOf(scale)) {
+        case ScaleOrigin::given:
+            return tr("%1 m/px").arg(value);
+        case ScaleOrigin::estimated:
+            return tr("about %1 m/px, estimated from the traffic").arg(value);
+        case ScaleOrigin::fallback:
+            break;
+    }
+    return tr("%1 m/px, assumed (the traffic shows none)").arg(value);
+}
+
+QString whyNoTracks(const RunFacts& facts) {
+    switch (facts.nothing) {
+        case NothingFollowed::has_tracks:
+            return {};
+        case NothingFollowed::no_frames:
+            return tr("No frame was processed.");
+        case NothingFollowed::not_registered:
+            return tr("No frame could be registered onto the one before it (%1), so nothing could be told to move. "
+                      "Blurred, blank or cut pictures and ground without texture cannot be registered.")
+                .arg(facts.counts.reasons.empty() ? tr("no reason was stored")
+                                                  : QString::fromStdString(facts.counts.reasons.front().reason));
+        case NothingFollowed::no_motion:
+            return tr("Nothing moved differently from the ground. Vehicles slower than motion.min_speed are not seen.");
+        case NothingFollowed::no_detections:
+            return tr(
+                "Something moved, but nothing looked like a vehicle. Check the GSD, or press W on a vehicle to "
+                "see why it was missed.");
+        case NothingFollowed::all_rejected:
+            return tr(
+                "Every detection was rejected as a duplicate, an outlier or for its size. Check the GSD, or "
+                "press X to see the rejected ones.");
+        case NothingFollowed::none_confirmed:
+            return tr("Vehicles were detected, but none often enough to become a track (tracking.confirm_hits).");
+        case NothingFollowed::all_dropped:
+            return tr("What was followed was left out when the tracks were finished. Press W on a vehicle to see why.");
+    }
+    return {};
+}
+
+QString runSummaryText(const RunRecord& run, const RunFacts& facts) {
+    QStringList sentences;
+    const int tracks = facts.counts.tracks;
+    if (tracks == 0)
+        sentences << tr("%1: no tracks. %2").arg(howItEnded(run, facts), whyNoTracks(facts));
+    else
+        sentences << tr("%1: %2.").arg(howItEnded(run, facts),
+                                       tracks == 1 ? tr("1 track") : tr("%1 tracks").arg(QLocale().toString(tracks)));
+    if (facts.counts.unregistered > 0) sentences << unregisteredText(facts.counts) + QLatin1Char('.');
+    sentences << tr("Scale: %1.").arg(scaleText(run.scale));
+    return sentences.join(QLatin1Char(' '));
+}
+
+}  // namespace eyrie::ui

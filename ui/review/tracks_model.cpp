@@ -1,0 +1,121 @@
+#include "review/tracks_model.h"
+
+#include "widgets/display_text.h"
+#include "widgets/tables/table_roles.h"
+
+namespace eyrie::ui {
+
+void TracksModel::setTracks(std::vector<TrackSummary> tracks, const SceneScale& scale) {
+    const bool other_units = scale.gsd_known != scale_.gsd_known;
+    scale_ = scale;
+    replaceRecords(std::move(tracks));
+    if (other_units) emit headerDataChanged(Qt::Horizontal, 0, column_count - 1);
+}
+
+double TracksModel::secondsOf(const TrackSummary& track) const {
+    const int frames = track.last_frame - track.first_frame + 1;
+    return scale_.frame_rate_hz > 0 ? frames / scale_.frame_rate_hz : 0;
+}
+
+QVariant TracksModel::data(const QModelIndex& index, int role) const {
+    const TrackSummary* track = recordAt(index.row());
+    if (track == nullptr || !index.isValid()) return {};
+    switch (role) {
+        case Qt::DisplayRole:
+            return textOf(*track, index.column());
+        case Qt::ToolTipRole:
+            return tr("Track %1: frames %2 to %3, %4 states. Click to go to its first frame.")
+                .arg(track->id)
+                .arg(track->first_frame)
+                .arg(track->last_frame)
+                .arg(track->frames);
+        case Qt::TextAlignmentRole:
+            return index.column() == status_column ? QVariant() : QVariant(Qt::AlignRight | Qt::AlignVCenter);
+        case sort_role:
+            return sortValueOf(*track, index.column());
+        case id_role:
+            return track->id;
+        default:
+            return {};
+    }
+}
+
+QString TracksModel::textOf(const TrackSummary& track, int column) const {
+    switch (column) {
+        case id_column:
+            return QString::number(track.id);
+        case first_column:
+            return QString::number(track.first_frame);
+        case last_column:
+            return QString::number(track.last_frame);
+        case life_column:
+            return numberText(secondsOf(track), 1);
+        case speed_column:
+            return numberText(shownSpeed(track.mean_speed_px, scale_), scale_.gsd_known ? 1 : 2);
+        case length_column:
+            return numberText(shownLength(track.mean_length_px, scale_), 1);
+        case width_column:
+            return numberText(shownLength(track.mean_width_px, scale_), 1);
+        case status_column:
+            return track.confirmed ? tr("confirmed") : tr("tentative");
+        case score_column:
+            return numberText(track.score, 2);
+        default:
+            return {};
+    }
+}
+
+QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
+    switch (column) {
+        case id_column:
+            return track.id;
+        case first_column:
+            return track.first_frame;
+        case last_column:
+            return track.last_frame;
+        case life_column:
+            return track.last_frame - track.first_frame;
+        case speed_column:
+            return track.mean_speed_px;
+        case length_column:
+            return track.mean_length_px;
+        case width_column:
+            return track.mean_width_px;
+        case score_column:
+            return track.score;
+        default:
+            return textOf(track, column);
+    }
+}
+
+QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation == Qt::Horizontal && role == Qt::ToolTipRole && section == score_column)
+        return tr("Probability that the track is a vehicle that moves, from all its evidence");
+    if (orientation != Qt::Horizontal || role != Qt::DisplayRole) {
+        return RecordModel::headerData(section, orientation, role);
+    }
+    switch (section) {
+        case id_column:
+            return tr("Id");
+        case first_column:
+            return tr("First");
+        case last_column:
+            return tr("Last");
+        case life_column:
+            return tr("Life (s)");
+        case speed_column:
+            return tr("Speed (%1)").arg(speedUnit(scale_));
+        case length_column:
+            return tr("Length (%1)").arg(lengthUnit(scale_));
+        case width_column:
+            return tr("Width (%1)").arg(lengthUnit(scale_));
+        case status_column:
+            return tr("Status");
+        case score_column:
+            return tr("Score");
+        default:
+            return {};
+    }
+}
+
+}  // namespace eyrie::ui

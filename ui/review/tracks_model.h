@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "core/values/scene_scale.h"
+#include "store/runs/run_store.h"
+#include "widgets/tables/record_model.h"
+
+namespace eyrie::ui {
+
+/// The tracks of a run, one row each, ascending id. Metres and km/h when the GSD is known, pixels otherwise.
+class TracksModel : public RecordModel<TrackSummary> {
+    Q_OBJECT
+ public:
+    enum Column {
+        id_column,
+        first_column,
+        last_column,
+        life_column,
+        speed_column,
+        length_column,
+        width_column,
+        status_column,
+        score_column,
+        column_count
+    };
+
+    explicit TracksModel(QObject* parent = nullptr) : RecordModel(parent) {}
+
+    void setTracks(std::vector<TrackSummary> tracks, const SceneScale& scale);
+
+    int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }
+    QVariant data(const QModelIndex& index, int role) const override;
+    QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+ private:
+    QString textOf(const TrackSummary& track, int column) const;
+    QVariant sortValueOf(const TrackSummary& track, int column) const;
+    double secondsOf(const TrackSummary& track) const;
+    SceneScale scale_;
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,102 @@
+#include "review/tracks_panel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QSlider>
+#include <QTableView>
+#include <QToolButton>
+
+#include "widgets/empty_state.h"
+
+namespace eyrie::ui {
+
+TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
+    : TablePanel(model, QStringLiteral("tracks"), parent),
+      tracks_(model),
+      tentative_(new QToolButton(this)),
+      sensitivity_(new QSlider(Qt::Horizontal, this)),
+      count_(new QLabel(this)) {
+    table()->setAccessibleName(tr("Tracks"));
+    emptyState()->setTexts(
+        tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size."));
+    tentative_->setText(tr("Tentative"));
+    tentative_->setCheckable(true);
+    tentative_->setToolTip(tr("Also list tracks that were never confirmed and are no part of the result"));
+    toolRow()->addWidget(tentative_);
+    sensitivity_->setRange(0, 100);
+    sensitivity_->setValue(100);
+    sensitivity_->setPageStep(10);
+    sensitivity_->setFixedWidth(90);
+    sensitivity_->setAccessibleName(tr("Sensitivity"));
+    sensitivity_->setToolTip(
+        tr("Sensitivity: to the left, only tracks that are surely vehicles that move are listed and drawn; on the far "
+           "right, all tracks are."));
+    count_->setToolTip(tr("Tracks shown at this sensitivity, of all tracks"));
+    toolRow()->addWidget(sensitivity_);
+    toolRow()->addWidget(count_);
+    connect(sensitivity_, &QSlider::valueChanged, this, [this] {
+        filterTracks();
+        emit minScoreChanged(minScore());
+    });
+    connect(model, &QAbstractItemModel::modelReset, this, &TracksPanel::showCount);
+    connect(model, &QAbstractItemModel::rowsInserted, this, &TracksPanel::showCount);
+    connect(model, &QAbstractItemModel::rowsRemoved, this, &TracksPanel::showCount);
+    connect(model, &QAbstractItemModel::dataChanged, this, &TracksPanel::showCount);
+    connect(tentative_, &QToolButton::toggled, this, &TracksPanel::setTentativeShown);
+    setTentativeShown(false);
+
+    connect(this, &TablePanel::idSelected, this, &TracksPanel::trackSelected);
+    connect(this, &TablePanel::idClicked, this, &TracksPanel::activate);
+    connect(this, &TablePanel::idDoubleClicked, this,
+            [this](int track) { activate(track, TracksModel::first_column); });
+}
+
+double TracksPanel::minScore() const {
+    return 1 - sensitivity_->value() / 100.0;
+}
+
+bool TracksPanel::isListed(const TrackSummary& track) const {
+    return (tentative_->isChecked() || track.confirmed) && track.score >= minScore();
+}
+
+void TracksPanel::filterTracks() {
+    proxy().setRowFilter([this](int row) {
+        const TrackSummary* track = tracks_->recordAt(row);
+        return track != nullptr && isListed(*track);
+    });
+    showCount();
+}
+
+QString TracksPanel::countText() const {
+    int all = 0;
+    int listed = 0;
+    for (int row = 0; row < tracks_->rowCount(); ++row) {
+        const TrackSummary& track = *tracks_->recordAt(row);
+        all += tentative_->isChecked() || track.confirmed ? 1 : 0;
+        listed += isListed(track) ? 1 : 0;
+    }
+    return tr("%1 of %2").arg(listed).arg(all);
+}
+
+void TracksPanel::showCount() {
+    count_->setText(countText());
+}
+
+void TracksPanel::setTentativeShown(bool shown) {
+    tentative_->setChecked(shown);
+    filterTracks();
+}
+
+void TracksPanel::activate(int track, int column) {
+    const TrackSummary* summary = tracks_->recordAt(tracks_->rowOf(track));
+    if (summary == nullptr) return;
+    emit trackActivated(track, column == TracksModel::last_column ? summary->last_frame : summary->first_frame);
+}
+
+void TracksPanel::fillMenu(QMenu& menu, int track) {
+    menu.addAction(tr("Go to its first frame"), this, [this, track] { activate(track, TracksModel::first_column); });
+    menu.addAction(tr("Go to its last frame"), this, [this, track] { activate(track, TracksModel::last_column); });
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "review/tracks_model.h"
+#include "widgets/tables/table_panel.h"
+
+class QLabel;
+class QSlider;
+class QToolButton;
+
+namespace eyrie::ui {
+
+/// The tracks of the shown run: clicking one goes to it.
+class TracksPanel : public TablePanel {
+    Q_OBJECT
+ public:
+    /// `model` must outlive the panel.
+    explicit TracksPanel(TracksModel* model, QWidget* parent = nullptr);
+    /// Whether tracks that were never confirmed are listed; at first they are not.
+    void setTentativeShown(bool shown);
+    /// How unsure tracks may be that are listed, 0 … 100 %: at 100 all are, at 40 those with a score of 0.6 or more.
+    QSlider* sensitivity() const { return sensitivity_; }
+    /// How many of the tracks are listed, "12 of 40".
+    QString countText() const;
+
+ signals:
+    void trackSelected(int track);
+    /// The user wants to see a track: its first frame, or the last where that was clicked.
+    void trackActivated(int track, int frame);
+    /// Tracks with a lower score are not to be shown anywhere.
+    void minScoreChanged(double score);
+
+ protected:
+    void fillMenu(QMenu& menu, int track) override;
+
+ private:
+    void activate(int track, int column);
+    bool isListed(const TrackSummary& track) const;
+    void filterTracks();
+    void showCount();
+    double minScore() const;
+    TracksModel* tracks_;
+    QToolButton* tentative_;
+    QSlider* sensitivity_;
+    QLabel* count_;
+};
+
+}  // namespace eyrie::ui

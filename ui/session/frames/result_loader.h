@@ -1,0 +1,66 @@
+#pragma once
+
+#include <QObject>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+#include "canvas/view_frame.h"
+#include "session/background/task_thread.h"
+#include "session/project/media.h"
+
+namespace eyrie::ui {
+
+/// Which stored run is shown.
+struct RunReference {
+    std::filesystem::path project;
+    int run_id = 0;
+};
+
+/// What is known of a video once it is open.
+struct OpenedVideo {
+    VideoInfo info;
+    std::vector<std::int64_t> times_us;  ///< presentation time of every frame
+    double gsd_m_per_px = 0;             ///< 0: the video does not tell
+};
+
+/// Fetches frames for review on its own thread: pictures from the video, results from the store (by its own
+/// connection). Of several requests the newest wins; frames ahead are prepared while nothing else is to do. Signals
+/// arrive on the thread of this object.
+class ResultLoader : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit ResultLoader(QObject* parent = nullptr);
+    ~ResultLoader() override;
+
+    /// Opens a video, indexing it if need be, in place of the former one; opening another stops it. Answers with
+    /// opened() or, the former video staying open, openFailed(), both carrying `ticket`.
+    void openMedia(const Media& media, int ticket);
+    void cancelOpening();
+    void closeMedia();
+    /// Results come from this run from now on; nothing: pictures only.
+    void useRun(std::optional<RunReference> run, int trail_length);
+    /// Answers with frameLoaded(), unless a newer request comes first. `direction` −1, 0 or 1 says what to read ahead.
+    void request(FrameIndex frame, int direction);
+    /// The thread that does the work, for tests that it is not the window's.
+    std::thread::id workerId() const { return thread_.id(); }
+
+ signals:
+    void openingProgress(double share);
+    void opened(int ticket, const OpenedVideo& video);
+    void openFailed(int ticket, const QString& message);
+    /// The frame has an image, a result, both or, when neither exists, nothing.
+    void frameLoaded(const ViewFrame& frame);
+    /// The picture or the result of a frame could not be read; frameLoaded() follows with what could.
+    void frameFailed(FrameIndex frame, const QString& message);
+
+ private:
+    class Worker;
+    std::unique_ptr<Worker> worker_;
+    std::stop_source opening_;
+    TaskThread thread_;  ///< last: stops before the worker goes
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,80 @@
+#include "session/frames/stored_frames.h"
+
+#include "session/frames/trail_history.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr std::size_t kResultBudget = std::size_t{96} << 20U;
+
+std::size_t bytesOf(const FrameResult& result) {
+    std::size_t bytes = sizeof(FrameResult) + result.motion.motion_vectors.size() * sizeof(MotionVector) +
+                        result.motion.stationary_corners.size() * sizeof(cv::Point2f) +
+                        result.rois.size() * sizeof(OrientedBox) + result.tracks.size() * sizeof(TrackState);
+    for (const MotionCluster& cluster : result.clusters)
+        bytes += sizeof(cluster) + cluster.members.size() * sizeof(int);
+    for (const Detection& d : result.detections) bytes += sizeof(d) + d.vectors.size() * sizeof(int);
+    return bytes;
+}
+
+}  // namespace
+
+StoredFrames::StoredFrames(const std::filesystem::path& project, int run_id, int trail_length)
+    : project_(ProjectFile::open(project, ProjectFile::Mode::read_only)),
+      store_(project_),
+      run_id_(run_id),
+      trail_length_(trail_length),
+      results_(kResultBudget) {}
+
+void StoredFrames::addTo(ViewFrame& frame) {
+    frame.result = result(frame.index);
+    if (!frame.result) return;
+    if (frame.image.isNull()) frame.time_us = frame.result->motion.time_us;
+    frame.trails = trails(frame.index);
+}
+
+bool StoredFrames::prepare(FrameIndex frame) {
+    return result(frame) != nullptr;
+}
+
+std::shared_ptr<const FrameResult> StoredFrames::result(FrameIndex frame) {
+    if (const auto* known = results_.find(frame)) return *known;
+    auto stored = store_.frameResult(run_id_, frame);
+    // A frame that is missing may still come: the run may be at work. So only what exists is remembered.
+    if (!stored) return nullptr;
+    auto shared = std::make_shared<const FrameResult>(std::move(*stored));
+    results_.put(frame, shared, bytesOf(*shared));
+    return shared;
+}
+
+const Homography* StoredFrames::homography(FrameIndex frame) {
+    if (homographies_.count(frame) == 0) {
+        const FrameIndex from = homographies_.empty() ? 0 : homographies_.rbegin()->first + 1;
+        for (Homography& h : store_.homographies(run_id_, from)) homographies_[h.to_frame] = h;
+    }
+    const auto found = homographies_.find(frame);
+    return found == homographies_.end() ? nullptr : &found->second;
+}
+
+std::vector<Trail> StoredFrames::trails(FrameIndex frame) {
+    if (trail_length_ < 2) return {};
+    TrailHistory history(trail_length_);
+    TrailStep step;
+    const auto finish = [&](FrameIndex index) {
+        if (const Homography* known = homography(index)) step.current_from_previous = *known;
+        step.frame = index;
+        history.add(std::move(step));
+        step = {};
+    };
+    FrameIndex current = -1;
+    for (const TrackFrame& state : store_.trackStatesUpTo(run_id_, frame, trail_length_)) {
+        for (; current >= 0 && current < state.frame; ++current) finish(current);
+        current = state.frame;
+        step.centres.emplace_back(state.state.id, cv::Point2f(state.state.box.centre));
+    }
+    for (; current >= 0 && current <= frame; ++current) finish(current);
+    return history.trails();
+}
+
+}  // namespace eyrie::ui

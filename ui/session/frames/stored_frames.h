@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "canvas/view_frame.h"
+#include "session/background/lru_cache.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
+
+namespace eyrie::ui {
+
+/// The frames of one stored run, by an own connection; a few are kept in memory. For one thread. Throws Error.
+class StoredFrames {
+ public:
+    StoredFrames(const std::filesystem::path& project, int run_id, int trail_length);
+
+    /// Fills result, trails and, if it has none, time; leaves the frame as it is when the run does not have it.
+    void addTo(ViewFrame& frame);
+    /// Reads a frame into memory for later; false when the run does not have it.
+    bool prepare(FrameIndex frame);
+
+ private:
+    std::shared_ptr<const FrameResult> result(FrameIndex frame);
+    std::vector<Trail> trails(FrameIndex frame);
+    const Homography* homography(FrameIndex frame);
+
+    ProjectFile project_;
+    RunStore store_;
+    int run_id_;
+    int trail_length_;
+    LruCache<FrameIndex, std::shared_ptr<const FrameResult>> results_;
+    std::map<FrameIndex, Homography> homographies_;  ///< current from previous, by current frame
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,270 @@
+#include "session/project/project_reader.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "chain/recording/run_resume.h"
+#include "core/error.h"
+#include "session/background/queued_call.h"
+#include "session/project/project_copy.h"
+#include "session/project/project_location.h"
+#include "store/database/change_watch.h"
+#include "store/labels/annotation_store.h"
+#include "store/project/project_file.h"
+
+namespace eyrie::ui {
+
+/// What lives on the reader's thread.
+class ProjectReader::Worker {
+ public:
+    explicit Worker(ProjectReader& owner) : owner_(owner) {}
+    ~Worker() { close(); }
+
+    void open(const std::filesystem::path& path) {
+        close();
+        try {
+            adopt(ProjectFile::open(path));
+            tellOpened();
+        } catch (const std::exception& error) {
+            openFailed(path, error);
+        }
+    }
+
+    void openFor(const std::string& name, const std::string& identity, const VideoInfo& video,
+                 const std::filesystem::path& chosen) {
+        close();
+        std::vector<std::filesystem::path> places{chosen};
+        if (chosen.empty()) places = projectPlaces(name, identity);
+        try {
+            openFirst(places);
+            const auto sequences = sequencesOf(*project_);
+            if (const SequenceRecord* former = formerPlaceOf(video, identity, sequences))
+                eyrie::relocateSequence(*project_, former->id, identity);
+            tellOpened();
+        } catch (const std::exception& error) {
+            openFailed(places.back(), error);
+        }
+    }
+
+    void close() {
+        if (!project_) return;
+        try {
+            RunStore(*project_).purgeRemoved();
+        } catch (const std::exception&) {
+            // They stay marked as removed; the next close deletes them.
+        }
+        project_.reset();
+    }
+
+    void readLists() {
+        guarded([this](RunStore&) {
+            queuedCall(&owner_, [owner = &owner_, lists = lists()] { emit owner->read(lists); });
+        });
+    }
+
+    void readListsIfChanged() {
+        guarded([this](RunStore&) {
+            if (watch_->changed() || any_running_) readLists();
+        });
+    }
+
+    void readRun(int run_id) {
+        guarded([this, run_id](RunStore& store) {
+            auto data = std::make_shared<RunData>();
+            data->record = runOf(store, run_id);
+            data->parameters = store.parameters(run_id);
+            data->frames = store.frameSummaries(run_id);
+            data->tracks = store.tracks(run_id);
+            data->facts = factsOf(*project_, data->record);
+            queuedCall(&owner_, [owner = &owner_, data = std::shared_ptr<const RunData>(std::move(data))] {
+                emit owner->runRead(data);
+            });
+        });
+    }
+
+    void readFacts(int run_id) {
+        guarded([this, run_id](RunStore& store) {
+            const RunRecord run = runOf(store, run_id);
+            queuedCall(&owner_,
+                       [owner = &owner_, run, facts = factsOf(*project_, run)] { emit owner->factsRead(run, facts); });
+        });
+    }
+
+    void readTrack(int run_id, TrackId track) {
+        guarded([this, run_id, track](RunStore& store) {
+            queuedCall(&owner_, [owner = &owner_, run_id, track, states = store.trackStates(run_id, track)] {
+                emit owner->trackRead(run_id, track, states);
+            });
+        });
+    }
+
+    void saveCopy(const std::filesystem::path& target) {
+        guarded([this, &target](RunStore&) {
+            copyProject(*project_, target);
+            queuedCall(&owner_, [owner = &owner_, target] { emit owner->copied(target); });
+        });
+    }
+
+    void saveAs(const std::filesystem::path& target) {
+        guarded([this, &target](RunStore&) {
+            copyProject(*project_, target);
+            ProjectFile copy = ProjectFile::open(target);
+            close();
+            adopt(std::move(copy));
+            queuedCall(&owner_, [owner = &owner_, lists = lists()] { emit owner->movedTo(lists); });
+        });
+    }
+
+    /// Changes something and reads the lists anew.
+    template <class Work>
+    void change(Work&& work) {
+        guarded(std::forward<Work>(work));
+        readLists();
+    }
+
+    template <class Work>
+    void guarded(Work&& work) {
+        if (!project_) return;
+        try {
+            RunStore store(*project_);
+            work(store);
+        } catch (const std::exception& error) {
+            queuedCall(&owner_,
+                       [owner = &owner_, message = QString::fromUtf8(error.what())] { emit owner->failed(message); });
+        }
+    }
+
+    ProjectFile& project() { return *project_; }
+
+ private:
+    void adopt(ProjectFile&& project) {
+        project_ = std::make_unique<ProjectFile>(std::move(project));
+        watch_ = std::make_unique<ChangeWatch>(*project_);
+        watch_->changed();
+    }
+
+    /// The first place where a project can be opened or made. One that is there and cannot be used is an error: another
+    /// in its stead would hide its runs.
+    void openFirst(const std::vector<std::filesystem::path>& places) {
+        for (const std::filesystem::path& place : places) {
+            const bool last = &place == &places.back();
+            std::error_code ignored;  // openOrCreate says what is wrong with the folder
+            if (last) std::filesystem::create_directories(place.parent_path(), ignored);
+            try {
+                adopt(ProjectFile::openOrCreate(place));
+                return;
+            } catch (const std::exception&) {
+                if (last || std::filesystem::exists(place, ignored)) throw;
+            }
+        }
+    }
+
+    static RunRecord runOf(const RunStore& store, int run_id) {
+        auto record = store.run(run_id);
+        if (!record) throw Error(ErrorKind::project, "the project has no run " + std::to_string(run_id));
+        return std::move(*record);
+    }
+
+    ProjectLists lists() {
+        const RunStore store(*project_);
+        ProjectLists lists{project_->path(), store.runs(), store.removedRuns(), {}, sequencesOf(*project_), {}};
+        for (const RunRecord& run : resumableRuns(store)) lists.resumable.push_back(run.id);
+        any_running_ = std::any_of(lists.runs.begin(), lists.runs.end(), [](const RunRecord& run) { return run.live; });
+        return lists;
+    }
+
+    void tellOpened() {
+        ProjectLists opened = lists();
+        opened.notice = project_->notice();
+        queuedCall(&owner_, [owner = &owner_, opened = std::move(opened)] { emit owner->opened(opened); });
+    }
+
+    void openFailed(const std::filesystem::path& path, const std::exception& error) {
+        project_.reset();
+        queuedCall(&owner_, [owner = &owner_, path, message = QString::fromUtf8(error.what())] {
+            emit owner->openFailed(path, message);
+        });
+    }
+
+    ProjectReader& owner_;
+    std::unique_ptr<ProjectFile> project_;
+    std::unique_ptr<ChangeWatch> watch_;  ///< of the project
+    bool any_running_ = false;            ///< when it was read last; that one was killed commits nothing
+};
+
+ProjectReader::ProjectReader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
+
+ProjectReader::~ProjectReader() = default;
+
+template <class Work>
+void ProjectReader::post(Work work) {
+    thread_.post([worker = worker_.get(), work = std::move(work)](const std::stop_token&) { work(*worker); });
+}
+
+void ProjectReader::open(const std::filesystem::path& project) {
+    post([project](Worker& worker) { worker.open(project); });
+}
+
+void ProjectReader::openFor(const std::string& media_name, const std::string& media_identity, const VideoInfo& video,
+                            const std::filesystem::path& project) {
+    post([=](Worker& worker) { worker.openFor(media_name, media_identity, video, project); });
+}
+
+void ProjectReader::close() {
+    post([](Worker& worker) { worker.close(); });
+}
+
+void ProjectReader::readLists() {
+    post([](Worker& worker) { worker.readLists(); });
+}
+
+void ProjectReader::readListsIfChanged() {
+    post([](Worker& worker) { worker.readListsIfChanged(); });
+}
+
+void ProjectReader::readRun(int run_id) {
+    thread_.postNewest([worker = worker_.get(), run_id](const std::stop_token&) { worker->readRun(run_id); });
+}
+
+void ProjectReader::readFacts(int run_id) {
+    post([run_id](Worker& worker) { worker.readFacts(run_id); });
+}
+
+void ProjectReader::readTrack(int run_id, TrackId track) {
+    post([run_id, track](Worker& worker) { worker.readTrack(run_id, track); });
+}
+
+void ProjectReader::renameRun(int run_id, const QString& name) {
+    post([run_id, text = name.toStdString()](Worker& worker) {
+        worker.change([&](RunStore& store) { store.rename(run_id, text); });
+    });
+}
+
+void ProjectReader::removeRun(int run_id) {
+    post([run_id](Worker& worker) { worker.change([&](RunStore& store) { store.remove(run_id); }); });
+}
+
+void ProjectReader::restoreRun(int run_id) {
+    post([run_id](Worker& worker) { worker.change([&](RunStore& store) { store.restore(run_id); }); });
+}
+
+void ProjectReader::storeSequence(const SequenceRecord& sequence) {
+    post([sequence](Worker& worker) { worker.change([&](RunStore&) { ensureSequence(worker.project(), sequence); }); });
+}
+
+void ProjectReader::relocateSequence(int sequence_id, const std::string& path) {
+    post([sequence_id, path](Worker& worker) {
+        worker.change([&](RunStore&) { eyrie::relocateSequence(worker.project(), sequence_id, path); });
+    });
+}
+
+void ProjectReader::saveCopy(const std::filesystem::path& target) {
+    post([target](Worker& worker) { worker.saveCopy(target); });
+}
+
+void ProjectReader::saveAs(const std::filesystem::path& target) {
+    post([target](Worker& worker) { worker.saveAs(target); });
+}
+
+}  // namespace eyrie::ui

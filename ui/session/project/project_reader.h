@@ -1,0 +1,86 @@
+#pragma once
+
+#include <QObject>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "io/video/frame_source.h"
+#include "session/background/task_thread.h"
+#include "session/run_data.h"
+
+namespace eyrie::ui {
+
+/// What a project holds, as lists.
+struct ProjectLists {
+    std::filesystem::path project;
+    std::vector<RunRecord> runs;            ///< oldest first, without removed ones
+    std::vector<RunRecord> removed;         ///< runs that can be brought back
+    std::vector<int> resumable;             ///< runs that ended early and can be gone on with
+    std::vector<SequenceRecord> sequences;  ///< videos, ascending ids
+    std::string notice;                     ///< for people, when it was opened; else empty
+};
+
+/// Reads and edits the lists of a project on its own thread. Signals arrive on the thread of this object.
+class ProjectReader : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit ProjectReader(QObject* parent = nullptr);
+    /// Closes the project; see close().
+    ~ProjectReader() override;
+
+    /// An existing project. Answers with opened() or openFailed().
+    void open(const std::filesystem::path& project);
+    /// The project of a video that was opened: `project`, or where it lies by itself (projectPlaces()); made if need
+    /// be. What the project knows of the same video at a former place becomes that of this one. Answers with opened()
+    /// or openFailed().
+    void openFor(const std::string& media_name, const std::string& media_identity, const VideoInfo& video,
+                 const std::filesystem::path& project);
+    /// Removed runs are deleted for good.
+    void close();
+    /// Answers with read().
+    void readLists();
+    /// The same, but only if somebody changed the project or the runs may have changed their state by themselves.
+    void readListsIfChanged();
+    /// Answers with runRead(), or failed() when there is no such run. Of several requests the newest wins.
+    void readRun(int run_id);
+    /// How a run ended. Answers with factsRead().
+    void readFacts(int run_id);
+    /// Answers with trackRead().
+    void readTrack(int run_id, TrackId track);
+    /// Answer with read(), after failed() if it could not be done.
+    void renameRun(int run_id, const QString& name);
+    /// Takes a run out of the lists; until the project is closed it can be brought back.
+    void removeRun(int run_id);
+    void restoreRun(int run_id);
+    /// Keeps what is known of a video now, its frame rate above all.
+    void storeSequence(const SequenceRecord& sequence);
+    /// A video lies elsewhere now.
+    void relocateSequence(int sequence_id, const std::string& path);
+    /// A complete copy, also while a run writes. Answers with copied() or failed().
+    void saveCopy(const std::filesystem::path& target);
+    /// A complete copy that is open from then on in place of the project. Answers with movedTo() or failed(): then the
+    /// former one is still open.
+    void saveAs(const std::filesystem::path& target);
+
+ signals:
+    void opened(const ProjectLists& lists);
+    void openFailed(const std::filesystem::path& project, const QString& message);
+    void read(const ProjectLists& lists);
+    void runRead(const std::shared_ptr<const RunData>& run);
+    void factsRead(const RunRecord& run, const RunFacts& facts);
+    void trackRead(int run_id, TrackId track, const std::vector<TrackFrame>& states);
+    void copied(const std::filesystem::path& target);
+    void movedTo(const ProjectLists& lists);
+    void failed(const QString& message);
+
+ private:
+    class Worker;
+    template <class Work>
+    void post(Work work);
+    std::unique_ptr<Worker> worker_;
+    TaskThread thread_;  ///< last: stops before the worker goes
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <QObject>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "canvas/view_frame.h"
+#include "chain/chain_run.h"
+#include "evaluation/comparison/result_difference.h"
+#include "session/background/task_thread.h"
+#include "session/project/media.h"
+#include "tune/compare/live_preview.h"
+
+namespace eyrie::ui {
+
+/// What is compared: a run as it was stored, or what other parameters find on its motion vectors.
+struct ComparisonSide {
+    int run_id = 0;
+    std::shared_ptr<const ChainOptions> options;  ///< null: as it was stored
+};
+
+/// Two sides over one video.
+struct ComparisonPair {
+    Media media;
+    std::filesystem::path project;
+    ComparisonSide first;
+    ComparisonSide second;
+    FrameRange range;  ///< compared where a side is computed; stored runs are compared as a whole
+
+    bool computes() const { return first.options || second.options; }
+};
+
+/// What two sides differ in.
+struct SideComparison {
+    std::vector<ResultDifference> tracks;
+    std::vector<ResultDifference> detections;
+    std::vector<ParameterDifference> parameters;
+    bool exact = true;  ///< computed sides are what whole runs with their parameters would be
+};
+
+/// Reads or computes the frames of two sides together, and compares them, on its own threads. Of several frames asked
+/// for the newest wins. Signals arrive on the thread of this object.
+class ComparisonLoader : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit ComparisonLoader(QObject* parent = nullptr);
+    ~ComparisonLoader() override;
+
+    /// Opens video and project; answers with compared() or failed(). Computed sides grow meanwhile, told by computed().
+    void usePair(const ComparisonPair& pair);
+    /// Answers with loaded(), unless a newer request comes first. A side that has no such frame yet has no result.
+    void request(FrameIndex frame);
+    void cancel();
+
+ signals:
+    void compared(const std::shared_ptr<const SideComparison>& comparison);
+    /// Both show the same picture.
+    void loaded(const ViewFrame& first, const ViewFrame& second);
+    /// More frames of computed sides are there.
+    void computed(int frames_done, int frames_total);
+    void failed(const QString& message);
+
+ private:
+    class Worker;
+    std::unique_ptr<Worker> worker_;
+    std::stop_source pair_;
+    TaskThread comparing_;
+    TaskThread thread_;  ///< last: stops before the worker goes
+};
+
+}  // namespace eyrie::ui

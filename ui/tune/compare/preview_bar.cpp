@@ -1,0 +1,94 @@
+#include "tune/compare/preview_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSpinBox>
+
+namespace eyrie::ui {
+
+namespace {
+constexpr int kMostRange = 120;        ///< frames
+constexpr int kMostInTip = 25;         ///< differences listed in the tool tip
+constexpr std::size_t kMostNamed = 2;  ///< … and in the bar itself
+}  // namespace
+
+PreviewBar::PreviewBar(LivePreview& preview, QWidget* parent) : QFrame(parent), preview_(preview) {
+    setObjectName(QStringLiteral("preview_bar"));
+    text_ = new QLabel(this);
+    text_->setTextFormat(Qt::PlainText);
+    text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    range_ = new QSpinBox(this);
+    range_->setRange(0, kMostRange);
+    range_->setValue(preview_.range());
+    range_->setSuffix(tr(" frames back"));
+    range_->setKeyboardTracking(false);
+    range_->setToolTip(
+        tr("Frames before this one that are done with the new parameters, too, so that tracks are "
+           "followed by them; 0: none"));
+    run_ = new QPushButton(QIcon::fromTheme(QStringLiteral("media-record")), tr("Run with these"), this);
+    discard_ = new QPushButton(tr("Discard"), this);
+    discard_->setToolTip(tr("Back to the parameters and the results of the run"));
+    auto* layout = new QHBoxLayout(this);
+    layout->setContentsMargins(8, 3, 8, 3);
+    layout->addWidget(text_, 1);
+    layout->addWidget(range_);
+    layout->addWidget(run_);
+    layout->addWidget(discard_);
+    connect(range_, &QSpinBox::valueChanged, &preview_, &LivePreview::setRange);
+    connect(run_, &QPushButton::clicked, this, &PreviewBar::runRequested);
+    connect(discard_, &QPushButton::clicked, this, &PreviewBar::discardRequested);
+    connect(&preview_, &LivePreview::changed, this, &PreviewBar::refresh);
+    refresh();
+}
+
+QString PreviewBar::text() const {
+    return whole_text_;
+}
+
+void PreviewBar::refresh() {
+    setVisible(preview_.active());
+    if (!preview_.active()) return;
+    const auto& differences = preview_.differences();
+    QStringList named;
+    QStringList listed;
+    for (const ParameterDifference& d : differences) {
+        const QString change =
+            QStringLiteral("%1 %2 → %3")
+                .arg(QString::fromStdString(d.name), QString::fromStdString(d.first), QString::fromStdString(d.second));
+        if (listed.size() < kMostInTip) listed << change;
+        if (differences.size() <= kMostNamed) named << change;
+    }
+    if (named.isEmpty())
+        named << tr("%n parameters differ from the run", nullptr, static_cast<int>(differences.size()));
+    QString text = named.join(QStringLiteral(", "));
+    const auto view = preview_.view();
+    if (!preview_.problem().isEmpty()) {
+        text = preview_.problem();
+    } else if (view) {
+        text += tr(" · from %1 on · %2 ms")
+                    .arg(QString::fromLatin1(nameOf(view->previewed.start)))
+                    .arg(view->milliseconds, 0, 'f', 0);
+        if (preview_.framesLeft() > 0) text += tr(" · tracks: %1 frames left").arg(preview_.framesLeft());
+        if (view->previewed.approximate) text += tr(" · motion vectors found anew, a run may differ slightly");
+        if (view->previewed.start == PreviewStart::finishing) text += tr(" · shows in finished runs only");
+    } else {
+        text += tr(" · computing …");
+    }
+    whole_text_ = text;
+    showText();
+    listed.prepend(text);
+    text_->setToolTip(listed.join(QLatin1Char('\n')));
+}
+
+void PreviewBar::showText() {
+    text_->setText(text_->fontMetrics().elidedText(whole_text_, Qt::ElideRight, text_->width()));
+}
+
+void PreviewBar::resizeEvent(QResizeEvent* event) {
+    QFrame::resizeEvent(event);
+    layout()->activate();  // the label has its new width
+    showText();
+}
+
+}  // namespace eyrie::ui

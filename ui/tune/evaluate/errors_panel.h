@@ -1,0 +1,63 @@
+#pragma once
+
+#include <QMap>
+#include <QSet>
+
+#include "tune/evaluate/errors_model.h"
+#include "widgets/tables/table_panel.h"
+
+class QLabel;
+class QTimer;
+class QToolButton;
+
+namespace eyrie::ui {
+
+/// The list of errors: filtered by kind and cause, sorted, stepped through in the order shown.
+class ErrorsPanel : public TablePanel {
+    Q_OBJECT
+ public:
+    /// `model` must outlive the panel.
+    explicit ErrorsPanel(ErrorsModel* model, QWidget* parent = nullptr);
+
+    /// Only errors of this kind or cause; empty: all.
+    void setShownKind(const QString& kind);
+    void setShownCause(const QString& cause);
+    const QString& shownKind() const { return kind_; }
+    const QString& shownCause() const { return cause_; }
+    /// The next or previous row in the order shown, from the selected one; 0 when there is none.
+    int neighbour(int step) const;
+    /// Rows that are shown, and all.
+    int shownCount();
+    /// A line below the list, about the error that is looked at or what a correction changed.
+    void setStatus(const QString& text);
+    QString status() const;
+    /// Ids of the rows in view that have no chip yet.
+    QList<int> rowsWithoutChip() const;
+    static constexpr int kChipHeight = 36;
+
+ signals:
+    void errorActivated(int id);
+    void whyAsked(int id);
+    void truthIsWrong(int id);
+    void chipsWanted();
+
+ protected:
+    void fillMenu(QMenu& menu, int id) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+ private:
+    void applyFilter();
+    void rebuildMenus();
+    void wantChips();
+    QToolButton* filterButton(const QString& title);
+
+    ErrorsModel* errors_;
+    QString kind_;
+    QString cause_;
+    QToolButton* kinds_;
+    QToolButton* causes_;
+    QTimer* chips_due_;
+    QLabel* status_;
+};
+
+}  // namespace eyrie::ui

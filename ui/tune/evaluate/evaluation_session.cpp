@@ -1,0 +1,271 @@
+#include "tune/evaluate/evaluation_session.h"
+
+#include <QDateTime>
+#include <QSettings>
+#include <exception>
+
+#include "core/error.h"
+#include "session/background/queued_call.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr int kSettle_ms = 60;  ///< several changes at once are answered once
+
+QString truthKey(const std::filesystem::path& project) {
+    return QStringLiteral("evaluation/truth/%1").arg(qHash(QString::fromStdString(project.string())), 0, 16);
+}
+
+bool sameThing(const Mistake& a, const Mistake& b) {
+    return a.kind == b.kind && a.objects == b.objects && a.tracks == b.tracks && a.last_frame >= b.first_frame &&
+           a.first_frame <= b.last_frame;
+}
+
+}  // namespace
+
+class EvaluationSession::Worker {
+ public:
+    RunEvaluator evaluator;
+};
+
+EvaluationSession::EvaluationSession(ProjectSession& session, QObject* parent)
+    : QObject(parent), session_(session), worker_(std::make_unique<Worker>()) {
+    const QSettings stored;
+    settings_.overlap = std::clamp(stored.value(QStringLiteral("evaluation/overlap"), 0.1).toDouble(), 0.01, 1.0);
+    settings_.vehicles_only = stored.value(QStringLiteral("evaluation/vehicles_only")).toBool();
+    settings_.upright = stored.value(QStringLiteral("evaluation/upright")).toBool();
+    settings_.border_px = std::max(0.0, stored.value(QStringLiteral("evaluation/border")).toDouble());
+    soon_.setSingleShot(true);
+    soon_.setInterval(kSettle_ms);
+    connect(&soon_, &QTimer::timeout, this, &EvaluationSession::refresh);
+    connect(&session_, &ProjectSession::currentRunChanged, this, [this] {
+        forget();
+        settings_.other_run.reset();
+        emit settingsChanged();
+        refreshLater();
+    });
+    connect(&session_, &ProjectSession::projectChanged, this, &EvaluationSession::readTruthOfProject);
+    connect(&session_, &ProjectSession::runFinished, this, &EvaluationSession::refreshLater);
+    connect(&session_, &ProjectSession::runDataChanged, this, [this] {
+        // A run at work grows every other second; its evaluation waits for the end.
+        if (!session_.running() && !evaluation_) refreshLater();
+    });
+}
+
+EvaluationSession::~EvaluationSession() {
+    request_.request_stop();
+}
+
+void EvaluationSession::readTruthOfProject() {
+    settings_.truth_file = QSettings().value(truthKey(session_.project())).toString().toStdString();
+    forget();
+    emit settingsChanged();
+    refreshLater();
+}
+
+void EvaluationSession::setWanted(bool wanted) {
+    if (wanted == wanted_) return;
+    wanted_ = wanted;
+    if (wanted_ && stale_) refreshLater();
+}
+
+void EvaluationSession::setSettings(const EvaluationSettings& settings) {
+    if (settings == settings_) return;
+    settings_ = settings;
+    QSettings stored;
+    stored.setValue(QStringLiteral("evaluation/overlap"), settings_.overlap);
+    stored.setValue(QStringLiteral("evaluation/vehicles_only"), settings_.vehicles_only);
+    stored.setValue(QStringLiteral("evaluation/upright"), settings_.upright);
+    stored.setValue(QStringLiteral("evaluation/border"), settings_.border_px);
+    if (settings_.truth_file.empty())
+        stored.remove(truthKey(session_.project()));
+    else
+        stored.setValue(truthKey(session_.project()), QString::fromStdString(settings_.truth_file.string()));
+    emit settingsChanged();
+    refreshLater();
+}
+
+void EvaluationSession::labelsChanged() {
+    if (settings_.truth_file.empty()) refreshLater();
+}
+
+EvaluationRequest EvaluationSession::request() const {
+    EvaluationRequest request;
+    request.project = session_.project();
+    request.run_id = session_.currentRun().value_or(0);
+    request.truth_file = settings_.truth_file;
+    request.detections = settings_.detections;
+    request.shown_overlap = settings_.overlap;
+    request.options.vehicles_only = settings_.vehicles_only;
+    request.options.upright = settings_.upright;
+    if (settings_.border_px > 0) request.options.border = settings_.border_px;
+    request.other_run = settings_.other_run;
+    return request;
+}
+
+void EvaluationSession::refreshLater() {
+    stale_ = true;
+    if (wanted_) soon_.start();
+}
+
+void EvaluationSession::refresh() {
+    if (!wanted_ || !stale_) return;
+    if (!session_.currentRun() || session_.project().empty() || session_.running()) {
+        obstacle_ = session_.running() ? tr("The run is at work. It is evaluated when it has ended.")
+                                       : tr("Choose a run, or run the video first. Then it is compared with the labels "
+                                            "of the project or with a file of ground truth.");
+        emit changed();
+        return;
+    }
+    stale_ = false;
+    request_.request_stop();
+    request_ = std::stop_source();
+    asked_at_ms_ = QDateTime::currentMSecsSinceEpoch();
+    setWorking(true);
+    thread_.postNewest(
+        [this, ticket = ++ticket_, wish = request(), request_stop = request_.get_token()](const std::stop_token& end) {
+            if (end.stop_requested()) return;
+            std::shared_ptr<const RunEvaluation> evaluation;
+            QString obstacle;
+            try {
+                evaluation = worker_->evaluator.evaluate(wish, request_stop);
+                if (!evaluation) return;  // a newer wish is on its way
+            } catch (const std::exception& error) {
+                obstacle = QString::fromUtf8(error.what());
+            }
+            queuedCall(this, [this, ticket, evaluation, obstacle] { adopt(ticket, evaluation, obstacle); });
+        });
+}
+
+void EvaluationSession::forget() {
+    ++ticket_;
+    request_.request_stop();
+    stale_ = true;
+    const bool had = evaluation_ != nullptr || !obstacle_.isEmpty();
+    evaluation_.reset();
+    matches_.clear();
+    mistakes_.clear();
+    obstacle_.clear();
+    setWorking(false);
+    const bool selected = selected_.has_value();
+    selected_.reset();
+    if (had) emit changed();
+    if (selected) emit selectionChanged();
+}
+
+void EvaluationSession::adopt(int ticket, const std::shared_ptr<const RunEvaluation>& evaluation,
+                              const QString& obstacle) {
+    if (ticket != ticket_) return;
+    const auto before = evaluation_;
+    evaluation_ = evaluation;
+    obstacle_ = obstacle;
+    took_ms_ = static_cast<double>(QDateTime::currentMSecsSinceEpoch() - asked_at_ms_);
+    matches_.clear();
+    mistakes_.clear();
+    if (evaluation_) {
+        for (std::size_t i = 0; i < evaluation_->matches.size(); ++i) matches_[evaluation_->matches[i].frame] = i;
+        for (std::size_t i = 0; i < evaluation_->mistakes.size(); ++i) {
+            const Mistake& mistake = evaluation_->mistakes[i].mistake;
+            if (mistake.kind == MistakeKind::id_switch || mistake.kind == MistakeKind::fragment)
+                mistakes_[mistake.places.front().frame].push_back(i);
+        }
+    }
+    keepSelection(before);
+    setWorking(false);
+    emit changed();
+}
+
+/// After scoring again the same error is looked at, if it is still there.
+void EvaluationSession::keepSelection(const std::shared_ptr<const RunEvaluation>& before) {
+    if (!selected_) return;
+    const Mistake* looked_at =
+        before && *selected_ < before->mistakes.size() ? &before->mistakes[*selected_].mistake : nullptr;
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; looked_at != nullptr && evaluation_ && i < evaluation_->mistakes.size() && !found; ++i)
+        if (sameThing(evaluation_->mistakes[i].mistake, *looked_at)) found = i;
+    if (found == selected_) return;
+    selected_ = found;
+    emit selectionChanged();
+}
+
+void EvaluationSession::setWorking(bool working) {
+    if (working == working_) return;
+    working_ = working;
+    emit workingChanged(working);
+}
+
+void EvaluationSession::select(std::optional<std::size_t> mistake) {
+    if (mistake && (!evaluation_ || *mistake >= evaluation_->mistakes.size())) mistake.reset();
+    if (mistake == selected_) return;
+    selected_ = mistake;
+    emit selectionChanged();
+}
+
+const DiagnosedMistake* EvaluationSession::selectedMistake() const {
+    return selected_ && evaluation_ ? &evaluation_->mistakes[*selected_] : nullptr;
+}
+
+std::vector<BoxRecord> EvaluationSession::truthAt(FrameIndex frame) const {
+    if (!evaluation_) return {};
+    const auto found = evaluation_->truth.find(frame);
+    return found == evaluation_->truth.end() ? std::vector<BoxRecord>() : found->second;
+}
+
+std::vector<VerdictMark> EvaluationSession::marksAt(FrameIndex frame) const {
+    std::vector<VerdictMark> marks;
+    const auto at = matches_.find(frame);
+    if (at == matches_.end()) return marks;
+    const FrameMatch& match = evaluation_->matches[at->second];
+    const std::vector<BoxRecord> truth = truthAt(frame);
+    const auto found = evaluation_->result.find(frame);
+    const auto& results = found == evaluation_->result.end() ? std::vector<BoxRecord>() : found->second;
+    std::map<int, const Mistake*> switches;  // by true object
+    std::map<int, const Mistake*> fragments;
+    if (const auto here = mistakes_.find(frame); here != mistakes_.end())
+        for (const std::size_t index : here->second) {
+            const Mistake& mistake = evaluation_->mistakes[index].mistake;
+            if (mistake.places.front().truth.empty()) continue;
+            auto& of = mistake.kind == MistakeKind::id_switch ? switches : fragments;
+            of[mistake.places.front().truth.front()] = &mistake;
+        }
+    const DiagnosedMistake* looked_at = selectedMistake();
+    const MistakePlace* place = nullptr;
+    for (std::size_t i = 0; looked_at != nullptr && i < looked_at->mistake.places.size(); ++i)
+        if (looked_at->mistake.places[i].frame == frame) place = &looked_at->mistake.places[i];
+    const auto mark = [&](VerdictKind kind, const BoxRecord& record, const QString& text) {
+        VerdictMark one{kind, record.box, text, false};
+        one.selected = place != nullptr && place->box.centre == record.box.centre;
+        marks.push_back(one);
+    };
+    const auto at_index = [](const std::vector<BoxRecord>& records, int index) -> const BoxRecord& {
+        return records[static_cast<std::size_t>(index)];
+    };
+    const auto objectText = [](const BoxRecord& record) {
+        return record.id ? tr("object %1").arg(*record.id) : QString();
+    };
+    for (const int index : match.ignored_results) mark(VerdictKind::forgiven, at_index(results, index), {});
+    for (const int index : match.border_results) mark(VerdictKind::forgiven, at_index(results, index), {});
+    for (const MatchedPair& pair : match.pairs) {
+        const auto switched = switches.find(pair.truth);
+        if (switched == switches.end()) {
+            mark(VerdictKind::found, at_index(results, pair.result), {});
+            continue;
+        }
+        const auto& tracks = switched->second->tracks;
+        mark(VerdictKind::switched, at_index(results, pair.result),
+             QStringLiteral("%1 → %2").arg(tracks.front()).arg(tracks.back()));
+        if (place != nullptr && place->truth == std::vector<int>{pair.truth}) marks.back().selected = true;
+    }
+    for (const int index : match.missed) {
+        const BoxRecord& record = at_index(truth, index);
+        mark(fragments.contains(index) ? VerdictKind::fragment : VerdictKind::missed, record, objectText(record));
+    }
+    for (const int index : match.false_results) {
+        const BoxRecord& record = at_index(results, index);
+        mark(VerdictKind::false_alarm, record, record.id ? tr("track %1").arg(*record.id) : QString());
+    }
+    return marks;
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "canvas/layers/verdict_mark.h"
+#include "diagnosis/run_evaluation.h"
+#include "session/background/task_thread.h"
+#include "session/project_session.h"
+
+namespace eyrie::ui {
+
+/// What is measured and how; kept over restarts.
+struct EvaluationSettings {
+    std::filesystem::path truth_file;  ///< empty: the labels of the project
+    bool detections = false;
+    double overlap = 0.1;  ///< T_ov of errors, curves and overlay
+    bool vehicles_only = false;
+    bool upright = false;
+    double border_px = 0;  ///< 0: results at the border take part
+    std::optional<int> other_run;
+
+    bool operator==(const EvaluationSettings&) const = default;
+};
+
+/// The evaluation of the run shown, computed on its own thread as long as somebody looks: anew when the run, the
+/// settings or the labels change. Holds which error is looked at. Signals arrive on the thread of this object.
+class EvaluationSession : public QObject {
+    Q_OBJECT
+
+ public:
+    /// The session must outlive it.
+    explicit EvaluationSession(ProjectSession& session, QObject* parent = nullptr);
+    ~EvaluationSession() override;
+
+    /// Whether anybody wants to know. Until then nothing is computed; what is known stays.
+    void setWanted(bool wanted);
+    bool wanted() const { return wanted_; }
+    const EvaluationSettings& settings() const { return settings_; }
+    void setSettings(const EvaluationSettings& settings);
+    /// The labels of the project changed.
+    void labelsChanged();
+
+    /// Null until it is known, and where there is nothing to compare with.
+    const std::shared_ptr<const RunEvaluation>& evaluation() const { return evaluation_; }
+    /// Why there is none, and what to do; empty when there is one, or one is being computed.
+    const QString& obstacle() const { return obstacle_; }
+    bool working() const { return working_; }
+    /// Milliseconds from the wish to the answer, of the last one.
+    double lastTook_ms() const { return took_ms_; }
+    /// What would be computed now; for reports.
+    EvaluationRequest request() const;
+
+    /// Position in evaluation()->mistakes of the error that is looked at.
+    std::optional<std::size_t> selected() const { return selected_; }
+    void select(std::optional<std::size_t> mistake);
+    const DiagnosedMistake* selectedMistake() const;
+
+    bool evaluated(FrameIndex frame) const { return matches_.contains(frame); }
+    /// The verdicts of a frame, for the canvas.
+    std::vector<VerdictMark> marksAt(FrameIndex frame) const;
+    std::vector<BoxRecord> truthAt(FrameIndex frame) const;
+
+ signals:
+    void changed();
+    void workingChanged(bool working);
+    void settingsChanged();
+    void selectionChanged();
+
+ private:
+    class Worker;
+    void refreshLater();
+    void refresh();
+    void forget();
+    void readTruthOfProject();
+    void adopt(int ticket, const std::shared_ptr<const RunEvaluation>& evaluation, const QString& obstacle);
+    void keepSelection(const std::shared_ptr<const RunEvaluation>& before);
+    void setWorking(bool working);
+
+    ProjectSession& session_;
+    EvaluationSettings settings_;
+    bool wanted_ = false;
+    bool stale_ = true;  ///< something changed since the last answer was asked for
+    bool working_ = false;
+    int ticket_ = 0;
+    qint64 asked_at_ms_ = 0;
+    double took_ms_ = 0;
+    std::shared_ptr<const RunEvaluation> evaluation_;
+    std::map<FrameIndex, std::size_t> matches_;                ///< of each frame, into evaluation_->matches
+    std::map<FrameIndex, std::vector<std::size_t>> mistakes_;  ///< places of switches and fragments
+    QString obstacle_;
+    std::optional<std::size_t> selected_;
+    QTimer soon_;
+    std::stop_source request_;
+    std::unique_ptr<Worker> worker_;
+    TaskThread thread_;  ///< last: stops before the worker goes
+};
+
+}  // namespace eyrie::ui

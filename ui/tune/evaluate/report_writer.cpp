@@ -1,0 +1,211 @@
+#include "tune/evaluate/report_writer.h"
+
+#include <QAbstractTextDocumentLayout>
+#include <QDateTime>
+#include <QFile>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QImage>
+#include <QPageSize>
+#include <QPainter>
+#include <QPdfWriter>
+#include <QScreen>
+#include <QSvgRenderer>
+#include <QTextDocument>
+#include <QThread>
+#include <QUrl>
+#include <exception>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/output_files.h"
+#include "session/background/queued_call.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr int kDotsPerInch = 144;  ///< of the page; pictures are drawn finer
+constexpr double kMargin_mm = 15;
+constexpr double kFigureScale = 3;
+constexpr double kFigureWidth_mm = 160;  ///< of the 180 between the margins
+constexpr double kChipWidth_mm = 21;
+constexpr double kFooter_mm = 8;
+constexpr double kPerInch_mm = 25.4;
+
+QImage pictureOf(const std::string& svg) {
+    QSvgRenderer renderer(QByteArray::fromStdString(svg));
+    QImage image(renderer.defaultSize() * kFigureScale, QImage::Format_RGB32);
+    image.fill(Qt::white);
+    QPainter painter(&image);
+    renderer.render(&painter);
+    return image;
+}
+
+/// Pictures get this width on the page, and the height that belongs to it. Documents take attributes for px of the
+/// screen and enlarge them as the page is finer.
+void setWidth(QString& html, const QString& name, double width_mm, QSize size) {
+    const QScreen* screen = QGuiApplication::primaryScreen();
+    const double screen_dpi = screen != nullptr ? qRound(screen->logicalDotsPerInchY()) : 96;
+    const double width = width_mm / kPerInch_mm * screen_dpi;
+    const double height = size.width() > 0 ? width * size.height() / size.width() : width;
+    html.replace(
+        QStringLiteral("<img src=\"%1\">").arg(name),
+        QStringLiteral("<img src=\"%1\" width=\"%2\" height=\"%3\">").arg(name).arg(qRound(width)).arg(qRound(height)));
+}
+
+/// All pages, each with its number below.
+void print(QTextDocument& document, QPdfWriter& writer, const QString& title) {
+    const double footer = kFooter_mm / kPerInch_mm * kDotsPerInch;
+    const QSizeF page(writer.width(), writer.height() - footer);
+    document.setDocumentMargin(0);
+    document.setPageSize(page);
+    QFont small = document.defaultFont();
+    small.setPointSizeF(7);
+    QPainter painter(&writer);
+    const int pages = document.pageCount();
+    for (int i = 0; i < pages; ++i) {
+        if (i > 0) writer.newPage();
+        const QRectF part(0, i * page.height(), page.width(), page.height());
+        painter.save();
+        painter.translate(0, -part.top());
+        painter.setClipRect(part);
+        QAbstractTextDocumentLayout::PaintContext context;
+        context.clip = part;
+        context.palette.setColor(QPalette::Text, Qt::black);
+        document.documentLayout()->draw(&painter, context);
+        painter.restore();
+        painter.setFont(small);
+        painter.setPen(QColor(90, 90, 90));
+        const QRectF line(0, page.height(), page.width(), footer);
+        painter.drawText(line, Qt::AlignLeft | Qt::AlignBottom, title);
+        painter.drawText(line, Qt::AlignRight | Qt::AlignBottom,
+                         QCoreApplication::translate("report", "page %1 of %2").arg(i + 1).arg(pages));
+    }
+}
+
+[[noreturn]] void refuse(const QString& path, const QString& reason) {
+    throw Error(ErrorKind::output,
+                QStringLiteral("%1: cannot be written: %2. Choose another folder.").arg(path, reason).toStdString());
+}
+
+}  // namespace
+
+namespace {
+
+void writePdf(const std::filesystem::path& path, const EvaluationReportFile& report) {
+    const QString name = QString::fromStdString(path.string());
+    // Readers see a whole file or none.
+    const QString part = QString::fromStdString(temporaryBeside(path).string());
+    QFile file(part);
+    if (!file.open(QIODevice::WriteOnly)) refuse(name, file.errorString());
+    {
+        QPdfWriter writer(&file);
+        writer.setPageSize(QPageSize(QPageSize::A4));
+        writer.setPageMargins(QMarginsF(kMargin_mm, kMargin_mm, kMargin_mm, kMargin_mm), QPageLayout::Millimeter);
+        writer.setResolution(kDotsPerInch);
+        writer.setCreator(QStringLiteral("Eyrie"));
+        QTextDocument document;
+        QString html = QString::fromStdString(report.html);
+        for (const auto& [key, svg] : report.figures) {
+            const QString source = QString::fromStdString(key);
+            const QImage picture = pictureOf(svg);
+            document.addResource(QTextDocument::ImageResource, QUrl(source), picture);
+            setWidth(html, source, kFigureWidth_mm, picture.size());
+        }
+        for (const auto& [key, png] : report.chips) {
+            const QString source = QString::fromStdString(key);
+            const QImage picture = QImage::fromData(QByteArray::fromStdString(png));
+            document.addResource(QTextDocument::ImageResource, QUrl(source), picture);
+            setWidth(html, source, kChipWidth_mm, picture.size());
+        }
+        QFont font(QStringLiteral("DejaVu Sans"));
+        font.setPointSizeF(8.5);
+        document.setDefaultFont(font);
+        document.documentLayout()->setPaintDevice(&writer);
+        document.setDefaultStyleSheet(
+            QStringLiteral("h1{font-size:16pt} h2{font-size:12pt;margin-top:14px;margin-bottom:4px} "
+                           "h2.chapter{page-break-before:always;margin-top:0} table{border-collapse:collapse} "
+                           "td{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #dddddd} "
+                           "table.chips td{vertical-align:middle} "
+                           "th{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #666666}"));
+        html.remove(html.indexOf(QStringLiteral("<style>")),
+                    html.indexOf(QStringLiteral("</style>")) + 8 - html.indexOf(QStringLiteral("<style>")));
+        document.setHtml(html);
+        print(document, writer, document.metaInformation(QTextDocument::DocumentTitle));
+    }
+    file.flush();
+    const bool complete = file.error() == QFileDevice::NoError && file.size() > 0;
+    const QString reason = file.errorString();
+    file.close();
+    if (!complete) {
+        QFile::remove(part);
+        refuse(name, reason);
+    }
+    std::error_code error;
+    std::filesystem::rename(part.toStdString(), path, error);
+    if (error) {
+        QFile::remove(part);
+        refuse(name, QString::fromStdString(error.message()));
+    }
+}
+
+}  // namespace
+
+void writePdfReport(const std::filesystem::path& path, const EvaluationReportFile& report) {
+    // Text documents lay themselves out with timers, which only threads of Qt have.
+    std::exception_ptr failure;
+    const std::unique_ptr<QThread> thread(QThread::create([&] {
+        try {
+            writePdf(path, report);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    }));
+    thread->start();
+    thread->wait();
+    if (failure) std::rethrow_exception(failure);
+}
+
+void ReportWriter::write(const std::filesystem::path& path, std::shared_ptr<const RunEvaluation> evaluation,
+                         std::optional<Media> media, const std::filesystem::path& project) {
+    if (working_ || !evaluation) return;
+    working_ = true;
+    request_ = std::stop_source();
+    thread_.post([this, path, project, evaluation = std::move(evaluation), media = std::move(media),
+                  stop = request_.get_token()](const std::stop_token&) {
+        QString failure;
+        try {
+            const bool pdf = QFileInfo(QString::fromStdString(path.string()))
+                                 .suffix()
+                                 .compare(QStringLiteral("pdf"), Qt::CaseInsensitive) == 0;
+            filesToReplace({{path, pdf ? FileKind::pdf : FileKind::html}}, {project, evaluation->run.sequence.path});
+            std::unique_ptr<FrameSource> pixels;
+            try {
+                if (media) pixels = media->open({}, stop);
+            } catch (const std::exception&) {
+                // Without the video the report has no chips.
+            }
+            ReportOptions options;
+            options.made_utc = QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString();
+            const auto tell = [this](double share) { queuedCall(this, [this, share] { emit progress(share); }); };
+            const EvaluationReportFile report = makeEvaluationReport(*evaluation, pixels.get(), options, tell, stop);
+            if (stop.stop_requested()) return;
+            if (pdf)
+                writePdfReport(path, report);
+            else
+                writeHtmlReport(path, report);
+        } catch (const std::exception& error) {
+            failure = QString::fromUtf8(error.what());
+        }
+        queuedCall(this, [this, path, failure] {
+            working_ = false;
+            if (failure.isEmpty())
+                emit written(path);
+            else
+                emit failed(failure);
+        });
+    });
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <QObject>
+#include <filesystem>
+#include <memory>
+#include <stop_token>
+
+#include "diagnosis/run_evaluation.h"
+#include "report/evaluation_report.h"
+#include "session/background/task_thread.h"
+#include "session/project/media.h"
+
+namespace eyrie::ui {
+
+/// Writes the report of an evaluation on its own thread: PDF where the name ends so, else HTML. Signals arrive on the
+/// thread of this object.
+class ReportWriter : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit ReportWriter(QObject* parent = nullptr) : QObject(parent) {}
+    ~ReportWriter() override { request_.request_stop(); }
+
+    /// `media`: the video, for chips; without it there are none. `project` holds the run and is not overwritten, as
+    /// nothing else is but another report. Answers with written() or failed(); one at a time.
+    void write(const std::filesystem::path& path, std::shared_ptr<const RunEvaluation> evaluation,
+               std::optional<Media> media, const std::filesystem::path& project = {});
+    bool working() const { return working_; }
+
+ signals:
+    void progress(double share);
+    void written(const std::filesystem::path& path);
+    void failed(const QString& message);
+
+ private:
+    bool working_ = false;
+    std::stop_source request_;
+    TaskThread thread_;  ///< last: stops before the rest goes
+};
+
+/// The same as a PDF file, A4. Throws Error(output). May be called on any thread.
+void writePdfReport(const std::filesystem::path& path, const EvaluationReportFile& report);
+
+}  // namespace eyrie::ui

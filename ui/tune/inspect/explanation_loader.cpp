@@ -1,0 +1,86 @@
+#include "tune/inspect/explanation_loader.h"
+
+#include <exception>
+#include <utility>
+
+#include "explain/place_explainer.h"
+#include "session/background/queued_call.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr double kShownAround = 1.3;  ///< corners are shown in the area times this
+}
+
+/// What lives on the loader's thread.
+class ExplanationLoader::Worker {
+ public:
+    explicit Worker(ExplanationLoader& owner) : owner_(owner) {}
+
+    void useRun(std::optional<ReplayRun> run) {
+        explainer_.reset();
+        open_.reset();
+        run_ = std::move(run);
+    }
+
+    void explain(FrameIndex frame, const OrientedBox& area, const std::stop_token& stop) {
+        if (!run_ || stop.stop_requested()) return;
+        try {
+            if (!explainer_) {
+                open_ = std::make_unique<OpenRun>(*run_, stop);
+                if (stop.stop_requested()) {  // perhaps half open
+                    open_.reset();
+                    return;
+                }
+                explainer_ = std::make_unique<PlaceExplainer>(open_->source());
+            }
+            auto told = explainer_->explain(frame, area, stop);
+            if (!told || stop.stop_requested()) return;
+            auto view = std::make_shared<ExplanationView>();
+            view->frame = frame;
+            view->area = area;
+            view->told = std::move(*told);
+            const OrientedBox around = area.scaled(kShownAround, kShownAround);
+            if (const auto& corners = explainer_->evidence().corners) {
+                for (const CornerVerdict& corner : *corners)
+                    if (around.contains(corner.position)) view->corners.push_back(corner);
+            }
+            queuedCall(&owner_, [owner = &owner_, view = std::shared_ptr<const ExplanationView>(std::move(view))] {
+                emit owner->explained(view);
+            });
+        } catch (const std::exception& error) {
+            useRun(std::move(run_));  // opened anew with the next question
+            if (stop.stop_requested()) return;
+            queuedCall(&owner_, [owner = &owner_, frame, message = QString::fromUtf8(error.what())] {
+                emit owner->failed(frame, message);
+            });
+        }
+    }
+
+ private:
+    ExplanationLoader& owner_;
+    std::optional<ReplayRun> run_;
+    std::unique_ptr<OpenRun> open_;
+    std::unique_ptr<PlaceExplainer> explainer_;  ///< after what it reads from
+};
+
+ExplanationLoader::ExplanationLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
+
+ExplanationLoader::~ExplanationLoader() {
+    cancel();
+}
+
+void ExplanationLoader::useRun(std::optional<ReplayRun> run) {
+    cancel();
+    thread_.post([worker = worker_.get(), run = std::move(run)](const std::stop_token&) { worker->useRun(run); });
+}
+
+void ExplanationLoader::ask(FrameIndex frame, const OrientedBox& area) {
+    cancel();
+    question_ = std::stop_source();
+    thread_.postNewest([worker = worker_.get(), frame, area, stop = question_.get_token()](const std::stop_token&) {
+        worker->explain(frame, area, stop);
+    });
+}
+
+}  // namespace eyrie::ui

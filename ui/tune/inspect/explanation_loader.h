@@ -1,0 +1,48 @@
+#pragma once
+
+#include <QObject>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+#include "explain/explanation.h"
+#include "session/background/task_thread.h"
+#include "session/frames/open_run.h"
+
+namespace eyrie::ui {
+
+/// What was asked about one place, and the answer. Shared between threads, never changed once published.
+struct ExplanationView {
+    FrameIndex frame = 0;
+    OrientedBox area;
+    Explanation told;
+    CornerVerdicts corners;  ///< on the corners in and around the area
+};
+
+/// Explains places of a stored run on its own thread. Of several questions the newest wins. Signals arrive on the
+/// thread of this object.
+class ExplanationLoader : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit ExplanationLoader(QObject* parent = nullptr);
+    ~ExplanationLoader() override;
+
+    /// Touches neither video nor project before the first question.
+    void useRun(std::optional<ReplayRun> run);
+    /// Answers with explained() or failed(), unless a newer question comes first.
+    void ask(FrameIndex frame, const OrientedBox& area);
+    void cancel() { question_.request_stop(); }
+
+ signals:
+    void explained(const std::shared_ptr<const ExplanationView>& view);
+    void failed(FrameIndex frame, const QString& message);
+
+ private:
+    class Worker;
+    std::unique_ptr<Worker> worker_;
+    std::stop_source question_;
+    TaskThread thread_;  ///< last: stops before the worker goes
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <QObject>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "rerun/replay.h"
+#include "session/background/task_thread.h"
+#include "session/frames/open_run.h"
+
+namespace eyrie::ui {
+
+/// What is to be looked at in one frame.
+struct ReplayWish {
+    FrameIndex frame = 0;
+    int cluster = -1;                            ///< whose steps are wanted; −1: none
+    bool general_segmentation = false;           ///< also the views of fig. 5.1
+    StackPictures stacks = StackPictures::none;  ///< how much of every stack
+};
+
+/// What general segmentation makes of a motion ROI (fig. 5.1): the ROI with the borders drawn in, CV_8UC3.
+struct GeneralSegmentation {
+    cv::Mat superpixels;
+    cv::Mat watershed;
+    cv::Mat graph_cut;
+};
+
+/// A replayed frame. Shared between threads, never changed once published.
+struct ReplayView {
+    ReplayWish wish;
+    ChainOptions options;
+    bool exact = true;  ///< see ReplayedFrame
+    Frame frame;
+    FrameResult result;
+    std::vector<StackView> stacks;
+    std::optional<DifferenceResult> differences;
+    std::vector<SearchTrace> traces;
+    std::optional<GeneralSegmentation> general;
+};
+
+/// Replays frames of a stored run on its own thread. Of several wishes the newest wins; one that is being worked on is
+/// given up, what it has done so far is kept. Signals arrive on the thread of this object.
+class ReplayLoader : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit ReplayLoader(QObject* parent = nullptr);
+    ~ReplayLoader() override;
+
+    /// Touches neither video nor project before the first request.
+    void useRun(std::optional<ReplayRun> run);
+    /// Answers with replayed() or failed(), unless a newer request comes first.
+    void request(const ReplayWish& wish);
+    /// Gives up what is being worked on.
+    void cancel();
+
+ signals:
+    /// So many frames before the wanted one are still to be done.
+    void working(FrameIndex frame, int frames_left);
+    void replayed(const std::shared_ptr<const ReplayView>& view);
+    void failed(FrameIndex frame, const QString& message);
+
+ private:
+    class Worker;
+    std::unique_ptr<Worker> worker_;
+    std::stop_source request_;
+    TaskThread thread_;  ///< last: stops before the worker goes
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,132 @@
+#include "tune/inspect/stacks_panel.h"
+
+#include <QCheckBox>
+#include <QLabel>
+#include <QStackedLayout>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "tune/inspect/stage_chips.h"
+#include "widgets/empty_state.h"
+
+namespace eyrie::ui {
+
+StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidget* parent)
+    : QWidget(parent), session_(session), inspection_(inspection) {
+    summary_ = new QLabel(this);
+    summary_->setForegroundRole(QPalette::PlaceholderText);
+    summary_->setWordWrap(true);
+    summary_->setContentsMargins(8, 4, 8, 2);
+    whole_area_ = new QCheckBox(tr("Whole stack area"), this);
+    whole_area_->setToolTip(tr("Show all that is stacked, not only the surroundings of the vehicle"));
+    auto* options = new QVBoxLayout;
+    options->setContentsMargins(8, 0, 8, 2);
+    options->addWidget(whole_area_);
+    empty_ = new EmptyState;
+    grid_ = new ChipGrid;
+    pages_ = new QStackedLayout;
+    pages_->addWidget(empty_);
+    pages_->addWidget(grid_);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(summary_);
+    layout->addLayout(options);
+    layout->addLayout(pages_, 1);
+
+    connect(&inspection_, &Inspection::changed, this, &StacksPanel::refresh);
+    connect(&inspection_, &Inspection::replayed, this, &StacksPanel::showView);
+    connect(&inspection_, &Inspection::working, this, [this](int left) {
+        if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
+    });
+    connect(whole_area_, &QCheckBox::toggled, this, [this] {
+        summary_->setText(tr("The stacks are being cut anew …"));
+        want();
+    });
+    connect(empty_, &EmptyState::actionTriggered, this, &StacksPanel::stackingRunRequested);
+    connect(grid_, &ChipGrid::cardClicked, this, [this](int id) {
+        grid_->setMarkedCard(id);
+        if (!view_) return;
+        for (const StackView& stack : view_->stacks)
+            if (stack.id == id) emit placeChosen({stack.pose.position.x, stack.pose.position.y});
+    });
+    refresh();
+}
+
+void StacksPanel::setLookedAt(bool looked_at) {
+    looked_at_ = looked_at;
+    want();
+    refresh();
+}
+
+void StacksPanel::want() {
+    if (!looked_at_) return inspection_.wantStacks(StackPictures::none);
+    inspection_.wantStacks(whole_area_->isChecked() ? StackPictures::whole_area : StackPictures::surroundings);
+}
+
+QString StacksPanel::explanation() const {
+    return pages_->currentWidget() == empty_ ? empty_->explanation() : QString();
+}
+
+bool StacksPanel::stackingOff() const {
+    const auto& run = session_.runData();
+    if (!run) return false;
+    return !storedOptions(run->parameters).stacking.enabled;
+}
+
+void StacksPanel::refresh() {
+    if (!looked_at_) return;
+    QString why;
+    QString action;
+    if (!session_.currentRun()) {
+        why =
+            tr("Image stacks lay the same vehicle of many frames over each other, so that noise and background fade "
+               "and the vehicle stays. Run the video first, or choose a run.");
+    } else if (stackingOff()) {
+        why =
+            tr("This run did without image stacking. With it, the same vehicle of up to 50 frames is laid over each "
+               "other; noise and background fade, and the detector searches the stacked image.");
+        action = tr("Run with stacking");
+    } else if (session_.following()) {
+        why = tr("The run is at work. Go to a frame that it has done, and its stacks can be looked at.");
+    } else if (!inspection_.problem().isEmpty()) {
+        why = inspection_.problem();
+    } else if (!session_.viewFrame().result) {
+        why = tr("The run has not done this frame.");
+    }
+    if (why.isEmpty()) {  // pictures that are shown stay until others come
+        if (pages_->currentWidget() == empty_) empty_->setTexts(tr("This frame is being replayed …"));
+        return;
+    }
+    empty_->setTexts(why, action);
+    pages_->setCurrentWidget(empty_);
+    summary_->clear();
+    whole_area_->hide();
+}
+
+void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {
+    if (!looked_at_ || view->wish.frame != session_.viewFrame().index || stackingOff()) return;
+    if (view->wish.stacks == StackPictures::none) return;  // asked for by others
+    view_ = view;
+    const StackingOptions& options = view->options.stacking;
+    const auto used = std::count_if(view->stacks.begin(), view->stacks.end(),
+                                    [&](const StackView& stack) { return stack.height >= options.min_height; });
+    QString summary = tr("%1 stacks, %2 high enough to be searched (%3 of at most %4 layers)")
+                          .arg(view->stacks.size())
+                          .arg(used)
+                          .arg(options.min_height)
+                          .arg(options.capacity);
+    if (!view->exact)
+        summary += tr("\nThe replay began later than the run, so that they may differ slightly from its.");
+    summary_->setText(summary);
+    if (view->stacks.empty()) {
+        empty_->setTexts(tr("No stack in this frame: they begin with the detections of the frame before."));
+        pages_->setCurrentWidget(empty_);
+        return;
+    }
+    whole_area_->show();
+    grid_->setCards(stackChips(*view));
+    pages_->setCurrentWidget(grid_);
+}
+
+}  // namespace eyrie::ui

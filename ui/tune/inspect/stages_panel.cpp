@@ -1,0 +1,194 @@
+#include "tune/inspect/stages_panel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QStackedLayout>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "tune/inspect/stage_chips.h"
+#include "widgets/empty_state.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+QToolButton* button(const char* icon, const QString& tip, QWidget* parent) {
+    auto* made = new QToolButton(parent);
+    made->setIcon(QIcon::fromTheme(QString::fromLatin1(icon)));
+    made->setToolTip(tip);
+    made->setAccessibleName(tip);
+    made->setAutoRaise(true);
+    return made;
+}
+
+QString spelled(const char* word) {
+    return QString::fromLatin1(word).replace(QLatin1Char('_'), QLatin1Char(' '));
+}
+
+}  // namespace
+
+StagesPanel::StagesPanel(ProjectSession& session, Inspection& inspection, QWidget* parent)
+    : QWidget(parent), session_(session), inspection_(inspection) {
+    empty_ = new EmptyState;
+    grid_ = new ChipGrid;
+    pages_ = new QStackedLayout;
+    pages_->addWidget(empty_);
+    pages_->addWidget(grid_);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(buildHeader());
+    layout->addLayout(pages_, 1);
+
+    connect(empty_, &EmptyState::actionTriggered, &inspection_, [this] { inspection_.step(1); });
+    connect(&inspection_, &Inspection::changed, this, &StagesPanel::refresh);
+    connect(&inspection_, &Inspection::replayed, this, &StagesPanel::showView);
+    connect(&inspection_, &Inspection::working, this, [this](int left) {
+        if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
+    });
+    refresh();
+}
+
+QWidget* StagesPanel::buildHeader() {
+    auto* header = new QWidget(this);
+    title_ = new QLabel(header);
+    QFont bold = title_->font();
+    bold.setBold(true);
+    title_->setFont(bold);
+    back_ = button("go-previous", tr("Former cluster of the frame"), header);
+    on_ = button("go-next", tr("Next cluster of the frame"), header);
+    auto* smaller = button("zoom-out", tr("Smaller pictures"), header);
+    auto* fit = button("zoom-fit-best", tr("Fit the pictures"), header);
+    auto* larger = button("zoom-in", tr("Larger pictures"), header);
+    searches_ = new QComboBox(header);
+    searches_->setToolTip(tr("Several stacks were searched for this cluster"));
+    general_ = new QCheckBox(tr("General segmentation"), header);
+    general_->setToolTip(tr("What superpixels, watershed and graph cut make of the search area (fig. 5.1)"));
+    summary_ = new QLabel(header);
+    summary_->setForegroundRole(QPalette::PlaceholderText);
+    summary_->setWordWrap(true);
+
+    auto* first = new QHBoxLayout;
+    first->setSpacing(2);
+    first->addWidget(back_);
+    first->addWidget(title_);
+    first->addWidget(on_);
+    first->addStretch(1);
+    first->addWidget(smaller);
+    first->addWidget(fit);
+    first->addWidget(larger);
+    auto* second = new QHBoxLayout;
+    second->addWidget(general_);
+    second->addWidget(searches_, 1);
+    second->addStretch(1);
+    auto* rows = new QVBoxLayout(header);
+    rows->setContentsMargins(6, 4, 6, 2);
+    rows->setSpacing(3);
+    rows->addLayout(first);
+    rows->addWidget(summary_);
+    rows->addLayout(second);
+
+    connect(back_, &QToolButton::clicked, &inspection_, [this] { inspection_.step(-1); });
+    connect(on_, &QToolButton::clicked, &inspection_, [this] { inspection_.step(1); });
+    connect(smaller, &QToolButton::clicked, this, [this] { grid_->zoomBy(1 / 1.25); });
+    connect(larger, &QToolButton::clicked, this, [this] { grid_->zoomBy(1.25); });
+    connect(fit, &QToolButton::clicked, this, [this] { grid_->fit(); });
+    connect(searches_, &QComboBox::currentIndexChanged, this, &StagesPanel::showSearch);
+    connect(general_, &QCheckBox::toggled, &inspection_, &Inspection::wantGeneralSegmentation);
+    return header;
+}
+
+void StagesPanel::setLookedAt(bool looked_at) {
+    looked_at_ = looked_at;
+    inspection_.wantStages(looked_at);
+    refresh();
+}
+
+QString StagesPanel::explanation() const {
+    return pages_->currentWidget() == empty_ ? empty_->explanation() : QString();
+}
+
+std::pair<QString, QString> StagesPanel::whyEmpty() const {
+    const auto& result = session_.viewFrame().result;
+    if (!session_.currentRun())
+        return {tr("Here each step of a detection can be looked at, from the search area to the boxes. Run the video "
+                   "first, or choose a run."),
+                {}};
+    if (session_.following())
+        return {tr("The run is at work. Go to a frame that it has done, and its steps can be looked at."), {}};
+    if (!inspection_.problem().isEmpty()) return {inspection_.problem(), {}};
+    if (!result) return {tr("The run has not done this frame."), {}};
+    if (result->clusters.empty()) return {tr("Nothing moves in this frame: there are no motion clusters."), {}};
+    if (!inspection_.hasChoice())
+        return {
+            tr("Click a cluster, a search area, a detection or a track in the picture, and each step that led to its "
+               "boxes is shown here."),
+            tr("Show the first cluster")};
+    if (!inspection_.cluster()) return {tr("What was chosen has no motion cluster in this frame."), {}};
+    return {};
+}
+
+QString StagesPanel::summaryOf(const ReplayView& view) const {
+    QStringList words;
+    words << tr("Detection: %1").arg(spelled(nameOf(view.options.detection.method)));
+    if (view.options.difference.method != MotionMethod::vectors)
+        words << tr("motion: %1").arg(spelled(nameOf(view.options.difference.method)));
+    words << (view.options.stacking.enabled ? tr("stacking on") : tr("stacking off"));
+    QString text = words.join(QStringLiteral(" · "));
+    if (!view.exact) text += tr("\nThe replay began later than the run, so that stacks may differ slightly from its.");
+    return text;
+}
+
+void StagesPanel::refresh() {
+    const auto& result = session_.viewFrame().result;
+    const auto cluster = inspection_.cluster();
+    const bool any = result && !result->clusters.empty();
+    back_->setEnabled(any);
+    on_->setEnabled(any);
+    if (any && cluster)
+        title_->setText(tr("Cluster %1 of %2").arg(*cluster + 1).arg(result->clusters.size()));
+    else
+        title_->setText(any ? tr("%1 clusters").arg(result->clusters.size()) : tr("No cluster"));
+    const auto [why, action] = whyEmpty();
+    if (why.isEmpty() && pages_->currentWidget() == empty_)  // pictures that are shown stay until others come
+        empty_->setTexts(tr("This frame is being replayed …"));
+    const bool whole_frame = view_ && view_->differences && !cluster && view_->wish.frame == session_.viewFrame().index;
+    general_->setVisible(result != nullptr);
+    if (!why.isEmpty() && !whole_frame) {
+        empty_->setTexts(why, action);
+        pages_->setCurrentWidget(empty_);
+        summary_->clear();
+        searches_->hide();
+    }
+}
+
+void StagesPanel::showView(const std::shared_ptr<const ReplayView>& view) {
+    if (!looked_at_ || view->wish.frame != session_.viewFrame().index) return;
+    view_ = view;
+    refresh();
+    summary_->setText(summaryOf(*view));
+    const QSignalBlocker blocker(searches_);
+    const int before = searches_->currentIndex();
+    searches_->clear();
+    for (std::size_t i = 0; i < view->traces.size(); ++i)
+        searches_->addItem(tr("Search %1 of %2").arg(i + 1).arg(view->traces.size()));
+    searches_->setVisible(view->traces.size() > 1);
+    searches_->setCurrentIndex(std::clamp(before, 0, std::max(0, searches_->count() - 1)));
+    showSearch();
+}
+
+void StagesPanel::showSearch() {
+    if (!view_) return;
+    auto cards = view_->traces.empty()
+                     ? differenceChips(*view_)
+                     : stageChips(*view_, static_cast<std::size_t>(std::max(0, searches_->currentIndex())));
+    if (cards.empty()) return;
+    grid_->setCards(std::move(cards));
+    pages_->setCurrentWidget(grid_);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,324 @@
+#include "tune/sweep/sweep_panel.h"
+
+#include <QComboBox>
+#include <QFileInfo>
+#include <QLabel>
+#include <QLocale>
+#include <QMessageBox>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QStackedLayout>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "core/error.h"
+#include "io/tables/number_text.h"
+#include "rerun/replay.h"
+#include "tune/sweep/sweep_form.h"
+#include "widgets/charts/sweep_chart.h"
+#include "widgets/empty_state.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+QString leftText(double seconds) {
+    const int whole = static_cast<int>(seconds + 0.5);
+    if (whole >= 3600)
+        return QObject::tr("%1:%2 h left").arg(whole / 3600).arg(whole / 60 % 60, 2, 10, QLatin1Char('0'));
+    return QObject::tr("%1:%2 left").arg(whole / 60).arg(whole % 60, 2, 10, QLatin1Char('0'));
+}
+
+QString titleOf(const SweepRecord& record) {
+    QString axes = QString::fromStdString(record.name);
+    if (axes.isEmpty()) {
+        try {
+            for (const SweepAxis& axis : planFrom(record.plan, "").axes)
+                axes += (axes.isEmpty() ? QString() : QStringLiteral(" × ")) + QString::fromStdString(axis.name);
+        } catch (const Error&) {
+            axes = QObject::tr("damaged");
+        }
+    }
+    const QString state = record.points_done < record.point_count
+                              ? QObject::tr("%1 of %2").arg(record.points_done).arg(record.point_count)
+                              : QString::number(record.point_count);
+    return QStringLiteral("%1  %2  (%3)").arg(record.id).arg(axes, state);
+}
+
+}  // namespace
+
+SweepPanel::SweepPanel(ProjectSession& session, QWidget* parent)
+    : QWidget(parent), session_(session), sweeps_(session) {
+    auto* rows = new QVBoxLayout(this);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(2);
+    form_ = new SweepForm(this);
+    rows->addWidget(form_);
+    progress_line_ = new QWidget(this);
+    auto* line = new QHBoxLayout(progress_line_);
+    line->setContentsMargins(8, 0, 8, 4);
+    progress_ = new QProgressBar(progress_line_);
+    progress_->setTextVisible(false);
+    progress_text_ = new QLabel(progress_line_);
+    cancel_ = new QPushButton(tr("Cancel"), progress_line_);
+    cancel_->setToolTip(tr("What is done stays and can be resumed"));
+    line->addWidget(progress_, 1);
+    line->addWidget(progress_text_);
+    line->addWidget(cancel_);
+    rows->addWidget(progress_line_);
+    progress_line_->hide();
+    auto* below = new QWidget(this);
+    pages_ = new QStackedLayout(below);
+    empty_ = new EmptyState;
+    empty_->setTexts(
+        tr("A sweep tries many values of one or two parameters on the run that is shown and measures each against the "
+           "true boxes. Choose a parameter above; the curve or heat map appears here as points are done."));
+    pages_->addWidget(empty_);
+    pages_->addWidget(buildResult());
+    rows->addWidget(below, 1);
+    connect(form_, &SweepForm::startRequested, &sweeps_, &SweepSession::start);
+    connect(cancel_, &QPushButton::clicked, &sweeps_, &SweepSession::cancel);
+    for (const auto signal :
+         {&ProjectSession::currentRunChanged, &ProjectSession::runDataChanged, &ProjectSession::runsChanged})
+        connect(&session_, signal, this, &SweepPanel::showRun);
+    wireSweeps();
+    showRun();
+    showList();
+    showTable();
+}
+
+QWidget* SweepPanel::buildResult() {
+    auto* result = new QWidget(this);
+    auto* rows = new QVBoxLayout(result);
+    rows->setContentsMargins(8, 0, 8, 6);
+    rows->setSpacing(4);
+    auto* first = new QHBoxLayout;
+    list_ = new QComboBox(result);
+    list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    list_->setMinimumContentsLength(14);
+    list_->setToolTip(tr("The sweeps of this project"));
+    resume_ = new QPushButton(tr("Resume"), result);
+    resume_->setToolTip(tr("Do the points that are missing"));
+    remove_ = new QToolButton(result);
+    remove_->setText(tr("Remove"));
+    first->addWidget(list_, 1);
+    first->addWidget(resume_);
+    first->addWidget(remove_);
+    rows->addLayout(first);
+    auto* second = new QHBoxLayout;
+    view_ = new QComboBox(result);
+    view_->addItems({tr("measure"), tr("precision, recall, f"), tr("precision over recall"), tr("recall over alarms")});
+    view_->setToolTip(
+        tr("What the chart shows. Recall over false alarms per frame stands for the ROC, as detection "
+           "knows no true negatives."));
+    measure_ = new QComboBox(result);
+    fillMeasures();
+    of_ = new QComboBox(result);
+    of_->addItems({tr("detections"), tr("tracks")});
+    overlap_ = new QComboBox(result);
+    for (QComboBox* box : {view_, measure_, of_, overlap_}) {
+        box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        box->setMinimumContentsLength(6);
+        second->addWidget(box, box == view_ ? 2 : 1);
+        connect(box, &QComboBox::activated, this, [this] { showTable(); });
+    }
+    rows->addLayout(second);
+    chart_ = new SweepChart(result);
+    rows->addWidget(chart_, 1);
+    best_ = new QLabel(result);
+    best_->setWordWrap(true);
+    best_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    rows->addWidget(best_);
+    auto* last = new QHBoxLayout;
+    apply_ = new QPushButton(tr("Use for the next run"), result);
+    save_ = new QPushButton(tr("Save as preset …"), result);
+    last->addWidget(apply_);
+    last->addWidget(save_);
+    last->addStretch(1);
+    auto* copy = new QToolButton(result);
+    copy->setText(tr("Copy table"));
+    auto* picture = new QToolButton(result);
+    picture->setText(tr("Copy picture"));
+    last->addWidget(copy);
+    last->addWidget(picture);
+    rows->addLayout(last);
+    connect(copy, &QToolButton::clicked, this, [this] {
+        chart_->copyText();
+        emit notice(tr("The values of the chart are in the clipboard."));
+    });
+    connect(picture, &QToolButton::clicked, this, [this] {
+        chart_->copyPicture();
+        emit notice(tr("The chart is in the clipboard."));
+    });
+    return result;
+}
+
+void SweepPanel::wireSweeps() {
+    connect(&sweeps_, &SweepSession::sweepsChanged, this, &SweepPanel::showList);
+    connect(&sweeps_, &SweepSession::tableChanged, this, &SweepPanel::showTable);
+    connect(&sweeps_, &SweepSession::progressed, this, &SweepPanel::showProgress);
+    connect(&sweeps_, &SweepSession::failed, this, &SweepPanel::problem);
+    connect(&sweeps_, &SweepSession::consentNeeded, this, &SweepPanel::ask);
+    connect(&sweeps_, &SweepSession::runningChanged, this, [this](bool running) {
+        progress_line_->setVisible(running);
+        form_->setRunning(running);
+        showList();
+    });
+    connect(&sweeps_, &SweepSession::finished, this, [this](bool whole) {
+        emit notice(whole ? tr("The sweep is done.") : tr("The sweep was cancelled; Resume does the rest."));
+    });
+    connect(list_, &QComboBox::activated, this, [this](int index) { sweeps_.select(list_->itemData(index).toInt()); });
+    connect(resume_, &QPushButton::clicked, this, [this] { sweeps_.resume(list_->currentData().toInt()); });
+    connect(remove_, &QToolButton::clicked, this, [this] {
+        const auto answer = QMessageBox::question(this, tr("Remove sweep"), tr("Remove this sweep from the project?"));
+        if (answer == QMessageBox::Yes) sweeps_.remove(list_->currentData().toInt());
+    });
+    connect(chart_, &SweepChart::pointClicked, this, [this](int position) {
+        clicked_ = position;
+        showTable();
+    });
+    connect(apply_, &QPushButton::clicked, this, [this] {
+        if (!sweeps_.table() || !chosenPoint()) return;
+        const SweepPlan& plan = sweeps_.table()->plan;
+        auto values = plan.base;
+        const std::vector<std::string> changed = plan.valuesOf(*chosenPoint());
+        for (std::size_t a = 0; a < plan.axes.size(); ++a)
+            for (auto& [name, value] : values)
+                if (name == plan.axes[a].name) value = changed[a];
+        emit applyRequested(values);
+    });
+    connect(save_, &QPushButton::clicked, this, [this] {
+        try {
+            if (sweeps_.table() && chosenPoint())
+                emit savePresetRequested(sweeps_.table()->plan.optionsOf(*chosenPoint()));
+        } catch (const Error& error) {
+            emit problem(QString::fromUtf8(error.what()));
+        }
+    });
+}
+
+void SweepPanel::fillMeasures() {
+    for (const MeasureText& measure : sweepMeasures()) {
+        measure_->addItem(QString::fromStdString(measure.label), QString::fromStdString(measure.key));
+        measure_->setItemData(measure_->count() - 1, QString::fromStdString(measure.help), Qt::ToolTipRole);
+    }
+    measure_->setCurrentIndex(measure_->findData(QStringLiteral("f_score")));
+}
+
+void SweepPanel::fillOverlaps() {
+    const SweepPlan& plan = sweeps_.table()->plan;
+    overlap_->clear();
+    if (plan.overlaps.size() > 1) overlap_->addItem(tr("mean"));
+    overlap_->setToolTip(tr("The overlap T_ov of the measure that is judged, or the mean over all"));
+    for (const double overlap : plan.overlaps)
+        overlap_->addItem(tr("T_ov %1").arg(QString::fromStdString(shortestText(overlap))), overlap);
+}
+
+void SweepPanel::setView(SweepView view) {
+    view_->setCurrentIndex(static_cast<int>(view));
+    showTable();
+}
+
+SweepCriterion SweepPanel::criterion() const {
+    SweepCriterion criterion;
+    criterion.key = measure_->currentData().toString().toStdString();
+    const std::string group = measureText(criterion.key).group;
+    criterion.tracks = of_->currentIndex() == 1 || group == "tracking" || group == "identity";
+    if (overlap_->currentData().isValid()) criterion.overlap = overlap_->currentData().toDouble();
+    return criterion;
+}
+
+std::optional<int> SweepPanel::chosenPoint() const {
+    if (clicked_) return clicked_;
+    if (!sweeps_.table()) return std::nullopt;
+    const auto best = bestPoint(*sweeps_.table(), criterion());
+    return best ? std::optional<int>(best->position) : std::nullopt;
+}
+
+void SweepPanel::showRun() {
+    ChainOptions options = session_.settings().options;
+    const bool known = session_.currentRun() && session_.runData();
+    if (known) options = storedOptions(session_.runData()->parameters);
+    form_->setParameters(listParameters(describeOf(options)));
+    form_->setRun(known ? tr("run %1").arg(*session_.currentRun()) : QString());
+    std::vector<std::pair<int, QString>> runs;
+    for (const RunRecord& run : session_.runs()) {
+        if (run.frames_done == 0) continue;
+        const QString name = QString::fromStdString(run.name.empty() ? run.preset : run.name);
+        const QString video = QFileInfo(QString::fromStdString(run.sequence.path)).fileName();
+        runs.emplace_back(run.id, tr("Run %1 · %2 · %3").arg(run.id).arg(name, video));
+    }
+    form_->setRuns(runs, session_.currentRun());
+}
+
+void SweepPanel::showList() {
+    const QVariant before = sweeps_.table() ? QVariant(sweeps_.table()->id) : list_->currentData();
+    list_->clear();
+    for (const SweepRecord& record : sweeps_.sweeps()) list_->addItem(titleOf(record), record.id);
+    const int index = list_->findData(before);
+    list_->setCurrentIndex(index < 0 ? list_->count() - 1 : index);
+    const auto& table = sweeps_.table();
+    const bool missing = table && static_cast<int>(table->points.size()) < table->plan.pointCount();
+    resume_->setVisible(missing && !sweeps_.running());
+    remove_->setEnabled(!sweeps_.running() && list_->count() > 0);
+    pages_->setCurrentIndex(table || list_->count() > 0 ? 1 : 0);
+}
+
+void SweepPanel::showTable() {
+    const auto& table = sweeps_.table();
+    if (!table) {
+        chart_->setData({});
+        best_->clear();
+        showList();
+        return;
+    }
+    if (table->id != shown_sweep_) {
+        shown_sweep_ = table->id;
+        clicked_.reset();
+        fillOverlaps();
+        of_->setCurrentIndex(usualCriterion(table->plan).tracks ? 1 : 0);
+        showList();
+    }
+    const SweepCriterion judged = criterion();
+    chart_->setData(chartOf(*table, static_cast<SweepView>(view_->currentIndex()), judged,
+                            [this](const std::string& name) { return form_->unitOf(name); }));
+    QString text = bestPointText(*table, judged);
+    if (clicked_ && *clicked_ < table->plan.pointCount())
+        text += QStringLiteral("<br>") + tr("Chosen: %1").arg(pointText(*table, *clicked_, judged));
+    best_->setText(text);
+    if (sweeps_.running() && list_->currentData().toInt() == table->id) {
+        for (SweepRecord record : sweeps_.sweeps()) {
+            if (record.id != table->id) continue;
+            record.points_done = static_cast<int>(table->points.size());
+            list_->setItemText(list_->currentIndex(), titleOf(record));
+        }
+    }
+    const bool any = chosenPoint().has_value();
+    apply_->setEnabled(any);
+    save_->setEnabled(any);
+    resume_->setVisible(!sweeps_.running() && static_cast<int>(table->points.size()) < table->plan.pointCount());
+}
+
+void SweepPanel::showProgress(const SweepProgress& progress) {
+    progress_->setMaximum(progress.points_total);
+    progress_->setValue(progress.points_done);
+    QString text = progress.points_total > 0 ? tr("%1 of %2").arg(progress.points_done).arg(progress.points_total)
+                                             : QString::fromStdString(progress.doing);
+    if (progress.points_total > 0 && progress.points_done == 0 && !progress.doing.empty())
+        text = QString::fromStdString(progress.doing);
+    if (progress.seconds_left > 0) text += QStringLiteral(", ") + leftText(progress.seconds_left);
+    progress_text_->setText(text);
+}
+
+void SweepPanel::ask(const SweepRequest& request, double points) {
+    const auto answer =
+        QMessageBox::question(this, tr("A large sweep"),
+                              tr("This sweep has %1 points. It may take very long. Begin it all the same?")
+                                  .arg(QLocale().toString(points, 'f', 0)));
+    if (answer != QMessageBox::Yes) return;
+    SweepRequest meant = request;
+    meant.many_points_meant = true;
+    sweeps_.start(meant);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <QWidget>
+
+#include "widgets/charts/sweep_chart_data.h"
+
+class QCustomPlot;
+class QCPColorScale;
+class QCPMarginGroup;
+
+namespace eyrie::ui {
+
+/// The curves or the heat map of a sweep. The best point and its neighbourhood are marked; points can be clicked; the
+/// chart can be copied as picture and as table.
+class SweepChart : public QWidget {
+    Q_OBJECT
+
+ public:
+    explicit SweepChart(QWidget* parent = nullptr);
+
+    void setData(SweepChartData data);
+    const SweepChartData& data() const { return data_; }
+    void copyText() const;
+    void copyPicture();
+    QSize sizeHint() const override { return {360, 280}; }
+    QSize minimumSizeHint() const override { return {220, 160}; }
+
+ signals:
+    /// A point of the sweep was clicked.
+    void pointClicked(int position);
+
+ protected:
+    void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void contextMenuEvent(QContextMenuEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+    void fill();
+    void fillCurves();
+    void fillMap();
+    void setTexts(const QStringList& texts, bool vertical, double room);
+    void applyColours();
+    QColor colourOf(int index) const;
+    /// The point of the sweep under a place of the plot, −1 without one, and what to say of it.
+    int pointAt(QPointF place, QString& text) const;
+
+    SweepChartData data_;
+    QCustomPlot* plot_;
+    QCPMarginGroup* margins_;  ///< keeps the heat map and its scale at one height
+    QCPColorScale* scale_ = nullptr;
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,24 @@
+#include "widgets/gsd_text.h"
+
+#include <QLocale>
+#include <cmath>
+
+namespace eyrie::ui {
+
+std::optional<double> gsdFromText(const QString& text) {
+    QString plain;
+    for (const QChar c : text.trimmed()) {
+        if (c.isDigit())
+            plain += QString::number(c.digitValue());
+        else
+            // Nobody groups the thousands of such a number: a comma is a decimal one, also the Arabic.
+            plain += c == QLatin1Char(',') || c == QChar(0x066B) ? QLatin1Char('.') : c;
+    }
+    if (plain.isEmpty()) return 0;
+    bool understood = false;
+    const double value = QLocale::c().toDouble(plain, &understood);
+    if (!understood || !std::isfinite(value) || value < kSmallestGsd || value > kLargestGsd) return std::nullopt;
+    return value;
+}
+
+}  // namespace eyrie::ui

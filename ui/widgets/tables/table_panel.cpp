@@ -1,0 +1,263 @@
+#include "widgets/tables/table_panel.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QMenu>
+#include <QScopedValueRollback>
+#include <QSettings>
+#include <QStackedLayout>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "widgets/empty_state.h"
+#include "widgets/tables/table_roles.h"
+#include "widgets/tables/table_text.h"
+
+namespace eyrie::ui {
+
+TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, QWidget* parent)
+    : QWidget(parent),
+      model_(model),
+      settings_key_(QStringLiteral("columns/") + settings_key),
+      proxy_(new TableSortProxy(this)),
+      filter_(new QLineEdit(this)),
+      tool_row_(new QHBoxLayout),
+      table_(new QTableView(this)),
+      empty_(new EmptyState(this)),
+      nothing_found_(new EmptyState(this)),
+      stack_(new QStackedLayout) {
+    proxy_->setSourceModel(model_);
+    filter_->setPlaceholderText(tr("Filter"));
+    filter_->setClearButtonEnabled(true);
+    filter_->setAccessibleName(tr("Show only rows with these words"));
+    connect(filter_, &QLineEdit::textChanged, this, &TablePanel::setFilterText);
+    connect(nothing_found_, &EmptyState::actionTriggered, filter_, &QLineEdit::clear);
+
+    tool_row_->addWidget(filter_, 1);
+    stack_->addWidget(table_);
+    stack_->addWidget(empty_);
+    stack_->addWidget(nothing_found_);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(4);
+    layout->addLayout(tool_row_);
+    layout->addLayout(stack_, 1);
+
+    buildTable();
+    for (const auto signal : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved}) {
+        connect(proxy_, signal, this, &TablePanel::keepSelection);
+    }
+    // The proxy lets go of rows before the model does.
+    connect(model_, &QAbstractItemModel::rowsRemoved, this, &TablePanel::showTableOrEmptyState);
+    connect(proxy_, &QAbstractItemModel::modelReset, this, &TablePanel::keepSelection);
+    connect(proxy_, &QAbstractItemModel::layoutChanged, this, &TablePanel::showTableOrEmptyState);
+    showTableOrEmptyState();
+}
+
+TablePanel::~TablePanel() {
+    saveColumns();
+}
+
+void TablePanel::buildTable() {
+    // When rows go, the view moves the current row on; that must not count as the user's choice. Connected before the
+    // view connects itself.
+    const auto pause = [this] { telling_ = false; };
+    const auto resume = [this] { telling_ = true; };
+    connect(proxy_, &QAbstractItemModel::rowsAboutToBeRemoved, this, pause);
+    connect(proxy_, &QAbstractItemModel::rowsRemoved, this, resume);
+    connect(proxy_, &QAbstractItemModel::modelAboutToBeReset, this, pause);
+    connect(proxy_, &QAbstractItemModel::modelReset, this, resume);
+    table_->setModel(proxy_);
+    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    table_->setSortingEnabled(true);
+    table_->sortByColumn(0, Qt::AscendingOrder);
+    table_->setAlternatingRowColors(true);
+    table_->setShowGrid(false);
+    table_->setWordWrap(false);
+    table_->setTabKeyNavigation(false);
+    table_->setEditTriggers(QAbstractItemView::EditKeyPressed);
+    table_->verticalHeader()->hide();
+    // Rows of one height keep tables of thousands of tracks quick.
+    table_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
+    table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
+    table_->horizontalHeader()->setSectionsMovable(true);
+    table_->horizontalHeader()->setStretchLastSection(true);
+    table_->horizontalHeader()->setHighlightSections(false);
+    table_->horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
+    table_->setContextMenuPolicy(Qt::CustomContextMenu);
+    table_->installEventFilter(this);
+    restoreColumns();
+
+    connect(table_->horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, [this](int column) {
+        // Widths that somebody chose stay.
+        QHeaderView* header = table_->horizontalHeader();
+        if (fitted_widths_.value(column, -1) != header->sectionSize(column)) return;
+        header->resizeSection(column, std::max(header->sectionSize(column), header->sectionSizeHint(column)));
+    });
+    connect(table_->horizontalHeader(), &QWidget::customContextMenuRequested, this, &TablePanel::showHeaderMenu);
+    connect(table_, &QWidget::customContextMenuRequested, this, &TablePanel::showRowMenu);
+    connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& now) {
+        const int id = idOf(now);
+        if (!telling_ || id == 0) return;
+        kept_id_ = id;
+        emit idSelected(id);
+    });
+    connect(table_, &QTableView::clicked, this,
+            [this](const QModelIndex& at) { emit idClicked(idOf(at), proxy_->mapToSource(at).column()); });
+    connect(table_, &QTableView::doubleClicked, this,
+            [this](const QModelIndex& at) { emit idDoubleClicked(idOf(at)); });
+}
+
+int TablePanel::idOf(const QModelIndex& index) const {
+    return index.isValid() ? index.data(id_role).toInt() : 0;
+}
+
+int TablePanel::currentId() const {
+    const QModelIndexList rows = table_->selectionModel()->selectedRows();
+    return rows.isEmpty()
+               ? 0
+               : idOf(table_->selectionModel()->isRowSelected(table_->currentIndex().row()) ? table_->currentIndex()
+                                                                                            : rows.first());
+}
+
+void TablePanel::selectId(int id) {
+    const QScopedValueRollback<bool> quiet(telling_, false);
+    kept_id_ = id;
+    for (int row = 0; id != 0 && row < proxy_->rowCount(); ++row) {
+        if (idOf(proxy_->index(row, 0)) != id) continue;
+        const QModelIndex found = proxy_->index(row, shownColumns().value(0));
+        if (table_->currentIndex().row() != row || currentId() != id) {
+            table_->selectionModel()->setCurrentIndex(found,
+                                                      QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+        }
+        table_->scrollTo(found);
+        return;
+    }
+    table_->selectionModel()->clear();
+}
+
+void TablePanel::fitColumns() {
+    // The arrow of the order needs room in the column that has it only.
+    constexpr int kMargin = 14;
+    constexpr int kArrow = 18;
+    const QHeaderView* header = table_->horizontalHeader();
+    const QAbstractItemView* view = table_;
+    fitted_widths_.clear();
+    for (int column = 0; column < proxy_->columnCount(); ++column) {
+        const QString title = proxy_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+        const int arrow = header->sortIndicatorSection() == column ? kArrow : 0;
+        const int own = header->fontMetrics().horizontalAdvance(title) + kMargin + arrow;
+        fitted_widths_ << std::max(own, view->sizeHintForColumn(column) + 1);
+        table_->setColumnWidth(column, fitted_widths_.back());
+    }
+}
+
+void TablePanel::keepSelection() {
+    if (!columns_fit_ && proxy_->rowCount() > 0) {
+        fitColumns();
+        columns_fit_ = true;
+    }
+    showTableOrEmptyState();
+    if (kept_id_ != 0 && currentId() != kept_id_) selectId(kept_id_);
+}
+
+void TablePanel::showTableOrEmptyState() {
+    if (model_->rowCount() == 0) {
+        stack_->setCurrentWidget(empty_);
+    } else if (proxy_->rowCount() == 0) {
+        nothing_found_->setTexts(filter_->text().isEmpty() ? tr("All entries are hidden.")
+                                                           : tr("No entry contains “%1”.").arg(filter_->text()),
+                                 filter_->text().isEmpty() ? QString() : tr("Show all"));
+        stack_->setCurrentWidget(nothing_found_);
+    } else {
+        stack_->setCurrentWidget(table_);
+    }
+}
+
+void TablePanel::setFilterText(const QString& text) {
+    if (filter_->text() != text) {
+        filter_->setText(text);  // comes back here
+        return;
+    }
+    proxy_->setFilterText(text);
+    keepSelection();
+}
+
+QList<int> TablePanel::shownColumns() const {
+    QList<int> columns;
+    const QHeaderView* header = table_->horizontalHeader();
+    for (int place = 0; place < header->count(); ++place) {
+        const int column = header->logicalIndex(place);
+        if (!header->isSectionHidden(column)) columns << column;
+    }
+    return columns;
+}
+
+QString TablePanel::selectedText() const {
+    QList<int> rows;
+    for (const QModelIndex& row : table_->selectionModel()->selectedRows()) rows << row.row();
+    std::sort(rows.begin(), rows.end());
+    if (rows.isEmpty()) {
+        for (int row = 0; row < proxy_->rowCount(); ++row) rows << row;
+    }
+    return tableText(*proxy_, rows, shownColumns());
+}
+
+bool TablePanel::eventFilter(QObject* watched, QEvent* event) {
+    if (watched != table_ || event->type() != QEvent::KeyPress) return QWidget::eventFilter(watched, event);
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (key->matches(QKeySequence::Copy)) {
+        QApplication::clipboard()->setText(selectedText());
+        return true;
+    }
+    const bool enter = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
+    if (enter && currentId() != 0) {
+        emit idDoubleClicked(currentId());
+        return true;
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+void TablePanel::showRowMenu(const QPoint& place) {
+    QMenu menu;
+    menu.addAction(tr("Copy as text"), QKeySequence::Copy, this,
+                   [this] { QApplication::clipboard()->setText(selectedText()); });
+    if (currentId() != 0) fillMenu(menu, currentId());
+    menu.exec(table_->viewport()->mapToGlobal(place));
+}
+
+void TablePanel::showHeaderMenu(const QPoint& place) {
+    QMenu menu;
+    QHeaderView* header = table_->horizontalHeader();
+    const bool only_one = shownColumns().size() == 1;
+    for (int column = 0; column < header->count(); ++column) {
+        QAction* action = menu.addAction(proxy_->headerData(column, Qt::Horizontal).toString());
+        action->setCheckable(true);
+        action->setChecked(!header->isSectionHidden(column));
+        action->setEnabled(header->isSectionHidden(column) || !only_one);
+        connect(action, &QAction::toggled, this,
+                [header, column](bool shown) { header->setSectionHidden(column, !shown); });
+    }
+    menu.exec(header->mapToGlobal(place));
+}
+
+void TablePanel::restoreColumns() {
+    const QByteArray state = QSettings().value(settings_key_).toByteArray();
+    columns_fit_ = !state.isEmpty() && table_->horizontalHeader()->restoreState(state);
+    if (!columns_fit_) table_->resizeColumnsToContents();
+    // A memory of an older version may know fewer columns, or hide all.
+    table_->horizontalHeader()->setStretchLastSection(true);
+    if (shownColumns().isEmpty()) table_->showColumn(0);
+}
+
+void TablePanel::saveColumns() const {
+    QSettings().setValue(settings_key_, table_->horizontalHeader()->saveState());
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <QList>
+#include <QWidget>
+
+#include "widgets/tables/table_sort_proxy.h"
+
+class QHBoxLayout;
+class QLineEdit;
+class QMenu;
+class QStackedLayout;
+class QTableView;
+
+namespace eyrie::ui {
+
+class EmptyState;
+
+/// A list in a dock: a line to filter by, a table that sorts, copies as text and remembers its columns, and an
+/// explanation while it is empty. Rows are named by the number in `id_role`.
+class TablePanel : public QWidget {
+    Q_OBJECT
+ public:
+    /// `model` must outlive the panel. `settings_key` names the columns' memory in QSettings.
+    TablePanel(QAbstractItemModel* model, const QString& settings_key, QWidget* parent = nullptr);
+    ~TablePanel() override;
+
+    /// Id of the selected row, 0 when there is none.
+    int currentId() const;
+    /// Selects the row without telling anyone, and scrolls to it; 0 or a row that is filtered away: none.
+    void selectId(int id);
+    /// The selected rows, or all shown ones when none is selected, as tab-separated text with headers.
+    QString selectedText() const;
+    void setFilterText(const QString& text);
+
+    QTableView* table() const { return table_; }
+    EmptyState* emptyState() const { return empty_; }
+
+ signals:
+    /// The user selected another row.
+    void idSelected(int id);
+    /// The user clicked a row or pressed Enter on it; `column` of the model.
+    void idClicked(int id, int column);
+    void idDoubleClicked(int id);
+
+ protected:
+    TableSortProxy& proxy() { return *proxy_; }
+    /// Place for buttons right of the filter line.
+    QHBoxLayout* toolRow() const { return tool_row_; }
+    /// Adds entries to the menu of a row.
+    virtual void fillMenu(QMenu&, int /*id*/) {}
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+    void buildTable();
+    void restoreColumns();
+    void saveColumns() const;
+    void showHeaderMenu(const QPoint& place);
+    void showRowMenu(const QPoint& place);
+    void showTableOrEmptyState();
+    void keepSelection();
+    void fitColumns();
+    int idOf(const QModelIndex& index) const;
+    QList<int> shownColumns() const;
+
+    QAbstractItemModel* model_;
+    QString settings_key_;
+    TableSortProxy* proxy_;
+    QLineEdit* filter_;
+    QHBoxLayout* tool_row_;
+    QTableView* table_;
+    EmptyState* empty_;
+    EmptyState* nothing_found_;
+    QStackedLayout* stack_;
+    QList<int> fitted_widths_;
+    bool columns_fit_ = false;  ///< widths were remembered, or fitted to the first rows
+    int kept_id_ = 0;           ///< selected by user or program; selected again when its row comes back
+    bool telling_ = true;       ///< false while the program selects
+};
+
+}  // namespace eyrie::ui

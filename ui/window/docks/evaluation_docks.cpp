@@ -1,0 +1,374 @@
+#include "window/docks/evaluation_docks.h"
+
+#include <QDir>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMainWindow>
+#include <QSettings>
+#include <QTimer>
+#include <algorithm>
+
+#include "canvas/video_view.h"
+#include "label/label_workspace.h"
+#include "tune/evaluate/error_chips.h"
+#include "tune/evaluate/errors_panel.h"
+#include "tune/evaluate/evaluation_panel.h"
+#include "tune/evaluate/report_writer.h"
+#include "widgets/display_text.h"
+#include "widgets/empty_state.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr double kShareOfView = 0.14;  ///< how large an error is shown, of the view's shorter side
+constexpr double kMostZoom = 8;
+
+QString idsText(const std::vector<int>& ids, const QString& between) {
+    QStringList texts;
+    for (const int id : ids) texts << QString::number(id);
+    return texts.join(between);
+}
+
+ErrorRow rowOf(const DiagnosedMistake& one, int id) {
+    const Mistake& mistake = one.mistake;
+    ErrorRow row;
+    row.id = id;
+    row.kind = QString::fromUtf8(nameOf(mistake.kind));
+    row.kind_order = static_cast<int>(mistake.kind);
+    row.cause = QString::fromUtf8(nameOf(one.cause));
+    row.explanation = QString::fromUtf8(explanationOf(one.cause));
+    row.detail = QString::fromStdString(one.text);
+    if (mistake.count() > 1 && one.frames_of_cause > 0 && one.frames_of_cause < mistake.count())
+        row.detail += QObject::tr("%1in %2 of %3 frames")
+                          .arg(row.detail.isEmpty() ? QString() : QStringLiteral("; "))
+                          .arg(one.frames_of_cause)
+                          .arg(mistake.count());
+    row.first_frame = mistake.first_frame;
+    row.last_frame = mistake.last_frame;
+    row.count = mistake.count();
+    row.objects = idsText(mistake.objects, QStringLiteral(", "));
+    row.object_order = mistake.objects.empty() ? 0 : mistake.objects.front();
+    row.tracks =
+        idsText(mistake.tracks, mistake.kind == MistakeKind::id_switch ? QStringLiteral(" → ") : QStringLiteral(", "));
+    return row;
+}
+
+const MistakePlace& placeOf(const DiagnosedMistake& one) {
+    return one.mistake.places[one.place];
+}
+
+}  // namespace
+
+EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, WindowActions& actions,
+                                 QMainWindow& window)
+    : QObject(&window), session_(session), canvas_(canvas), actions_(actions), window_(window) {
+    evaluation_ = new EvaluationSession(session_, this);
+    panel_ = new EvaluationPanel(session_, *evaluation_);
+    model_ = new ErrorsModel(this);
+    errors_ = new ErrorsPanel(model_);
+    chips_ = new ErrorChips(this);
+    const auto dock = [this](const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
+        auto* made = new QDockWidget(title, &window_);
+        made->setObjectName(name);
+        made->setWidget(content);
+        window_.addDockWidget(area, made);
+        docks_.append(made);
+        connect(made, &QDockWidget::visibilityChanged, this, [this, index = docks_.size() - 1](bool visible) {
+            looked_at_[index] = visible;
+            updateWanted();
+        });
+    };
+    dock(QStringLiteral("evaluation"), tr("Evaluation"), panel_, Qt::RightDockWidgetArea);
+    dock(QStringLiteral("errors"), tr("Errors"), errors_, Qt::LeftDockWidgetArea);
+    if (auto* tracks = window_.findChild<QDockWidget*>(QStringLiteral("tracks"))) {
+        window_.tabifyDockWidget(tracks, docks_[1]);
+        tracks->raise();
+    }
+    if (auto* inspector = window_.findChild<QDockWidget*>(QStringLiteral("inspector"))) {
+        window_.tabifyDockWidget(inspector, docks_[0]);
+        inspector->raise();
+    }
+    wireReport();
+    connect(evaluation_, &EvaluationSession::changed, this, [this] {
+        tellChange(told_);
+        told_ = evaluation_->evaluation();
+        showErrors();
+        showMarks();
+        showErrorsAlone();
+    });
+    wireList();
+    wireCanvas();
+    showErrors();
+}
+
+void EvaluationDocks::updateWanted() {
+    evaluation_->setWanted(looked_at_.contains(true) || evaluation_->evaluation() != nullptr);
+    showErrorsAlone();
+}
+
+/// Clusters, detections and tracks lie over the verdicts: while the docks are looked at they are switched off. Keys
+/// bring them back; leaving the docks does, too.
+void EvaluationDocks::showErrorsAlone() {
+    if (labelling_ != nullptr && labelling_->active()) return;
+    const bool alone = looked_at_.contains(true) && evaluation_->evaluation() != nullptr;
+    if (alone == !other_overlays_.isEmpty()) return;
+    const auto verdicts = static_cast<qsizetype>(OverlayKind::verdicts);
+    if (alone) {
+        for (QAction* action : actions_.overlay) other_overlays_ << action->isChecked();
+        for (qsizetype i = 0; i < other_overlays_.size(); ++i)
+            actions_.overlay[static_cast<std::size_t>(i)]->setChecked(i == verdicts);
+        return;
+    }
+    for (qsizetype i = 0; i < other_overlays_.size(); ++i)
+        if (i != verdicts) actions_.overlay[static_cast<std::size_t>(i)]->setChecked(other_overlays_[i]);
+    other_overlays_.clear();
+}
+
+// ---- the list -------------------------------------------------------------------------------------------------------
+
+void EvaluationDocks::wireList() {
+    connect(errors_, &ErrorsPanel::errorActivated, this, &EvaluationDocks::goTo);
+    connect(errors_, &ErrorsPanel::whyAsked, this, [this](int id) {
+        goTo(id);
+        askWhy();
+    });
+    connect(actions_.why_error, &QAction::triggered, this, &EvaluationDocks::askWhy);
+    connect(errors_, &ErrorsPanel::truthIsWrong, this, [this](int id) {
+        goTo(id);
+        correctTruth();
+    });
+    connect(errors_, &ErrorsPanel::chipsWanted, this, &EvaluationDocks::wantChips);
+    connect(chips_, &ErrorChips::ready, model_, &ErrorsModel::setChip);
+    connect(&session_, &ProjectSession::videoChanged, this, [this] { chips_->setMedia(session_.media()); });
+    connect(actions_.next_error, &QAction::triggered, this, [this] { step(1); });
+    connect(actions_.previous_error, &QAction::triggered, this, [this] { step(-1); });
+    connect(actions_.wrong_truth, &QAction::triggered, this, &EvaluationDocks::correctTruth);
+    connect(panel_, &EvaluationPanel::objectActivated, this, [this](int object) {
+        const auto& evaluation = evaluation_->evaluation();
+        for (std::size_t i = 0; evaluation && i < evaluation->mistakes.size(); ++i) {
+            const auto& objects = evaluation->mistakes[i].mistake.objects;
+            if (std::find(objects.begin(), objects.end(), object) == objects.end()) continue;
+            goTo(static_cast<int>(i) + 1);
+            return;
+        }
+        for (const auto& [frame, records] : evaluation ? evaluation->truth : BoxesByFrame())
+            for (const BoxRecord& record : records)
+                if (record.id == object) {
+                    session_.goToFrame(frame);
+                    canvas_.centreOn(QPointF(record.box.centre.x, record.box.centre.y));
+                    return;
+                }
+    });
+}
+
+void EvaluationDocks::showErrors() {
+    const auto& evaluation = evaluation_->evaluation();
+    std::vector<ErrorRow> rows;
+    if (evaluation) {
+        for (std::size_t i = 0; i < evaluation->mistakes.size(); ++i)
+            rows.push_back(rowOf(evaluation->mistakes[i], static_cast<int>(i) + 1));
+    }
+    if (evaluation)
+        errors_->emptyState()->setTexts(tr("Not one error: every object was found in every frame."));
+    else
+        errors_->emptyState()->setTexts(
+            evaluation_->working() ? tr("The run is being compared with the ground truth …")
+            : evaluation_->obstacle().isEmpty()
+                ? tr("Every miss, false alarm, switch, fragment, split and merge of the run is listed here with its "
+                     "probable cause, once it was compared with ground truth.")
+                : evaluation_->obstacle());
+    model_->clearChips();  // numbers mean other errors now
+    model_->setErrors(std::move(rows));
+    errors_->selectId(evaluation_->selected() ? static_cast<int>(*evaluation_->selected()) + 1 : 0);
+    wantChips();
+    for (QAction* action : {actions_.next_error, actions_.previous_error, actions_.why_error, actions_.wrong_truth})
+        action->setEnabled(evaluation && !evaluation->mistakes.empty());
+    actions_.report->setEnabled(evaluation != nullptr);
+}
+
+void EvaluationDocks::wantChips() {
+    const auto& evaluation = evaluation_->evaluation();
+    if (!evaluation || !looked_at_[1]) return;
+    std::vector<ChipWish> wishes;
+    for (const int id : errors_->rowsWithoutChip()) {
+        if (id < 1 || id > static_cast<int>(evaluation->mistakes.size())) continue;
+        const MistakePlace& place = placeOf(evaluation->mistakes[static_cast<std::size_t>(id) - 1]);
+        wishes.push_back({id, place.frame, place.box, ErrorsPanel::kChipHeight});
+    }
+    chips_->request(std::move(wishes));
+}
+
+void EvaluationDocks::step(int direction) {
+    const int id = errors_->neighbour(direction);
+    if (id == 0) {
+        emit notice(evaluation_->evaluation() ? tr("No error is listed.")
+                                              : tr("Nothing was evaluated yet: open the Evaluation dock."));
+        return;
+    }
+    goTo(id);
+}
+
+void EvaluationDocks::goTo(int id) {
+    const auto& evaluation = evaluation_->evaluation();
+    if (!evaluation || id < 1 || id > static_cast<int>(evaluation->mistakes.size())) return;
+    const auto index = static_cast<std::size_t>(id) - 1;
+    evaluation_->select(index);
+    errors_->selectId(id);
+    const DiagnosedMistake& one = evaluation->mistakes[index];
+    const MistakePlace& place = placeOf(one);
+    session_.goToFrame(place.frame);
+    const double size = std::max({4.0, place.box.length, place.box.width});
+    const double wanted = kShareOfView * std::min(canvas_.width(), canvas_.height()) / size;
+    const double zoom = std::clamp(std::max(wanted, canvas_.transform().zoom()), 0.05, kMostZoom);
+    canvas_.restore(zoom, QPointF(place.box.centre.x, place.box.centre.y));
+    if (labelling_ != nullptr && labelling_->active() && !one.mistake.objects.empty())
+        labelling_->labels().select(one.mistake.objects.front());
+    const ErrorRow row = rowOf(one, id);
+    errors_->setStatus(
+        tr("<b>%1 of %2: %3</b>, %4. %5%6")
+            .arg(id)
+            .arg(evaluation->mistakes.size())
+            .arg(row.kind, row.cause, row.explanation,
+                 row.detail.isEmpty() ? QString() : QStringLiteral("<br>") + row.detail.toHtmlEscaped()));
+}
+
+void EvaluationDocks::askWhy() {
+    if (labelling_ != nullptr && labelling_->active()) actions_.review_workspace->trigger();
+    if (evaluation_->selectedMistake() == nullptr) step(1);
+    const DiagnosedMistake* one = evaluation_->selectedMistake();
+    if (one == nullptr) return;
+    const MistakePlace place = placeOf(*one);
+    session_.goToFrame(place.frame);
+    const ErrorRow row = rowOf(*one, 0);
+    emit whyRequested(place.box, tr("Error: %1, %2. %3").arg(row.kind, row.cause, row.explanation));
+}
+
+// ---- the canvas -----------------------------------------------------------------------------------------------------
+
+void EvaluationDocks::wireCanvas() {
+    connect(evaluation_, &EvaluationSession::selectionChanged, this, &EvaluationDocks::showMarks);
+}
+
+void EvaluationDocks::showMarks() {
+    const FrameIndex frame = canvas_.frame().index;
+    canvas_.setVerdicts(frame, evaluation_->evaluated(frame), evaluation_->marksAt(frame), evaluation_->truthAt(frame));
+}
+
+// ---- wrong truth ----------------------------------------------------------------------------------------------------
+
+void EvaluationDocks::join(LabelWorkspace& labelling) {
+    labelling_ = &labelling;
+    connect(&labelling.labels(), &LabelSession::changed, evaluation_, &EvaluationSession::labelsChanged);
+    connect(panel_, &EvaluationPanel::labellingRequested, actions_.label_workspace, &QAction::trigger);
+    connect(&labelling.labels(), &LabelSession::opened, this, [this] {
+        const DiagnosedMistake* one = evaluation_->selectedMistake();
+        if (correcting_ && one != nullptr && !one->mistake.objects.empty())
+            labelling_->labels().select(one->mistake.objects.front());
+    });
+    connect(actions_.label_workspace, &QAction::toggled, this, [this](bool on) {
+        if (on) return;
+        correcting_ = false;
+        QTimer::singleShot(0, this, [this] {  // after the label workspace gave its overlays back
+            other_overlays_.clear();
+            showErrorsAlone();
+        });
+    });
+}
+
+void EvaluationDocks::correctTruth() {
+    const DiagnosedMistake* one = evaluation_->selectedMistake();
+    if (one == nullptr || labelling_ == nullptr) {
+        emit notice(tr("Choose an error first."));
+        return;
+    }
+    if (!evaluation_->settings().truth_file.empty()) {
+        emit notice(
+            tr("The ground truth is a file, which is not changed here. Import it into the project's labels "
+               "(Label ▸ Import labels) and compare with these."));
+        return;
+    }
+    correcting_ = true;
+    const Mistake mistake = one->mistake;
+    const MistakePlace place = placeOf(*one);
+    const double zoom = canvas_.transform().zoom();
+    if (!labelling_->active()) actions_.label_workspace->trigger();
+    session_.goToFrame(place.frame);
+    canvas_.restore(zoom, QPointF(place.box.centre.x, place.box.centre.y));
+    docks_[1]->show();  // the list stays, so that the next error is one key away
+    if (!mistake.objects.empty()) {
+        labelling_->labels().select(mistake.objects.front());
+        errors_->setStatus(
+            tr("Correct object %1; the run is scored again after every change.").arg(mistake.objects.front()));
+    } else {
+        labelling_->labels().select(std::nullopt);
+        emit notice(
+            tr("If an object is here, draw it (B) or take the track over as a proposal (P); the run is scored "
+               "again after every change."));
+    }
+}
+
+// ---- report
+// -----------------------------------------------------------------------------------------------------------
+
+void EvaluationDocks::askForReport() {
+    const auto& evaluation = evaluation_->evaluation();
+    if (!evaluation) {
+        emit notice(tr("Nothing was evaluated yet: open the Evaluation dock."));
+        return;
+    }
+    const QString name = QFileInfo(QString::fromStdString(evaluation->run.sequence.path)).completeBaseName();
+    QSettings settings;
+    const QString folder = settings.value(QStringLiteral("report/folder"), QDir::homePath()).toString();
+    QString chosen;
+    QString path = QFileDialog::getSaveFileName(
+        &window_, tr("Write a report"), QDir(folder).filePath(tr("%1 run %2.html").arg(name).arg(evaluation->run.id)),
+        tr("Web page, one file (*.html);;PDF (*.pdf)"), &chosen);
+    if (path.isEmpty()) return;
+    if (QFileInfo(path).suffix().isEmpty())
+        path += chosen.contains(QStringLiteral("pdf")) ? QStringLiteral(".pdf") : QStringLiteral(".html");
+    settings.setValue(QStringLiteral("report/folder"), QFileInfo(path).path());
+    writeReport(path);
+}
+
+void EvaluationDocks::writeReport(const QString& path) {
+    if (report_->working()) {
+        emit notice(tr("A report is being written. Wait until it is done."));
+        return;
+    }
+    report_->write(path.toStdString(), evaluation_->evaluation(), session_.media(), session_.project());
+}
+
+void EvaluationDocks::wireReport() {
+    report_ = new ReportWriter(this);
+    connect(actions_.report, &QAction::triggered, this, &EvaluationDocks::askForReport);
+    connect(panel_, &EvaluationPanel::reportRequested, this, &EvaluationDocks::askForReport);
+    connect(report_, &ReportWriter::progress, panel_, &EvaluationPanel::showReportProgress);
+    connect(report_, &ReportWriter::failed, this, [this](const QString& message) {
+        panel_->showReportProgress(1);
+        emit problem(message);
+    });
+    connect(report_, &ReportWriter::written, this, [this](const std::filesystem::path& path) {
+        panel_->showReportProgress(1);
+        emit notice(tr("Wrote the report %1.").arg(QString::fromStdString(path.string())));
+    });
+}
+
+void EvaluationDocks::tellChange(const std::shared_ptr<const RunEvaluation>& before) {
+    const auto& now = evaluation_->evaluation();
+    if (!correcting_ || !before || !now || before == now || before->run.id != now->run.id) return;
+    if (now->shown.detection.overlap_sum == before->shown.detection.overlap_sum &&
+        now->mistakes.size() == before->mistakes.size())
+        return;
+    const int errors = static_cast<int>(now->mistakes.size()) - static_cast<int>(before->mistakes.size());
+    errors_->setStatus(
+        tr("<b>Scored again:</b> f-score %1 → %2, %3 errors (%4%5)")
+            .arg(numberText(before->shown.detection.f_score, 4), numberText(now->shown.detection.f_score, 4))
+            .arg(now->mistakes.size())
+            .arg(errors > 0 ? QStringLiteral("+") : QString())
+            .arg(errors));
+}
+
+}  // namespace eyrie::ui

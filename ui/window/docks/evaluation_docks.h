@@ -1,0 +1,84 @@
+#pragma once
+
+#include <QList>
+#include <QObject>
+
+#include "tune/evaluate/evaluation_session.h"
+
+class QDockWidget;
+class QMainWindow;
+
+namespace eyrie::ui {
+
+class ErrorChips;
+class ErrorsModel;
+class ErrorsPanel;
+class EvaluationPanel;
+class LabelWorkspace;
+class ReportWriter;
+class VideoView;
+class WindowActions;
+
+/// The docks that tell how good a run is, joined with the canvas and the labels: evaluation, and the list of errors.
+class EvaluationDocks : public QObject {
+    Q_OBJECT
+
+ public:
+    /// Docks into `window`, which owns the widgets. Everything named must outlive it.
+    EvaluationDocks(ProjectSession& session, VideoView& canvas, WindowActions& actions, QMainWindow& window);
+
+    /// Tabs the docks with those of the review workspace and makes "the truth is wrong" work.
+    void join(LabelWorkspace& labelling);
+
+    const QList<QDockWidget*>& docks() const { return docks_; }
+    EvaluationSession& evaluation() { return *evaluation_; }
+    EvaluationPanel& panel() { return *panel_; }
+    ErrorsPanel& errors() { return *errors_; }
+
+    /// Goes to the next or previous error in the order of the list.
+    void step(int direction);
+    /// Draws the verdicts of the frame that the canvas shows. To be called after the canvas got another frame.
+    void showMarks();
+    /// Goes to the place of the selected error and asks there; answers come from who listens to whyRequested().
+    void askWhy();
+    /// Opens the object of the selected error in the label workspace.
+    void correctTruth();
+    /// Writes the report; PDF where the name ends so, else HTML.
+    void writeReport(const QString& path);
+
+ signals:
+    void whyRequested(const OrientedBox& box, const QString& about);
+    void notice(const QString& message);
+    void problem(const QString& message);
+
+ private:
+    void wireList();
+    void wireReport();
+    void askForReport();
+    void wireCanvas();
+    void showErrors();
+    void goTo(int id);
+    void wantChips();
+    void updateWanted();
+    void showErrorsAlone();
+    void tellChange(const std::shared_ptr<const RunEvaluation>& before);
+
+    ProjectSession& session_;
+    VideoView& canvas_;
+    WindowActions& actions_;
+    QMainWindow& window_;
+    LabelWorkspace* labelling_ = nullptr;
+    EvaluationSession* evaluation_;
+    EvaluationPanel* panel_;
+    ErrorsModel* model_;
+    ErrorsPanel* errors_;
+    ErrorChips* chips_;
+    ReportWriter* report_;
+    QList<QDockWidget*> docks_;
+    QList<bool> looked_at_{false, false};
+    QList<bool> other_overlays_;  ///< switched off while errors are shown alone; empty: they are not
+    bool correcting_ = false;     ///< the labels are open because the truth was wrong
+    std::shared_ptr<const RunEvaluation> told_;
+};
+
+}  // namespace eyrie::ui

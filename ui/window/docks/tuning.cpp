@@ -1,0 +1,210 @@
+#include "window/docks/tuning.h"
+
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QMenu>
+#include <QVBoxLayout>
+
+#include "canvas/video_view.h"
+#include "rerun/replay.h"
+#include "tune/compare/comparison_window.h"
+#include "tune/compare/preview_bar.h"
+#include "tune/inspect/why_panel.h"
+#include "tune/train/training_dialog.h"
+#include "widgets/parameters/parameter_form.h"
+#include "window/docks/review_docks.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr double kKeyMargin = 4;  ///< logical px around a box that is meant by the cursor
+
+QColor colourOf(CornerFate fate, const OverlayColours& colours) {
+    switch (fate) {
+        case CornerFate::moving:
+            return colours.motion_vector;
+        case CornerFate::slow:
+        case CornerFate::young:
+            return colours.stationary_corner;
+        case CornerFate::too_fast:
+        case CornerFate::parallax:
+        case CornerFate::shadow:
+            break;
+    }
+    return colours.non_vehicle;
+}
+
+}  // namespace
+
+Tuning::Tuning(const TuningParts& parts) : QObject(&parts.window), parts_(parts) {
+    buildWhy();
+    buildPreview();
+    connect(parts_.actions.compare, &QAction::triggered, this, [this] { compareRuns(); });
+    connect(parts_.actions.train, &QAction::triggered, this, &Tuning::train);
+}
+
+void Tuning::buildWhy() {
+    why_ = new Why(parts_.session, this);
+    why_panel_ = new WhyPanel(parts_.session, *why_);
+    why_dock_ = parts_.docks.addDock(QStringLiteral("why"), tr("Why?"), why_panel_);
+    connect(why_dock_, &QDockWidget::visibilityChanged, why_panel_, &WhyPanel::setLookedAt);
+    connect(why_panel_, &WhyPanel::parameterChosen, this, &Tuning::showParameter);
+    connect(why_, &Why::changed, this, &Tuning::showPlaceMark);
+    connect(why_dock_, &QDockWidget::visibilityChanged, this, &Tuning::showPlaceMark);
+    connect(&parts_.canvas, &VideoView::placeMenuRequested, this, &Tuning::showPlaceMenu);
+    connect(&parts_.canvas, &VideoView::cursorMoved, this, [this](std::optional<QPointF> place) { cursor_ = place; });
+    connect(parts_.actions.why, &QAction::triggered, this, [this] {
+        const QPointF middle(parts_.canvas.width() / 2.0, parts_.canvas.height() / 2.0);
+        const ViewTransform& transform = parts_.canvas.transform();
+        askWhy(cursor_.value_or(transform.imageFromView(middle)), kKeyMargin / transform.scale());
+    });
+}
+
+void Tuning::buildPreview() {
+    preview_ = new LivePreview(parts_.session, this);
+    preview_bar_ = new PreviewBar(*preview_);
+    if (auto* column = qobject_cast<QVBoxLayout*>(parts_.canvas.parentWidget()->layout()))
+        column->insertWidget(column->indexOf(&parts_.canvas), preview_bar_);
+    // Queued: the settings of the next run take the value over first.
+    ParameterForm& form = parts_.docks.parameterForm();
+    connect(&form, &ParameterForm::valueChanged, this, &Tuning::parameterMoved, Qt::QueuedConnection);
+    connect(&form, &ParameterForm::presetChosen, this, &Tuning::parametersEdited, Qt::QueuedConnection);
+    connect(&form, &ParameterForm::pointedAt, this, [this](const QString& name) {
+        if (name.startsWith(QLatin1String("motion."))) preview_->warmUp();
+    });
+    connect(parts_.actions.live_preview, &QAction::toggled, preview_, &LivePreview::setEnabled);
+    connect(preview_bar_, &PreviewBar::runRequested, this, &Tuning::runRequested);
+    connect(preview_bar_, &PreviewBar::discardRequested, this, [this] {
+        preview_->discard();
+        emit storedParametersRequested();
+    });
+    connect(preview_, &LivePreview::changed, this, &Tuning::showPreview);
+    // Queued: after the canvas got the stored frame, before it is painted.
+    connect(&parts_.session, &ProjectSession::viewFrameChanged, this, &Tuning::showPreview, Qt::QueuedConnection);
+}
+
+void Tuning::parameterMoved(const QString& name, const QString& value) {
+    const auto& run = parts_.session.runData();
+    // The first thing that is moved while another preset stands in the form: the run is meant, with this one changed.
+    if (run && preview_->enabled() && !preview_->active() && parts_.docks.parameterForm().modifiedCount() == 1 &&
+        differencesBetween(storedOptions(run->parameters), parts_.session.settings().options).size() > 1) {
+        emit storedParametersRequested();
+        emit parameterRequested(name, value);
+    }
+    parametersEdited();
+}
+
+void Tuning::parametersEdited() {
+    preview_->parametersEdited();
+    if (comparison_) comparison_->parametersEditedSoon();
+}
+
+void Tuning::showPreview() {
+    if (!preview_->active()) {
+        if (!std::exchange(preview_shown_, false)) return;
+        parts_.canvas.setBadge({});
+        parts_.canvas.setFrame(parts_.session.viewFrame());
+        markStale(false);
+        return;
+    }
+    const ViewFrame& stored = parts_.session.viewFrame();
+    if (!stored.result) return;
+    if (!std::exchange(preview_shown_, true)) markStale(true);
+    ViewFrame shown = stored;
+    shown.trails.clear();
+    const auto view = preview_->view();
+    auto result = std::make_shared<FrameResult>();
+    if (view)
+        *result = view->previewed.result;
+    else  // nothing of the run may pass for a preview
+        result->motion = stored.result->motion;
+    shown.result = std::move(result);
+    parts_.canvas.setFrame(std::move(shown));
+    parts_.canvas.setBadge(view ? tr("Preview") : tr("Preview …"));
+}
+
+void Tuning::markStale(bool stale) {
+    const QString mark = tr(" (stored)");
+    const QWidget* form = &parts_.docks.parameterForm();
+    for (QDockWidget* dock : parts_.window.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+        if (dock->widget() == form || dock->objectName() == QLatin1String("runs")) continue;
+        QString title = dock->windowTitle();
+        if (title.endsWith(mark)) title.chop(mark.size());
+        dock->setWindowTitle(stale ? title + mark : title);
+    }
+}
+
+void Tuning::askWhy(QPointF place, double margin) {
+    if (!parts_.session.viewFrame().result) return;
+    why_dock_->show();
+    why_dock_->raise();
+    why_->want(true);
+    why_->ask(place, margin);
+}
+
+void Tuning::askWhyAbout(const OrientedBox& box, const QString& about) {
+    why_dock_->show();
+    why_dock_->raise();
+    why_->want(true);
+    why_->askAbout(box, about);
+}
+
+void Tuning::train() {
+    auto* dialog = new TrainingDialog(parts_.session.project(), &parts_.window);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &TrainingDialog::useRequested, this, [this](const QString& file) {
+        emit parameterRequested(QStringLiteral("sliding_window.model"), file);
+        parametersEdited();
+    });
+    dialog->open();
+}
+
+ComparisonWindow& Tuning::compareRuns() {
+    if (!comparison_) {
+        comparison_ = new ComparisonWindow(parts_.session, parts_.presets, parts_.overlays, &parts_.window);
+        comparison_->setAttribute(Qt::WA_DeleteOnClose);
+    }
+    parts_.session.playback().pause();
+    comparison_->show();
+    comparison_->raise();
+    comparison_->activateWindow();
+    return *comparison_;
+}
+
+void Tuning::showParameter(const QString& name) {
+    ParameterForm& form = parts_.docks.parameterForm();
+    for (QDockWidget* dock : parts_.docks.docks()) {
+        if (dock->widget() != &form) continue;
+        dock->show();
+        dock->raise();
+    }
+    form.reveal(name);
+}
+
+void Tuning::showPlaceMenu(QPointF place, double margin, QPoint global) {
+    QMenu menu(&parts_.window);
+    QAction* why = menu.addAction(tr("Why here?"));
+    why->setShortcut(parts_.actions.why->shortcut());
+    if (menu.exec(global) == why) askWhy(place, margin);
+}
+
+void Tuning::showPlaceMark() {
+    const auto& area = why_->area();
+    if (!area || why_dock_->isHidden()) {
+        parts_.canvas.setPlaceMark(std::nullopt);
+        return;
+    }
+    PlaceMark mark;
+    mark.area = *area;
+    const auto& view = why_->view();
+    if (view && view->frame == parts_.session.viewFrame().index) {
+        const OverlayColours& colours = parts_.overlays.style().colours;
+        for (const CornerVerdict& corner : view->corners)
+            mark.dots.push_back({QPointF(corner.position.x, corner.position.y), colourOf(corner.fate, colours)});
+    }
+    parts_.canvas.setPlaceMark(std::move(mark));
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <QObject>
+#include <QPointF>
+#include <QPointer>
+#include <optional>
+
+#include "tune/compare/live_preview.h"
+#include "tune/inspect/why.h"
+
+class QDockWidget;
+class QMainWindow;
+
+namespace eyrie::ui {
+
+class ComparisonWindow;
+class OverlaySettings;
+class PresetLibrary;
+class PreviewBar;
+class ReviewDocks;
+class VideoView;
+class WhyPanel;
+class WindowActions;
+
+/// What the tuning tools work on. All must outlive them.
+struct TuningParts {
+    ProjectSession& session;
+    VideoView& canvas;
+    ReviewDocks& docks;
+    WindowActions& actions;
+    PresetLibrary& presets;
+    OverlaySettings& overlays;
+    QMainWindow& window;
+};
+
+/// The tools of who tunes the chain by looking: "Why?" and the live preview.
+class Tuning : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit Tuning(const TuningParts& parts);
+
+    WhyPanel& whyPanel() { return *why_panel_; }
+    Why& why() { return *why_; }
+    LivePreview& preview() { return *preview_; }
+    PreviewBar& previewBar() { return *preview_bar_; }
+    /// Asks about a place, image coordinates, and shows the answer.
+    void askWhy(QPointF place, double margin = 0);
+    /// Asks about a box of the frame that is shown or on its way, such as that of an error.
+    void askWhyAbout(const OrientedBox& box, const QString& about = {});
+    /// A and B of the project's runs.
+    ComparisonWindow& compareRuns();
+    /// Opens the form of parameters at one of them.
+    void showParameter(const QString& name);
+
+ signals:
+    /// The form is to show the parameters of the run again.
+    void storedParametersRequested();
+    void runRequested();
+    /// A parameter of the next run is to be set.
+    void parameterRequested(const QString& name, const QString& value);
+
+ private:
+    void buildWhy();
+    void buildPreview();
+    void parametersEdited();
+    void parameterMoved(const QString& name, const QString& value);
+    void showPreview();
+    void train();
+    void markStale(bool stale);
+    void showPlaceMenu(QPointF place, double margin, QPoint global);
+    void showPlaceMark();
+
+    TuningParts parts_;
+    Why* why_;
+    WhyPanel* why_panel_;
+    QDockWidget* why_dock_;
+    LivePreview* preview_;
+    PreviewBar* preview_bar_;
+    QPointer<ComparisonWindow> comparison_;
+    bool preview_shown_ = false;
+    std::optional<QPointF> cursor_;  ///< over the canvas, image coordinates
+};
+
+}  // namespace eyrie::ui

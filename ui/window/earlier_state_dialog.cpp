@@ -1,0 +1,91 @@
+#include "window/earlier_state_dialog.h"
+
+#include <QDateTime>
+#include <QDialogButtonBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QLocale>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+namespace eyrie::ui {
+
+namespace {
+
+/// "21.11.26 09:00, first use that day, 12 MB".
+QString titleOf(const ProjectBackup& backup) {
+    const QDateTime made = QDateTime::fromSecsSinceEpoch(backup.made.time_since_epoch().count());
+    const QLocale locale;
+    return EarlierStateDialog::tr("%1, %2, %3")
+        .arg(locale.toString(made, QLocale::ShortFormat), QString::fromUtf8(nameOf(backup.reason)),
+             locale.formattedDataSize(static_cast<qint64>(backup.bytes)));
+}
+
+}  // namespace
+
+EarlierStateDialog::EarlierStateDialog(EarlierStates& states, const std::filesystem::path& project, QWidget* parent)
+    : QDialog(parent) {
+    setObjectName(QStringLiteral("earlier_states"));
+    setWindowTitle(tr("Restore an earlier state of %1").arg(QString::fromStdString(project.filename().string())));
+    resize(720, 360);
+    list_ = new QListWidget(this);
+    differences_ = new QLabel(tr("Reading the kept states …"), this);
+    differences_->setWordWrap(true);
+    differences_->setTextFormat(Qt::PlainText);
+    differences_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    differences_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    auto* columns = new QHBoxLayout;
+    columns->addWidget(list_, 1);
+    columns->addWidget(differences_, 1);
+    auto* note = new QLabel(tr("The state of each day of use is kept before the work of that day. What is there now is "
+                               "kept before another state takes its place."),
+                            this);
+    note->setWordWrap(true);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+    restore_ = buttons->addButton(tr("Restore"), QDialogButtonBox::AcceptRole);
+    open_ = buttons->addButton(tr("Open as a new project"), QDialogButtonBox::ActionRole);
+    auto* rows = new QVBoxLayout(this);
+    rows->addWidget(note);
+    rows->addLayout(columns, 1);
+    rows->addWidget(buttons);
+    connect(list_, &QListWidget::currentRowChanged, this, &EarlierStateDialog::choose);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    const auto answer = [this](auto signal) {
+        const auto row = static_cast<std::size_t>(list_->currentRow());
+        if (row >= shown_.size()) return;
+        const ProjectBackup chosen = shown_[row].backup;
+        accept();
+        emit(this->*signal)(chosen);
+    };
+    connect(restore_, &QPushButton::clicked, this, [answer] { answer(&EarlierStateDialog::restoreChosen); });
+    connect(open_, &QPushButton::clicked, this, [answer] { answer(&EarlierStateDialog::openChosen); });
+    connect(&states, &EarlierStates::listed, this, &EarlierStateDialog::show);
+    connect(&states, &EarlierStates::failed, differences_, &QLabel::setText);
+    choose(-1);
+    differences_->setText(tr("Reading the kept states …"));
+    states.list(project);
+}
+
+void EarlierStateDialog::show(const std::vector<EarlierState>& states) {
+    shown_ = states;
+    list_->clear();
+    for (const EarlierState& state : shown_) list_->addItem(titleOf(state.backup));
+    if (shown_.empty())
+        differences_->setText(tr("No earlier state is kept yet. One is kept on each day of use."));
+    else
+        list_->setCurrentRow(0);
+}
+
+void EarlierStateDialog::choose(int row) {
+    const bool any = row >= 0 && static_cast<std::size_t>(row) < shown_.size();
+    restore_->setEnabled(any);
+    open_->setEnabled(any);
+    if (!any) return;
+    const QStringList& lines = shown_[static_cast<std::size_t>(row)].differences;
+    differences_->setText(lines.isEmpty() ? tr("Nothing is different in it.")
+                                          : tr("With it in place of the present state:\n\n%1")
+                                                .arg(QStringLiteral("• ") + lines.join(QStringLiteral("\n• "))));
+}
+
+}  // namespace eyrie::ui

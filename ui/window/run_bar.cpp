@@ -1,0 +1,201 @@
+#include "window/run_bar.h"
+
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSpinBox>
+#include <QToolButton>
+#include <cmath>
+
+#include "review/run_text.h"
+#include "widgets/gsd_text.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+namespace {
+QToolButton* toolButtonOf(QAction* action, QWidget* parent) {
+    auto* button = new QToolButton(parent);
+    button->setDefaultAction(action);
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setFocusPolicy(Qt::NoFocus);
+    return button;
+}
+}  // namespace
+
+RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* parent)
+    : QWidget(parent), session_(session) {
+    run_button_ = toolButtonOf(actions.run, this);
+    stop_button_ = toolButtonOf(actions.stop, this);
+    stop_button_->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    auto* continue_button = toolButtonOf(actions.continue_run, this);
+    continue_button->setText(tr("Continue"));
+    const auto offer = [continue_button, action = actions.continue_run] {
+        continue_button->setText(tr("Continue"));
+        continue_button->setVisible(action->isEnabled());
+    };
+    connect(actions.continue_run, &QAction::enabledChanged, continue_button, offer);
+    offer();
+
+    gsd_ = new QLineEdit(this);
+    gsd_->setObjectName(QStringLiteral("gsd"));
+    gsd_->setPlaceholderText(tr("unknown: speeds in px/frame"));
+    gsd_->setToolTip(
+        tr("Ground sampling distance: metres on the ground per pixel. Without it the run looks at the traffic for a "
+           "scale to work with, and results are shown in pixels instead of metres and km/h."));
+    gsd_->setAccessibleName(tr("Ground sampling distance, metres per pixel"));
+    gsd_->setClearButtonEnabled(true);
+    gsd_->setMinimumWidth(fontMetrics().horizontalAdvance(gsd_->placeholderText()) + 40);
+    gsd_->setMaximumWidth(gsd_->minimumWidth() + 20);
+    connect(gsd_, &QLineEdit::editingFinished, this, &RunBar::takeGsd);
+    connect(gsd_, &QLineEdit::textEdited, this, &RunBar::gsdTouched);
+    connect(gsd_, &QLineEdit::returnPressed, this, &RunBar::editingDone);
+
+    frame_rate_ = new QDoubleSpinBox(this);
+    frame_rate_->setRange(0, 1000);  // 0: no video
+    frame_rate_->setDecimals(3);
+    frame_rate_->setSuffix(tr(" fps"));
+    frame_rate_->setSpecialValueText(QStringLiteral("–"));
+    frame_rate_->setKeyboardTracking(false);
+    frame_rate_->setToolTip(
+        tr("Frames per second of the video. Folders of images do not tell: give theirs. The project "
+           "remembers what is given here."));
+    frame_rate_->setAccessibleName(tr("Frames per second"));
+    connect(frame_rate_, &QDoubleSpinBox::editingFinished, this, &RunBar::frameRateEdited);
+
+    const auto frameBox = [this](const QString& name) {
+        auto* box = new QSpinBox(this);
+        box->setKeyboardTracking(false);
+        box->setAccessibleName(name);
+        box->setToolTip(name);
+        connect(box, &QSpinBox::editingFinished, this, &RunBar::rangeEdited);
+        return box;
+    };
+    first_frame_ = frameBox(tr("First frame to process"));
+    last_frame_ = frameBox(tr("Last frame to process"));
+
+    auto* layout = new QHBoxLayout(this);
+    layout->setContentsMargins(4, 2, 4, 2);
+    layout->addWidget(run_button_);
+    layout->addWidget(stop_button_);
+    layout->addWidget(continue_button);
+    const auto named = [&](const QString& name, QWidget* field) {
+        auto* label = new QLabel(name, this);
+        label->setBuddy(field);
+        layout->addSpacing(8);
+        layout->addWidget(label);
+        layout->addWidget(field);
+    };
+    named(tr("GSD (m/px)"), gsd_);
+    named(tr("Rate"), frame_rate_);
+    named(tr("Frames"), first_frame_);
+    layout->addWidget(new QLabel(QStringLiteral("–"), this));
+    layout->addWidget(last_frame_);
+    layout->addStretch(1);
+
+    connect(&session_, &ProjectSession::videoChanged, this, &RunBar::refresh);
+    connect(&session_, &ProjectSession::ready, this, &RunBar::refresh);
+    connect(&session_, &ProjectSession::scaleChanged, this, &RunBar::refresh);
+    connect(&session_, &ProjectSession::runsChanged, this, &RunBar::showGuess);
+    connect(&session_, &ProjectSession::currentRunChanged, this, &RunBar::showGuess);
+    connect(&session_, &ProjectSession::followingChanged, this, &RunBar::enable);
+    connect(&session_, &ProjectSession::runStarted, this, &RunBar::enable);
+    connect(&session_, &ProjectSession::runFinished, this, &RunBar::enable);
+    refresh();
+}
+
+void RunBar::refresh() {
+    refreshing_ = true;
+    const RunSettings& settings = session_.settings();
+    gsd_->setText(settings.gsd_m_per_px > 0 ? locale().toString(settings.gsd_m_per_px, 'g', 6) : QString());
+    if (const auto& video = session_.video()) {
+        frame_rate_->setValue(video->frame_rate_hz);
+        const int last = std::max(0, video->frame_count - 1);
+        first_frame_->setRange(0, last);
+        last_frame_->setRange(0, last);
+        first_frame_->setValue(settings.range.first);
+        last_frame_->setValue(settings.range.last < 0 ? last : settings.range.last);
+    } else {
+        frame_rate_->setValue(0);
+    }
+    refreshing_ = false;
+    emit gsdTouched();
+    showGuess();
+    enable();
+}
+
+void RunBar::showGuess() {
+    const SceneScale scale = session_.scale();
+    // Without a run nothing was estimated yet.
+    gsd_->setPlaceholderText(session_.currentRun() && originOf(scale) == ScaleOrigin::estimated
+                                 ? tr("unknown; estimated %1").arg(locale().toString(scale.gsd_m_per_px, 'g', 3))
+                                 : tr("unknown: speeds in px/frame"));
+}
+
+bool RunBar::takeEdits() {
+    // A click on Run or its key leaves the focus where it is; what was typed counts all the same.
+    frame_rate_->interpretText();
+    first_frame_->interpretText();
+    last_frame_->interpretText();
+    takeRange();
+    takeFrameRate();
+    return takeGsd();
+}
+
+void RunBar::enable() {
+    const bool idle = session_.video().has_value() && !session_.running();
+    for (QWidget* field :
+         {static_cast<QWidget*>(gsd_), static_cast<QWidget*>(first_frame_), static_cast<QWidget*>(last_frame_)})
+        field->setEnabled(idle);
+    frame_rate_->setEnabled(idle && !session_.videoMissing());
+    stop_button_->setVisible(session_.running());
+}
+
+bool RunBar::takeGsd() {
+    if (refreshing_) return true;
+    const auto value = gsdFromText(gsd_->text());
+    if (!value) {
+        emit gsdRefused(tr("GSD “%1” is not a number of metres per pixel from %2 to %3. Leave the field empty if "
+                           "it is not known.")
+                            .arg(gsd_->text().trimmed())
+                            .arg(kSmallestGsd)
+                            .arg(kLargestGsd));
+        return false;
+    }
+    emit gsdTouched();
+    session_.settings().gsd_m_per_px = *value;
+    return true;
+}
+
+void RunBar::frameRateEdited() {
+    if (refreshing_ || !session_.video()) return;
+    emit editingDone();
+    takeFrameRate();
+}
+
+void RunBar::takeFrameRate() {
+    if (!session_.video() || !frame_rate_->isEnabled()) return;
+    if (frame_rate_->value() <= 0) {
+        refresh();
+        return;
+    }
+    if (std::abs(frame_rate_->value() - session_.video()->frame_rate_hz) < 5e-4) return;
+    session_.setFrameRate(frame_rate_->value());
+}
+
+void RunBar::rangeEdited() {
+    if (refreshing_ || !session_.video()) return;
+    takeRange();
+    emit editingDone();
+}
+
+void RunBar::takeRange() {
+    if (!session_.video()) return;
+    if (last_frame_->value() < first_frame_->value()) last_frame_->setValue(first_frame_->value());
+    FrameRange& range = session_.settings().range;
+    range.first = first_frame_->value();
+    range.last = last_frame_->value() >= session_.video()->frame_count - 1 ? -1 : last_frame_->value();
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,149 @@
+#include "window/status_fields.h"
+
+#include <QIcon>
+#include <QLabel>
+#include <QLocale>
+#include <QProgressBar>
+#include <QStatusBar>
+#include <QToolButton>
+#include <cmath>
+
+#include "canvas/timeline/timeline_axis.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr int kProgressSteps = 1000;
+
+QLabel* field(QStatusBar& bar, const QString& widest) {
+    auto* label = new QLabel(&bar);
+    label->setMinimumWidth(label->fontMetrics().horizontalAdvance(widest) + 12);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    label->setFocusPolicy(Qt::NoFocus);
+    return label;
+}
+}  // namespace
+
+StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&bar), session_(session) {
+    frame_ = field(bar, QStringLiteral("frame 00000 / 00000   00:00.00"));
+    cursor_ = field(bar, QStringLiteral("0000.0, 0000.0 px   000.0, 000.0 m"));
+    zoom_ = field(bar, QStringLiteral("0000 %"));
+    work_ = new QLabel(&bar);
+    bar_ = new QProgressBar(&bar);
+    bar_->setRange(0, kProgressSteps);
+    bar_->setTextVisible(false);
+    bar_->setFixedWidth(160);
+    bar_->setMaximumHeight(14);
+    stop_ = new QToolButton(&bar);
+    stop_->setIcon(QIcon::fromTheme(QStringLiteral("dialog-close")));
+    stop_->setAutoRaise(true);
+    stop_->setToolTip(tr("Stop"));
+    bar.addWidget(frame_);
+    bar.addWidget(cursor_);
+    bar.addWidget(zoom_);
+    bar.addPermanentWidget(work_);
+    bar.addPermanentWidget(bar_);
+    bar.addPermanentWidget(stop_);
+    hideProgress();
+
+    // The number names the picture it stands under, which may come later than it was asked for.
+    connect(&session_, &ProjectSession::viewFrameChanged, this, &StatusFields::showFrame);
+    connect(&session_, &ProjectSession::videoChanged, this, &StatusFields::showFrame);
+    connect(&session_, &ProjectSession::openingProgress, this, &StatusFields::showOpening);
+    connect(&session_, &ProjectSession::openingEnded, this, &StatusFields::hideProgress);
+    connect(&session_, &ProjectSession::runPreparing, this, [this] {
+        work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run …")
+                                                            : tr("reading the scale off the traffic …"));
+        bar_->setRange(0, 0);
+        showProgress();
+    });
+    connect(&session_, &ProjectSession::runStarted, this, [this](const RunRecord& run) {
+        showRun({0, run.last_frame - run.first_frame + 1, 0, 0});
+    });
+    connect(&session_, &ProjectSession::runProgress, this, &StatusFields::showRun);
+    connect(&session_, &ProjectSession::runFinished, this, &StatusFields::hideProgress);
+    connect(stop_, &QToolButton::clicked, &session_, [this] {
+        if (session_.opening()) {
+            session_.cancelOpening();
+            return;
+        }
+        session_.stopRun();
+        work_->setText(tr("stopping …"));
+    });
+}
+
+void StatusFields::showFrame() {
+    const auto& video = session_.video();
+    if (!video) {
+        frame_->clear();
+        return;
+    }
+    const FrameIndex frame = session_.shownFrame();
+    const auto& times = session_.timesUs();
+    const QString time = static_cast<size_t>(frame) < times.size()
+                             ? QString::fromStdString(timeText(times[static_cast<size_t>(frame)]))
+                             : QString();
+    frame_->setText(tr("frame %1 / %2   %3").arg(frame).arg(video->frame_count - 1).arg(time));
+}
+
+void StatusFields::showCursor(std::optional<QPointF> image_point) {
+    if (!image_point || !session_.video()) {
+        cursor_->clear();
+        return;
+    }
+    const QLocale locale;
+    QString text =
+        tr("%1, %2 px").arg(locale.toString(image_point->x(), 'f', 1), locale.toString(image_point->y(), 'f', 1));
+    const SceneScale scale = session_.scale();
+    if (scale.gsd_known)
+        text += tr("   %1, %2 m")
+                    .arg(locale.toString(scale.metres(image_point->x()), 'f', 1),
+                         locale.toString(scale.metres(image_point->y()), 'f', 1));
+    cursor_->setText(text);
+}
+
+void StatusFields::showZoom(double zoom) {
+    zoom_->setText(session_.video() ? tr("%1 %").arg(std::lround(zoom * 100)) : QString());
+}
+
+void StatusFields::showRun(const RunProgress& progress) {
+    if (!session_.running()) return;
+    const double share =
+        progress.frames_total > 0 ? progress.frames_done / static_cast<double>(progress.frames_total) : 0;
+    const int percent = static_cast<int>(share * 100);
+    QString text =
+        progress.estimating_scale ? tr("looking for the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
+    if (!progress.estimating_scale && progress.frames_per_second > 0) {
+        const auto left_us = static_cast<std::int64_t>(std::ceil(progress.seconds_left) * 1e6);
+        text += tr("   %1 fps   %2 left")
+                    .arg(QLocale().toString(progress.frames_per_second, 'f', 1),
+                         QString::fromStdString(timeText(left_us, 0)));
+    }
+    work_->setText(text);
+    bar_->setRange(0, kProgressSteps);
+    bar_->setValue(static_cast<int>(share * kProgressSteps));
+    showProgress();
+}
+
+void StatusFields::showOpening(const QString& name, double share) {
+    const QString shown = work_->fontMetrics().elidedText(name, Qt::ElideMiddle, 260);
+    work_->setText(tr("opening %1").arg(shown));
+    bar_->setRange(0, share > 0 ? kProgressSteps : 0);
+    bar_->setValue(static_cast<int>(share * kProgressSteps));
+    showProgress();
+}
+
+void StatusFields::showProgress() {
+    work_->show();
+    bar_->show();
+    stop_->show();
+}
+
+void StatusFields::hideProgress() {
+    if (session_.running() || session_.opening()) return;
+    work_->hide();
+    bar_->hide();
+    stop_->hide();
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,112 @@
+#include "workspace/timeline_binding.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "canvas/timeline/timeline_view.h"
+#include "widgets/charts/stage_times_chart.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+TimelineFrame timelineFrame(const FrameSummary& frame) {
+    return {.done = true,
+            .state = frame.state,
+            .rms_px = frame.rms_px,
+            .inliers = frame.inliers,
+            .corners = frame.corners,
+            .motion_vectors = frame.motion_vectors,
+            .tracks = frame.tracks};
+}
+
+}  // namespace
+
+TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline, StageTimesChart& chart,
+                                 QObject* parent)
+    : QObject(parent), session_(session), timeline_(timeline), chart_(chart) {
+    connect(&session_, &ProjectSession::videoChanged, this, &TimelineBinding::showVideo);
+    connect(&session_, &ProjectSession::currentRunChanged, this, &TimelineBinding::forgetRun);
+    connect(&session_, &ProjectSession::runDataChanged, this, &TimelineBinding::showRun);
+    connect(&session_, &ProjectSession::liveFrames, this, &TimelineBinding::addLive);
+    connect(&session_, &ProjectSession::selectionChanged, this, &TimelineBinding::showTrackLife);
+    const auto mark = [this](FrameIndex frame) {
+        timeline_.setCurrentFrame(frame);
+        chart_.setCurrentFrame(frame);
+    };
+    // While it plays, the mark keeps to the picture, which may be late; whoever steps or drags sees at once where to.
+    connect(&session_, &ProjectSession::frameChanged, this, [this, mark](FrameIndex frame) {
+        if (!session_.playback().playing()) mark(frame);
+    });
+    connect(&session_, &ProjectSession::viewFrameChanged, this, [this, mark](const ViewFrame& frame) {
+        if (session_.playback().playing()) mark(frame.index);
+    });
+    connect(&session_, &ProjectSession::runStarted, this, [this](const RunRecord& run) {
+        live_ = true;
+        known_before_ = false;
+        timeline_.setRunRange(std::pair(run.first_frame, run.last_frame));
+    });
+    connect(&session_, &ProjectSession::runFinished, this, [this] {
+        live_ = false;
+        timeline_.setRunRange(std::nullopt);
+    });
+    connect(&session_, &ProjectSession::currentRunChanged, &timeline_, [this] {
+        if (!live_) timeline_.setRunRange(std::nullopt);
+    });
+    connect(&timeline_, &TimelineView::frameRequested, &session_,
+            [this](FrameIndex frame, bool) { session_.goToFrame(frame); });
+    connect(&chart_, &StageTimesChart::frameActivated, &session_, &ProjectSession::goToFrame);
+}
+
+void TimelineBinding::showVideo() {
+    timeline_.setTimes(session_.timesUs());
+    chart_.clear();
+    if (session_.video()) chart_.setBudgetMs(1000 / std::max(0.001, session_.video()->frame_rate_hz));
+}
+
+void TimelineBinding::forgetRun() {
+    live_ = false;
+    timeline_.setFrames({});
+    timeline_.setTrackLife(std::nullopt);
+    chart_.clear();
+}
+
+void TimelineBinding::showRun() {
+    showTrackLife();
+    if (!session_.runData()) return;
+    if (live_) {  // what came live is newer than what was read; but a run that is gone on with has frames before it
+        if (!std::exchange(known_before_, true)) addLive(session_.runData()->frames);
+        return;
+    }
+    const RunRecord& run = session_.runData()->record;  // another program may be at work on it
+    timeline_.setRunRange(run.live ? std::optional(std::pair(run.first_frame, run.last_frame)) : std::nullopt);
+    std::vector<TimelineFrame> frames;
+    for (const FrameSummary& frame : session_.runData()->frames) {
+        if (frame.frame < 0) continue;
+        if (frames.size() <= static_cast<size_t>(frame.frame)) frames.resize(static_cast<size_t>(frame.frame) + 1);
+        frames[static_cast<size_t>(frame.frame)] = timelineFrame(frame);
+    }
+    timeline_.setFrames(std::move(frames));
+    chart_.setFrames(session_.runData()->frames);
+}
+
+void TimelineBinding::addLive(const std::vector<FrameSummary>& frames) {
+    if (!live_) return;
+    for (const FrameSummary& frame : frames) {
+        timeline_.setFrameDone(frame.frame, timelineFrame(frame));
+        chart_.append(frame);
+    }
+}
+
+void TimelineBinding::showTrackLife() {
+    const auto track = session_.selectedTrack();
+    if (track && session_.runData())
+        for (const TrackSummary& summary : session_.runData()->tracks)
+            if (summary.id == *track) {
+                timeline_.setTrackLife(std::pair(summary.first_frame, summary.last_frame), tr("Track %1").arg(*track));
+                return;
+            }
+    timeline_.setTrackLife(std::nullopt);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,176 @@
+#include "workspace/window_actions.h"
+
+#include <QActionGroup>
+#include <QIcon>
+#include <QWidget>
+#include <algorithm>
+
+namespace eyrie::ui {
+
+WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObject(parent), parent_(parent) {
+    section(tr("File"));
+    open_video = add(tr("Open &video…"), {"document-open", {QKeySequence::Open}});
+    open_folder = add(tr("Open folder of &images…"), {"document-open-folder", {QKeySequence(tr("Ctrl+Shift+O"))}});
+    open_project = add(tr("Open &project…"), {"project-open", {QKeySequence(tr("Ctrl+P"))}});
+    save_as = add(tr("&Save project as…"), {"document-save-as",
+                                            {QKeySequence(tr("Ctrl+Shift+S"))},
+                                            QT_TR_NOOP("Save under another name, and go on working there")});
+    save_copy = add(tr("Save a &copy…"), {"document-save", {}, QT_TR_NOOP("Save a copy, and go on working here")});
+    restore_state = add(tr("Restore an &earlier state…"),
+                        {"document-revert", {}, QT_TR_NOOP("What the project held on earlier days")});
+    report = add(tr("Evaluation &report…"), {"document-export",
+                                             {QKeySequence(tr("Ctrl+Shift+R"))},
+                                             QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});
+    demo = add(tr("Watch the &demo scene"), {"media-playback-start", {QKeySequence(tr("Ctrl+D"))}});
+    quit = add(tr("&Quit"), {"application-exit", {QKeySequence(tr("Ctrl+Q"))}});
+
+    section(tr("Run"));
+    run = add(tr("&Run"), {"media-record",
+                           {QKeySequence(tr("Ctrl+R"))},
+                           QT_TR_NOOP("Find and follow the moving vehicles, with the parameters shown")});
+    stop = add(tr("S&top the run"),
+               {"media-playback-stop", {QKeySequence(tr("Ctrl+."))}, QT_TR_NOOP("Stop; what is done is kept")});
+    continue_run = add(tr("&Continue the run"), {"media-playback-start",
+                                                 {QKeySequence(tr("Ctrl+Shift+."))},
+                                                 QT_TR_NOOP("Go on with the run that is shown, where it was stopped")});
+    follow = addToggle(tr("&Follow the run"),
+                       {"go-last", {QKeySequence(tr("Ctrl+L"))}, QT_TR_NOOP("Show each frame as the run finishes it")},
+                       false);
+
+    restore_run =
+        add(tr("Bring back the re&moved run"), {"edit-undo", {}, QT_TR_NOOP("Possible until the project is closed")});
+    train =
+        add(tr("Train from &labels…"), {nullptr, {}, QT_TR_NOOP("A classifier of your own for the sliding window")});
+
+    section(tr("Playback"));
+    play = add(tr("&Play"), {"media-playback-start", {QKeySequence(Qt::Key_Space)}});
+    step_back = add(tr("Step back"), {"media-skip-backward", {QKeySequence(Qt::Key_Left)}});
+    step_on = add(tr("Step forward"), {"media-skip-forward", {QKeySequence(Qt::Key_Right)}});
+    jump_back = add(tr("10 frames back"), {"media-seek-backward", {QKeySequence(tr("Shift+Left"))}});
+    jump_on = add(tr("10 frames forward"), {"media-seek-forward", {QKeySequence(tr("Shift+Right"))}});
+    first = add(tr("First frame"), {"go-first", {QKeySequence(Qt::Key_Home)}});
+    last = add(tr("Last frame"), {"go-last", {QKeySequence(Qt::Key_End)}});
+    go_to_frame = add(tr("&Go to frame…"), {"go-jump", {QKeySequence(Qt::Key_G)}});
+    shuttle_back = add(tr("Play backwards, again: faster"), {nullptr, {QKeySequence(Qt::Key_J)}});
+    shuttle_stop = add(tr("Pause"), {"media-playback-pause", {QKeySequence(Qt::Key_K)}});
+    shuttle_on = add(tr("Play forwards, again: faster"), {nullptr, {QKeySequence(Qt::Key_L)}});
+    slower = add(tr("Slower"), {nullptr, {QKeySequence(Qt::Key_BracketLeft), QKeySequence(Qt::Key_Comma)}});
+    faster = add(tr("Faster"), {nullptr, {QKeySequence(Qt::Key_BracketRight), QKeySequence(Qt::Key_Period)}});
+    loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(Qt::Key_O)}}, false);
+
+    section(tr("Evaluation"));
+    next_error = add(tr("&Next error"), {"go-next", {QKeySequence(Qt::Key_N), QKeySequence(Qt::Key_F8)}});
+    previous_error =
+        add(tr("&Previous error"), {"go-previous", {QKeySequence(tr("Shift+N")), QKeySequence(tr("Shift+F8"))}});
+    why_error = add(tr("Wh&y this error?"), {"help-contextual",
+                                             {QKeySequence(tr("Shift+W"))},
+                                             QT_TR_NOOP("What decided at the place of the error that is looked at")});
+    wrong_truth =
+        add(tr("The &truth is wrong here…"),
+            {"document-edit",
+             {QKeySequence(tr("Ctrl+T"))},
+             QT_TR_NOOP("Open the object in the label workspace; the run is scored again after each change")});
+
+    section(tr("View"));
+    fit = add(tr("&Fit the window"), {"zoom-fit-best", {QKeySequence(Qt::Key_F)}});
+    one_to_one = add(tr("Actual size (1:1)"), {"zoom-original", {QKeySequence(Qt::Key_1)}});
+    zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
+    zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
+    deselect = add(tr("Select nothing"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
+    why = add(
+        tr("&Why here?"),
+        {"help-contextual", {QKeySequence(Qt::Key_W)}, QT_TR_NOOP("What decided about the place under the cursor")});
+    live_preview = addToggle(tr("Live &preview of parameters"),
+                             {nullptr,
+                              {QKeySequence(Qt::Key_P)},
+                              QT_TR_NOOP("Show the present frame with each parameter that is moved in the form")},
+                             true);
+    compare = add(tr("&Compare A and B…"),
+                  {nullptr,
+                   {QKeySequence(tr("Ctrl+B"))},
+                   QT_TR_NOOP("Two runs or sets of parameters on the same frames, side by side or with a wipe")});
+    full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
+
+    review_workspace = addToggle(tr("&Review"), {nullptr, {QKeySequence(tr("Ctrl+1"))}}, true);
+    label_workspace = addToggle(tr("&Label"), {nullptr, {QKeySequence(tr("Ctrl+2"))}}, false);
+    auto* workspaces = new QActionGroup(this);
+    workspaces->addAction(review_workspace);
+    workspaces->addAction(label_workspace);
+
+    addOverlays(overlays);
+
+    section(tr("Help"));
+    keys = add(tr("&Keys"), {"help-keybord-shortcuts", {QKeySequence(Qt::Key_F1), QKeySequence(tr("?"))}});
+    about = add(tr("&About Eyrie"), {"help-about", {}});
+}
+
+void WindowActions::section(const QString& title) {
+    sections_.append({title, {}});
+}
+
+QAction* WindowActions::add(const QString& text, const Look& look) {
+    auto* action = new QAction(text, this);
+    if (look.icon != nullptr) action->setIcon(QIcon::fromTheme(QString::fromLatin1(look.icon)));
+    action->setShortcuts(look.keys);
+    QString tip =
+        look.tip != nullptr ? tr(look.tip) : QString(text).remove(QLatin1Char('&')).remove(QStringLiteral("…"));
+    if (!look.keys.isEmpty()) tip += QStringLiteral(" (%1)").arg(look.keys.front().toString(QKeySequence::NativeText));
+    action->setToolTip(tip);
+    parent_->addAction(action);
+    sections_.back().actions.append(action);
+    return action;
+}
+
+QAction* WindowActions::addToggle(const QString& text, const Look& look, bool checked) {
+    QAction* action = add(text, look);
+    action->setCheckable(true);
+    action->setChecked(checked);
+    return action;
+}
+
+void WindowActions::addOverlays(OverlaySettings& overlays) {
+    section(tr("Overlays"));
+    struct Entry {
+        OverlayKind kind;
+        QString text;
+        Qt::Key key;
+    };
+    const Entry entries[] = {{OverlayKind::corners, tr("Stationary &corners"), Qt::Key_C},
+                             {OverlayKind::vectors, tr("Motion &vectors"), Qt::Key_V},
+                             {OverlayKind::clusters, tr("&Motion clusters"), Qt::Key_M},
+                             {OverlayKind::rois, tr("Motion &ROIs"), Qt::Key_R},
+                             {OverlayKind::detections, tr("&Detections"), Qt::Key_D},
+                             {OverlayKind::tracks, tr("&Tracks"), Qt::Key_T},
+                             {OverlayKind::stacks, tr("Image &stacks"), Qt::Key_S},
+                             {OverlayKind::ground_truth, tr("&Ground truth"), Qt::Key_U},
+                             {OverlayKind::verdicts, tr("Errors (found, missed, false)"), Qt::Key_Q}};
+    for (const Entry& entry : entries) {
+        QAction* action = addToggle(entry.text, {nullptr, {QKeySequence(entry.key)}}, overlays.isVisible(entry.kind));
+        overlay[static_cast<size_t>(entry.kind)] = action;
+        connect(action, &QAction::toggled, &overlays,
+                [&overlays, kind = entry.kind](bool on) { overlays.setVisible(kind, on); });
+    }
+    const OverlayStyle& style = overlays.style();
+    labels = addToggle(tr("Track la&bels"), {nullptr, {QKeySequence(Qt::Key_B)}}, style.labels);
+    trails = addToggle(tr("Tr&ails"), {nullptr, {QKeySequence(Qt::Key_A)}}, style.trails);
+    rejected = addToggle(tr("Re&jected detections"), {nullptr, {QKeySequence(Qt::Key_X)}}, style.rejected_detections);
+    tentative = addToggle(tr("T&entative tracks"), {nullptr, {QKeySequence(Qt::Key_E)}}, style.tentative_tracks);
+    longer_vectors = add(tr("Longer vectors"), {nullptr, {QKeySequence(tr("Shift+V"))}});
+    shorter_vectors = add(tr("Shorter vectors"), {nullptr, {QKeySequence(tr("Ctrl+Shift+V"))}});
+    colour_blind =
+        addToggle(tr("Colour-blind safe colours"), {nullptr, {}}, overlays.palette() == PaletteKind::colour_blind);
+    connect(labels, &QAction::toggled, &overlays, &OverlaySettings::setLabels);
+    connect(trails, &QAction::toggled, &overlays, &OverlaySettings::setTrails);
+    connect(rejected, &QAction::toggled, &overlays, &OverlaySettings::setRejectedDetections);
+    connect(tentative, &QAction::toggled, &overlays, &OverlaySettings::setTentativeTracks);
+    connect(longer_vectors, &QAction::triggered, &overlays, [&overlays] {
+        overlays.setVectorLengthFactor(std::min(100.0, overlays.style().vector_length_factor * 1.5));
+    });
+    connect(shorter_vectors, &QAction::triggered, &overlays, [&overlays] {
+        overlays.setVectorLengthFactor(std::max(1.0, overlays.style().vector_length_factor / 1.5));
+    });
+    connect(colour_blind, &QAction::toggled, &overlays,
+            [&overlays](bool on) { overlays.setPalette(on ? PaletteKind::colour_blind : PaletteKind::thesis); });
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <QAction>
+#include <QList>
+#include <QObject>
+#include <array>
+
+#include "canvas/overlay_settings.h"
+
+namespace eyrie::ui {
+
+/// Commands that belong together, for menus and the sheet of keys.
+struct ActionSection {
+    QString title;
+    QList<QAction*> actions;
+};
+
+/// Every command of the window as an action with text, icon and key. Knows nothing of what they do, except that the
+/// overlay actions switch the overlays.
+class WindowActions : public QObject {
+    Q_OBJECT
+
+ public:
+    /// `overlays` and `parent` must outlive the actions. The actions are added to `parent`, so that their keys work.
+    WindowActions(OverlaySettings& overlays, QWidget* parent);
+
+    /// In the order of the menus.
+    const QList<ActionSection>& sections() const { return sections_; }
+
+    QAction *open_video, *open_folder, *open_project, *save_as, *save_copy, *restore_state, *demo, *quit;
+    QAction *run, *stop, *continue_run, *follow, *restore_run;
+    QAction *play, *step_back, *step_on, *jump_back, *jump_on, *first, *last, *go_to_frame, *shuttle_back,
+        *shuttle_stop, *shuttle_on, *slower, *faster, *loop;
+    QAction *fit, *one_to_one, *zoom_in, *zoom_out, *full_screen, *deselect;
+    QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
+    QAction *why, *live_preview, *compare, *train;
+    QAction *review_workspace, *label_workspace;
+    std::array<QAction*, kOverlayKindCount> overlay;
+    QAction *labels, *trails, *rejected, *tentative, *longer_vectors, *shorter_vectors, *colour_blind;
+    QAction *keys, *about;
+
+ private:
+    struct Look {
+        const char* icon = nullptr;
+        QList<QKeySequence> keys;
+        const char* tip = nullptr;
+    };
+    void section(const QString& title);
+    QAction* add(const QString& text, const Look& look);
+    QAction* addToggle(const QString& text, const Look& look, bool checked);
+    void addOverlays(OverlaySettings& overlays);
+
+    QWidget* parent_;
+    QList<ActionSection> sections_;
+};
+
+}  // namespace eyrie::ui
