@@ -21,7 +21,10 @@ void transfer(Archive& archive, Homography& homography) {
 template <class Archive>
 void transfer(Archive& archive, Registration& registration) {
     archive.word(registration.state, RegistrationState::failed);
-    archive(registration.current_from_previous, registration.reason);
+    archive(registration.current_from_previous);
+    archive.word(registration.failure.fault, RegistrationFault::impossible_motion);
+    archive.word(registration.failure.picture, PictureQuality::blank);
+    archive(registration.failure.count, registration.failure.of);
 }
 
 template <class Archive>

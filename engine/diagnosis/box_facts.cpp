@@ -41,7 +41,7 @@ BoxFacts factsAt(const OrientedBox& box, const FrameResult& result, const ChainO
     BoxFacts facts;
     const FrameMotion& motion = result.motion;
     facts.registration = motion.registration.state;
-    facts.reason = motion.registration.reason;
+    facts.failure = motion.registration.failure;
     facts.image = motion.image_size;
     if (motion.registration.state == RegistrationState::registered) {
         const Homography& step = motion.registration.current_from_previous;

@@ -18,9 +18,9 @@ struct NearBox {
 /// What a run stored about the place where an object is, or a result was, in one frame, stage by stage.
 struct BoxFacts {
     RegistrationState registration = RegistrationState::registered;
-    std::string reason;  ///< why the frame could not be registered
-    cv::Size image;      ///< px
-    cv::Point2d flow;    ///< px, how the ground moves through the image at the place since the frame before
+    RegistrationFailure failure;  ///< why the frame could not be registered
+    cv::Size image;               ///< px
+    cv::Point2d flow;             ///< px, how the ground moves through the image at the place since the frame before
 
     int corners = 0;            ///< in the box, standing and moving
     int motion_vectors = 0;     ///< in the box

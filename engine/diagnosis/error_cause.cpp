@@ -99,7 +99,7 @@ CauseHere stageThatLost(const BoxFacts& facts, const MistakeEvidence& evidence) 
     if (facts.rejected.overlap >= needed) return rejectedAs(facts);
     if (facts.kept.overlap >= kNearMiss * needed && facts.kept.overlap > 0)
         return {MistakeCause::box_off, "detection: " + offText(facts.kept.overlap, needed)};
-    if (facts.registration == RegistrationState::failed) return {MistakeCause::unregistered, facts.reason};
+    if (facts.registration == RegistrationState::failed) return {MistakeCause::unregistered, describe(facts.failure)};
     if (!facts.clusters.empty())
         return {MistakeCause::not_detected, std::to_string(facts.motion_vectors) + " motion vectors in a cluster"};
     if (facts.motion_vectors > 0) {
@@ -201,7 +201,7 @@ CauseHere causeOfFalseAlarm(const MistakePlace& place, const MistakeEvidence& ev
         return {MistakeCause::outside_image, ""};
     if (const auto related = relationToTruth(alarm, evidence)) return *related;
     if (evidence.recently_unregistered || (facts != nullptr && facts->registration == RegistrationState::failed))
-        return {MistakeCause::unregistered, facts != nullptr ? facts->reason : std::string()};
+        return {MistakeCause::unregistered, facts != nullptr ? describe(facts->failure) : std::string()};
     if (alarm.origin == eyrie::nameOf(StateOrigin::predicted)) return {MistakeCause::coasting, ""};
     const bool has_own = length(alarm.velocity) >= kSlowest || facts == nullptr;
     const cv::Point2d velocity = has_own ? alarm.velocity : facts->velocity;

@@ -201,10 +201,10 @@ bool tellRegistration(Story& story) {
             story.decide("This is the first frame of the run, in which nothing can be seen to move", {});
             return false;
         case RegistrationState::failed: {
-            story.fail("registration", "not registered: " + registration.reason, "registration.min_inliers");
-            const bool counted = registration.reason.find("too few corners") != std::string::npos;
-            story.decide("The frame could not be registered (" + registration.reason + ")",
-                         counted ? "registration.min_inliers" : "");
+            const std::string why = describe(registration.failure);
+            const bool counted = registration.failure.of > 0;
+            story.fail("registration", "not registered: " + why, "registration.min_inliers");
+            story.decide("The frame could not be registered (" + why + ")", counted ? "registration.min_inliers" : "");
             return false;
         }
         case RegistrationState::frozen:

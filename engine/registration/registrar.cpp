@@ -45,10 +45,6 @@ std::vector<cv::Point2f> positionsOf(const CornerSet& set) {
     return positions;
 }
 
-std::string countedReason(const std::string& what, int have, int of) {
-    return what + " (" + std::to_string(have) + " of " + std::to_string(of) + ")";
-}
-
 }  // namespace
 
 Registrar::Registrar(const RegistrationOptions& options, const SceneScale& scale)
@@ -98,20 +94,20 @@ RegisteredFrame Registrar::next(const Frame& frame, StageTimes* times) {
     } else if (repeats) {
         result = repeatedFrame(frame);
     } else {
-        std::string reason;
+        RegistrationFailure failure;
         std::optional<Match> match;
         bool on_older = false;
         if (older_) {
-            match = registerOnto(*older_, reason, spent);
+            match = registerOnto(*older_, failure, spent);
             on_older = match.has_value();
         }
-        if (!match) match = registerOnto(*anchor_, reason, spent);
+        if (!match) match = registerOnto(*anchor_, failure, spent);
         if (match) {
             Anchor anchor = std::move(on_older ? *older_ : *anchor_);
             older_.reset();
             result = registeredFrame(frame, std::move(anchor), *match, spent);
         } else {
-            result = failedFrame(frame, reason, spent);
+            result = failedFrame(frame, failure, spent);
         }
         repeated_ = 0;
     }
@@ -143,7 +139,6 @@ RegisteredFrame Registrar::repeatedFrame(const Frame& frame) {
     result.registration.state = RegistrationState::frozen;
     result.registration.current_from_previous.from_frame = last_frame_;
     result.registration.current_from_previous.to_frame = frame.index;
-    result.registration.reason = "the picture repeats the one before";
     for (TrackedCorner& corner : anchor_->corners.corners) {
         ++corner.age;
         result.corners.push_back({corner.id, corner.position, corner.position, corner.age, corner.on_background});
@@ -166,11 +161,12 @@ std::vector<cv::Matx33d> Registrar::predictionsFor(const Anchor& anchor) const {
     return predictions;
 }
 
-std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, std::string& reason,
+std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, RegistrationFailure& failure,
                                                         StageTimes& times) const {
     const int corners = anchor.corners.size();
     if (corners < options_.homography.min_inliers) {
-        reason = countedReason("too few corners", corners, options_.homography.min_inliers);
+        failure = {
+            .fault = RegistrationFault::too_few_corners, .count = corners, .of = options_.homography.min_inliers};
         return std::nullopt;
     }
     const double noise = std::max(anchor.noise, current_noise_);
@@ -181,7 +177,7 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, st
         const auto coarse = CoarseRegistration(*estimator_, options_.feature_search)
                                 .find(anchor.corners, anchor.pyramid, current_, predictionsFor(anchor), noise);
         if (!coarse) {
-            reason = "the picture does not fit to the one before";
+            failure = {.fault = RegistrationFault::no_match};
             return std::nullopt;
         }
         start = coarse->matrix;
@@ -193,7 +189,7 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, st
     const int tracked = static_cast<int>(
         std::count_if(match.positions.begin(), match.positions.end(), [](const auto& p) { return p.found; }));
     if (tracked < options_.homography.min_inliers || tracked * 8 < corners) {
-        reason = countedReason("too few corners found again", tracked, corners);
+        failure = {.fault = RegistrationFault::too_few_found_again, .count = tracked, .of = corners};
         return std::nullopt;
     }
     auto fit = estimator_->refine(points, start);
@@ -206,11 +202,11 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, st
         }
     }
     if (!fit || !estimator_->trustworthy(*fit)) {
-        reason = countedReason("too few corners agree", fit ? fit->inliers : 0, tracked);
+        failure = {.fault = RegistrationFault::too_few_agree, .count = fit ? fit->inliers : 0, .of = tracked};
         return std::nullopt;
     }
     if (!plausibleMotion(fit->matrix, anchor.pyramid.size())) {
-        reason = "the motion found is not one a camera makes";
+        failure = {.fault = RegistrationFault::impossible_motion};
         return std::nullopt;
     }
     match.fit = *fit;
@@ -263,7 +259,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
     return result;
 }
 
-RegisteredFrame Registrar::failedFrame(const Frame& frame, const std::string& reason, StageTimes& times) {
+RegisteredFrame Registrar::failedFrame(const Frame& frame, RegistrationFailure failure, StageTimes& times) {
     Anchor fresh{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0, frame.index};
     replenish(fresh, times);
     RegisteredFrame result;
@@ -272,10 +268,10 @@ RegisteredFrame Registrar::failedFrame(const Frame& frame, const std::string& re
     const int seen = fresh.corners.size();
     const bool blank = seen < options_.homography.min_inliers;
     const bool blurred = !blank && seen < 0.35 * usual_corners_;
-    result.registration.reason = (blank ? "blank picture: " : blurred ? "blurred picture: " : "") + reason;
-    if (!blank && !blurred && reason == "the picture does not fit to the one before") {
-        result.registration.reason = "cut: " + reason;
-    }
+    failure.picture = blank ? PictureQuality::blank : blurred ? PictureQuality::blurred : PictureQuality::clear;
+    if (failure.picture == PictureQuality::clear && failure.fault == RegistrationFault::no_match)
+        failure.fault = RegistrationFault::cut;
+    result.registration.failure = failure;
     // Through a blank or blurred picture the camera goes on as before; after a cut nothing is known.
     const cv::Matx33d guess = blank || blurred ? motion_ : cv::Matx33d::eye();
     Homography& homography = result.registration.current_from_previous;

@@ -61,9 +61,9 @@ class Registrar {
     RegisteredFrame firstFrame(const Frame& frame, StageTimes& times);
     RegisteredFrame repeatedFrame(const Frame& frame);
     RegisteredFrame registeredFrame(const Frame& frame, Anchor anchor, const Match& match, StageTimes& times);
-    RegisteredFrame failedFrame(const Frame& frame, const std::string& reason, StageTimes& times);
+    RegisteredFrame failedFrame(const Frame& frame, RegistrationFailure failure, StageTimes& times);
 
-    std::optional<Match> registerOnto(const Anchor& anchor, std::string& reason, StageTimes& times) const;
+    std::optional<Match> registerOnto(const Anchor& anchor, RegistrationFailure& failure, StageTimes& times) const;
     std::vector<cv::Matx33d> predictionsFor(const Anchor& anchor) const;
     void replenish(Anchor& anchor, StageTimes& times);
     void checkFrame(const Frame& frame) const;

@@ -38,7 +38,7 @@ bool usable(const Detection& detection) {
 /// Whether the picture changed to another scene, as far as registration can tell.
 bool isCut(const Registration& registration) {
     return registration.state == RegistrationState::first ||
-           (registration.state == RegistrationState::failed && registration.reason.find("cut") != std::string::npos);
+           (registration.state == RegistrationState::failed && registration.failure.fault == RegistrationFault::cut);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ Thing sample() {
     thing.maybe = 0.1;
     thing.matrix = cv::Matx33d(1, 2, 3, 4, 5, 6, 7, 8, 9);
     thing.chip = (cv::Mat_<std::uint8_t>(2, 3) << 1, 2, 3, 4, 5, 6);
-    thing.motion.registration.reason = "blank";
+    thing.motion.registration.failure = {RegistrationFault::too_few_agree, PictureQuality::blank, 12, 40};
     thing.motion.registration.state = RegistrationState::failed;
     thing.motion.motion_vectors = {{CornerId{1} << 40, {1, 2}, {3, 4}, 5}};
     return thing;
@@ -72,7 +72,8 @@ TEST(StateArchive, GivesBackWhatWasWrittenToTheBit) {
     EXPECT_EQ(thing.places, sample().places);
     EXPECT_EQ(thing.words, sample().words);
     EXPECT_EQ(thing.chip.at<std::uint8_t>(1, 2), 6);
-    EXPECT_EQ(thing.motion.registration.reason, "blank");
+    EXPECT_EQ(thing.motion.registration.failure,
+              (RegistrationFailure{RegistrationFault::too_few_agree, PictureQuality::blank, 12, 40}));
     EXPECT_EQ(thing.motion.motion_vectors.at(0).id, CornerId{1} << 40);
 }
 

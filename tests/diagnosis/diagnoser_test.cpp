@@ -121,7 +121,7 @@ class Causes : public testing::Test {
 TEST_F(Causes, aMissInAFrameThatWasNotRegistered) {
     FrameResult& frame = stored[20];
     frame.motion.registration.state = RegistrationState::failed;
-    frame.motion.registration.reason = "too few corners (12 of 40)";
+    frame.motion.registration.failure = {.fault = RegistrationFault::too_few_corners, .count = 12, .of = 40};
     const auto miss = missedCar();
     EXPECT_EQ(miss.cause, MistakeCause::unregistered);
     EXPECT_THAT(miss.text, HasSubstr("12 of 40"));

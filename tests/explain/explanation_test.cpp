@@ -101,7 +101,7 @@ TrackState stateAt(TrackId id, cv::Point2d centre, TrackStatus status, StateOrig
 TEST(Explanation, frameThatCouldNotBeRegistered) {
     PlaceEvidence evidence = emptyPlace();
     evidence.result.motion.registration.state = RegistrationState::failed;
-    evidence.result.motion.registration.reason = "too few corners agree (12 of 40)";
+    evidence.result.motion.registration.failure = {.fault = RegistrationFault::too_few_agree, .count = 12, .of = 40};
     const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
     EXPECT_FALSE(told.found);
     EXPECT_EQ(told.parameter, "registration.min_inliers");

@@ -189,7 +189,8 @@ TEST(Registrar, survivesShakeAndTurns) {
         for (const auto& shake : shakes) {
             flight.move(test::cameraMotion(size, shake[0], shake[1], shake[2]));
             const RegisteredFrame result = watch.see(flight);
-            ASSERT_EQ(result.registration.state, RegistrationState::registered) << result.registration.reason;
+            ASSERT_EQ(result.registration.state, RegistrationState::registered)
+                << describe(result.registration.failure);
             EXPECT_LT(watch.error(result, size), 0.05);
         }
     }
@@ -205,7 +206,8 @@ TEST(Registrar, everySizeRunsWithoutHarm) {
             const RegisteredFrame result = watch.see(flight);
             expectWellFormed(result, size);
             if (size.width >= 64 && i > 0) {
-                EXPECT_EQ(result.registration.state, RegistrationState::registered) << result.registration.reason;
+                EXPECT_EQ(result.registration.state, RegistrationState::registered)
+                    << describe(result.registration.failure);
                 EXPECT_LT(watch.error(result, size), 0.15);
             }
         }
@@ -223,7 +225,7 @@ TEST(Registrar, largePicturesRun) {
     large(cv::Rect(3, 2, large.cols - 3, large.rows - 2))
         .copyTo(shifted(cv::Rect(0, 0, large.cols - 3, large.rows - 2)));
     const RegisteredFrame result = watch.seePicture(shifted);
-    ASSERT_EQ(result.registration.state, RegistrationState::registered) << result.registration.reason;
+    ASSERT_EQ(result.registration.state, RegistrationState::registered) << describe(result.registration.failure);
     EXPECT_LE(result.corners.size(), 12000U);
     EXPECT_LT(
         test::gridError(result.registration.current_from_previous.matrix, {1, 0, -3, 0, 1, -2, 0, 0, 1}, large.size()),

@@ -227,5 +227,78 @@ TEST_F(ProjectFileTest, AProjectOfSchemaOneOpensToday) {
     EXPECT_EQ(readAnnotations(project, store.runs()[0].sequence.id).objects.size(), 1U);
 }
 
+TEST_F(ProjectFileTest, SentencesOfOlderProjectsBecomeWordsWithFigures) {
+    constexpr int kBefore = 8;
+    const std::vector<std::pair<std::string, RegistrationFailure>> sentences = {
+        {"too few corners (12 of 40)", {.fault = RegistrationFault::too_few_corners, .count = 12, .of = 40}},
+        {"blank picture: too few corners (3 of 40)",
+         {RegistrationFault::too_few_corners, PictureQuality::blank, 3, 40}},
+        {"blurred picture: too few corners found again (7 of 900)",
+         {RegistrationFault::too_few_found_again, PictureQuality::blurred, 7, 900}},
+        {"too few corners agree (0 of 55)", {.fault = RegistrationFault::too_few_agree, .count = 0, .of = 55}},
+        {"cut: the picture does not fit to the one before", {.fault = RegistrationFault::cut}},
+        {"blank picture: the picture does not fit to the one before",
+         {RegistrationFault::no_match, PictureQuality::blank}},
+        {"the motion found is not one a camera makes", {.fault = RegistrationFault::impossible_motion}},
+        {"what an even older version said", {.fault = RegistrationFault::no_match}}};
+    {
+        SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+        schema::migrate(database, schema::migrations().first(kBefore));
+        database.exec("PRAGMA application_id = " + std::to_string(schema::kApplicationId));
+        database.exec(
+            "INSERT INTO sequence (id, path, width, height, frame_count, frame_rate_hz) "
+            "VALUES (1, '/videos/old.mp4', 64, 48, 20, 25)");
+        database.exec(
+            "INSERT INTO run (id, sequence_id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, "
+            "frame_rate_hz, first_frame, last_frame, state, message) "
+            "VALUES (1, 1, 'old', '', '', '', 0.2, 1, 25, 0, 19, 'finished', '')");
+        int frame = 0;
+        const auto insert = [&](const std::string& state, const std::string& reason) {
+            SQLite::Statement row(database,
+                                  "INSERT INTO frame (run_id, frame, time_us, width, height, registration_state, "
+                                  "reason, from_frame, to_frame, inliers, corner_count, motion_vector_count, "
+                                  "detection_count, track_count) VALUES (1, ?, 0, 64, 48, ?, ?, 0, 0, 0, 0, 0, 0, 0)");
+            row.bind(1, frame++);
+            row.bind(2, state);
+            row.bind(3, reason);
+            row.exec();
+        };
+        for (const auto& sentence : sentences) insert("failed", sentence.first);
+        insert("frozen", "the picture repeats the one before");
+        insert("registered", "");
+    }
+    ProjectFile project = ProjectFile::open(path_);
+    const std::vector<Registration> read = RunStore(project).registrations(1);
+    ASSERT_EQ(read.size(), sentences.size() + 2);
+    for (std::size_t i = 0; i < sentences.size(); ++i) {
+        EXPECT_EQ(read[i].failure, sentences[i].second) << sentences[i].first;
+        // What is said today is what was stored then.
+        if (i + 1 < sentences.size()) EXPECT_EQ(describe(read[i].failure), sentences[i].first);
+    }
+    EXPECT_EQ(read[sentences.size()].failure, RegistrationFailure{});
+    EXPECT_EQ(read[sentences.size() + 1].failure, RegistrationFailure{});
+}
+
+TEST_F(ProjectFileTest, ViewsTellTracksInUnitsOfPeople) {
+    const int run = test::writeSampleProject(path_, 8);
+    ProjectFile project = ProjectFile::open(path_);
+    const RunStore store(project);
+    const RunRecord record = store.runs().at(0);
+    for (const TrackSummary& track : store.tracks(run)) {
+        if (!track.confirmed) continue;
+        SQLite::Statement row(project.database(), "SELECT speed_px_per_frame, speed_kmh FROM v_tracks WHERE track = ?");
+        row.bind(1, static_cast<std::int64_t>(track.id));
+        ASSERT_TRUE(row.executeStep());
+        EXPECT_NEAR(row.getColumn(0).getDouble(), track.mean_speed_px, 1e-9);
+        EXPECT_NEAR(row.getColumn(1).getDouble(),
+                    track.mean_speed_px * record.scale.gsd_m_per_px * record.scale.frame_rate_hz * 3.6, 1e-6);
+    }
+    EXPECT_EQ(project.database()
+                  .execAndGet("SELECT count(*) FROM v_track_states WHERE heading_deg NOT BETWEEN 0 AND 360")
+                  .getInt(),
+              0);
+    EXPECT_EQ(project.database().execAndGet("SELECT count(*) FROM v_frames").getInt(), 8);
+}
+
 }  // namespace
 }  // namespace eyrie

@@ -12,11 +12,11 @@ namespace eyrie {
 namespace {
 
 /// A frame that could not be registered for a reason.
-FrameResult failed(FrameIndex frame, const std::string& reason) {
+FrameResult failed(FrameIndex frame, const RegistrationFailure& failure) {
     FrameResult result;
     result.motion.frame = frame;
     result.motion.registration.state = RegistrationState::failed;
-    result.motion.registration.reason = reason;
+    result.motion.registration.failure = failure;
     return result;
 }
 
@@ -31,14 +31,14 @@ class RunCountsTest : public testing::Test {
 TEST_F(RunCountsTest, ReasonsAreCountedWithoutTheirFigures) {
     ProjectFile project = ProjectFile::create(path_);
     ResultWriter writer(path_, test::sampleRun(), {});
-    writer.write(failed(0, "cut: the picture does not fit to the one before"));
-    writer.write(failed(1, "too few corners (12 of 40)"));
-    writer.write(failed(2, "too few corners (9 of 40)"));
+    writer.write(failed(0, {.fault = RegistrationFault::cut}));
+    writer.write(failed(1, {.fault = RegistrationFault::too_few_corners, .count = 12, .of = 40}));
+    writer.write(failed(2, {.fault = RegistrationFault::too_few_corners, .count = 9, .of = 40}));
     const RunCounts counts = countRun(project, writer.runId());
     EXPECT_EQ(counts.frames, 3);
     EXPECT_EQ(counts.unregistered, 3);
     ASSERT_EQ(counts.reasons.size(), 2U);
-    EXPECT_EQ(counts.reasons[0].reason, "too few corners");
+    EXPECT_EQ(counts.reasons[0].fault, RegistrationFault::too_few_corners);
     EXPECT_EQ(counts.reasons[0].frames, 2);
     EXPECT_EQ(counts.reasons[1].frames, 1);
 }

@@ -151,7 +151,7 @@ TEST_F(RunStoreTest, RegistrationsSayHowTheyEnded) {
         const Registration& read = registrations[static_cast<std::size_t>(i)];
         const Registration written = test::sampleFrame(i).motion.registration;
         EXPECT_EQ(read.state, written.state);
-        EXPECT_EQ(read.reason, written.reason);
+        EXPECT_EQ(read.failure, written.failure);
         EXPECT_EQ(read.current_from_previous.matrix, written.current_from_previous.matrix);
     }
 }

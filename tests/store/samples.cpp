@@ -33,7 +33,8 @@ void fillMotion(Dice& dice, FrameIndex frame, const SampleSize& size, FrameMotio
     motion.time_us = frame * 40000LL + dice.whole(0, 9);
     motion.image_size = size.image;
     motion.registration.state = static_cast<RegistrationState>(frame % 4);
-    motion.registration.reason = frame % 4 == 3 ? "too few corners (12 of 40); “blur”" : "";
+    if (frame % 4 == 3)
+        motion.registration.failure = {RegistrationFault::too_few_found_again, PictureQuality::blurred, 12, 40};
     Homography& homography = motion.registration.current_from_previous;
     for (double& element : homography.matrix.val) element = dice.real(-2, 2);
     homography.from_frame = frame - 1;
@@ -117,7 +118,7 @@ void expectSameMotion(const FrameMotion& read, const FrameMotion& written) {
     EXPECT_EQ(read.time_us, written.time_us);
     EXPECT_EQ(read.image_size, written.image_size);
     EXPECT_EQ(read.registration.state, written.registration.state);
-    EXPECT_EQ(read.registration.reason, written.registration.reason);
+    EXPECT_EQ(read.registration.failure, written.registration.failure);
     const Homography& a = read.registration.current_from_previous;
     const Homography& b = written.registration.current_from_previous;
     EXPECT_EQ(a.matrix, b.matrix);

@@ -83,7 +83,7 @@ TEST(TrackerInterruption, failedRegistrationIsCoastedThroughWithTheSameIds) {
         auto detections = scene.detections(frame);
         if (frame >= 20 && frame < 25) {
             motion.registration.state = RegistrationState::failed;
-            motion.registration.reason = "too few corners (3 of 40)";
+            motion.registration.failure = {.fault = RegistrationFault::too_few_corners, .count = 3, .of = 40};
             motion.motion_vectors.clear();
             detections = {{{{50, 50}, 300, 300, 0}, 1, {9, 9}, 0, {}, Rejection::none}};
         }
@@ -101,13 +101,13 @@ TEST(TrackerInterruption, aCutOrALongFailureEndsAllTracks) {
     for (int frame = 0; frame < 10; ++frame) tracker.next(scene.motion(frame), scene.detections(frame));
     FrameMotion motion = scene.motion(10);
     motion.registration.state = RegistrationState::failed;
-    motion.registration.reason = "cut: nothing of the picture before is left";
+    motion.registration.failure = {.fault = RegistrationFault::cut};
     EXPECT_TRUE(tracker.next(motion, {}).empty());
     const auto states = tracker.next(scene.motion(11), scene.detections(11));
     ASSERT_EQ(states.size(), 2u);
     EXPECT_EQ(states[0].id, 3) << "ids are never reused";
 
-    motion.registration.reason = "blur";
+    motion.registration.failure = {RegistrationFault::no_match, PictureQuality::blurred};
     std::size_t living = 2;
     for (int i = 0; i < 30; ++i) living = tracker.next(motion, {}).size();
     EXPECT_EQ(living, 0u);

@@ -24,7 +24,7 @@ QString registrationText(const Registration& registration) {
         case RegistrationState::frozen:
             return QObject::tr("frozen picture");
         case RegistrationState::failed:
-            return QObject::tr("failed: %1").arg(QString::fromStdString(registration.reason));
+            return QObject::tr("failed: %1").arg(QString::fromStdString(describe(registration.failure)));
         case RegistrationState::registered:
             break;
     }

@@ -38,7 +38,8 @@ QString howItEnded(const RunRecord& run, const RunFacts& facts) {
 QString unregisteredText(const RunCounts& counts) {
     QStringList reasons;
     for (const ReasonCount& count : counts.reasons)
-        reasons << tr("%1: %2").arg(QString::fromStdString(count.reason), QLocale().toString(count.frames));
+        reasons << tr("%1: %2").arg(QString::fromStdString(nameOf(count.fault, count.picture)),
+                                    QLocale().toString(count.frames));
     return tr("%1 could not be registered (%2)").arg(frames(counts.unregistered), reasons.join(QStringLiteral(", ")));
 }
 
@@ -66,8 +67,10 @@ QString whyNoTracks(const RunFacts& facts) {
         case NothingFollowed::not_registered:
             return tr("No frame could be registered onto the one before it (%1), so nothing could be told to move. "
                       "Blurred, blank or cut pictures and ground without texture cannot be registered.")
-                .arg(facts.counts.reasons.empty() ? tr("no reason was stored")
-                                                  : QString::fromStdString(facts.counts.reasons.front().reason));
+                .arg(facts.counts.reasons.empty()
+                         ? tr("no reason was stored")
+                         : QString::fromStdString(
+                               nameOf(facts.counts.reasons.front().fault, facts.counts.reasons.front().picture)));
         case NothingFollowed::no_motion:
             return tr("Nothing moved differently from the ground. Vehicles slower than motion.min_speed are not seen.");
         case NothingFollowed::no_detections:

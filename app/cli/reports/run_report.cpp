@@ -53,7 +53,8 @@ std::string unregisteredText(const RunCounts& counts) {
     if (counts.unregistered == 0) return {};
     std::string text =
         formatted("Not registered: %d frame%s (", counts.unregistered, counts.unregistered == 1 ? "" : "s");
-    for (const ReasonCount& count : counts.reasons) text += formatted("%s %d, ", count.reason.c_str(), count.frames);
+    for (const ReasonCount& count : counts.reasons)
+        text += formatted("%s %d, ", nameOf(count.fault, count.picture).c_str(), count.frames);
     text.resize(text.size() - 2);
     return text + ")\n";
 }

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <opencv2/core/types.hpp>
-#include <string>
 #include <vector>
 
 #include "core/geometry/homography.h"
 #include "core/values/ids.h"
+#include "core/values/registration_failure.h"
 
 namespace eyrie {
 
@@ -23,14 +23,14 @@ enum class RegistrationState {
     first,       ///< nothing before it to register onto
     registered,  ///< `current_from_previous` holds
     frozen,      ///< the same picture as before; the homography is the identity, nothing was measured
-    failed       ///< blur, blank, cut or too little texture; the homography is a guess, see `reason`
+    failed       ///< blur, blank, cut or too little texture; the homography is a guess, see `failure`
 };
 
 /// What registration delivers for one frame.
 struct Registration {
     RegistrationState state = RegistrationState::first;
     Homography current_from_previous;  ///< a prediction (state failed), the identity (first, frozen) or the estimate
-    std::string reason;                ///< for people, empty when registered: "too few corners (12 of 40)"
+    RegistrationFailure failure{};     ///< why not, in state failed
 
     bool reliable() const { return state == RegistrationState::registered || state == RegistrationState::frozen; }
 };

@@ -83,6 +83,14 @@ class RowReader {
     std::string text();
     /// A document of ours.
     std::string longText() { return statement_.getColumn(next_++).getString(); }
+    RegistrationFailure failure() {
+        RegistrationFailure value;
+        value.fault = word(stored::kRegistrationFaults);
+        value.picture = word(stored::kPictureQualities);
+        value.count = integer();
+        value.of = integer();
+        return value;
+    }
     ByteView bytes() {
         const SQLite::Column column = statement_.getColumn(next_++);
         // The blob's address must be asked for before its size.

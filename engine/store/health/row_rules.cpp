@@ -79,7 +79,8 @@ std::vector<RowRule> rowRules() {
          "range, scale or state of a run is impossible"},
         {"frame",
          frame + " AND width" + kPixels + " AND height" + kPixels + " AND corner_count >= 0 AND " +
-             isOneOf("registration_state", stored::kRegistrationStates) + " AND " + areShort("reason"),
+             isOneOf("registration_state", stored::kRegistrationStates) + " AND " +
+             isOneOf("reason", stored::kRegistrationFaults) + " AND " + isOneOf("picture", stored::kPictureQualities),
          "number, size or state of a frame is impossible"},
         {"motion_vectors", frame + " AND are_motion_vectors(data)", "motion vectors of a frame cannot be read"},
         {"stationary_corners", frame + " AND are_points(data)", "corners of a frame cannot be read"},

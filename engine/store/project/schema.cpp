@@ -294,9 +294,71 @@ CREATE TABLE unfinished_track_state (
 )sql");
 }
 
-constexpr std::array kMigrations{addRuns,          addLabels,   addComparisonsAndCompleteBoxes,
-                                 addSweeps,        addPresets,  addDroppedStates,
-                                 addRemovalOfRuns, addRunStates};
+// Why a frame could not be registered, as a word with its figures; a sentence until then.
+void addRegistrationFaults(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE frame ADD COLUMN picture TEXT NOT NULL DEFAULT 'clear';
+ALTER TABLE frame ADD COLUMN reason_count INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE frame ADD COLUMN reason_of INTEGER NOT NULL DEFAULT 0;
+UPDATE frame SET
+    picture = CASE WHEN reason LIKE 'blank picture: %' THEN 'blank' WHEN reason LIKE 'blurred picture: %' THEN 'blurred' ELSE 'clear' END,
+    reason_count = CASE WHEN reason LIKE '%(% of %)' THEN CAST(substr(reason, instr(reason, '(') + 1) AS INTEGER) ELSE 0 END,
+    reason_of = CASE WHEN reason LIKE '%(% of %)' THEN CAST(substr(reason, instr(reason, ' of ') + 4) AS INTEGER) ELSE 0 END,
+    reason = CASE
+        WHEN registration_state <> 'failed' THEN ''
+        WHEN reason LIKE 'cut: %' THEN 'cut'
+        WHEN reason LIKE '%too few corners found again%' THEN 'too few found again'
+        WHEN reason LIKE '%too few corners agree%' THEN 'too few agree'
+        WHEN reason LIKE '%too few corners%' THEN 'too few corners'
+        WHEN reason LIKE '%is not one a camera makes%' THEN 'impossible motion'
+        ELSE 'no match' END
+WHERE reason <> '';
+)sql");
+}
+
+// For readers with other tools: units that people use, and a shape that stays when tables change.
+void addViews(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE VIEW v_runs AS
+SELECT run.id AS run, sequence.path AS video, run.name, run.started_utc, run.state, run.first_frame, run.last_frame,
+    run.frame_rate_hz, CASE WHEN run.gsd_known THEN run.gsd_m_per_px END AS gsd_m_per_px
+FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE run.removed_utc = '';
+CREATE VIEW v_tracks AS
+SELECT track.run_id AS run, track.id AS track, track.first_frame, track.last_frame, track.frames,
+    (track.last_frame - track.first_frame) / v_runs.frame_rate_hz AS seconds,
+    track.length_sum / track.frames AS length_px, track.width_sum / track.frames AS width_px,
+    track.speed_sum / track.frames AS speed_px_per_frame,
+    track.length_sum / track.frames * v_runs.gsd_m_per_px AS length_m,
+    track.width_sum / track.frames * v_runs.gsd_m_per_px AS width_m,
+    track.speed_sum / track.frames * v_runs.gsd_m_per_px * v_runs.frame_rate_hz * 3.6 AS speed_kmh
+FROM track JOIN v_runs ON v_runs.run = track.run_id WHERE track.confirmed <> 0;
+CREATE VIEW v_track_states AS
+SELECT track_state.run_id AS run, track_state.track_id AS track, track_state.frame, frame.time_us / 1e6 AS seconds,
+    track_state.x, track_state.y, track_state.length AS length_px, track_state.width AS width_px,
+    track_state.heading_rad * 57.29577951308232
+        + CASE WHEN track_state.heading_rad < 0 THEN 360 ELSE 0 END AS heading_deg,
+    track_state.vx AS vx_px_per_frame, track_state.vy AS vy_px_per_frame, track_state.status, track_state.origin,
+    track_state.score
+FROM track_state JOIN frame ON frame.run_id = track_state.run_id AND frame.frame = track_state.frame
+    JOIN v_runs ON v_runs.run = track_state.run_id WHERE track_state.status <> 'tentative';
+CREATE VIEW v_detections AS
+SELECT detection.run_id AS run, detection.frame, detection.number, detection.x, detection.y,
+    detection.length AS length_px, detection.width AS width_px,
+    detection.heading_rad * 57.29577951308232
+        + CASE WHEN detection.heading_rad < 0 THEN 360 ELSE 0 END AS heading_deg,
+    detection.score, detection.rejection
+FROM detection JOIN v_runs ON v_runs.run = detection.run_id;
+CREATE VIEW v_frames AS
+SELECT frame.run_id AS run, frame.frame, frame.time_us / 1e6 AS seconds, frame.registration_state AS registration,
+    frame.reason, frame.picture, frame.corner_count AS corners, frame.motion_vector_count AS motion_vectors,
+    frame.detection_count AS detections, frame.track_count AS tracks
+FROM frame JOIN v_runs ON v_runs.run = frame.run_id;
+)sql");
+}
+
+constexpr std::array kMigrations{
+    addRuns,          addLabels,    addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
+    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews};
 
 }  // namespace
 

@@ -24,7 +24,8 @@ std::vector<Item> readItems(SQLite::Database& database, const std::string& query
 
 std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, FrameIndex frame) {
     std::string query =
-        "SELECT time_us, width, height, registration_state, reason, from_frame, to_frame, "
+        "SELECT time_us, width, height, registration_state, reason, picture, reason_count, reason_of, from_frame, "
+        "to_frame, "
         "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, background_speed_sigma";
     for (const char* stage : stored::kStageColumns) query += std::string(", ") + stage;
     SQLite::Statement statement(database, query + " FROM frame WHERE run_id = ? AND frame = ?");
@@ -41,7 +42,7 @@ std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, 
     motion.image_size.width = row.integer();
     motion.image_size.height = row.integer();
     motion.registration.state = row.word(stored::kRegistrationStates);
-    motion.registration.reason = row.text();
+    motion.registration.failure = row.failure();
     homography.from_frame = row.integer();
     homography.to_frame = row.integer();
     for (double& element : homography.matrix.val) element = row.real();

@@ -21,7 +21,8 @@ std::string insertInto(const std::string& table, const std::string& columns) {
 
 std::string frameColumns() {
     std::string columns =
-        "run_id, frame, time_us, width, height, registration_state, reason, from_frame, to_frame, "
+        "run_id, frame, time_us, width, height, registration_state, reason, picture, reason_count, "
+        "reason_of, from_frame, to_frame, "
         "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, motion_vector_count, "
         "detection_count, track_count, background_speed_sigma";
     for (const char* stage : stored::kStageColumns) columns += std::string(", ") + stage;
@@ -104,6 +105,7 @@ void FrameRows::insert(int run_id, const FrameResult& result) {
     const FrameMotion& motion = result.motion;
     const FrameIndex frame = motion.frame;
     const Homography& homography = motion.registration.current_from_previous;
+    const RegistrationFailure& failure = motion.registration.failure;
     const FrameSummary summary = summaryOf(result);
 
     RowWriter row(frame_);
@@ -113,7 +115,10 @@ void FrameRows::insert(int run_id, const FrameResult& result) {
         .integer(motion.image_size.width)
         .integer(motion.image_size.height)
         .word(stored::kRegistrationStates, motion.registration.state)
-        .text(motion.registration.reason)
+        .word(stored::kRegistrationFaults, failure.fault)
+        .word(stored::kPictureQualities, failure.picture)
+        .integer(failure.count)
+        .integer(failure.of)
         .integer(homography.from_frame)
         .integer(homography.to_frame);
     for (const double element : homography.matrix.val) row.real(element);

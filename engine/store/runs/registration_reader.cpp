@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kRows =
     "SELECT from_frame, to_frame, h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, registration_state, "
-    "reason FROM frame WHERE run_id = ? AND frame >= ? ORDER BY frame";
+    "reason, picture, reason_count, reason_of FROM frame WHERE run_id = ? AND frame >= ? ORDER BY frame";
 
 Homography homographyOf(RowReader& row) {
     Homography homography;
@@ -47,7 +47,7 @@ void RunStore::visitRegistrations(int run_id, const std::function<void(const Reg
             Registration registration;
             registration.current_from_previous = homographyOf(row);
             registration.state = row.word(stored::kRegistrationStates);
-            registration.reason = row.text();
+            registration.failure = row.failure();
             visitor(registration);
         }
     });

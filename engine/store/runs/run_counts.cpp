@@ -9,32 +9,23 @@
 namespace eyrie {
 namespace {
 
-/// "too few corners (12 of 40)" and "too few corners (9 of 40)" are one reason.
-std::string withoutFigures(const std::string& reason) {
-    return reason.substr(0, reason.find(" ("));
-}
-
 void countFrames(SQLite::Database& database, int run_id, RunCounts& counts) {
     SQLite::Statement statement(database,
-                                "SELECT registration_state, reason, count(*), sum(motion_vector_count), "
-                                "sum(detection_count) FROM frame WHERE run_id = ? GROUP BY 1, 2");
+                                "SELECT registration_state, reason, picture, count(*), sum(motion_vector_count), "
+                                "sum(detection_count) FROM frame WHERE run_id = ? GROUP BY 1, 2, 3");
     statement.bind(1, run_id);
     while (statement.executeStep()) {
         RowReader row(statement);
         const auto state = row.word(stored::kRegistrationStates);
-        const std::string reason = withoutFigures(row.text());
+        const auto fault = row.word(stored::kRegistrationFaults);
+        const auto picture = row.word(stored::kPictureQualities);
         const int frames = row.integer();
         counts.frames += frames;
         counts.motion_vectors += static_cast<long>(row.wide());
         counts.detections += static_cast<long>(row.wide());
         if (state != RegistrationState::failed) continue;
         counts.unregistered += frames;
-        const auto known = std::find_if(counts.reasons.begin(), counts.reasons.end(),
-                                        [&](const ReasonCount& count) { return count.reason == reason; });
-        if (known != counts.reasons.end())
-            known->frames += frames;
-        else
-            counts.reasons.push_back({reason, frames});
+        counts.reasons.push_back({fault, picture, frames});
     }
     std::stable_sort(counts.reasons.begin(), counts.reasons.end(),
                      [](const ReasonCount& a, const ReasonCount& b) { return a.frames > b.frames; });

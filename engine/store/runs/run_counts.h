@@ -1,15 +1,16 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "core/values/registration_failure.h"
 #include "store/project/project_file.h"
 
 namespace eyrie {
 
 /// Frames that could not be registered for one reason.
 struct ReasonCount {
-    std::string reason;  ///< for people; figures in brackets are left out: "too few corners"
+    RegistrationFault fault = RegistrationFault::none;
+    PictureQuality picture = PictureQuality::clear;
     int frames = 0;
 };
 

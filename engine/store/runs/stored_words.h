@@ -29,6 +29,16 @@ inline constexpr std::array<Word<RegistrationState>, 4> kRegistrationStates{
      {RegistrationState::registered, "registered"},
      {RegistrationState::frozen, "frozen"},
      {RegistrationState::failed, "failed"}}};
+inline constexpr std::array<Word<RegistrationFault>, 7> kRegistrationFaults{
+    {{RegistrationFault::none, ""},
+     {RegistrationFault::too_few_corners, "too few corners"},
+     {RegistrationFault::no_match, "no match"},
+     {RegistrationFault::cut, "cut"},
+     {RegistrationFault::too_few_found_again, "too few found again"},
+     {RegistrationFault::too_few_agree, "too few agree"},
+     {RegistrationFault::impossible_motion, "impossible motion"}}};
+inline constexpr std::array<Word<PictureQuality>, 3> kPictureQualities{
+    {{PictureQuality::clear, "clear"}, {PictureQuality::blurred, "blurred"}, {PictureQuality::blank, "blank"}}};
 inline constexpr std::array<Word<Rejection>, 4> kRejections{{{Rejection::none, "none"},
                                                              {Rejection::duplicate, "duplicate"},
                                                              {Rejection::outlier, "outlier"},
