@@ -13,7 +13,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr auto kPatience = std::chrono::seconds(5);
+constexpr auto kPlacePatience = std::chrono::seconds(5);
 
 /// SQLite would take a log that a deleted or moved project left for the new one's.
 void clearCompanions(const Path& path) {
@@ -28,7 +28,7 @@ void clearCompanions(const Path& path) {
 /// Held so that nobody's log is taken for a left one.
 std::unique_ptr<FileLock> lockMaking(const Path& path) {
     const Path file = lockFileBeside(path, ".making");
-    const auto end = std::chrono::steady_clock::now() + kPatience;
+    const auto end = std::chrono::steady_clock::now() + kPlacePatience;
     for (;;) {
         FileLock::Attempt attempt = FileLock::tryTake(file);
         // Where nothing can be locked the file itself is still made without replacing one.
