@@ -256,7 +256,7 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
         } abandon_on_exit{queue};
         const auto keepState = [&](std::string motion_half) {
             observer.onState(
-                {progress->last_done, packedState({progress->last_done, std::move(motion_half),
+                {progress->last_done, packedState({progress->last_done, progress->classifier, std::move(motion_half),
                                                    stateBytes(progress->waiting), stateBytes(progress->track_half)},
                                                   options_, scale_)});
             return true;

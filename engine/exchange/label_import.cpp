@@ -89,15 +89,15 @@ void reduceObjects(std::map<ObjectId, LabelledObject>& objects, const std::map<i
 }
 
 /// What lies behind the end of the video is left out.
-int cutAtEnd(LabelFile& labels, int frame_count) {
-    int left_out = 0;
+std::int64_t cutAtEnd(LabelFile& labels, int frame_count) {
+    std::int64_t left_out = 0;
     if (frame_count <= 0) return 0;
     for (auto entry = labels.boxes.lower_bound(frame_count); entry != labels.boxes.end();) {
-        left_out += static_cast<int>(entry->second.size());
+        left_out += static_cast<std::int64_t>(entry->second.size());
         entry = labels.boxes.erase(entry);
     }
     if (left_out > 0) labels.objects.clear();  // the boxes are cut, so they make the objects
-    return left_out;
+    return left_out + labels.not_filled;
 }
 
 /// Takes out what the project has already; answers how many objects and regions.
@@ -153,11 +153,10 @@ AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
 
 }  // namespace
 
-LabelImport planImport(const LabelFile& file, const SequenceRecord& sequence, const CameraMotion& camera,
+LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const CameraMotion& camera,
                        AnnotationStore& store, double tolerance_px, Doubles doubles, LooseBoxes loose) {
-    LabelFile labels = file;
     LabelImport result;
-    const int behind = cutAtEnd(labels, sequence.frame_count);
+    const std::int64_t behind = cutAtEnd(labels, sequence.frame_count);
     for (const auto& [frame, records] : labels.boxes) result.boxes += static_cast<int>(records.size());
 
     result.loose = gatherLooseBoxes(labels, loose);

@@ -30,7 +30,7 @@ struct LabelImport {
 /// belong to no object become objects of their own, as `loose` says. Boxes behind the video's last frame are left out;
 /// notes say how many. So are, unless `doubles` says
 /// otherwise, objects and regions that the project has already, within a pixel: a file imported twice adds nothing.
-LabelImport planImport(const LabelFile& labels, const SequenceRecord& sequence, const CameraMotion& camera,
+LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const CameraMotion& camera,
                        AnnotationStore& store, double tolerance_px, Doubles doubles = Doubles::skip,
                        LooseBoxes loose = LooseBoxes::single);
 

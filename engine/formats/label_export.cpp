@@ -110,28 +110,27 @@ std::vector<ExportFile> filesToWrite(const std::filesystem::path& path, const st
     return {{path, kind}};
 }
 
-ExportReport writeLabels(const LabelFile& labels, const std::filesystem::path& path, const std::string& format,
+ExportReport writeLabels(LabelFile labels, const std::filesystem::path& path, const std::string& format,
                          const ExportOptions& options) {
     const LabelFormat& known = formatToWrite(format);
     ExportReport report;
     report.format = format;
-    LabelFile prepared = labels;
-    if (options.image_size) prepared.image_size = options.image_size;
-    if (options.frame_count) prepared.frame_count = options.frame_count;
-    if (options.frame_rate_hz) prepared.frame_rate_hz = options.frame_rate_hz;
-    std::erase_if(prepared.boxes, [](const auto& entry) { return entry.second.empty(); });
+    if (options.image_size) labels.image_size = options.image_size;
+    if (options.frame_count) labels.frame_count = options.frame_count;
+    if (options.frame_rate_hz) labels.frame_rate_hz = options.frame_rate_hz;
+    std::erase_if(labels.boxes, [](const auto& entry) { return entry.second.empty(); });
     const Carries& carries = known.info.carries;
-    reportLosses(prepared, carries, report);
+    reportLosses(labels, carries, report);
     if (known.needs_id) {
-        report.add(LossKind::id, numberBoxes(prepared.boxes), "had no id of their own in a frame and got one");
+        report.add(LossKind::id, numberBoxes(labels.boxes), "had no id of their own in a frame and got one");
     }
     if (options.clip.value_or(false) && !carries.rotation) {
-        const cv::Size size = neededSize(prepared.image_size, path, "cutting boxes at the border");
-        report.add(LossKind::clipped, clipBoxes(prepared.boxes, size), "were cut at the image's border");
+        const cv::Size size = neededSize(labels.image_size, path, "cutting boxes at the border");
+        report.add(LossKind::clipped, clipBoxes(labels.boxes, size), "were cut at the image's border");
     }
     ExportOptions valid = options;
     valid.sequence = validUtf8(options.sequence);  // names of files may be anything
-    known.write(prepared, path, valid, report);
+    known.write(labels, path, valid, report);
     return report;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <opencv2/core/types.hpp>
@@ -26,6 +27,7 @@ struct LabelFile {
     LabelBoxes boxes;    ///< every frame an object is seen in; boxes without id belong to no object
     /// Only from formats with keyframes (CVAT), one per id, in which case `boxes` holds the frames between them too.
     std::vector<LabelledObject> objects;
+    std::int64_t not_filled = 0;  ///< boxes between keyframes that `boxes` does without; see ImportOptions::frame_count
     std::vector<std::string> classes;  ///< in the file's own order where it lists them; may be empty
     std::optional<cv::Size> image_size;
     std::optional<int> frame_count;

@@ -18,6 +18,8 @@ struct ImportOptions {
     int frame_shift = 0;                           ///< added to every frame
     double scale = 1;                              ///< multiplies all lengths, about the corner of the first pixel
     std::optional<cv::Size> image_size;            ///< before scaling; for formats relative to the image (YOLO)
+    /// Of the video they are for, where it is known: what keyframes span far behind its end is not filled in.
+    std::optional<int> frame_count;
     /// Columns of the user's own table (format "columns"), such as "frame,id,cname,x1,y1,x2,y2".
     std::string columns;
     std::optional<int> first_frame_number;  ///< "columns" only: number of a video's first frame, otherwise 0
@@ -108,7 +110,7 @@ std::vector<ExportFile> filesToWrite(const std::filesystem::path& path, const st
 
 /// Writes labels and says what the format could not carry. Existing folders of labels are refused, existing files
 /// replaced whole. Throws Error(output), and Error(parameter) for an unknown format or a missing option.
-ExportReport writeLabels(const LabelFile& labels, const std::filesystem::path& path, const std::string& format,
+ExportReport writeLabels(LabelFile labels, const std::filesystem::path& path, const std::string& format,
                          const ExportOptions& options = {});
 
 }  // namespace eyrie

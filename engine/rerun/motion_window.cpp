@@ -10,10 +10,12 @@ constexpr int kSettling = 12;      ///< frames until the corners are spread as i
 
 }  // namespace
 
-int MotionWindow::reachFor(const IndependentMotionOptions& options) {
+int MotionWindow::reachFor(const IndependentMotionOptions& options, const SceneScale& scale) {
     const int speeds =
         std::max({options.baseline, options.min_age, options.find_slow ? options.slow_baseline : 0}) + kSettling;
-    return std::max(speeds, options.silhouettes.enabled ? options.silhouettes.frames : 0);
+    const int silhouettes = options.silhouettes.enabled ? options.silhouettes.frames : 0;
+    const int areas = options.areas.enabled ? 2 * options.areas.gapFrames(scale) : 0;
+    return std::max({speeds, silhouettes, areas});
 }
 
 bool MotionWindow::cover(FrameIndex first, FrameIndex last, const std::function<Frame(FrameIndex)>& pixels,

@@ -20,8 +20,8 @@ class MotionWindow {
  public:
     MotionWindow(const RegistrationOptions& options, const SceneScale& scale) : options_(options), scale_(scale) {}
 
-    /// Frames before the wanted one that are needed for speeds to be measured as in a run.
-    static int reachFor(const IndependentMotionOptions& options);
+    /// Frames before the wanted one that are needed for motion to be measured as in a run.
+    static int reachFor(const IndependentMotionOptions& options, const SceneScale& scale);
 
     /// Registers the frames from `first` to `last` unless that was done, going on from where it is if it can; false
     /// when `stop` was requested meanwhile. Throws Error(input) when pixels cannot be read.

@@ -108,7 +108,8 @@ void Preview::makeWindows(const ChainOptions& options) {
 void Preview::warmUp(FrameIndex frame, const std::stop_token& stop) {
     if (frame < source_.first_frame) return;
     makeWindows(source_.options);
-    window_->cover(std::max(0, frame - MotionWindow::reachFor(source_.options.motion)), frame, source_.pixels, stop);
+    window_->cover(std::max(0, frame - MotionWindow::reachFor(source_.options.motion, source_.scale)), frame,
+                   source_.pixels, stop);
 }
 
 bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int range, const std::stop_token& stop) {
@@ -123,7 +124,7 @@ bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int r
     if (motions_for_ == wanted && motions_.count(frame) > 0 && motions_.count(first) > 0) return true;
     makeWindows(options);
     MotionWindow& window = range == 0 ? *window_ : *track_window_;
-    const FrameIndex begin = std::max(0, first - MotionWindow::reachFor(options.motion));
+    const FrameIndex begin = std::max(0, first - MotionWindow::reachFor(options.motion, source_.scale));
     if (!window.cover(begin, frame, source_.pixels, stop)) return false;
     motions_.clear();
     for (auto& [index, kept] : frames_) kept.clusters_for.clear();  // corners are numbered anew in another window

@@ -104,6 +104,25 @@ TEST(CameraMotion, MissingDamagedAndStrangeStepsBreakTheChainToo) {
     EXPECT_FALSE(camera.connects(14, 15));
 }
 
+TEST(CameraMotion, FramesWithoutStepsCostNothing) {
+    auto steps = test::stepsOf(test::flyingView, 20);
+    const CameraMotion near(steps);
+    const int far = 2'000'000'000;
+    for (const Homography& step : test::stepsOf(test::flyingView, 20)) {
+        steps.push_back(step);
+        steps.back().from_frame += far;
+        steps.back().to_frame += far;
+    }
+    // With room for every frame between them this would take more memory than any machine has.
+    const CameraMotion camera(steps);
+    EXPECT_TRUE(camera.connects(far, far + 20));
+    EXPECT_FALSE(camera.connects(20, far));
+    EXPECT_FALSE(camera.connects(20, 21));
+    EXPECT_FALSE(camera.connects(far - 1, far));
+    for (const int to : {1, 7, 20}) EXPECT_EQ(camera.map(0, to)->matrix, near.map(0, to)->matrix);
+    EXPECT_LT(distance(camera.map(far + 3, far + 17)->apply({9, 5}), near.map(3, 17)->apply({9, 5})), 1e-9);
+}
+
 TEST(CameraMotion, KnowsNothingWithoutSteps) {
     const CameraMotion camera;
     EXPECT_TRUE(camera.empty());

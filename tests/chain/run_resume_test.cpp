@@ -10,6 +10,8 @@
 #include "chain/recording/chain_state.h"
 #include "chain/recording/run_recorder.h"
 #include "core/error.h"
+#include "detection/sliding_window/model_location.h"
+#include "learning/models/vehicle_model.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_state_store.h"
@@ -304,6 +306,47 @@ TEST_F(StoppedRun, RefusesAnotherVideo) {
     EXPECT_EQ(test::rowsOf(stopped, 1), before) << "what was done stays";
 }
 
+TEST_F(StoppedRun, RefusesAClassifierThatHasChanged) {
+    const Path classifier = folder / "own.eyriemodel";
+    const VehicleModel shipped = loadModel(modelLocation(""));
+    saveModel(shipped, classifier);
+    const ChainOptions options = with({{"sliding_window.model", classifier.string()}});
+    const Path project = folder / "classified.eyrie";
+    begin(project, options, 30);
+    const auto before = test::rowsOf(project, 1);
+
+    VehicleModel retrained = shipped;
+    retrained.record.data += " and more";
+    saveModel(retrained, classifier);
+    test::MemorySource source = clip();
+    const auto refusal = [&]() -> std::string {
+        try {
+            resumedRun(project, 1, source);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::input);
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(refusal(), AllOf(HasSubstr(classifier.string()), HasSubstr("put the old file back")));
+    std::filesystem::remove(classifier);
+    EXPECT_THAT(refusal(), HasSubstr(classifier.string()));
+    EXPECT_EQ(test::rowsOf(project, 1), before) << "what was done stays";
+
+    saveModel(shipped, classifier);
+    const Resumed resumed = resume(project, 1);
+    EXPECT_EQ(resumed.last_done, 29);
+    EXPECT_EQ(resumed.run.state, RunState::finished);
+}
+
+TEST_F(StoppedRun, WithoutAClassifierDoesNotAskForOne) {
+    const ChainOptions options =
+        with({{"detection.method", "gradient"}, {"sliding_window.model", (folder / "never.eyriemodel").string()}});
+    const Path project = folder / "unclassified.eyrie";
+    begin(project, options, 30);
+    EXPECT_EQ(resume(project, 1).last_done, 29);
+}
+
 TEST_F(StoppedRun, IsOfferedUnlessItCannotBeGoneOnWith) {
     const auto obstacle = [&] {
         ProjectFile project = ProjectFile::open(stopped);
@@ -388,9 +431,9 @@ TEST(KeptStates, OfOtherParametersAreNotUsed) {
     test::MemorySource source = clip();
     const SceneScale scale = sceneScale(source.info(), 0.2);
     ChainProgress progress({}, scale);
-    const std::string bytes = packedState(
-        {3, stateBytes(progress.motion_half), stateBytes(progress.waiting), stateBytes(progress.track_half)}, {},
-        scale);
+    const std::string bytes = packedState({3, progress.classifier, stateBytes(progress.motion_half),
+                                           stateBytes(progress.waiting), stateBytes(progress.track_half)},
+                                          {}, scale);
     EXPECT_TRUE(unpackedState(bytes, {}, scale, source));
     EXPECT_FALSE(unpackedState(bytes, with({{"tracking.min_overlap", "0.33"}}), scale, source));
     EXPECT_FALSE(unpackedState(bytes, {}, sceneScale(source.info(), 0.21), source));

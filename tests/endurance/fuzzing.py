@@ -36,8 +36,8 @@ class Fuzzing(Part):
             raise Skipped(f"no seeds: {seeds}")
         for name in ("index-cache", "packed", "project", "video", "auto"):
             (self._corpus / name).mkdir(exist_ok=True)
-        shutil.copy(self.world.inputs / "clip.mp4", self._corpus / "video" / "clip.mp4")
-        shutil.copy(self.world.inputs / "clip.ts", self._corpus / "video" / "clip.ts")
+        for name in ("corner.mp4", "corner.ts"):
+            shutil.copy(self.world.inputs / name, self._corpus / "video" / name)
         self._dictionaries = self.world.folder / "dictionary"
         formats = [line for line in seeds.out.splitlines() if line]
         for number, name in enumerate(formats):
@@ -49,8 +49,8 @@ class Fuzzing(Part):
             Target("preset", "preset_fuzz"),
             Target("index-cache", "index_cache_fuzz"),
             Target("packed", "packed_fuzz"),
-            Target("project", "project_fuzz", [f"--project={self.world.base}"], slices=20, runs=1000, max_len=120),
-            Target("video", "video_fuzz", slices=10, runs=200, max_len=40_000),
+            Target("project", "project_fuzz", [f"--project={self.world.base}"], slices=20, runs=5000, max_len=120),
+            Target("video", "video_fuzz", slices=10, runs=5000, max_len=12_000),
         ]
         # Round by round, so that a short campaign tries each.
         rounds = max(target.slices for target in self._targets)

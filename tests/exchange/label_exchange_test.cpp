@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include "annotation/edits/ignore_regions.h"
+
 #include "core/error.h"
 #include "exchange/label_import.h"
 #include "exchange/project_labels.h"
+#include "formats/label_formats.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie {
@@ -64,6 +67,43 @@ TEST_F(LabelExchange, APlanChangesNothingUntilItIsApplied) {
         EXPECT_EQ(found.occlusion, records[0].occlusion) << frame;
         EXPECT_EQ(found.object_class, "tram");
     }
+}
+
+/// Two keyframes say as little or as much however many frames lie between them.
+TEST_F(LabelExchange, KeyframesFarBehindTheVideoCostNothing) {
+    const std::filesystem::path file = folder_ / "far.xml";
+    const int far = 900'000;
+    std::ofstream(file) << "<annotations><track id=\"1\" label=\"car\">"
+                        << "<box frame=\"0\" keyframe=\"1\" xtl=\"10\" ytl=\"10\" xbr=\"30\" ybr=\"20\"/>"
+                        << "<box frame=\"" << far
+                        << "\" keyframe=\"1\" xtl=\"110\" ytl=\"60\" xbr=\"130\" ybr=\"70\"/></track></annotations>";
+    const LabelFile all = readLabels(file);
+    ASSERT_EQ(all.boxes.size(), std::size_t{far + 1});
+    EXPECT_EQ(all.not_filled, 0);
+    ImportOptions options;
+    options.frame_count = sequence_.frame_count;
+    const LabelFile labels = readLabels(file, "auto", options);
+    EXPECT_LT(labels.boxes.size(), 20'000u);
+    ASSERT_TRUE(labels.boxes.contains(far)) << "what is said of a frame is there";
+    EXPECT_EQ(labels.boxes.size() + static_cast<std::size_t>(labels.not_filled), all.boxes.size());
+    EXPECT_THAT(reportOn(labels).notes, Contains(HasSubstr("far behind the video's end")));
+
+    AnnotationStore store(project_, sequence_.id);
+    const LabelImport few = planImport(labels, sequence_, {}, store, 0.45);
+    const LabelImport plan = planImport(all, sequence_, {}, store, 0.45);
+    EXPECT_EQ(few.notes, plan.notes);
+    EXPECT_THAT(few.notes, Contains(HasSubstr("899981 boxes lie behind the video's last frame")));
+    EXPECT_EQ(few.boxes, 20);
+    ASSERT_EQ(few.edit.objects.size(), 1u);
+    const std::vector<Keyframe>& keyframes = few.edit.objects[0].after->keyframes;
+    const std::vector<Keyframe>& expected = plan.edit.objects[0].after->keyframes;
+    ASSERT_EQ(keyframes.size(), expected.size());
+    EXPECT_EQ(keyframes.back().frame, expected.back().frame);
+    EXPECT_EQ(keyframes.back().box.centre, expected.back().box.centre);
+
+    // Frames of the file are not those of the video where they are shifted.
+    options.frame_shift = 100;
+    EXPECT_EQ(readLabels(file, "auto", options).boxes.size(), labels.boxes.size() - 100);
 }
 
 TEST_F(LabelExchange, AFileImportedTwiceAddsNothingUnlessAsked) {

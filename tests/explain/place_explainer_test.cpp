@@ -137,5 +137,25 @@ TEST(MotionWindow, otherParametersNeedNoOtherRegistration) {
     EXPECT_TRUE(window.motions(deaf, 1).front().motion_vectors.empty());
 }
 
+TEST(MotionWindow, reachesAsFarBackAsAreasLook) {
+    Fixture run;
+    const ReplaySource source = run.replaySource();
+    // Nothing but areas finds anything here, and nothing but they looks back as far.
+    IndependentMotionOptions options;
+    options.sigma_factor = 1e6;
+    options.silhouettes.enabled = false;
+    options.areas.max_corners = 1e6;
+    options.areas.gap_s = 14 / source.scale.frame_rate_hz;
+    const FrameIndex frame = 45;
+    const auto vectorsFrom = [&](FrameIndex first) {
+        MotionWindow window({}, source.scale);
+        EXPECT_TRUE(window.cover(first, frame, source.pixels, {}));
+        return window.motions(options, 1).front().motion_vectors.size();
+    };
+    const int reach = MotionWindow::reachFor(options, source.scale);
+    EXPECT_GT(vectorsFrom(frame - reach), 0U);
+    EXPECT_EQ(vectorsFrom(frame - reach + 1), 0U) << "a frame less does not suffice";
+}
+
 }  // namespace
 }  // namespace eyrie

@@ -1,9 +1,21 @@
+#include <dlfcn.h>
+
 extern "C" {
+#include <libavcodec/avcodec.h>
 #include <libavutil/log.h>
 }
 
 #include "fuzz/input_file.h"
 #include "io/video/frame_source.h"
+
+/// Stands before the library's: a decoder works in one thread here, as making threads for some small pictures would
+/// take most of the time.
+extern "C" int avcodec_open2(AVCodecContext* context, const AVCodec* codec, AVDictionary** options) {
+    using Open = int(AVCodecContext*, const AVCodec*, AVDictionary**);
+    static const auto open = reinterpret_cast<Open*>(dlsym(RTLD_NEXT, "avcodec_open2"));
+    context->thread_count = 1;
+    return open(context, codec, options);
+}
 
 /// Bytes as a video: its index is built and some frames are read.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {

@@ -178,7 +178,12 @@ void expectSame(const FrameResult& read, const FrameResult& written) {
     }
     ASSERT_EQ(read.tracks.size(), written.tracks.size());
     for (std::size_t i = 0; i < read.tracks.size(); ++i) expectSameTrack(read.tracks[i], written.tracks[i]);
-    EXPECT_EQ(read.stage_ms, written.stage_ms);
+    EXPECT_EQ(ofTheChain(read.stage_ms), ofTheChain(written.stage_ms));
+}
+
+StageTimes ofTheChain(StageTimes times) {
+    times[static_cast<std::size_t>(Stage::store)] = 0;
+    return times;
 }
 
 int writeSampleProject(const std::filesystem::path& path, int frames, const SampleSize& size) {

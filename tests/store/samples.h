@@ -25,7 +25,10 @@ FrameResult sampleFrame(FrameIndex frame, const SampleSize& size = {});
 /// A run over "/videos/street.mp4", frames 0 … 99.
 RunRecord sampleRun();
 
-/// Checks that two results are the same to the bit, and stationary corners to 1/32 px.
+/// The times without that of storing, which the writer measures itself.
+StageTimes ofTheChain(StageTimes times);
+
+/// Checks that two results are the same to the bit but for the time of storing, and stationary corners to 1/32 px.
 void expectSame(const FrameResult& read, const FrameResult& written);
 
 /// A project with one finished run of `frames` frames; answers the run's id.

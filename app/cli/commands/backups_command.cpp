@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/reports/console_progress.h"
 #include "core/error.h"
 #include "store/backup/project_restore.h"
 #include "store/health/project_contents.h"
@@ -41,6 +42,24 @@ Json factsOf(const ProjectBackup& backup, const std::optional<ProjectContents>& 
     return facts;
 }
 
+/// The facts of every earlier state. Large projects take a while to be looked through, the present one like the others.
+Json factsOfAll(const std::string& project, const std::vector<ProjectBackup>& backups) {
+    ConsoleProgress progress("% looked through");
+    std::error_code missing;
+    const auto bytes_now = std::filesystem::file_size(project, missing);
+    double done = missing ? 0.0 : static_cast<double>(bytes_now);
+    double bytes = done;
+    for (const ProjectBackup& backup : backups) bytes += static_cast<double>(backup.bytes);
+    const auto present = presentContents(project);
+    Json all = Json::array();
+    for (const ProjectBackup& backup : backups) {
+        progress.showShare(done / bytes);
+        all.push_back(factsOf(backup, present));
+        done += static_cast<double>(backup.bytes);
+    }
+    return all;
+}
+
 void print(const Json& facts) {
     std::printf("%s\n", facts["name"].get<std::string>().c_str());
     std::printf("  %s, %s, %.1f MB\n", facts["made"].get<std::string>().c_str(),
@@ -57,9 +76,7 @@ void listEarlierStates(const std::string& project, bool json) {
     if (backups.empty() && !std::filesystem::exists(project, missing)) {
         throw Error(ErrorKind::project, "there is no project " + project + ", and no earlier state of one");
     }
-    const auto present = presentContents(project);
-    Json all = Json::array();
-    for (const ProjectBackup& backup : backups) all.push_back(factsOf(backup, present));
+    const Json all = factsOfAll(project, backups);
     if (json) {
         std::printf("%s\n", all.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
         return;
@@ -82,13 +99,16 @@ ProjectBackup chosenBackup(const std::string& project, const std::string& name) 
 int restore(const std::string& project, const std::string& name, const std::string& out) {
     const ProjectBackup backup = chosenBackup(project, name);
     const InterruptGuard interrupt;
-    const CopyWatch watch{{}, interrupt.token()};
     const std::string target = out.empty() ? project : out;
     BackupResult kept;
-    if (out.empty()) {
-        kept = restoreBackup(project, backup, watch);
-    } else if (!restoreAsNew(backup, out, watch)) {
-        kept.outcome = BackupOutcome::stopped;
+    {
+        ConsoleProgress progress("% restored");
+        const CopyWatch watch{[&](double share) { progress.showShare(share); }, interrupt.token()};
+        if (out.empty()) {
+            kept = restoreBackup(project, backup, watch);
+        } else if (!restoreAsNew(backup, out, watch)) {
+            kept.outcome = BackupOutcome::stopped;
+        }
     }
     if (kept.outcome == BackupOutcome::by_others) throw Error(ErrorKind::project, kept.notice);
     if (kept.outcome == BackupOutcome::stopped) {

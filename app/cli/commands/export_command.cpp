@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/evaluation_files.h"
@@ -71,12 +72,13 @@ void exportLabels(const ExportArguments& arguments) {
     if (arguments.clip) options.clip = true;
     if (arguments.keep) options.clip = false;
     // The names of some files follow from what is exported, which is read quickly; nothing is written before.
-    const LabelFile labels = gathered(arguments, options);
+    LabelFile labels = gathered(arguments, options);
+    const std::vector<std::string> notes = labels.notes;
     std::vector<std::filesystem::path> inputs(labels.further_files.begin(), labels.further_files.end());
     inputs.insert(inputs.end(), {arguments.project, arguments.from});
     arguments.outputs.check(outputFiles(arguments.out, arguments.format, options), inputs);
-    std::fputs(reportText(writeLabels(labels, arguments.out, arguments.format, options)).c_str(), stdout);
-    for (const std::string& note : labels.notes) std::printf("  note        %s\n", note.c_str());
+    std::fputs(reportText(writeLabels(std::move(labels), arguments.out, arguments.format, options)).c_str(), stdout);
+    for (const std::string& note : notes) std::printf("  note        %s\n", note.c_str());
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
@@ -57,11 +59,34 @@ std::vector<std::string> doubtsAbout(const LabelFile& labels, ProjectFile& proje
     return doubts;
 }
 
-SequenceRecord sequenceFor(ProjectFile& project, const ImportArguments& arguments) {
-    if (arguments.video.empty()) return chosenSequence(project, arguments.sequence);
-    const std::unique_ptr<FrameSource> source =
-        openInput(arguments.video, 0, {}, rememberedRate(project.path(), arguments.video));
-    const VideoInfo& info = source->info();
+bool isThere(const std::string& project) {
+    std::error_code failed;
+    return std::filesystem::exists(project, failed);
+}
+
+/// The video that the labels belong to, where it was named and is needed.
+std::unique_ptr<FrameSource> openedVideo(const ImportArguments& arguments) {
+    if (arguments.video.empty() || arguments.show) return nullptr;
+    return openInput(arguments.video, 0, {}, rememberedRate(arguments.project, arguments.video));
+}
+
+/// How many frames that video has, as far as it can be told before anything is done. What keeps it from being told is
+/// told where the project is used.
+std::optional<int> framesOfVideo(const ImportArguments& arguments, const FrameSource* video) {
+    if (video != nullptr) return video->info().frame_count;
+    if (!arguments.video.empty() || !isThere(arguments.project)) return std::nullopt;
+    try {
+        ProjectFile project = ProjectFile::open(arguments.project, ProjectFile::Mode::read_only);
+        const int frames = chosenSequence(project, arguments.sequence).frame_count;
+        return frames > 0 ? std::optional(frames) : std::nullopt;
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+SequenceRecord sequenceFor(ProjectFile& project, const ImportArguments& arguments, const FrameSource* video) {
+    if (video == nullptr) return chosenSequence(project, arguments.sequence);
+    const VideoInfo& info = video->info();
     SequenceRecord sequence;
     sequence.path = info.path.string();
     sequence.size = info.size;
@@ -69,11 +94,6 @@ SequenceRecord sequenceFor(ProjectFile& project, const ImportArguments& argument
     sequence.frame_rate_hz = info.frame_rate_hz;
     sequence.id = ensureSequence(project, sequence);
     return sequence;
-}
-
-bool isThere(const std::string& project) {
-    std::error_code failed;
-    return std::filesystem::exists(project, failed);
 }
 
 /// A project can be made here only where its video is named.
@@ -90,7 +110,9 @@ void printNotes(const std::vector<std::string>& notes) {
 
 void importLabels(const ImportArguments& arguments) {
     ImportOptions options = importOptionsOf(arguments.labels);
-    const LabelFile labels = readLabels(arguments.file, arguments.labels.format, options);
+    const std::unique_ptr<FrameSource> video = openedVideo(arguments);
+    options.frame_count = framesOfVideo(arguments, video.get());
+    LabelFile labels = readLabels(arguments.file, arguments.labels.format, options);
     const LabelReport report = reportOn(labels);
     std::fputs(reportText(arguments.file, labels, report).c_str(), stdout);
     if (arguments.show) {
@@ -105,7 +127,7 @@ void importLabels(const ImportArguments& arguments) {
     inputs.insert(inputs.end(), {arguments.file, arguments.video});
     if (arguments.project.empty()) {
         arguments.outputs.check(outputFiles(arguments.out, "native"), inputs);
-        const ExportReport written = writeLabels(labels, arguments.out, "native");
+        const ExportReport written = writeLabels(std::move(labels), arguments.out, "native");
         std::fputs(reportText(written).c_str(), stdout);
         return;
     }
@@ -114,12 +136,12 @@ void importLabels(const ImportArguments& arguments) {
     keepEarlierState(arguments.project);
     ProjectFile project =
         arguments.video.empty() ? ProjectFile::open(arguments.project) : ProjectFile::openOrCreate(arguments.project);
-    const SequenceRecord sequence = sequenceFor(project, arguments);
+    const SequenceRecord sequence = sequenceFor(project, arguments, video.get());
     printNotes(doubtsAbout(labels, project, sequence));
     AnnotationStore store(project, sequence.id);
     if (store.readOnly()) throw Error(ErrorKind::output, store.readOnlyReason());
     const CameraMotion camera = cameraMotionOf(RunStore(project), sequence.id);
-    const LabelImport done = planImport(labels, sequence, camera, store, arguments.tolerance_px,
+    const LabelImport done = planImport(std::move(labels), sequence, camera, store, arguments.tolerance_px,
                                         arguments.add_doubles ? Doubles::add : Doubles::skip,
                                         arguments.link ? LooseBoxes::link : LooseBoxes::single);
     if (!done.edit.empty()) store.apply(done.edit);

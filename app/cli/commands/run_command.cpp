@@ -118,6 +118,12 @@ struct EndedRun {
     bool has_video = false;  ///< the annotated video was written
 };
 
+/// Finishes the run and takes what only its recorder knows.
+void takeRecord(EndedRun& ended, RunRecorder& recorder) {
+    ended.summary.median_ms[static_cast<std::size_t>(Stage::store)] = recorder.medianStoreMs();
+    ended.record = recorder.finish(ended.summary);
+}
+
 EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
                  const InterruptGuard& interrupt) {
     const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
@@ -136,7 +142,7 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     EndedRun ended;
     ended.summary =
         ChainRun(options, scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
-    ended.record = recorder.finish(ended.summary);
+    takeRecord(ended, recorder);
     ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
 }
@@ -193,7 +199,7 @@ EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& 
     ended.summary =
         ChainRun(resumed.options, run.scale)
             .run(source, resumed.range(), recorder, interrupt.token(), !arguments.annotated.empty(), resumed.start);
-    ended.record = recorder.finish(ended.summary);
+    takeRecord(ended, recorder);
     ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
 }

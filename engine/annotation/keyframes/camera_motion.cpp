@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <opencv2/core.hpp>
+#include <utility>
 
 namespace eyrie {
 namespace {
@@ -24,14 +26,27 @@ CameraMotion::CameraMotion(const std::vector<Homography>& steps) {
         if (step.to_frame == step.from_frame + 1 && step.from_frame >= 0) usable.push_back(&step);
     }
     if (usable.empty()) return;
-    const auto [lowest, highest] = std::minmax_element(usable.begin(), usable.end(),
-                                                       [](auto* a, auto* b) { return a->from_frame < b->from_frame; });
-    first_ = (*lowest)->from_frame;
-    std::vector<std::optional<cv::Matx33d>> matrices(static_cast<std::size_t>((*highest)->to_frame - first_));
-    for (const Homography* step : usable) {
-        matrices[static_cast<std::size_t>(step->from_frame - first_)] = scaled(step->matrix);
+    std::stable_sort(usable.begin(), usable.end(), [](auto* a, auto* b) { return a->from_frame < b->from_frame; });
+    empty_ = false;
+    first_ = usable.front()->from_frame;
+    std::vector<cv::Matx33d> stretch;
+    FrameIndex end = first_;  // of the stretch
+    const auto close = [&] {
+        const std::size_t begin = static_cast<std::size_t>(end - first_) - stretch.size();
+        add(begin, std::move(stretch));
+        stretch.clear();
+    };
+    for (std::size_t i = 0; i < usable.size(); ++i) {
+        const FrameIndex from = usable[i]->from_frame;
+        // Of several steps from a frame the last one counts.
+        if (i + 1 < usable.size() && usable[i + 1]->from_frame == from) continue;
+        const auto matrix = scaled(usable[i]->matrix);
+        if (from != end || !matrix) close();
+        if (!matrix) continue;
+        stretch.push_back(*matrix);
+        end = from + 1;
     }
-    build(matrices);
+    close();
 }
 
 CameraMotion CameraMotion::fromRegistrations(const std::vector<Registration>& registrations) {
@@ -60,36 +75,44 @@ CameraMotion CameraMotion::fromCommonFrame(const std::vector<Homography>& common
 
 CameraMotion CameraMotion::standing(FrameIndex first, FrameIndex last) {
     CameraMotion camera;
+    if (last <= first) return camera;
+    camera.empty_ = false;
     camera.first_ = first;
-    camera.build(std::vector<std::optional<cv::Matx33d>>(static_cast<std::size_t>(std::max(0, last - first)),
-                                                         cv::Matx33d::eye() * (1 / std::sqrt(3.0))));
+    camera.add(
+        0, std::vector<cv::Matx33d>(static_cast<std::size_t>(last - first), cv::Matx33d::eye() * (1 / std::sqrt(3.0))));
     return camera;
 }
 
-void CameraMotion::build(const std::vector<std::optional<cv::Matx33d>>& steps) {
-    steps_ = steps.size();
-    broken_.assign(steps_ + 1, 0);
-    std::vector<cv::Matx33d> blocks(steps_);
-    for (std::size_t i = 0; i < steps_; ++i) {
-        broken_[i + 1] = broken_[i] + (steps[i] ? 0 : 1);
-        blocks[i] = steps[i].value_or(cv::Matx33d::eye());
-    }
-    while (!blocks.empty()) {
-        std::vector<cv::Matx33d> doubled(blocks.size() / 2);
-        for (std::size_t i = 0; i < doubled.size(); ++i) {
-            const cv::Matx33d product = blocks[2 * i + 1] * blocks[2 * i];
-            doubled[i] = product * (1 / cv::norm(product));
+void CameraMotion::add(std::size_t begin, std::vector<cv::Matx33d> steps) {
+    if (steps.empty()) return;
+    Stretch stretch{begin, begin + steps.size(), {}};
+    Level level{begin, std::move(steps)};
+    while (!level.blocks.empty()) {
+        Level doubled{(level.first + 1) / 2, {}};
+        const std::size_t end = (level.first + level.blocks.size()) / 2;
+        for (std::size_t i = doubled.first; i < end; ++i) {
+            const cv::Matx33d* pair = &level.blocks[2 * i - level.first];
+            const cv::Matx33d product = pair[1] * pair[0];
+            doubled.blocks.push_back(product * (1 / cv::norm(product)));
         }
-        levels_.push_back(std::move(blocks));
-        blocks = std::move(doubled);
+        stretch.levels.push_back(std::move(level));
+        level = std::move(doubled);
     }
+    stretches_.push_back(std::move(stretch));
+}
+
+const CameraMotion::Stretch* CameraMotion::between(FrameIndex a, FrameIndex b) const {
+    if (a < first_) return nullptr;
+    const auto begin = static_cast<std::size_t>(a - first_);
+    const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), begin,
+                                        [](std::size_t step, const Stretch& each) { return step < each.begin; });
+    if (after == stretches_.begin()) return nullptr;
+    const Stretch& stretch = *std::prev(after);
+    return static_cast<std::size_t>(b - first_) <= stretch.end ? &stretch : nullptr;
 }
 
 bool CameraMotion::connects(FrameIndex a, FrameIndex b) const {
-    if (a == b) return true;
-    if (a > b) std::swap(a, b);
-    if (steps_ == 0 || a < first_ || b - first_ > static_cast<FrameIndex>(steps_)) return false;
-    return broken_[static_cast<std::size_t>(a - first_)] == broken_[static_cast<std::size_t>(b - first_)];
+    return a == b || between(std::min(a, b), std::max(a, b)) != nullptr;
 }
 
 std::optional<Homography> CameraMotion::map(FrameIndex from, FrameIndex to) const {
@@ -97,14 +120,16 @@ std::optional<Homography> CameraMotion::map(FrameIndex from, FrameIndex to) cons
     result.from_frame = from;
     result.to_frame = to;
     if (from == to) return result;
-    if (!connects(from, to)) return std::nullopt;
+    const Stretch* stretch = between(std::min(from, to), std::max(from, to));
+    if (stretch == nullptr) return std::nullopt;
     std::size_t at = static_cast<std::size_t>(std::min(from, to) - first_);
     const std::size_t end = static_cast<std::size_t>(std::max(from, to) - first_);
     cv::Matx33d product = cv::Matx33d::eye();
     while (at < end) {
         std::size_t level = 0;
-        while (level + 1 < levels_.size() && (at >> level) % 2 == 0 && at + (std::size_t{2} << level) <= end) ++level;
-        product = levels_[level][at >> level] * product;
+        while ((at >> level) % 2 == 0 && at + (std::size_t{2} << level) <= end) ++level;
+        const Level& blocks = stretch->levels[level];
+        product = blocks.blocks[(at >> level) - blocks.first] * product;
         at += std::size_t{1} << level;
     }
     if (from > to) {

@@ -14,7 +14,8 @@ namespace eyrie {
 ///
 /// Products are kept per aligned block of frames (1, 2, 4, … long), so that a map over n frames takes 2·log2(n)
 /// multiplications and depends on the frames between its ends only: its accuracy does not fade with the distance from
-/// some first frame.
+/// some first frame. Only for frames whose steps are known: however far apart these are, what lies between costs
+/// nothing.
 class CameraMotion {
  public:
     /// Knows nothing: no two frames are connected.
@@ -29,7 +30,7 @@ class CameraMotion {
     /// A camera that stands still over [first, last].
     static CameraMotion standing(FrameIndex first, FrameIndex last);
 
-    bool empty() const { return steps_ == 0; }
+    bool empty() const { return empty_; }
     /// Whether every frame between the two (both included) was registered onto its neighbour. A frame is connected with
     /// itself, known or not.
     bool connects(FrameIndex a, FrameIndex b) const;
@@ -37,13 +38,24 @@ class CameraMotion {
     std::optional<Homography> map(FrameIndex from, FrameIndex to) const;
 
  private:
-    void build(const std::vector<std::optional<cv::Matx33d>>& steps);
+    /// Products of the steps [i·2^k, (i+1)·2^k), whole blocks only, from i = `first` on.
+    struct Level {
+        std::size_t first = 0;
+        std::vector<cv::Matx33d> blocks;
+    };
+    /// Steps [begin, end) none of which is missing.
+    struct Stretch {
+        std::size_t begin = 0;
+        std::size_t end = 0;
+        std::vector<Level> levels;  ///< by k
+    };
+    void add(std::size_t begin, std::vector<cv::Matx33d> steps);
+    /// The stretch with all steps between two frames, a < b; null for none.
+    const Stretch* between(FrameIndex a, FrameIndex b) const;
 
-    FrameIndex first_ = 0;     ///< frame that the first step starts from
-    std::size_t steps_ = 0;    ///< number of steps, broken ones included
-    std::vector<int> broken_;  ///< broken steps before each step
-    /// levels_[k][i]: product of the steps [i·2^k, (i+1)·2^k), whole blocks only
-    std::vector<std::vector<cv::Matx33d>> levels_;
+    FrameIndex first_ = 0;  ///< frame that step 0 starts from
+    bool empty_ = true;
+    std::vector<Stretch> stretches_;  ///< ascending
 };
 
 }  // namespace eyrie

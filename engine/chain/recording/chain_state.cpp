@@ -6,11 +6,13 @@
 #include "chain/recording/run_recorder.h"
 #include "core/error.h"
 #include "core/state_values.h"
+#include "detection/sliding_window/model_location.h"
+#include "io/atomic_file.h"
 
 namespace eyrie {
 namespace {
 
-constexpr std::uint32_t kFormat = 2;  ///< counts up with every change of what any stage keeps
+constexpr std::uint32_t kFormat = 3;  ///< counts up with every change of what any stage keeps
 
 /// What must be the same for a state to be of use.
 std::string conditions(const ChainOptions& options, const SceneScale& scale) {
@@ -26,7 +28,7 @@ std::string conditions(const ChainOptions& options, const SceneScale& scale) {
 
 template <class Archive>
 void transferParts(Archive& archive, ChainStateParts& parts) {
-    archive(parts.last_done, parts.motion_half, parts.waiting, parts.track_half);
+    archive(parts.last_done, parts.classifier, parts.motion_half, parts.waiting, parts.track_half);
 }
 
 struct Unpacked {
@@ -53,6 +55,12 @@ Unpacked unpacked(std::string_view bytes, const ChainOptions& options, const Sce
     transferParts(reader, result.parts);
     reader.end();
     return result;
+}
+
+[[noreturn]] void refuseOtherClassifier(const ChainOptions& options) {
+    throw Error(ErrorKind::input, modelLocation(options.detection.sliding_window.model).string() +
+                                      " is not the classifier it was when the run was begun; put the old file back, or "
+                                      "begin a new run");
 }
 
 template <class Stage>
@@ -85,6 +93,11 @@ template void WaitingMotion::transfer(StateWriter&);
 template void MotionHalf::transfer(StateWriter&);
 template void TrackHalf::transfer(StateWriter&);
 
+std::uint64_t classifierChecksum(const DetectionOptions& options) {
+    if (!looksThroughWindows(options.method)) return 0;
+    return checksumOf(readWholeFile(modelLocation(options.sliding_window.model)));
+}
+
 std::string packedState(ChainStateParts parts, const ChainOptions& options, const SceneScale& scale) {
     StateWriter writer;
     std::uint64_t fingerprint = checksumOf(conditions(options, scale));
@@ -94,14 +107,6 @@ std::string packedState(ChainStateParts parts, const ChainOptions& options, cons
     const std::uint64_t sum = checksumOf(bytes);
     bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
     return bytes;
-}
-
-bool isStateFor(std::string_view bytes, const ChainOptions& options, const SceneScale& scale) {
-    try {
-        return unpacked(bytes, options, scale).fits;
-    } catch (const DamagedState&) {
-        return false;
-    }
 }
 
 std::unique_ptr<ChainProgress> unpackedState(std::string_view bytes, const ChainOptions& options,
@@ -118,6 +123,7 @@ std::unique_ptr<ChainProgress> unpackedState(std::string_view bytes, const Chain
         const auto [parts, fits] = unpacked(bytes, options, scale);
         if (!fits) return nullptr;
         auto progress = std::make_unique<ChainProgress>(options, scale);
+        if (parts.classifier != progress->classifier) refuseOtherClassifier(options);
         progress->last_done = parts.last_done;
         restore(progress->motion_half, parts.motion_half, pictures);
         restore(progress->waiting, parts.waiting, pictures);

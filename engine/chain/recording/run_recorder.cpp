@@ -1,5 +1,6 @@
 #include "chain/recording/run_recorder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "chain/recording/classified_vehicles.h"
@@ -35,7 +36,7 @@ RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun&
       image_size_(resumed.run.sequence.size) {}
 
 void RunRecorder::onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
-    writer_.write(*result);
+    store_ms_.push_back(writer_.write(*result));
     image_size_ = result->motion.image_size;
     if (also_) also_->onFrame(result, frame);
 }
@@ -46,6 +47,14 @@ void RunRecorder::onProgress(const RunProgress& progress) {
 
 void RunRecorder::onState(const ChainState& state) {
     writer_.keepState(state.last_done, state.bytes);
+}
+
+float RunRecorder::medianStoreMs() const {
+    if (store_ms_.empty()) return 0;
+    std::vector<float> times = store_ms_;
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    return *middle;
 }
 
 RunRecord RunRecorder::finish(const RunSummary& summary) {

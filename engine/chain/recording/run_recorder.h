@@ -28,6 +28,8 @@ class RunRecorder : public ChainObserver {
     void onState(const ChainState& state) override;
 
     int runId() const { return writer_.runId(); }
+    /// Median time that storing a frame took; 0 before the first.
+    float medianStoreMs() const;
     /// Finishes the tracks (see finishRun), closes the run with the summary's outcome and returns its record.
     RunRecord finish(const RunSummary& summary);
 
@@ -38,6 +40,7 @@ class RunRecorder : public ChainObserver {
     ResultWriter writer_;
     ChainObserver* also_;
     cv::Size image_size_;
+    std::vector<float> store_ms_;  ///< of every frame
 };
 
 /// Version of the engine as stored with every run, e.g. "0.1.0".

@@ -47,7 +47,7 @@ struct ResumedRun {
 
 /// Makes a run ready. `source` is the run's video (RunRecord::sequence), opened again; some of its frames are read.
 /// The project is only read; RunRecorder changes it. Throws Error(parameter) for a run that does not exist or cannot
-/// be gone on with, Error(input) when the video is not what it was, Error(project).
+/// be gone on with, Error(input) when the video or the classifier's file is not what it was, Error(project).
 ResumedRun resumedRun(const std::filesystem::path& project, int run_id, FrameSource& source);
 
 }  // namespace eyrie

@@ -13,9 +13,9 @@ inline constexpr const char* kIgnoreAttribute = "ignore";
 inline constexpr const char* kOcclusionAttribute = "occlusion";
 }  // namespace cvat
 
-/// Objects with their keyframes, and every frame between them as CVAT shows it. Throws Error(input) "file:line: …",
-/// among it for document types and entities, which no export of CVAT has.
-LabelFile readCvat(const std::filesystem::path& path);
+/// Objects with their keyframes, and every frame between them as CVAT shows it. `options`: for frame_count. Throws
+/// Error(input) "file:line: …", among it for document types and entities, which no export of CVAT has.
+LabelFile readCvat(const std::filesystem::path& path, const ImportOptions& options);
 
 /// Writes every frame; keyframes are as few as CVAT's interpolation allows within 0.02 px and 0.02°.
 void writeCvat(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <pugixml.hpp>
 #include <set>
 
@@ -17,6 +18,13 @@ namespace {
 /// with very many frames between them are no labels.
 constexpr std::int64_t kMostBoxes = 1'000'000;
 constexpr std::int64_t kMostBoxesPerElement = 1000;
+constexpr std::int64_t kMostLate = 10'000;  ///< frames by which labels of the right video may be late, so that it shows
+
+/// The frame, as the file counts, from which on nothing is filled in.
+std::int64_t filledUntil(const ImportOptions& options) {
+    if (!options.frame_count) return std::numeric_limits<std::int64_t>::max();
+    return std::int64_t{*options.frame_count} + kMostLate - options.frame_shift;
+}
 
 /// Names places in the text and reads attributes that nobody vouched for.
 class CvatText {
@@ -158,7 +166,8 @@ FileBox between(const FileBox& a, const FileBox& b, FrameIndex frame) {
 
 class CvatReader {
  public:
-    explicit CvatReader(const std::filesystem::path& path) : text_(path) {}
+    CvatReader(const std::filesystem::path& path, const ImportOptions& options)
+        : text_(path), filled_until_(filledUntil(options)) {}
 
     LabelFile read() {
         const pugi::xml_node root = text_.root();
@@ -267,17 +276,20 @@ class CvatReader {
             ++i;
         }
     }
-    /// Every frame of the object, as CVAT shows it.
+    /// Every frame of the object, as CVAT shows it; far behind the video's end the keyframes only.
     void fill(pugi::xml_node track, const LabelledObject& object, const std::vector<FileBox>& boxes) {
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             if (boxes[i].keyframe.outside) continue;
             const bool last = i + 1 == boxes.size();
-            const FrameIndex end = last ? object.last_frame + 1 : boxes[i + 1].keyframe.frame;
-            count_ += end - boxes[i].keyframe.frame;
+            const FrameIndex begin = boxes[i].keyframe.frame;
+            const FrameIndex next = last ? object.last_frame + 1 : boxes[i + 1].keyframe.frame;
+            const auto end = static_cast<FrameIndex>(std::clamp<std::int64_t>(filled_until_, begin + 1, next));
+            labels_.not_filled += next - end;
+            count_ += end - begin;
             if (count_ > kMostBoxes + kMostBoxesPerElement * elements_)
                 text_.fail(track, "the keyframes span more frames than can be meant");
             const bool moves = !last;
-            for (FrameIndex frame = boxes[i].keyframe.frame; frame < end; ++frame) {
+            for (FrameIndex frame = begin; frame < end; ++frame) {
                 FileBox box = moves ? between(boxes[i], boxes[i + 1], frame) : boxes[i];
                 box.keyframe.frame = frame;
                 add(object, finished(box));
@@ -306,6 +318,7 @@ class CvatReader {
     }
 
     CvatText text_;
+    std::int64_t filled_until_;
     LabelFile labels_;
     std::optional<int> stop_;
     std::set<int> ids_;
@@ -316,8 +329,8 @@ class CvatReader {
 
 }  // namespace
 
-LabelFile readCvat(const std::filesystem::path& path) {
-    return CvatReader(path).read();
+LabelFile readCvat(const std::filesystem::path& path, const ImportOptions& options) {
+    return CvatReader(path, options).read();
 }
 
 }  // namespace eyrie

@@ -77,36 +77,39 @@ void chooseKeyframes(std::vector<Written>& boxes, std::size_t first, std::size_t
     }
 }
 
-std::string boxLine(const Written& box, bool outside) {
-    std::string line = "    <box frame=\"" + std::to_string(box.frame) + "\" keyframe=\"" + (box.keyframe ? "1" : "0") +
-                       "\" outside=\"" + (outside ? "1" : "0") + "\" occluded=\"" +
-                       (box.occlusion == Occlusion::none ? "0" : "1") + "\"";
+void addBoxLine(std::string& text, const Written& box, bool outside) {
+    text += "    <box frame=\"" + std::to_string(box.frame) + "\" keyframe=\"" + (box.keyframe ? "1" : "0") +
+            "\" outside=\"" + (outside ? "1" : "0") + "\" occluded=\"" +
+            (box.occlusion == Occlusion::none ? "0" : "1") + "\"";
     const char* names[] = {" xtl=\"", " ytl=\"", " xbr=\"", " ybr=\""};
-    for (std::size_t i = 0; i < 4; ++i) line += names[i] + fixedText(box.edges[i], kCvatDecimals) + "\"";
-    if (box.degrees != 0) line += " rotation=\"" + fixedText(box.degrees, kCvatDecimals) + "\"";
-    return line + " z_order=\"0\">\n      <attribute name=\"" + cvat::kIgnoreAttribute + "\">" +
-           (box.ignore ? "true" : "false") + "</attribute>\n      <attribute name=\"" + cvat::kOcclusionAttribute +
-           "\">" + (box.occlusion == Occlusion::fully ? "fully" : "partly") + "</attribute>\n    </box>\n";
+    for (std::size_t i = 0; i < 4; ++i) text += names[i] + fixedText(box.edges[i], kCvatDecimals) + "\"";
+    if (box.degrees != 0) text += " rotation=\"" + fixedText(box.degrees, kCvatDecimals) + "\"";
+    text += std::string(" z_order=\"0\">\n      <attribute name=\"") + cvat::kIgnoreAttribute + "\">" +
+            (box.ignore ? "true" : "false") + "</attribute>\n      <attribute name=\"" + cvat::kOcclusionAttribute +
+            "\">" + (box.occlusion == Occlusion::fully ? "fully" : "partly") + "</attribute>\n    </box>\n";
 }
 
-std::string trackText(std::vector<Written> boxes, FrameIndex stop) {
+/// Adds the boxes of a track, of which there may be a million; answers how many are keyframes.
+int addTrack(std::string& text, std::vector<Written> boxes, FrameIndex stop) {
     std::size_t begin = 0;
     for (std::size_t k = 0; k < boxes.size(); ++k) {
         if (k + 1 < boxes.size() && boxes[k + 1].frame == boxes[k].frame + 1) continue;
         chooseKeyframes(boxes, begin, k);
         begin = k + 1;
     }
-    std::string text;
+    int keyframes = 0;
     for (std::size_t k = 0; k < boxes.size(); ++k) {
-        text += boxLine(boxes[k], false);
+        addBoxLine(text, boxes[k], false);
+        keyframes += boxes[k].keyframe;
         const bool gap = k + 1 == boxes.size() || boxes[k + 1].frame != boxes[k].frame + 1;
         if (!gap || boxes[k].frame >= stop) continue;
         Written end = boxes[k];
         ++end.frame;
         end.keyframe = true;
-        text += boxLine(end, true);
+        addBoxLine(text, end, true);
+        ++keyframes;
     }
-    return text;
+    return keyframes;
 }
 
 std::string metaText(const LabelFile& labels, const std::set<std::string>& classes, const std::string& name) {
@@ -141,7 +144,7 @@ LabelFormat described() {
     format.info = {"cvat", "CVAT for video 1.1", {"xml"}, false, true, true, {}};
     format.info.carries = {.rotation = true, .id = true, .object_class = true, .occlusion = true, .ignore = true};
     format.needs_id = true;
-    format.read = [](const std::filesystem::path& path, const ImportOptions&) { return readCvat(path); };
+    format.read = readCvat;
     format.write = writeCvat;
     format.fits = [](const FileHead& head) {
         return head.text.find("<annotations") != std::string::npos && head.text.find('<') < 200;
@@ -169,15 +172,17 @@ void writeCvat(const LabelFile& labels, const std::filesystem::path& path, const
         other_class += static_cast<int>(track.size()) - most->second;
         const std::string name = most->first.empty() ? "object" : most->first;
         classes.insert(name);
-        const std::string text = trackText(std::move(boxes), stop);
-        for (std::size_t at = 0; (at = text.find("keyframe=\"1\"", at)) != std::string::npos; ++at) ++keyframes;
-        tracks += "  <track id=\"" + std::to_string(id) + "\" label=\"" + markupEscaped(name) +
-                  "\" source=\"manual\">\n" + text + "  </track>\n";
+        tracks +=
+            "  <track id=\"" + std::to_string(id) + "\" label=\"" + markupEscaped(name) + "\" source=\"manual\">\n";
+        keyframes += addTrack(tracks, std::move(boxes), stop);
+        tracks += "  </track>\n";
     }
     classes.insert(labels.classes.begin(), labels.classes.end());
     classes.erase("");
-    writeFileAtomically(path, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<annotations>\n  <version>1.1</version>\n" +
-                                  metaText(labels, classes, options.sequence) + tracks + "</annotations>\n");
+    tracks.insert(0, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<annotations>\n  <version>1.1</version>\n" +
+                         metaText(labels, classes, options.sequence));
+    tracks += "</annotations>\n";
+    writeFileAtomically(path, tracks);
     report.files.push_back(path);
     report.add(LossKind::class_name, other_class, "have another class than most of their track, which took that one");
     report.notes.push_back(counted(keyframes, "keyframe", "keyframes") + " reproduce all boxes within 0.02 px");

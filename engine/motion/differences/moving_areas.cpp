@@ -176,12 +176,12 @@ void MovingAreaOptions::describe(ParameterVisitor& visitor) {
                  {"", "An area's pixels agree at least so well with where they went and where they came from.", ""});
 }
 
+int MovingAreaOptions::gapFrames(const SceneScale& scale) const {
+    return std::clamp(cvRound(gap_s * scale.frame_rate_hz), 1, 30);
+}
+
 MovingAreas::MovingAreas(const MovingAreaOptions& options, const SceneScale& scale)
-    : options_(options),
-      scale_(scale),
-      gap_(std::clamp(cvRound(options.gap_s * scale.frame_rate_hz), 1, 30)),
-      frames_(2 * gap_),
-      next_id_(kFirstOfAreas) {}
+    : options_(options), scale_(scale), gap_(options.gapFrames(scale)), frames_(2 * gap_), next_id_(kFirstOfAreas) {}
 
 void MovingAreas::add(const Frame& frame, const Registration& registration) {
     if (!options_.enabled) return;

@@ -25,6 +25,8 @@ struct MovingAreaOptions {
     double min_shift_px = 1.5;     ///< between two of the pictures; smaller shifts may be misregistration
     double min_correlation = 0.8;  ///< of an area's pixels with where they went
 
+    /// Frames between two of the three pictures that are compared.
+    int gapFrames(const SceneScale& scale) const;
     void describe(ParameterVisitor& visitor);
 };
 
@@ -49,8 +51,6 @@ class MovingAreas {
     /// Vectors in the areas of the newest frame, with ids above those of all corners and silhouettes, and of age 0;
     /// none where corners suffice. `motion` is what is known of the frame already. `min_speed` in px/frame.
     std::vector<MotionVector> infer(const FrameMotion& motion, double min_speed);
-
-    /// Frames between two pictures that are compared.
 
     /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
     /// same options.

@@ -2,6 +2,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <chrono>
+#include <optional>
 #include "store/database/rows.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/frame_rows.h"
@@ -47,10 +49,24 @@ void storeParameters(SQLite::Database& database, int run_id,
 
 struct ResultWriter::Implementation {
     explicit Implementation(const std::filesystem::path& path)
-        : project(ProjectFile::open(path)), rows(project.database()) {}
+        : project(ProjectFile::open(path)),
+          rows(project.database()),
+          store_time(project.database(), "UPDATE frame SET store_ms = ? WHERE run_id = ? AND frame = ?") {}
 
+    /// Stores how long storing took last, which is only known once that is over.
+    void storeTime() {
+        if (!taken) return;
+        RowWriter(store_time).real(static_cast<double>(taken->ms)).integer(run_id).integer(taken->frame).run();
+    }
+
+    struct Taken {
+        FrameIndex frame = 0;
+        float ms = 0;
+    };
     ProjectFile project;
     FrameRows rows;
+    SQLite::Statement store_time;
+    std::optional<Taken> taken;  ///< by the last frame
     std::unique_ptr<FileLock> lock;
     int run_id = 0;
     FrameIndex replaced_up_to = -1;  ///< frames up to here may be stored already
@@ -95,7 +111,8 @@ int ResultWriter::runId() const {
     return implementation_->run_id;
 }
 
-void ResultWriter::write(const FrameResult& result) {
+float ResultWriter::write(const FrameResult& result) {
+    const auto start = std::chrono::steady_clock::now();
     const std::string doing = "storing frame " + std::to_string(result.motion.frame);
     implementation_->project.checkInPlace();
     guarded(implementation_->project.path(), doing, [&] {
@@ -104,8 +121,12 @@ void ResultWriter::write(const FrameResult& result) {
             implementation_->rows.erase(implementation_->run_id, result.motion.frame);
         }
         implementation_->rows.insert(implementation_->run_id, result);
+        implementation_->storeTime();
         transaction.commit();
     });
+    const std::chrono::duration<float, std::milli> passed = std::chrono::steady_clock::now() - start;
+    implementation_->taken = {result.motion.frame, passed.count()};
+    return passed.count();
 }
 
 void ResultWriter::keepState(FrameIndex frame, const std::string& bytes) {
@@ -120,6 +141,7 @@ void ResultWriter::finish(RunState state, const std::string& message) {
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         SQLite::Statement statement(database, "UPDATE run SET state = ?, message = ? WHERE id = ?");
         RowWriter(statement).word(stored::kRunStates, state).text(message).integer(implementation_->run_id).run();
+        implementation_->storeTime();
         if (state == RunState::finished) {
             for (const char* table : {"run_state", "unfinished_track_state"}) {
                 SQLite::Statement rest(database, std::string("DELETE FROM ") + table + " WHERE run_id = ?");

@@ -29,8 +29,9 @@ class ResultWriter {
 
     int runId() const;
     /// Every frame once; one that is left from before the run was taken up is replaced. Throws Error(output) when the
-    /// disk is full, Error(project) when the run was removed meanwhile; frames written before stay.
-    void write(const FrameResult& result);
+    /// disk is full, Error(project) when the run was removed meanwhile; frames written before stay. The milliseconds it
+    /// took are returned, and stored with the next frame or the end of the run: what `result` says of it is not.
+    float write(const FrameResult& result);
     /// Keeps what the chain remembers after a frame that was written, for going on with the run. The same errors.
     void keepState(FrameIndex frame, const std::string& bytes);
     /// Records how the run ended. What is kept for going on with it goes when it is finished.

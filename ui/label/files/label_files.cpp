@@ -118,6 +118,7 @@ ImportOptions LabelImportDialog::options() const {
     options.scale = scale_->value();
     options.columns = columns_->text().toStdString();
     options.image_size = labels_.sequence().size;
+    if (labels_.sequence().frame_count > 0) options.frame_count = labels_.sequence().frame_count;
     return options;
 }
 
