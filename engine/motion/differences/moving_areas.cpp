@@ -162,6 +162,8 @@ void MovingAreaOptions::describe(ParameterVisitor& visitor) {
                   "Only while fewer corners than this lie on a car at their mean density. Larger: also where vehicles "
                   "carry more corners, with more false areas.",
                   ""});
+    visitor.real("motion.area_few_corners", few_corners, 0, 10000,
+                 {"", "From so many corners on a car on, areas are taken only where they agree very well.", ""});
     visitor.real("motion.area_gap", gap_s, 0.01, 10,
                  {"s", "Time between the three pictures that are compared. Longer: slower vehicles.", ""});
     visitor.real("motion.area_noise_factor", noise_factor, 0, 100,
@@ -174,6 +176,8 @@ void MovingAreaOptions::describe(ParameterVisitor& visitor) {
                  {"px", "Areas that went less far between two of the pictures may be misregistered.", ""});
     visitor.real("motion.area_min_correlation", min_correlation, -1, 1,
                  {"", "An area's pixels agree at least so well with where they went and where they came from.", ""});
+    visitor.real("motion.area_sure_correlation", sure_correlation, -1, 1,
+                 {"", "… and so well where a car carries motion.area_few_corners corners or more.", ""});
 }
 
 int MovingAreaOptions::gapFrames(const SceneScale& scale) const {
@@ -228,13 +232,13 @@ std::vector<DifferingArea> MovingAreas::differingAreas() const {
     return areasOf(differs, fewest, scale_.px(options_.max_length_m) / 2);
 }
 
-std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area) const {
+std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, double min_correlation) const {
     const cv::Rect bounds = grownBounds(area);
     const std::vector<cv::Point> pixels = grownPixels(area, bounds);
     const cv::Mat before = partOf(frames_.picture(gap_), frames_.pathTo(gap_), bounds);
     const int reach = std::clamp(static_cast<int>(std::ceil(scale_.pxPerFrame(kMaxSpeed) * gap_)), 4, kLongestReach);
     const auto on = matchArea(pixels, before, frames_.newest(), bounds.tl(), reach);
-    if (!on || on->correlation < options_.min_correlation) return std::nullopt;
+    if (!on || on->correlation < min_correlation) return std::nullopt;
     const cv::Point2d shift = on->shift - cv::Point2d(bounds.tl());
 
     const cv::Point back(-cvRound(shift.x), -cvRound(shift.y));
@@ -243,14 +247,17 @@ std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area) const
                           bounds.height + 2 * margin);
     const cv::Mat long_before = partOf(frames_.picture(2 * gap_), frames_.pathTo(2 * gap_), whence);
     const auto came = matchArea(pixels, before, long_before, {margin, margin}, kReturnReach);
-    if (!came || came->correlation < options_.min_correlation) return std::nullopt;
+    if (!came || came->correlation < min_correlation) return std::nullopt;
     return shift;
 }
 
 std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double min_speed) {
     std::vector<MotionVector> inferred;
     if (!options_.enabled || frames_.count() < 2 * gap_) return inferred;
-    if (cornersOnCar(motion, scale_) >= options_.max_corners) return inferred;
+    const double corners_on_car = cornersOnCar(motion, scale_);
+    if (corners_on_car >= options_.max_corners) return inferred;
+    const double min_correlation =
+        corners_on_car < options_.few_corners ? options_.min_correlation : options_.sure_correlation;
     const cv::Size size = frames_.newest().size();
     for (const int back : {gap_, 2 * gap_}) {
         const Homography path = frames_.pathTo(back);
@@ -262,7 +269,7 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double m
     cv::parallel_for_(cv::Range(0, static_cast<int>(areas.size())), [&](const cv::Range& range) {
         for (int i = range.start; i < range.end; ++i) {
             const auto at = static_cast<std::size_t>(i);
-            const auto shift = shiftOf(areas[at]);
+            const auto shift = shiftOf(areas[at], min_correlation);
             if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.min_shift_px, min_speed * gap_))
                 shifts[at] = shift;
         }
