@@ -273,7 +273,9 @@ TEST_F(ProjectFileTest, SentencesOfOlderProjectsBecomeWordsWithFigures) {
     for (std::size_t i = 0; i < sentences.size(); ++i) {
         EXPECT_EQ(read[i].failure, sentences[i].second) << sentences[i].first;
         // What is said today is what was stored then.
-        if (i + 1 < sentences.size()) EXPECT_EQ(describe(read[i].failure), sentences[i].first);
+        if (i + 1 < sentences.size()) {
+            EXPECT_EQ(describe(read[i].failure), sentences[i].first);
+        }
     }
     EXPECT_EQ(read[sentences.size()].failure, RegistrationFailure{});
     EXPECT_EQ(read[sentences.size() + 1].failure, RegistrationFailure{});

@@ -23,7 +23,7 @@ namespace {
 constexpr int kMostRows = 2000;
 constexpr double kCloseUp = 4;  ///< screen px per image px at most, when a difference is gone to
 constexpr int kRateWindow_ms = 1000;
-constexpr int kSettle_ms = 250;  ///< after the last change of a parameter
+constexpr int kEditsSettle_ms = 250;  ///< after the last change of a parameter
 
 QTableWidget* differenceTable(const QStringList& columns) {
     auto* made = new QTableWidget(0, static_cast<int>(columns.size()));
@@ -94,7 +94,7 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
     });
     connect(&session_, &ProjectSession::videoChanged, this, &ComparisonWindow::close);
     edited_.setSingleShot(true);
-    edited_.setInterval(kSettle_ms);
+    edited_.setInterval(kEditsSettle_ms);
     connect(&edited_, &QTimer::timeout, this, &ComparisonWindow::parametersEdited);
     frame_ = session_.currentFrame();
     usePair();

@@ -15,7 +15,7 @@
 namespace eyrie::ui {
 
 namespace {
-constexpr int kSettle_ms = 80;
+constexpr int kChipsSettle_ms = 80;
 }
 
 ErrorsPanel::ErrorsPanel(ErrorsModel* model, QWidget* parent)
@@ -33,7 +33,7 @@ ErrorsPanel::ErrorsPanel(ErrorsModel* model, QWidget* parent)
     kinds_ = filterButton(tr("All kinds"));
     causes_ = filterButton(tr("All causes"));
     chips_due_->setSingleShot(true);
-    chips_due_->setInterval(kSettle_ms);
+    chips_due_->setInterval(kChipsSettle_ms);
     connect(chips_due_, &QTimer::timeout, this, &ErrorsPanel::chipsWanted);
     connect(table()->verticalScrollBar(), &QScrollBar::valueChanged, this, &ErrorsPanel::wantChips);
     connect(table()->model(), &QAbstractItemModel::layoutChanged, this, &ErrorsPanel::wantChips);
