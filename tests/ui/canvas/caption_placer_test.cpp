@@ -5,7 +5,7 @@
 
 namespace eyrie::ui {
 
-class LabelPlacerTest : public QObject {
+class CaptionPlacerTest : public QObject {
     Q_OBJECT
 
  private slots:
@@ -46,5 +46,5 @@ class LabelPlacerTest : public QObject {
 
 }  // namespace eyrie::ui
 
-QTEST_APPLESS_MAIN(eyrie::ui::LabelPlacerTest)
-#include "label_placer_test.moc"
+QTEST_APPLESS_MAIN(eyrie::ui::CaptionPlacerTest)
+#include "caption_placer_test.moc"
