@@ -131,8 +131,23 @@ TEST(MovingAreas, AreNotLightsThatFlicker) {
 TEST(MovingAreas, AreLookedForOnlyWhereCornersStarve) {
     const CarScene scene = sceneWith({2, 0});
     FrameMotion motion = starved(scene);
-    motion.corner_count = 320 * 240 / 20;  // four on a car
+    motion.corner_count = 320 * 240 / 10;  // eight on a car
     EXPECT_THAT(inferred(scene, motion), IsEmpty());
+}
+
+TEST(MovingAreas, MustBeSureWhereCornersNearlySuffice) {
+    const CarScene scene = sceneWith({2, 0});
+    FrameMotion motion = starved(scene);
+    const auto noise = [](int index, cv::Mat& gray) {
+        cv::RNG random(static_cast<std::uint64_t>(index) + 1);
+        cv::Mat drawn(gray.size(), CV_16SC1);
+        random.fill(drawn, cv::RNG::NORMAL, 0, 12);
+        cv::add(gray, drawn, gray, cv::noArray(), CV_8U);
+    };
+    EXPECT_THAT(inferred(scene, motion, noise), Not(IsEmpty()));
+    motion.corner_count = 320 * 240 / 20;  // four on a car
+    EXPECT_THAT(inferred(scene, motion), Not(IsEmpty()));
+    EXPECT_THAT(inferred(scene, motion, noise), IsEmpty());
 }
 
 TEST(MovingAreas, LeaveCarsAloneThatHaveVectors) {

@@ -90,6 +90,20 @@ TEST_F(RepairTest, OfAHealthyProjectNothingIsLost) {
     EXPECT_TRUE(labels.annotations().objects.empty());
 }
 
+TEST_F(RepairTest, SentencesOfAnOlderProjectBecomeWords) {
+    const auto old = folder_ / "old.eyrie";
+    {
+        SQLite::Database database(old.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+        database.exec(test::bytesOf(test::sourceFolder() / "tests/data/schema_1.sql"));
+        database.exec("UPDATE frame SET registration_state = 'failed', reason = 'too few corners (12 of 40)'");
+    }
+    const auto saved = folder_ / "saved.eyrie";
+    repairProject(old, saved, {});
+    SQLite::Database database(saved.string(), SQLite::OPEN_READONLY);
+    EXPECT_EQ(database.execAndGet("SELECT reason || ' ' || reason_count || '/' || reason_of FROM frame").getString(),
+              "too few corners 12/40");
+}
+
 TEST_F(RepairTest, AnythingAtTheBeginningOfTheFileCanBeLost) {
     for (const auto& [at, length] : std::vector<std::pair<std::size_t, std::size_t>>{{0, 16},
                                                                                      {16, 2},

@@ -49,7 +49,7 @@ TEST_F(TamperedProject, AViewIsNoTable) {
 }
 
 TEST_F(TamperedProject, AMissingTableOrColumnIsNamed) {
-    tamper("ALTER TABLE track DROP COLUMN frames");
+    tamper("DROP VIEW v_tracks; ALTER TABLE track DROP COLUMN frames");
     expectDamaged("track has no column frames");
     tamper("DROP TABLE track");
     expectDamaged("no table track");

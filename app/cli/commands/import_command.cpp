@@ -109,6 +109,9 @@ void printNotes(const std::vector<std::string>& notes) {
 }
 
 void importLabels(const ImportArguments& arguments) {
+    // Before anything is opened: what is read may turn out to be named as the project, too.
+    if (!arguments.show && !arguments.project.empty())
+        arguments.outputs.check({growingProject(arguments.project)}, {arguments.file, arguments.video});
     ImportOptions options = importOptionsOf(arguments.labels);
     const std::unique_ptr<FrameSource> video = openedVideo(arguments);
     options.frame_count = framesOfVideo(arguments, video.get());

@@ -106,7 +106,7 @@ HealthItem lookAtReferences(SQLite::Database& database) {
 HealthItem lookAtValues(SQLite::Database& database, const std::set<std::string>& tables) {
     std::vector<std::string> faults;
     for (const RowRule& rule : rowRules()) {
-        if (tables.count(rule.table) == 0) continue;
+        if (tables.count(rule.table) == 0 || rule.since > schema::numberOf(database)) continue;
         const auto count =
             database.execAndGet("SELECT count(*) FROM " + rule.table + " WHERE NOT (" + rule.condition + ")")
                 .getInt64();

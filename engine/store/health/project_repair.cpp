@@ -16,6 +16,7 @@
 #include "store/health/rescued_rows.h"
 #include "store/health/table_rescue.h"
 #include "store/project/project_file.h"
+#include "store/project/schema.h"
 
 namespace eyrie {
 namespace {
@@ -120,6 +121,7 @@ bool fill(SQLite::Database& database, const DamagedCopy& copy, const CopyWatch& 
         }
         database.exec("DETACH damaged");
         SQLite::Transaction transaction(database);
+        schema::wordRegistrationFaults(database);  // rows of an older project
         append(report.lost, dropImpossibleRows(database));
         append(report.lost, mendReferences(database));
         append(report.lost, mendRuns(database, frames_whole));

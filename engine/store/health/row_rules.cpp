@@ -79,9 +79,11 @@ std::vector<RowRule> rowRules() {
          "range, scale or state of a run is impossible"},
         {"frame",
          frame + " AND width" + kPixels + " AND height" + kPixels + " AND corner_count >= 0 AND " +
-             isOneOf("registration_state", stored::kRegistrationStates) + " AND " +
-             isOneOf("reason", stored::kRegistrationFaults) + " AND " + isOneOf("picture", stored::kPictureQualities),
+             isOneOf("registration_state", stored::kRegistrationStates),
          "number, size or state of a frame is impossible"},
+        {"frame",
+         isOneOf("reason", stored::kRegistrationFaults) + " AND " + isOneOf("picture", stored::kPictureQualities),
+         "why a frame was not registered is no reason that there is", 9},
         {"motion_vectors", frame + " AND are_motion_vectors(data)", "motion vectors of a frame cannot be read"},
         {"stationary_corners", frame + " AND are_points(data)", "corners of a frame cannot be read"},
         {"motion_cluster", frame + " AND are_indices(members)", "a cluster cannot be read"},

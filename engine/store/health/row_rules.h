@@ -14,6 +14,7 @@ struct RowRule {
     std::string table;
     std::string condition;  ///< in SQL over the columns of the table; NULL counts as true
     std::string what;       ///< for people: what is wrong where it does not hold
+    int since = 1;          ///< the schema that brought the columns or the words
 };
 
 /// All rules, tables in no order. They use functions that addRowFunctions() brings.

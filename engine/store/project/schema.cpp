@@ -300,20 +300,8 @@ void addRegistrationFaults(SQLite::Database& database) {
 ALTER TABLE frame ADD COLUMN picture TEXT NOT NULL DEFAULT 'clear';
 ALTER TABLE frame ADD COLUMN reason_count INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE frame ADD COLUMN reason_of INTEGER NOT NULL DEFAULT 0;
-UPDATE frame SET
-    picture = CASE WHEN reason LIKE 'blank picture: %' THEN 'blank' WHEN reason LIKE 'blurred picture: %' THEN 'blurred' ELSE 'clear' END,
-    reason_count = CASE WHEN reason LIKE '%(% of %)' THEN CAST(substr(reason, instr(reason, '(') + 1) AS INTEGER) ELSE 0 END,
-    reason_of = CASE WHEN reason LIKE '%(% of %)' THEN CAST(substr(reason, instr(reason, ' of ') + 4) AS INTEGER) ELSE 0 END,
-    reason = CASE
-        WHEN registration_state <> 'failed' THEN ''
-        WHEN reason LIKE 'cut: %' THEN 'cut'
-        WHEN reason LIKE '%too few corners found again%' THEN 'too few found again'
-        WHEN reason LIKE '%too few corners agree%' THEN 'too few agree'
-        WHEN reason LIKE '%too few corners%' THEN 'too few corners'
-        WHEN reason LIKE '%is not one a camera makes%' THEN 'impossible motion'
-        ELSE 'no match' END
-WHERE reason <> '';
 )sql");
+    schema::wordRegistrationFaults(database);
 }
 
 // For readers with other tools: units that people use, and a shape that stays when tables change.
@@ -361,6 +349,24 @@ constexpr std::array kMigrations{
     addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews};
 
 }  // namespace
+
+void wordRegistrationFaults(SQLite::Database& database) {
+    database.exec(R"sql(
+UPDATE frame SET
+    picture = CASE WHEN reason LIKE 'blank picture: %' THEN 'blank' WHEN reason LIKE 'blurred picture: %' THEN 'blurred' ELSE 'clear' END,
+    reason_count = CASE WHEN reason LIKE '%(% of %)' THEN CAST(substr(reason, instr(reason, '(') + 1) AS INTEGER) ELSE 0 END,
+    reason_of = CASE WHEN reason LIKE '%(% of %)' THEN CAST(substr(reason, instr(reason, ' of ') + 4) AS INTEGER) ELSE 0 END,
+    reason = CASE
+        WHEN registration_state <> 'failed' THEN ''
+        WHEN reason LIKE 'cut: %' THEN 'cut'
+        WHEN reason LIKE '%too few corners found again%' THEN 'too few found again'
+        WHEN reason LIKE '%too few corners agree%' THEN 'too few agree'
+        WHEN reason LIKE '%too few corners%' THEN 'too few corners'
+        WHEN reason LIKE '%is not one a camera makes%' THEN 'impossible motion'
+        ELSE 'no match' END
+WHERE reason NOT IN ('', 'cut', 'too few corners', 'too few found again', 'too few agree', 'impossible motion', 'no match');
+)sql");
+}
 
 std::span<const Migration> migrations() {
     return kMigrations;
