@@ -60,13 +60,16 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
     const QCommandLineOption empty(QStringLiteral("empty"), QStringLiteral("Start without a video."));
     const QCommandLineOption theme(QStringLiteral("theme"), QStringLiteral("system, light or dark."),
                                    QStringLiteral("name"), QStringLiteral("system"));
+    const QCommandLineOption workspace(QStringLiteral("workspace"),
+                                       QStringLiteral("review, label or tune; otherwise the one that was shown last."),
+                                       QStringLiteral("name"));
     const QCommandLineOption screenshot(QStringLiteral("screenshot"),
                                         QStringLiteral("Write a picture of the window and quit."),
                                         QStringLiteral("file"));
     const QCommandLineOption after(QStringLiteral("after-frames"),
                                    QStringLiteral("… once this many frames with results were shown (1)."),
                                    QStringLiteral("n"), QStringLiteral("1"));
-    parser.addOptions({gsd, rate, demo, run, empty, theme, screenshot, after});
+    parser.addOptions({gsd, rate, demo, run, empty, theme, workspace, screenshot, after});
     parser.process(application);
 
     StartOptions options;
@@ -79,6 +82,11 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
     options.run = parser.isSet(run);
     options.screenshot = parser.value(screenshot).toStdString();
     options.after_frames = std::max(0, parser.value(after).toInt());
+    if (parser.isSet(workspace)) {
+        options.workspace = eyrie::ui::workspaceOf(parser.value(workspace));
+        if (!options.workspace)
+            refuse(QStringLiteral("--workspace %1: expected review, label or tune").arg(parser.value(workspace)));
+    }
     const QString theme_name = parser.value(theme);
     if (theme_name == QLatin1String("dark"))
         options.theme = ThemeChoice::dark;

@@ -10,9 +10,10 @@ namespace {
 constexpr double kLabelGap = 3;
 }  // namespace
 
-LabelPlacer::LabelPlacer(const QRectF& view, std::vector<QRectF> objects) : view_(view), objects_(std::move(objects)) {}
+CaptionPlacer::CaptionPlacer(const QRectF& view, std::vector<QRectF> objects)
+    : view_(view), objects_(std::move(objects)) {}
 
-std::optional<QRectF> LabelPlacer::place(const QRectF& object, QSizeF label) {
+std::optional<QRectF> CaptionPlacer::place(const QRectF& object, QSizeF label) {
     const double centred_x = object.center().x() - label.width() / 2;
     const double centred_y = object.center().y() - label.height() / 2;
     const std::array<QPointF, 4> places{
@@ -27,7 +28,7 @@ std::optional<QRectF> LabelPlacer::place(const QRectF& object, QSizeF label) {
     return std::nullopt;
 }
 
-bool LabelPlacer::isFree(const QRectF& rectangle, const QRectF& own) const {
+bool CaptionPlacer::isFree(const QRectF& rectangle, const QRectF& own) const {
     if (!view_.contains(rectangle)) return false;
     const auto hits = [&](const QRectF& other) { return rectangle.intersects(other); };
     if (std::any_of(placed_.begin(), placed_.end(), hits)) return false;

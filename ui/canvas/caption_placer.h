@@ -9,10 +9,10 @@ namespace eyrie::ui {
 
 /// Finds room for labels beside their objects. Arithmetic only, logical px.
 /// Labels never overlap one another nor an object; one that finds no room is left out, so crowded places thin out.
-class LabelPlacer {
+class CaptionPlacer {
  public:
     /// `view`: where labels may stand. `objects`: upright rectangles around all objects, which labels keep clear of.
-    LabelPlacer(const QRectF& view, std::vector<QRectF> objects);
+    CaptionPlacer(const QRectF& view, std::vector<QRectF> objects);
 
     /// Places a label of this size beside `object`: above, below, right, then left of it. Call in order of importance.
     std::optional<QRectF> place(const QRectF& object, QSizeF label);

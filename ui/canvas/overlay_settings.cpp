@@ -1,6 +1,12 @@
 #include "canvas/overlay_settings.h"
 
+#include "canvas/layers/overlay_table.h"
+
 namespace eyrie::ui {
+
+OverlaySettings::OverlaySettings(QObject* parent) : QObject(parent) {
+    for (const OverlayRow& row : overlayTable()) profile_.visible[static_cast<size_t>(row.kind)] = row.in_tune;
+}
 
 template <class Value>
 void OverlaySettings::adopt(Value& field, Value value) {
@@ -10,7 +16,11 @@ void OverlaySettings::adopt(Value& field, Value value) {
 }
 
 void OverlaySettings::setVisible(OverlayKind kind, bool visible) {
-    adopt(visible_[static_cast<size_t>(kind)], visible);
+    adopt(profile_.visible[static_cast<size_t>(kind)], visible);
+}
+
+void OverlaySettings::setProfile(const OverlayProfile& profile) {
+    adopt(profile_, profile);
 }
 
 void OverlaySettings::setPalette(PaletteKind palette) {

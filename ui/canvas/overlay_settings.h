@@ -7,15 +7,25 @@
 
 namespace eyrie::ui {
 
+/// Which kinds of overlay are shown: what each workspace keeps for itself.
+struct OverlayProfile {
+    std::array<bool, kOverlayKindCount> visible{};
+
+    bool operator==(const OverlayProfile&) const = default;
+};
+
 /// Which overlays are shown and how. One object for the whole window; canvas, menu and settings meet here.
 class OverlaySettings : public QObject {
     Q_OBJECT
 
  public:
-    using QObject::QObject;
+    /// Shows what tuning the chain shows at first.
+    explicit OverlaySettings(QObject* parent = nullptr);
 
-    bool isVisible(OverlayKind kind) const { return visible_[static_cast<size_t>(kind)]; }
+    bool isVisible(OverlayKind kind) const { return profile_.visible[static_cast<size_t>(kind)]; }
     void setVisible(OverlayKind kind, bool visible);
+    const OverlayProfile& profile() const { return profile_; }
+    void setProfile(const OverlayProfile& profile);
 
     const OverlayStyle& style() const { return style_; }
     PaletteKind palette() const { return palette_; }
@@ -34,7 +44,7 @@ class OverlaySettings : public QObject {
     template <class Value>
     void adopt(Value& field, Value value);
 
-    std::array<bool, kOverlayKindCount> visible_{false, false, true, true, true, true, true, false, true};
+    OverlayProfile profile_;
     OverlayStyle style_;
     PaletteKind palette_ = PaletteKind::thesis;
 };

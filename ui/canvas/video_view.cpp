@@ -9,15 +9,8 @@
 
 #include "canvas/canvas_tool.h"
 #include "canvas/edged_painter.h"
-#include "canvas/layers/cluster_layer.h"
-#include "canvas/layers/corner_layer.h"
-#include "canvas/layers/detection_layer.h"
-#include "canvas/layers/image_stack_layer.h"
-#include "canvas/layers/roi_layer.h"
+#include "canvas/layers/overlay_table.h"
 #include "canvas/layers/track_layer.h"
-#include "canvas/layers/truth_layer.h"
-#include "canvas/layers/vector_layer.h"
-#include "canvas/layers/verdict_layer.h"
 
 namespace eyrie::ui {
 
@@ -33,15 +26,7 @@ constexpr double kInspectedWidth = 2.2;
 }  // namespace
 
 VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(parent), settings_(settings) {
-    layers_.push_back(std::make_unique<RoiLayer>());
-    layers_.push_back(std::make_unique<CornerLayer>());
-    layers_.push_back(std::make_unique<VectorLayer>());
-    layers_.push_back(std::make_unique<ClusterLayer>());
-    layers_.push_back(std::make_unique<TruthLayer>());
-    layers_.push_back(std::make_unique<DetectionLayer>());
-    layers_.push_back(std::make_unique<TrackLayer>());
-    layers_.push_back(std::make_unique<StackLayer>());
-    layers_.push_back(std::make_unique<VerdictLayer>());
+    for (const OverlayRow& row : overlayTable()) layers_.push_back(row.make());
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setAttribute(Qt::WA_OpaquePaintEvent);

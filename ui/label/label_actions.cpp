@@ -8,8 +8,8 @@
 
 namespace eyrie::ui {
 
-LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidget& canvas)
-    : QObject(&window), window_actions_(window_actions), window_(window), canvas_(canvas) {
+LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
+    : QObject(&window), keys_(keys), window_(window), canvas_(canvas) {
     section(tr("Labels"));
     undo = add(tr("&Undo"), {QKeySequence(tr("Ctrl+Z"))});
     redo = add(tr("&Redo"), {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))});
@@ -90,7 +90,7 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     proposals = addToggle(tr("Show tracks of the run as proposals"), {QKeySequence(Qt::Key_P)}, false);
     proposals->setIconText(tr("Proposals"));
     proposals->setIcon(QIcon::fromTheme(QStringLiteral("tools-wizard")));
-    next_proposal = add(tr("Next proposal"), {QKeySequence(Qt::Key_G)});
+    next_proposal = add(tr("Next proposal"), {QKeySequence(tr("Shift+P"))});
     accept =
         add(tr("Take the selected proposals over"), {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
     reject = add(tr("Reject the selected proposals"), {QKeySequence(Qt::Key_Backspace)}, true);
@@ -111,6 +111,9 @@ LabelActions::LabelActions(WindowActions& window_actions, QWidget& window, QWidg
     renumber = add(tr("&Renumber from here"), {QKeySequence(Qt::Key_R)});
     delete_before = add(tr("Delete &before this frame"), {QKeySequence(tr("Ctrl+Backspace"))});
     delete_after = add(tr("Delete &after this frame"), {QKeySequence(tr("Ctrl+Delete"))});
+
+    keys_.add({tr("Label"), sections_});
+    connect(&keys_, &KeyBindings::keysChanged, this, &LabelActions::lendKeys);
 }
 
 void LabelActions::section(const QString& title) {
@@ -119,10 +122,8 @@ void LabelActions::section(const QString& title) {
 
 QAction* LabelActions::add(const QString& text, const QList<QKeySequence>& keys, bool canvas_only) {
     auto* action = new QAction(text, this);
-    action->setShortcuts(keys);
-    QString tip = QString(text).remove(QLatin1Char('&')).remove(QStringLiteral("…"));
-    if (!keys.isEmpty()) tip += QStringLiteral(" (%1)").arg(keys.front().toString(QKeySequence::NativeText));
-    action->setToolTip(tip);
+    setTip(*action, QString(text).remove(QLatin1Char('&')).remove(QStringLiteral("…")));
+    setKeys(*action, keys);
     action->setEnabled(false);
     if (canvas_only) {
         action->setShortcutContext(Qt::WidgetShortcut);
@@ -144,26 +145,26 @@ QAction* LabelActions::addToggle(const QString& text, const QList<QKeySequence>&
 void LabelActions::setActive(bool active) {
     if (active == active_) return;
     active_ = active;
+    for (const ActionSection& group : sections_)
+        for (QAction* action : group.actions) action->setEnabled(active);
+    lendKeys();
+}
+
+void LabelActions::lendKeys() {
     QSet<QKeySequence> taken;
     for (const ActionSection& group : sections_)
-        for (QAction* action : group.actions) {
-            action->setEnabled(active);
-            for (const QKeySequence& key : action->shortcuts()) taken.insert(key);
-        }
-    if (!active) {
-        for (auto lent = lent_.cbegin(); lent != lent_.cend(); ++lent) lent.key()->setShortcuts(lent.value());
-        lent_.clear();
-        return;
+        for (QAction* action : group.actions)
+            for (const QKeySequence& key : keys_.keysOf(action)) taken.insert(key);
+    for (const KeyBindings::Group& other : keys_.groups()) {
+        if (!other.title.isEmpty()) continue;
+        for (const ActionSection& section : other.sections)
+            for (QAction* action : section.actions) {
+                QList<QKeySequence> kept;
+                for (const QKeySequence& key : keys_.keysOf(action))
+                    if (!active_ || !taken.contains(key)) kept << key;
+                if (kept != action->shortcuts()) setKeys(*action, kept);
+            }
     }
-    for (const ActionSection& group : window_actions_.sections())
-        for (QAction* action : group.actions) {
-            QList<QKeySequence> kept;
-            for (const QKeySequence& key : action->shortcuts())
-                if (!taken.contains(key)) kept << key;
-            if (kept.size() == action->shortcuts().size()) continue;
-            lent_.insert(action, action->shortcuts());
-            action->setShortcuts(kept);
-        }
 }
 
 }  // namespace eyrie::ui

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <QAction>
-#include <QHash>
 #include <QObject>
 #include <array>
 
-#include "workspace/window_actions.h"
+#include "workspace/key_bindings.h"
 
 namespace eyrie::ui {
 
@@ -15,8 +14,8 @@ class LabelActions : public QObject {
     Q_OBJECT
 
  public:
-    /// `window` carries the keys; those of `canvas` work only while it has the focus.
-    LabelActions(WindowActions& window_actions, QWidget& window, QWidget& canvas);
+    /// `window` carries the keys; those of `canvas` work only while it has the focus. `keys` knows the window's already.
+    LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas);
 
     const QList<ActionSection>& sections() const { return sections_; }
     void setActive(bool active);
@@ -41,11 +40,13 @@ class LabelActions : public QObject {
     QAction* add(const QString& text, const QList<QKeySequence>& keys, bool canvas_only = false);
     QAction* addToggle(const QString& text, const QList<QKeySequence>& keys, bool on);
 
-    WindowActions& window_actions_;
+    /// The window's commands lose the keys that labelling has, or get them back.
+    void lendKeys();
+
+    KeyBindings& keys_;
     QWidget& window_;
     QWidget& canvas_;
     QList<ActionSection> sections_;
-    QHash<QAction*, QList<QKeySequence>> lent_;  ///< the window's own keys, to be given back
     bool active_ = false;
 };
 

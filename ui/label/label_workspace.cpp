@@ -1,6 +1,5 @@
 #include "label/label_workspace.h"
 
-#include <QDockWidget>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
@@ -28,6 +27,7 @@
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
 #include "widgets/message_bar.h"
+#include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -48,7 +48,7 @@ LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&aroun
     fitting_ = new LabelFitting(around_.session, *labels_, this);
     tracking_ = new LabelTracking(around_.session, *labels_, this);
     tool_ = new LabelTool(this);
-    actions_ = new LabelActions(around_.actions, around_.window, around_.canvas);
+    actions_ = new LabelActions(around_.keys, around_.window, around_.canvas);
     buildDocks();
     buildToolBar();
     buildMenu();
@@ -72,18 +72,9 @@ void LabelWorkspace::buildDocks() {
     chips_ = new LabelChips(around_.session, *labels_, this);
     stacks_ = new LabelStacks(around_.session, *labels_, this);
     grid_ = new ChipGrid;
-    const auto dock = [this](const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
-        auto* made = new QDockWidget(title, &around_.window);
-        made->setObjectName(name);
-        made->setWidget(content);
-        around_.window.addDockWidget(area, made);
-        made->hide();
-        docks_.append(made);
-    };
-    dock(QStringLiteral("objects"), tr("Objects"), objects_, Qt::LeftDockWidgetArea);
-    dock(QStringLiteral("object"), tr("Object"), inspector_, Qt::RightDockWidgetArea);
-    dock(QStringLiteral("object_chips"), tr("Over time"), grid_, Qt::RightDockWidgetArea);
-    around_.window.tabifyDockWidget(docks_[1], docks_[2]);
+    around_.docks.add(DockId::objects, tr("Objects"), objects_);
+    around_.docks.add(DockId::object, tr("Object"), inspector_);
+    around_.docks.add(DockId::object_chips, tr("Over time"), grid_);
 }
 
 void LabelWorkspace::buildToolBar() {
@@ -111,44 +102,17 @@ void LabelWorkspace::buildMenu() {
 
 void LabelWorkspace::setActive(bool active) {
     if (active == active_) return;
-    if (active) {
-        other_layout_ = around_.window.saveState();
-        for (auto* dock : around_.window.findChildren<QDockWidget*>()) dock->setVisible(docks_.contains(dock));
-        if (!own_layout_.isEmpty()) around_.window.restoreState(own_layout_);
-        for (QDockWidget* dock : docks_) dock->show();
-        if (own_layout_.isEmpty()) docks_[1]->raise();
-        if (own_layout_.isEmpty()) around_.window.resizeDocks({docks_[0], docks_[1]}, {400, 270}, Qt::Horizontal);
-    } else {
-        own_layout_ = around_.window.saveState();
-        around_.window.restoreState(other_layout_);
-        for (QDockWidget* dock : docks_) dock->hide();
-        tool_->cancel();
-    }
+    if (!active) tool_->cancel();
     active_ = active;
     bar_->setVisible(active);
     menu_->menuAction()->setVisible(active);
     around_.rows.setVisible(active);
     around_.canvas.setTool(active ? tool_ : nullptr);
     actions_->setActive(active);
-    showOverlays(active);
     followObject();
     labels_->setWanted(active || labels_->isOpen());
     labelsChanged();
     around_.canvas.setFocus();
-}
-
-/// What a run found lies over what is to be labelled; it is switched off, and on again in the other workspace.
-void LabelWorkspace::showOverlays(bool label) {
-    const auto& overlays = around_.actions.overlay;
-    if (label) {
-        other_overlays_.clear();
-        for (QAction* action : overlays) other_overlays_ << action->isChecked();
-        for (QAction* action : overlays) action->setChecked(false);
-        return;
-    }
-    for (std::size_t i = 0; i < overlays.size(); ++i)
-        if (static_cast<qsizetype>(i) < other_overlays_.size())
-            overlays[i]->setChecked(other_overlays_[static_cast<qsizetype>(i)]);
 }
 
 // ---- showing --------------------------------------------------------------------------------------------------------
@@ -254,9 +218,8 @@ void LabelWorkspace::enableActions() {
     const bool proposal = proposals_->selected().has_value();
     actions_->undo->setEnabled(labels_->canUndo());
     actions_->redo->setEnabled(labels_->canRedo());
-    actions_->undo->setToolTip(labels_->canUndo() ? tr("Undo: %1 (Ctrl+Z)").arg(labels_->undoName()) : tr("Undo"));
-    actions_->redo->setToolTip(labels_->canRedo() ? tr("Redo: %1 (Ctrl+Shift+Z)").arg(labels_->redoName())
-                                                  : tr("Redo"));
+    setTip(*actions_->undo, labels_->canUndo() ? tr("Undo: %1").arg(labels_->undoName()) : tr("Undo"));
+    setTip(*actions_->redo, labels_->canRedo() ? tr("Redo: %1").arg(labels_->redoName()) : tr("Redo"));
     for (QAction* action : {actions_->keyframe,      actions_->redraw,
                             actions_->spread_size,   actions_->spread_correction,
                             actions_->fit_pictures,  actions_->copy_on,

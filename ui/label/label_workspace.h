@@ -10,7 +10,6 @@
 #include "label/label_session.h"
 
 class QAction;
-class QDockWidget;
 class QMainWindow;
 class QMenu;
 class QToolBar;
@@ -18,6 +17,8 @@ class QToolBar;
 namespace eyrie::ui {
 
 class ChipGrid;
+class DockRegistry;
+class KeyBindings;
 class LabelActions;
 class LabelChips;
 class LabelFitting;
@@ -29,7 +30,6 @@ class MessageBar;
 class ObjectInspector;
 class ObjectsModel;
 class ObjectsPanel;
-class OverlaySettings;
 class TimelineView;
 class VideoView;
 class WindowActions;
@@ -45,7 +45,8 @@ struct LabelSurroundings {
     LabelTimeline& rows;
     MessageBar& messages;
     WindowActions& actions;
-    OverlaySettings& overlays;
+    DockRegistry& docks;
+    KeyBindings& keys;
     QMainWindow& window;
 };
 
@@ -57,11 +58,9 @@ class LabelWorkspace : public QObject {
     /// Everything named must outlive it.
     explicit LabelWorkspace(const LabelSurroundings& around);
 
+    /// Gives or takes away the tool, the keys and the bars. Docks and overlays are the window's affair.
     void setActive(bool active);
     bool active() const { return active_; }
-    const QList<QDockWidget*>& docks() const { return docks_; }
-    /// The layout of the window's other workspace, while this one is active.
-    const QByteArray& otherLayout() const { return other_layout_; }
     QMenu* menu() const { return menu_; }
 
     LabelSession& labels() { return *labels_; }
@@ -95,7 +94,6 @@ class LabelWorkspace : public QObject {
     void wireStacks();
     void showStack();
     void showChips();
-    void showOverlays(bool label);
     void labelsChanged();
     void showScene();
     void showList();
@@ -121,9 +119,6 @@ class LabelWorkspace : public QObject {
         std::optional<LabelEditor::Plan> plan;
     };
     Planned planned_;
-    QByteArray other_layout_;
-    QByteArray own_layout_;
-    QList<bool> other_overlays_;
     LabelSession* labels_;
     LabelProposals* proposals_;
     LabelEditor* editor_;
@@ -141,7 +136,6 @@ class LabelWorkspace : public QObject {
     bool chips_looked_at_ = false;
     QToolBar* bar_;
     QMenu* menu_;
-    QList<QDockWidget*> docks_;
 };
 
 }  // namespace eyrie::ui

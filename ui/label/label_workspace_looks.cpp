@@ -9,6 +9,7 @@
 #include "label/label_workspace.h"
 #include "label/object_colours.h"
 #include "widgets/chip_grid.h"
+#include "workspace/dock_registry.h"
 
 namespace eyrie::ui {
 
@@ -18,7 +19,7 @@ void LabelWorkspace::wireChips() {
     chips_due_.setSingleShot(true);
     chips_due_.setInterval(250);  // not while keys are held
     connect(&chips_due_, &QTimer::timeout, this, &LabelWorkspace::showChips);
-    connect(docks_[2], &QDockWidget::visibilityChanged, this, [this](bool visible) {
+    connect(around_.docks.dock(DockId::object_chips), &QDockWidget::visibilityChanged, this, [this](bool visible) {
         chips_looked_at_ = visible;
         if (visible) chips_due_.start();
     });

@@ -3,6 +3,7 @@
 #include <QDockWidget>
 #include <QMenu>
 #include <QMenuBar>
+#include <QScreen>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
@@ -22,16 +23,18 @@
 #include "widgets/charts/stage_times_chart.h"
 #include "widgets/message_bar.h"
 #include "widgets/parameters/parameter_form.h"
+#include "window/bars/run_bar.h"
+#include "window/bars/status_fields.h"
+#include "window/bars/transport_bar.h"
 #include "window/docks/evaluation_docks.h"
 #include "window/docks/review_docks.h"
 #include "window/docks/tuning.h"
-#include "window/run_bar.h"
 #include "window/run_guard.h"
-#include "window/status_fields.h"
-#include "window/transport_bar.h"
 #include "window/welcome_panel.h"
+#include "workspace/dock_registry.h"
 #include "workspace/timeline_binding.h"
 #include "workspace/window_actions.h"
+#include "workspace/workspaces.h"
 
 namespace eyrie::ui {
 
@@ -46,36 +49,35 @@ const QString kVideoTopic = QStringLiteral("video");
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     setObjectName(QStringLiteral("main_window"));
     setAcceptDrops(true);
-    setDockNestingEnabled(true);
-    setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
     // The lists reach down to the timeline, which belongs to the canvas.
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     actions_ = new WindowActions(overlays_, this);
+    keys_.add({QString(), actions_->sections()});
     buildCentre();
     buildToolBar();
-    resize(kFirstSize);
+    resize(kFirstSize.boundedTo(screen()->availableSize()));
     guard_ = new RunGuard(session_, *this);
     earlier_ = new EarlierStates(this);
     inspection_ = new Inspection(session_, this);
-    docks_ = new ReviewDocks(session_, *inspection_, *this);
-    parameters_ = new ParameterBinding(session_, docks_->parameterForm(), this);
-    tuning_ = new Tuning({session_, *canvas_, *docks_, *actions_, parameters_->presets(), overlays_, *this});
+    docks_ = new DockRegistry(*this);
+    review_ = new ReviewDocks(session_, *inspection_, *docks_);
+    ParameterForm& form = review_->parameterForm();
+    parameters_ = new ParameterBinding(session_, form, this);
+    tuning_ = new Tuning({session_, *canvas_, *docks_, form, *actions_, parameters_->presets(), overlays_, *this});
     buildEvaluation();
-    timeline_binding_ = new TimelineBinding(session_, *timeline_, docks_->stageTimes(), this);
+    timeline_binding_ = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
-    buildMenus();
     buildLabelling();
+    buildMenus();
     wireFileActions();
     wireEarlierStates();
     wirePlaybackActions();
     wireViewActions();
     wireSession();
     wireInspection();
-    default_layout_ = saveState();
     restoreGeometry(settings_.geometry());
-    restoreState(settings_.layout());
-    showTabTitles();
+    buildWorkspaces();
     showRecent();
     enableActions();
     updateTitle();
@@ -130,13 +132,14 @@ void MainWindow::buildToolBar() {
     bar->addAction(actions_->one_to_one);
     bar->addWidget(overlayButton(buildOverlayMenu()));
     bar->addSeparator();
-    bar->addActions({actions_->review_workspace, actions_->label_workspace});
+    for (QAction* action : actions_->workspace) bar->addAction(action);
     connect(run_bar_, &RunBar::editingDone, this, &MainWindow::focusCanvas);
     connect(transport_, &TransportBar::editingDone, this, &MainWindow::focusCanvas);
 }
 
 void MainWindow::buildMenus() {
     for (const ActionSection& section : actions_->sections()) {
+        if (section.actions.contains(actions_->next_error)) menuBar()->addMenu(labelling_->menu());
         QMenu* menu = menuBar()->addMenu(QLatin1Char('&') + section.title);
         menu->addActions(section.actions);
         if (section.actions.contains(actions_->open_project)) {
@@ -147,11 +150,9 @@ void MainWindow::buildMenus() {
         }
         if (section.actions.contains(actions_->fit)) {
             menu->addSeparator();
-            for (QDockWidget* dock : docks_->docks() + evaluation_->docks()) menu->addAction(dock->toggleViewAction());
-            menu->addAction(tr("Reset the layout"), this, [this] {
-                actions_->review_workspace->trigger();
-                restoreState(default_layout_);
-            });
+            for (const DockId id : allDocks())
+                if (docks_->dock(id) != nullptr) menu->addAction(docks_->dock(id)->toggleViewAction());
+            menu->addAction(tr("Reset the layout"), this, [this] { workspaces_->reset(); });
         }
     }
 }
@@ -177,20 +178,20 @@ void MainWindow::wireFileActions() {
     connect(actions_->continue_run, &QAction::triggered, &session_, [this] {
         if (session_.currentRun()) session_.continueRun(*session_.currentRun());
     });
-    connect(docks_, &ReviewDocks::continueRequested, &session_, &ProjectSession::continueRun);
+    connect(review_, &ReviewDocks::continueRequested, &session_, &ProjectSession::continueRun);
     connect(actions_->restore_run, &QAction::triggered, &session_, [this] {
         if (!session_.removedRuns().empty()) session_.restoreRun(session_.removedRuns().back().id);
     });
-    connect(docks_, &ReviewDocks::minScoreChanged, &overlays_, &OverlaySettings::setMinScore);
-    connect(docks_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
-    connect(docks_, &ReviewDocks::removeRequested, guard_, &RunGuard::remove);
-    connect(docks_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
+    connect(review_, &ReviewDocks::minScoreChanged, &overlays_, &OverlaySettings::setMinScore);
+    connect(review_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
+    connect(review_, &ReviewDocks::removeRequested, guard_, &RunGuard::remove);
+    connect(review_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
     connect(tuning_, &Tuning::storedParametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
     connect(tuning_, &Tuning::parameterRequested, parameters_, [this](const QString& name, const QString& value) {
         parameters_->setValue(name.toStdString(), value.toStdString());
     });
     connect(tuning_, &Tuning::runRequested, actions_->run, &QAction::trigger);
-    docks_->wireSweeps(*parameters_);
+    review_->wireSweeps(*parameters_);
     connect(parameters_, &ParameterBinding::problem, this, &MainWindow::showProblem);
     connect(parameters_, &ParameterBinding::notice, this, &MainWindow::showNotice);
 }
@@ -269,7 +270,7 @@ void MainWindow::wireRunMessages() {
     connect(&session_, &ProjectSession::runSummarised, this, [this](const RunRecord& run, const RunFacts& facts) {
         const bool doubtful = facts.counts.tracks == 0 || facts.state == RunState::failed;
         messages_->showTopic(kRunTopic, doubtful ? MessageKind::warning : MessageKind::info, runSummaryText(run, facts),
-                             tr("Show the tracks"), [this] { docks_->showTrackList(); });
+                             tr("Show the tracks"), [this] { docks_->raise(DockId::tracks); });
     });
     connect(&session_, &ProjectSession::runPreparing, this, [this] {
         // What was wrong with the former run, or kept this one from starting, is of no use any more.
@@ -304,6 +305,7 @@ void MainWindow::enableActions() {
             if (section.actions.contains(actions_->play) || section.actions.contains(actions_->fit))
                 action->setEnabled(has_video);
     actions_->full_screen->setEnabled(true);
+    for (QAction* action : actions_->workspace) action->setEnabled(true);
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);
     actions_->continue_run->setEnabled(session_.currentRun() && session_.canContinue(*session_.currentRun()));

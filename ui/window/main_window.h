@@ -8,12 +8,14 @@
 #include "session/project_session.h"
 #include "window/start_options.h"
 #include "window/window_settings.h"
+#include "workspace/key_bindings.h"
 
 class QMenu;
 class QStackedWidget;
 
 namespace eyrie::ui {
 
+class DockRegistry;
 class EarlierStates;
 class EvaluationDocks;
 class Inspection;
@@ -32,6 +34,7 @@ class Tuning;
 class VideoView;
 class WelcomePanel;
 class WindowActions;
+class Workspaces;
 
 /// The window: menus, docks, canvas and timeline, joined with the session. Decides nothing about videos and runs
 /// itself.
@@ -51,13 +54,17 @@ class MainWindow : public QMainWindow {
     MessageBar& messages() { return *messages_; }
     WindowActions& actions() { return *actions_; }
     OverlaySettings& overlays() { return overlays_; }
+    KeyBindings& keys() { return keys_; }
     Inspection& inspection() { return *inspection_; }
-    ReviewDocks& docks() { return *docks_; }
+    DockRegistry& docks() { return *docks_; }
+    ReviewDocks& review() { return *review_; }
+    Workspaces& workspaces() { return *workspaces_; }
     LabelWorkspace& labelling() { return *labelling_; }
     EvaluationDocks& evaluation() { return *evaluation_; }
     Tuning& tuning() { return *tuning_; }
 
  protected:
+    void showEvent(QShowEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
@@ -75,8 +82,7 @@ class MainWindow : public QMainWindow {
     void wireInspection();
     void buildLabelling();
     void buildEvaluation();
-    /// The layout of the review workspace, whichever is shown.
-    QByteArray reviewLayout() const;
+    void buildWorkspaces();
     void wireRunMessages();
     void openVideo();
     void openFolder();
@@ -98,7 +104,6 @@ class MainWindow : public QMainWindow {
     void becameReady(bool has_results);
     void runEnded(const RunSummary& summary);
     void enableActions();
-    void showTabTitles();
     void updateTitle();
     void showRecent();
     void restoreView();
@@ -107,6 +112,7 @@ class MainWindow : public QMainWindow {
 
     WindowSettings settings_;
     OverlaySettings overlays_;
+    KeyBindings keys_;
     ProjectSession session_;
     StartOptions start_;           ///< what is still to be done of it
     bool run_when_ready_ = false;  ///< opened from the command line, by the demo or by dropping: run if there is no run
@@ -128,14 +134,15 @@ class MainWindow : public QMainWindow {
     std::filesystem::path restoring_;  ///< the project that was closed to become what it was
     StatusFields* status_;
     Inspection* inspection_;
-    ReviewDocks* docks_;
+    DockRegistry* docks_;
+    ReviewDocks* review_;
     EvaluationDocks* evaluation_;
     Tuning* tuning_;
     LabelWorkspace* labelling_;
     ParameterBinding* parameters_;
     TimelineBinding* timeline_binding_;
     QMenu* recent_menu_;
-    QByteArray default_layout_;
+    Workspaces* workspaces_;
 };
 
 }  // namespace eyrie::ui

@@ -6,9 +6,9 @@
 
 #include "store/health/file_check.h"
 #include "widgets/message_bar.h"
+#include "window/bars/run_bar.h"
 #include "window/earlier_state_dialog.h"
 #include "window/main_window.h"
-#include "window/run_bar.h"
 #include "window/run_guard.h"
 #include "window/welcome_panel.h"
 #include "workspace/window_actions.h"
@@ -25,6 +25,7 @@ QString text(const std::filesystem::path& path) {
 
 void MainWindow::start(const StartOptions& options) {
     start_ = options;
+    if (options.workspace) workspaces_->open(*options.workspace);
     if (options.demo) {
         showDemo();
         return;

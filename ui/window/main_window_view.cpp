@@ -2,6 +2,7 @@
 // remembered of a view, what is dropped on the window.
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QDragEnterEvent>
 #include <QHBoxLayout>
@@ -12,11 +13,10 @@
 #include <QMimeData>
 #include <QPainter>
 #include <QSignalBlocker>
-#include <QTabBar>
 #include <QToolButton>
 #include <QWidgetAction>
 
-#include "canvas/layers/verdict_layer.h"
+#include "canvas/layers/overlay_table.h"
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "chain/recording/run_recorder.h"
@@ -27,19 +27,22 @@
 #include "tune/inspect/stacks_panel.h"
 #include "tune/inspect/stage_chips.h"
 #include "tune/parameters/parameter_binding.h"
+#include "window/bars/status_fields.h"
 #include "window/docks/evaluation_docks.h"
 #include "window/docks/review_docks.h"
 #include "window/docks/tuning.h"
 #include "window/main_window.h"
 #include "window/run_guard.h"
-#include "window/status_fields.h"
+#include "workspace/dock_registry.h"
 #include "workspace/key_sheet.h"
 #include "workspace/window_actions.h"
+#include "workspace/workspaces.h"
 
 namespace eyrie::ui {
 
 namespace {
 constexpr double kZoomStep = 1.25;
+const QString kWorkspaces = QStringLiteral("window/workspaces");
 
 /// A square in the colour of an overlay, so that the menu is also the legend.
 QIcon swatch(const QColor& colour) {
@@ -78,19 +81,8 @@ QMenu* MainWindow::buildOverlayMenu() {
     const auto refresh = [this, length] {
         const QSignalBlocker blocker(length);
         length->setValue(overlays_.style().vector_length_factor);
-        const OverlayColours& colours = overlays_.style().colours;
-        const auto colour = [&](OverlayKind kind, const QColor& value) {
-            actions_->overlay[static_cast<size_t>(kind)]->setIcon(swatch(value));
-        };
-        colour(OverlayKind::corners, colours.stationary_corner);
-        colour(OverlayKind::vectors, colours.motion_vector);
-        colour(OverlayKind::clusters, colours.cluster);
-        colour(OverlayKind::rois, colours.roi);
-        colour(OverlayKind::detections, colours.detection);
-        colour(OverlayKind::tracks, colours.track);
-        colour(OverlayKind::stacks, colours.stack);
-        colour(OverlayKind::ground_truth, colours.ground_truth);
-        colour(OverlayKind::verdicts, verdictColour(VerdictKind::false_alarm, overlays_.palette()));
+        for (const OverlayRow& overlay : overlayTable())
+            actions_->overlay[static_cast<size_t>(overlay.kind)]->setIcon(swatch(overlay.colour(overlays_.style())));
         timeline_->setPalette(overlays_.palette());
     };
     connect(&overlays_, &OverlaySettings::changed, this, refresh);
@@ -110,18 +102,30 @@ QWidget* MainWindow::overlayButton(QMenu* menu) {
 }
 
 void MainWindow::buildLabelling() {
-    labelling_ =
-        new LabelWorkspace({session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, overlays_, *this});
-    menuBar()->insertMenu(menuBar()->actions().value(3), labelling_->menu());
+    labelling_ = new LabelWorkspace(
+        {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);
-    connect(actions_->label_workspace, &QAction::toggled, this, [this](bool on) {
-        labelling_->setActive(on);
-        showTabTitles();
+}
+
+void MainWindow::buildWorkspaces() {
+    workspaces_ = new Workspaces(*this, *docks_, overlays_);
+    for (const WorkspaceKind kind : allWorkspaces())
+        connect(actions_->workspaceAction(kind), &QAction::triggered, workspaces_,
+                [this, kind] { workspaces_->open(kind); });
+    connect(workspaces_, &Workspaces::leaving, evaluation_, &EvaluationDocks::leaveWorkspace);
+    connect(workspaces_, &Workspaces::opened, this, [this](WorkspaceKind kind) {
+        actions_->workspaceAction(kind)->setChecked(true);
+        const QList<QDockWidget*> offered = docks_->docksFor(kind);
+        for (const DockId id : allDocks())
+            docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
+        labelling_->setActive(kind == WorkspaceKind::label);
+        evaluation_->enterWorkspace(kind);
     });
+    workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
 }
 
 void MainWindow::buildEvaluation() {
-    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, *this);
+    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, overlays_, *docks_, *this);
     connect(evaluation_, &EvaluationDocks::notice, this, &MainWindow::showNotice);
     connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
     // A preview takes the verdicts away, which are those of the stored run; they come back with it.
@@ -129,18 +133,6 @@ void MainWindow::buildEvaluation() {
         if (!tuning_->preview().active()) evaluation_->showMarks();
     });
     connect(evaluation_, &EvaluationDocks::problem, this, &MainWindow::showProblem);
-}
-
-QByteArray MainWindow::reviewLayout() const {
-    return labelling_->active() ? labelling_->otherLayout() : saveState();
-}
-
-void MainWindow::showTabTitles() {
-    // Narrow docks scroll their tabs; cut down to a letter nobody knows which is which.
-    for (QTabBar* bar : findChildren<QTabBar*>()) {
-        bar->setElideMode(Qt::ElideNone);
-        bar->setUsesScrollButtons(true);
-    }
 }
 
 void MainWindow::wireInspection() {
@@ -153,11 +145,11 @@ void MainWindow::wireInspection() {
     });
     connect(&overlays_, &OverlaySettings::changed, inspection_,
             [this] { inspection_->wantStackOverlay(overlays_.isVisible(OverlayKind::stacks)); });
-    connect(&docks_->stacks(), &StacksPanel::placeChosen, this, [this](QPointF place) {
+    connect(&review_->stacks(), &StacksPanel::placeChosen, this, [this](QPointF place) {
         canvas_->centreOn(place);
         inspection_->choose(place);
     });
-    connect(&docks_->stacks(), &StacksPanel::stackingRunRequested, this, [this] {
+    connect(&review_->stacks(), &StacksPanel::stackingRunRequested, this, [this] {
         parameters_->adoptRunParameters();
         parameters_->setValue("stacking.enabled", "true");
         startRun();
@@ -182,8 +174,7 @@ void MainWindow::wireViewActions() {
             actions_->full_screen->trigger();
     });
     connect(actions_->keys, &QAction::triggered, this, [this] {
-        auto* sheet = new KeySheet(*actions_, this,
-                                   labelling_->active() ? labelling_->actions().sections() : QList<ActionSection>());
+        auto* sheet = new KeySheet(keys_, labelling_->active() ? tr("Label") : QString(), this);
         sheet->setAttribute(Qt::WA_DeleteOnClose);
         sheet->show();
     });
@@ -200,8 +191,6 @@ void MainWindow::wireViewActions() {
 
 void MainWindow::restoreView() {
     const ProjectView view = settings_.projectView(session_.project());
-    if (!view.layout.isEmpty() && !labelling_->active()) restoreState(view.layout);
-    showTabTitles();
     if (view.zoom > 0)
         canvas_->restore(view.zoom, view.centre);
     else
@@ -213,9 +202,14 @@ void MainWindow::rememberView() {
     if (shown_project_.empty()) return;
     const ViewTransform& transform = canvas_->transform();
     const QPointF middle(transform.viewSize().width() / 2, transform.viewSize().height() / 2);
-    settings_.setProjectView(shown_project_, {reviewLayout(), transform.fitted() ? 0 : transform.zoom(),
+    settings_.setProjectView(shown_project_, {transform.fitted() ? 0 : transform.zoom(),
                                               transform.imageFromView(middle), session_.currentFrame()});
     shown_project_.clear();
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+    QMainWindow::showEvent(event);
+    workspaces_->fit();  // only now its size is known
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
@@ -229,7 +223,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     }
     rememberView();
     settings_.setGeometry(saveGeometry());
-    settings_.setLayout(reviewLayout());
+    settings_.setValue(kWorkspaces, workspaces_->state());
     session_.stopRun();  // the run's own thread finishes storing while the program goes down
     event->accept();
 }

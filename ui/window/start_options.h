@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "window/theme.h"
+#include "workspace/workspace_kind.h"
 
 namespace eyrie::ui {
 
@@ -15,6 +17,7 @@ struct StartOptions {
     bool run = false;                  ///< start a run even if there is a finished one
     std::filesystem::path screenshot;  ///< write a picture of the window here and quit
     int after_frames = 1;              ///< … once this many frames with results were shown
+    std::optional<WorkspaceKind> workspace;  ///< none: the one that was shown last
     ThemeChoice theme = ThemeChoice::system;
 };
 

@@ -13,7 +13,6 @@ constexpr int kMostRecent = 12;
 const QString kRecent = QStringLiteral("recent_projects");
 const QString kScene = QStringLiteral("scene:");
 const QString kGeometry = QStringLiteral("window/geometry");
-const QString kLayout = QStringLiteral("window/layout");
 
 /// Hidden there, a project's own name tells nobody anything.
 bool liesInDataFolder(const QString& project) {
@@ -68,18 +67,9 @@ void WindowSettings::setGeometry(const QByteArray& geometry) {
     settings_.setValue(kGeometry, geometry);
 }
 
-QByteArray WindowSettings::layout() const {
-    return settings_.value(kLayout).toByteArray();
-}
-
-void WindowSettings::setLayout(const QByteArray& layout) {
-    settings_.setValue(kLayout, layout);
-}
-
 ProjectView WindowSettings::projectView(const std::filesystem::path& project) const {
     const QString group = groupOf(project);
     ProjectView view;
-    view.layout = settings_.value(group + QStringLiteral("layout")).toByteArray();
     view.zoom = settings_.value(group + QStringLiteral("zoom"), 0).toDouble();
     view.centre = settings_.value(group + QStringLiteral("centre")).toPointF();
     view.frame = settings_.value(group + QStringLiteral("frame"), 0).toInt();
@@ -88,7 +78,6 @@ ProjectView WindowSettings::projectView(const std::filesystem::path& project) co
 
 void WindowSettings::setProjectView(const std::filesystem::path& project, const ProjectView& view) {
     const QString group = groupOf(project);
-    settings_.setValue(group + QStringLiteral("layout"), view.layout);
     settings_.setValue(group + QStringLiteral("zoom"), view.zoom);
     settings_.setValue(group + QStringLiteral("centre"), view.centre);
     settings_.setValue(group + QStringLiteral("frame"), view.frame);

@@ -10,7 +10,6 @@ namespace eyrie::ui {
 
 /// How the window looked when a project was last open.
 struct ProjectView {
-    QByteArray layout;
     double zoom = 0;  ///< 0: fitted
     QPointF centre;
     int frame = 0;
@@ -38,8 +37,6 @@ class WindowSettings {
 
     QByteArray geometry() const;
     void setGeometry(const QByteArray& geometry);
-    QByteArray layout() const;
-    void setLayout(const QByteArray& layout);
 
     /// Nothing is remembered: an empty view.
     ProjectView projectView(const std::filesystem::path& project) const;

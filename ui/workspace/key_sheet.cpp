@@ -1,11 +1,13 @@
 #include "workspace/key_sheet.h"
 
 #include <QDialogButtonBox>
-#include <QFrame>
-#include <QGridLayout>
 #include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeySequenceEdit>
 #include <QLabel>
-#include <QScrollArea>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTreeWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -13,83 +15,178 @@ namespace eyrie::ui {
 
 namespace {
 
-QLabel* keyLabel(const QString& text, QWidget* parent) {
-    auto* label = new QLabel(text, parent);
-    QFont font = label->font();
-    font.setBold(true);
-    label->setFont(font);
-    label->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    return label;
+enum Column { kCommand, kKeys };
+constexpr int kAction = Qt::UserRole;  ///< data of an item: its command
+
+QString plain(QString text) {
+    return text.remove(QLatin1Char('&')).remove(QStringLiteral("…"));
 }
 
-QWidget* sectionWidget(const QString& title, const QList<std::pair<QString, QString>>& rows, QWidget* parent) {
-    auto* widget = new QWidget(parent);
-    auto* grid = new QGridLayout(widget);
-    grid->setContentsMargins(0, 0, 0, 12);
-    grid->setHorizontalSpacing(14);
-    grid->setVerticalSpacing(3);
-    auto* heading = new QLabel(title, widget);
-    QFont font = heading->font();
-    font.setPointSizeF(font.pointSizeF() * 1.15);
+QAction* actionOf(const QTreeWidgetItem* item) {
+    return item == nullptr ? nullptr : item->data(kCommand, kAction).value<QAction*>();
+}
+
+QTreeWidgetItem* heading(QTreeWidget* list, const QString& title) {
+    auto* item = new QTreeWidgetItem(list, {title});
+    QFont font = item->font(kCommand);
     font.setBold(true);
-    heading->setFont(font);
-    grid->addWidget(heading, 0, 0, 1, 2);
-    int row = 1;
-    for (const auto& [keys, text] : rows) {
-        grid->addWidget(keyLabel(keys, widget), row, 0);
-        grid->addWidget(new QLabel(text, widget), row++, 1);
-    }
-    grid->setColumnMinimumWidth(0, 110);
-    grid->setColumnStretch(1, 1);
-    return widget;
+    item->setFont(kCommand, font);
+    item->setFlags(Qt::ItemIsEnabled);
+    item->setFirstColumnSpanned(true);
+    item->setExpanded(true);
+    return item;
 }
 
 }  // namespace
 
-KeySheet::KeySheet(const WindowActions& actions, QWidget* parent, const QList<ActionSection>& more) : QDialog(parent) {
+KeySheet::KeySheet(KeyBindings& keys, const QString& first, QWidget* parent) : QDialog(parent), keys_(keys) {
     setWindowTitle(tr("Keys"));
-    auto* content = new QWidget;
-    auto* columns = new QHBoxLayout(content);
-    columns->setSpacing(28);
-    QVBoxLayout* column[3];
-    int filled[3] = {0, 0, 0};
-    for (auto& c : column) {
-        c = new QVBoxLayout;
-        columns->addLayout(c, 1);
-    }
-    const auto place = [&](const QString& title, const QList<std::pair<QString, QString>>& rows) {
-        const auto emptiest = std::min_element(std::begin(filled), std::end(filled)) - std::begin(filled);
-        column[emptiest]->addWidget(sectionWidget(title, rows, content));
-        filled[emptiest] += static_cast<int>(rows.size()) + 2;
-    };
-    for (const ActionSection& section : more + actions.sections()) {
-        QList<std::pair<QString, QString>> rows;
-        for (const QAction* action : section.actions) {
-            if (action->shortcuts().isEmpty()) continue;
-            QStringList keys;
-            for (const QKeySequence& key : action->shortcuts()) keys << key.toString(QKeySequence::NativeText);
-            rows.append({keys.join(tr(" or ")), action->text().remove(QLatin1Char('&')).remove(QStringLiteral("…"))});
-        }
-        if (!rows.isEmpty()) place(section.title, rows);
-    }
-    place(tr("Mouse"), {{tr("Wheel"), tr("Zoom to the cursor")},
-                        {tr("Drag"), tr("Move the picture (also with Space held)")},
-                        {tr("Click"), tr("Select a track")},
-                        {tr("Double click"), tr("Zoom in, again: fit")},
-                        {tr("Drag the timeline"), tr("Scrub")},
-                        {tr("Wheel on it"), tr("Zoom the timeline; Shift scrolls")}});
-    for (auto* c : column) c->addStretch(1);
+    search_ = new QLineEdit;
+    search_->setPlaceholderText(tr("Search commands and keys"));
+    search_->setClearButtonEnabled(true);
+    list_ = new QTreeWidget;
+    list_->setColumnCount(2);
+    list_->setHeaderLabels({tr("Command"), tr("Keys")});
+    list_->setRootIsDecorated(false);
+    list_->setIndentation(14);
+    list_->setAlternatingRowColors(true);
+    list_->header()->setStretchLastSection(false);
+    list_->header()->setSectionResizeMode(kCommand, QHeaderView::Stretch);
+    list_->header()->setSectionResizeMode(kKeys, QHeaderView::ResizeToContents);
+    key_ = new QKeySequenceEdit;
+    set_ = new QPushButton(tr("Use this key"));
+    none_ = new QPushButton(tr("No key"));
+    default_ = new QPushButton(tr("As it was"));
+    default_->setToolTip(tr("Give the command the keys that it came with"));
+    auto* all = new QPushButton(tr("All as they were"));
+    all->setToolTip(tr("Give every command the keys that it came with"));
+    answer_ = new QLabel;
+    answer_->setWordWrap(true);
+    for (QPushButton* button : {set_, none_, default_, all}) button->setAutoDefault(false);
 
-    auto* scroll = new QScrollArea(this);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setWidgetResizable(true);
-    scroll->setWidget(content);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    auto* row = new QHBoxLayout;
+    row->addWidget(new QLabel(tr("New key:")));
+    row->addWidget(key_, 1);
+    row->addWidget(set_);
+    row->addWidget(none_);
+    row->addWidget(default_);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    buttons->addButton(all, QDialogButtonBox::ResetRole);
     auto* layout = new QVBoxLayout(this);
-    layout->addWidget(scroll);
+    layout->addWidget(search_);
+    layout->addWidget(list_, 1);
+    layout->addLayout(row);
+    layout->addWidget(answer_);
     layout->addWidget(buttons);
-    resize(1060, 620);
+    resize(640, 620);
+
+    fill(first);
+    connect(search_, &QLineEdit::textChanged, this, &KeySheet::filter);
+    connect(list_, &QTreeWidget::currentItemChanged, this, &KeySheet::showChosen);
+    connect(list_, &QTreeWidget::itemActivated, key_, qOverload<>(&QWidget::setFocus));
+    connect(set_, &QPushButton::clicked, this, [this] { setKey(key_->keySequence()); });
+    connect(none_, &QPushButton::clicked, this, [this] {
+        if (chosen() != nullptr) keys_.setKeysOf(chosen(), {});
+    });
+    connect(default_, &QPushButton::clicked, this, [this] {
+        if (chosen() != nullptr) keys_.reset(chosen());
+    });
+    connect(all, &QPushButton::clicked, &keys_, &KeyBindings::resetAll);
+    connect(&keys_, &KeyBindings::keysChanged, this, &KeySheet::showAllKeys);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    showChosen();
+    search_->setFocus();
+}
+
+void KeySheet::fill(const QString& first) {
+    QList<KeyBindings::Group> groups = keys_.groups();
+    std::stable_partition(groups.begin(), groups.end(),
+                          [&](const KeyBindings::Group& group) { return group.title == first; });
+    for (const KeyBindings::Group& group : groups)
+        for (const ActionSection& section : group.sections) {
+            auto* title =
+                heading(list_, group.title.isEmpty() ? section.title : tr("%1: %2").arg(group.title, section.title));
+            for (QAction* action : section.actions) {
+                auto* item = new QTreeWidgetItem(title, {plain(action->text())});
+                item->setData(kCommand, kAction, QVariant::fromValue(action));
+                item->setToolTip(kCommand, action->whatsThis());
+                showKeys(item);
+            }
+        }
+    const std::pair<QString, QString> mouse[] = {{tr("Zoom to the cursor"), tr("Wheel")},
+                                                 {tr("Move the picture"), tr("Drag, also with Space held")},
+                                                 {tr("Select a track"), tr("Click")},
+                                                 {tr("Zoom in, again: fit"), tr("Double click")},
+                                                 {tr("Go through the video"), tr("Drag the timeline")},
+                                                 {tr("Zoom the timeline; Shift scrolls it"), tr("Wheel on it")}};
+    auto* title = heading(list_, tr("Mouse"));
+    for (const auto& [what, how] : mouse) new QTreeWidgetItem(title, {what, how});
+}
+
+void KeySheet::showKeys(QTreeWidgetItem* item) {
+    const QAction* action = actionOf(item);
+    if (action == nullptr) return;
+    QStringList texts;
+    for (const QKeySequence& key : keys_.keysOf(action)) texts << key.toString(QKeySequence::NativeText);
+    item->setText(kKeys, texts.join(tr(" or ")));
+    QFont font = item->font(kKeys);
+    font.setBold(keys_.changed(action));
+    item->setFont(kKeys, font);
+}
+
+void KeySheet::showAllKeys() {
+    for (QTreeWidgetItemIterator item(list_); *item != nullptr; ++item) showKeys(*item);
+    showChosen();
+}
+
+void KeySheet::filter(const QString& wanted) {
+    for (int i = 0; i < list_->topLevelItemCount(); ++i) {
+        QTreeWidgetItem* title = list_->topLevelItem(i);
+        bool any = false;
+        for (int k = 0; k < title->childCount(); ++k) {
+            QTreeWidgetItem* item = title->child(k);
+            const bool fits = item->text(kCommand).contains(wanted, Qt::CaseInsensitive) ||
+                              item->text(kKeys).contains(wanted, Qt::CaseInsensitive);
+            item->setHidden(!fits);
+            any = any || fits;
+        }
+        title->setHidden(!any);
+    }
+}
+
+QAction* KeySheet::chosen() const {
+    return actionOf(list_->currentItem());
+}
+
+void KeySheet::choose(const QAction* action) {
+    for (QTreeWidgetItemIterator item(list_); *item != nullptr; ++item)
+        if (actionOf(*item) == action) list_->setCurrentItem(*item);
+}
+
+void KeySheet::showChosen() {
+    const QAction* action = chosen();
+    key_->setEnabled(action != nullptr);
+    set_->setEnabled(action != nullptr);
+    none_->setEnabled(action != nullptr && !keys_.keysOf(action).isEmpty());
+    default_->setEnabled(action != nullptr && keys_.changed(action));
+    key_->clear();
+    answer_->setText(action == nullptr ? tr("Choose a command to give it another key.") : QString());
+}
+
+void KeySheet::setKey(const QKeySequence& key) {
+    QAction* action = chosen();
+    if (action == nullptr || key.isEmpty()) return;
+    const QString name = key.toString(QKeySequence::NativeText);
+    if (const QAction* other = keys_.owner(key, action)) {
+        answer_->setText(tr("%1 belongs to “%2”. Give that another key first.").arg(name, plain(other->text())));
+        return;
+    }
+    keys_.setKeysOf(action, {key});
+    answer_->setText(tr("“%1” is now on %2.").arg(plain(action->text()), name));
+}
+
+QString KeySheet::answer() const {
+    return answer_->text();
 }
 
 }  // namespace eyrie::ui

@@ -5,6 +5,8 @@
 #include <QWidget>
 #include <algorithm>
 
+#include "canvas/layers/overlay_table.h"
+
 namespace eyrie::ui {
 
 WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObject(parent), parent_(parent) {
@@ -91,11 +93,16 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                    QT_TR_NOOP("Two runs or sets of parameters on the same frames, side by side or with a wipe")});
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
-    review_workspace = addToggle(tr("&Review"), {nullptr, {QKeySequence(tr("Ctrl+1"))}}, true);
-    label_workspace = addToggle(tr("&Label"), {nullptr, {QKeySequence(tr("Ctrl+2"))}}, false);
+    const QString workspace_names[] = {tr("&Review"), tr("&Label"), tr("&Tune")};
+    const char* workspace_tips[] = {QT_TR_NOOP("Look through what moved"), QT_TR_NOOP("Draw and check ground truth"),
+                                    QT_TR_NOOP("Look into every stage of the chain and set its parameters")};
     auto* workspaces = new QActionGroup(this);
-    workspaces->addAction(review_workspace);
-    workspaces->addAction(label_workspace);
+    for (std::size_t i = 0; i < workspace.size(); ++i) {
+        workspace[i] =
+            addToggle(workspace_names[i],
+                      {nullptr, {QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1))}, workspace_tips[i]}, i == 0);
+        workspaces->addAction(workspace[i]);
+    }
 
     addOverlays(overlays);
 
@@ -111,11 +118,9 @@ void WindowActions::section(const QString& title) {
 QAction* WindowActions::add(const QString& text, const Look& look) {
     auto* action = new QAction(text, this);
     if (look.icon != nullptr) action->setIcon(QIcon::fromTheme(QString::fromLatin1(look.icon)));
-    action->setShortcuts(look.keys);
-    QString tip =
-        look.tip != nullptr ? tr(look.tip) : QString(text).remove(QLatin1Char('&')).remove(QStringLiteral("…"));
-    if (!look.keys.isEmpty()) tip += QStringLiteral(" (%1)").arg(look.keys.front().toString(QKeySequence::NativeText));
-    action->setToolTip(tip);
+    setTip(*action,
+           look.tip != nullptr ? tr(look.tip) : QString(text).remove(QLatin1Char('&')).remove(QStringLiteral("…")));
+    setKeys(*action, look.keys);
     parent_->addAction(action);
     sections_.back().actions.append(action);
     return action;
@@ -130,26 +135,16 @@ QAction* WindowActions::addToggle(const QString& text, const Look& look, bool ch
 
 void WindowActions::addOverlays(OverlaySettings& overlays) {
     section(tr("Overlays"));
-    struct Entry {
-        OverlayKind kind;
-        QString text;
-        Qt::Key key;
-    };
-    const Entry entries[] = {{OverlayKind::corners, tr("Stationary &corners"), Qt::Key_C},
-                             {OverlayKind::vectors, tr("Motion &vectors"), Qt::Key_V},
-                             {OverlayKind::clusters, tr("&Motion clusters"), Qt::Key_M},
-                             {OverlayKind::rois, tr("Motion &ROIs"), Qt::Key_R},
-                             {OverlayKind::detections, tr("&Detections"), Qt::Key_D},
-                             {OverlayKind::tracks, tr("&Tracks"), Qt::Key_T},
-                             {OverlayKind::stacks, tr("Image &stacks"), Qt::Key_S},
-                             {OverlayKind::ground_truth, tr("&Ground truth"), Qt::Key_U},
-                             {OverlayKind::verdicts, tr("Errors (found, missed, false)"), Qt::Key_Q}};
-    for (const Entry& entry : entries) {
-        QAction* action = addToggle(entry.text, {nullptr, {QKeySequence(entry.key)}}, overlays.isVisible(entry.kind));
-        overlay[static_cast<size_t>(entry.kind)] = action;
+    for (const OverlayRow& row : overlayTable()) {
+        QAction* action = addToggle(overlayName(row), {nullptr, {QKeySequence(row.key)}}, overlays.isVisible(row.kind));
+        overlay[static_cast<size_t>(row.kind)] = action;
         connect(action, &QAction::toggled, &overlays,
-                [&overlays, kind = entry.kind](bool on) { overlays.setVisible(kind, on); });
+                [&overlays, kind = row.kind](bool on) { overlays.setVisible(kind, on); });
     }
+    connect(&overlays, &OverlaySettings::changed, this, [this, &overlays] {
+        for (const OverlayRow& row : overlayTable())
+            overlay[static_cast<size_t>(row.kind)]->setChecked(overlays.isVisible(row.kind));
+    });
     const OverlayStyle& style = overlays.style();
     labels = addToggle(tr("Track la&bels"), {nullptr, {QKeySequence(Qt::Key_B)}}, style.labels);
     trails = addToggle(tr("Tr&ails"), {nullptr, {QKeySequence(Qt::Key_A)}}, style.trails);

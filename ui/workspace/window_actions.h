@@ -6,14 +6,10 @@
 #include <array>
 
 #include "canvas/overlay_settings.h"
+#include "workspace/key_bindings.h"
+#include "workspace/workspace_kind.h"
 
 namespace eyrie::ui {
-
-/// Commands that belong together, for menus and the sheet of keys.
-struct ActionSection {
-    QString title;
-    QList<QAction*> actions;
-};
 
 /// Every command of the window as an action with text, icon and key. Knows nothing of what they do, except that the
 /// overlay actions switch the overlays.
@@ -24,6 +20,7 @@ class WindowActions : public QObject {
     /// `overlays` and `parent` must outlive the actions. The actions are added to `parent`, so that their keys work.
     WindowActions(OverlaySettings& overlays, QWidget* parent);
 
+    QAction* workspaceAction(WorkspaceKind kind) const { return workspace[static_cast<std::size_t>(kind)]; }
     /// In the order of the menus.
     const QList<ActionSection>& sections() const { return sections_; }
 
@@ -34,7 +31,7 @@ class WindowActions : public QObject {
     QAction *fit, *one_to_one, *zoom_in, *zoom_out, *full_screen, *deselect;
     QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
     QAction *why, *live_preview, *compare, *train;
-    QAction *review_workspace, *label_workspace;
+    std::array<QAction*, kWorkspaceCount> workspace;
     std::array<QAction*, kOverlayKindCount> overlay;
     QAction *labels, *trails, *rejected, *tentative, *longer_vectors, *shorter_vectors, *colour_blind;
     QAction *keys, *about;

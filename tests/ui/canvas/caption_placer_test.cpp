@@ -11,7 +11,7 @@ class CaptionPlacerTest : public QObject {
  private slots:
     void aLoneLabelStandsAboveItsObject() {
         const QRectF object(100, 100, 40, 20);
-        LabelPlacer placer({0, 0, 400, 400}, {object});
+        CaptionPlacer placer({0, 0, 400, 400}, {object});
         const auto place = placer.place(object, {30, 12});
         QVERIFY(place);
         QVERIFY(place->bottom() <= object.top());
@@ -20,7 +20,7 @@ class CaptionPlacerTest : public QObject {
 
     void atTheUpperEdgeItStandsBelow() {
         const QRectF object(100, 2, 40, 20);
-        LabelPlacer placer({0, 0, 400, 400}, {object});
+        CaptionPlacer placer({0, 0, 400, 400}, {object});
         const auto place = placer.place(object, {30, 12});
         QVERIFY(place);
         QVERIFY(place->top() >= object.bottom());
@@ -31,7 +31,7 @@ class CaptionPlacerTest : public QObject {
         std::uniform_real_distribution<double> place(0, 500);
         std::vector<QRectF> objects;
         for (int i = 0; i < 200; ++i) objects.emplace_back(place(random), place(random), 24, 12);
-        LabelPlacer placer({0, 0, 520, 520}, objects);
+        CaptionPlacer placer({0, 0, 520, 520}, objects);
         std::vector<QRectF> labels;
         for (const QRectF& object : objects)
             if (const auto label = placer.place(object, {26, 13})) labels.push_back(*label);

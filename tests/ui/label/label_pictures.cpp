@@ -2,7 +2,6 @@
 // at.
 //   ninja label_pictures && bin/label_pictures CLIP TRUTH.csv GSD RATE FOLDER
 #include <QApplication>
-#include <QDockWidget>
 #include <cstdio>
 #include <map>
 
@@ -11,6 +10,7 @@
 #include "io/tables/box_csv.h"
 #include "ui/label/labelling.h"
 #include "window/theme.h"
+#include "workspace/dock_registry.h"
 
 namespace eyrie::ui {
 namespace {
@@ -89,7 +89,7 @@ class Photographer : public test::Labelling {
         if (!window_->grab().save(QString::fromStdString(file.string()))) std::fprintf(stderr, "cannot write\n");
     }
 
-    void showChips() { window_->findChild<QDockWidget*>(QStringLiteral("object_chips"))->raise(); }
+    void showChips() { window_->docks().raise(DockId::object_chips); }
 
  private:
     std::filesystem::path clip_;

@@ -11,6 +11,7 @@
 #include "label/label_workspace.h"
 #include "ui/support/ui_support.h"
 #include "window/main_window.h"
+#include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui::test {
@@ -44,7 +45,7 @@ class Labelling {
             if (!ready.wait(kPatience_ms)) return nullptr;
             window->session().settings().gsd_m_per_px = 0.25;
         }
-        window->actions().label_workspace->trigger();
+        window->actions().workspaceAction(WorkspaceKind::label)->trigger();
         if (!waitFor([&] { return window->labelling().labels().isOpen(); })) return nullptr;
         go(*window, 0);
         return window;
@@ -57,7 +58,7 @@ class Labelling {
         QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
         window->start(options);
         if (!finished.wait(10 * kPatience_ms)) return nullptr;
-        window->actions().label_workspace->trigger();
+        window->actions().workspaceAction(WorkspaceKind::label)->trigger();
         const LabelSession& labels = window->labelling().labels();
         if (!waitFor([&] { return labels.isOpen() && !labels.camera().empty(); })) return nullptr;
         return window;

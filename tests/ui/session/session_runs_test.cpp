@@ -262,7 +262,7 @@ class SessionRunsTest : public QObject {
         QVERIFY(runAndWait(session));
         QVERIFY(
             QTest::qWaitFor([&] { return session.runData() && session.runData()->frames.size() == 60; }, kPatience_ms));
-        if (session.runData()->tracks.empty()) QSKIP("the chain found no track in the toy scene");
+        QVERIFY(!session.runData()->tracks.empty());
         const TrackSummary track = session.runData()->tracks.front();  // the run may be read anew meanwhile
         std::vector<TrackFrame> states;
         connect(&session, &ProjectSession::trackStatesRead, this,

@@ -23,7 +23,9 @@
 #include "window/docks/evaluation_docks.h"
 #include "window/docks/tuning.h"
 #include "window/main_window.h"
+#include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
+#include "workspace/workspaces.h"
 
 namespace eyrie::ui {
 
@@ -113,10 +115,8 @@ class EvaluationTest : public QObject {
         window->session().open(project());
         if (!ready.wait(kPatience_ms)) return nullptr;
         window->session().showRun(1);
-        for (QDockWidget* dock : window->evaluation().docks()) {
-            dock->show();
-            dock->raise();
-        }
+        window->workspaces().open(WorkspaceKind::tune);
+        for (const DockId id : {DockId::evaluation, DockId::errors}) window->docks().raise(id);
         EvaluationSession& evaluation = window->evaluation().evaluation();
         const bool answered = waitFor([&] { return evaluation.evaluation() || !evaluation.obstacle().isEmpty(); });
         return answered ? std::move(window) : nullptr;
@@ -221,7 +221,7 @@ class EvaluationTest : public QObject {
         const auto window = evaluatingWindow();
         QVERIFY(window);
         QVERIFY(!window->overlays().isVisible(OverlayKind::tracks));
-        for (QDockWidget* dock : window->evaluation().docks()) dock->hide();
+        for (const DockId id : {DockId::evaluation, DockId::errors}) window->docks().dock(id)->hide();
         QVERIFY(window->overlays().isVisible(OverlayKind::tracks));
         QVERIFY(window->overlays().isVisible(OverlayKind::verdicts));
     }

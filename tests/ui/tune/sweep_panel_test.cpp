@@ -100,7 +100,7 @@ class SweepPanelTest : public QObject {
     void sweepsOverTheRunAndShowsTheCurveWithoutStoppingTheWindow() {
         const auto window = windowWithRun(40);
         QVERIFY(window);
-        SweepPanel& panel = window->docks().sweeps();
+        SweepPanel& panel = window->review().sweeps();
         panel.form().setAxis(0, QStringLiteral("gradient.quantile"), QStringLiteral("0.02:0.01:0.98"));
         QCOMPARE(panel.form().request().axes.front(), std::string("gradient.quantile=0.02:0.01:0.98"));
         QSignalSpy finished(&panel.sweeps(), &SweepSession::finished);
@@ -148,7 +148,7 @@ class SweepPanelTest : public QObject {
     void aPointGoesIntoTheNextRun() {
         const auto window = windowWithRun(24);
         QVERIFY(window);
-        SweepPanel& panel = window->docks().sweeps();
+        SweepPanel& panel = window->review().sweeps();
         panel.sweeps().start(request({"gradient.quantile=0.11,0.23"}));
         QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
         emit panel.chart().pointClicked(1);
@@ -162,7 +162,7 @@ class SweepPanelTest : public QObject {
     void twoParametersMakeAHeatMap() {
         const auto window = windowWithRun(24);
         QVERIFY(window);
-        SweepPanel& panel = window->docks().sweeps();
+        SweepPanel& panel = window->review().sweeps();
         panel.sweeps().start(request({"detection.method=gradient,clusters", "outliers.min_vectors=2,3,40"}));
         QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
         const SweepChartData& data = panel.chart().data();
@@ -181,7 +181,7 @@ class SweepPanelTest : public QObject {
             const auto window = windowWithRun(40);
             QVERIFY(window);
             project = window->session().project();
-            SweepPanel& panel = window->docks().sweeps();
+            SweepPanel& panel = window->review().sweeps();
             panel.sweeps().start(request({axis}));
             QVERIFY(waitFor([&] { return pointsOf(panel) > 2; }));
             panel.sweeps().cancel();
@@ -196,7 +196,7 @@ class SweepPanelTest : public QObject {
         MainWindow window;
         window.session().open(project);
         QVERIFY(runIsRead(window));
-        SweepPanel& panel = window.docks().sweeps();
+        SweepPanel& panel = window.review().sweeps();
         QVERIFY(waitFor([&] { return pointsOf(panel) >= before; }));
         QVERIFY(pointsOf(panel) < 481);
         QCOMPARE(panel.sweeps().sweeps().size(), std::size_t(1));
@@ -216,7 +216,7 @@ class SweepPanelTest : public QObject {
         QVERIFY(finished.wait(kPatience_ms));
         QVERIFY(runIsRead(*window));
         QCOMPARE(window->session().currentRun(), 2);
-        SweepPanel& panel = window->docks().sweeps();
+        SweepPanel& panel = window->review().sweeps();
         QAction* other = nullptr;
         for (QAction* action : panel.form().findChildren<QAction*>())
             if (action->text().startsWith(QStringLiteral("Run 1"))) other = action;
@@ -244,13 +244,13 @@ class SweepPanelTest : public QObject {
     void oneOfTwoWindowsWorksOnASweep() {
         const auto window = windowWithRun(40);
         QVERIFY(window);
-        SweepSession& first = window->docks().sweeps().sweeps();
+        SweepSession& first = window->review().sweeps().sweeps();
         first.start(request({"gradient.quantile=0.02:0.002:0.98"}));
-        QVERIFY(waitFor([&] { return pointsOf(window->docks().sweeps()) > 2; }));
+        QVERIFY(waitFor([&] { return pointsOf(window->review().sweeps()) > 2; }));
         MainWindow other;
         other.session().open(window->session().project());
         QVERIFY(runIsRead(other));
-        SweepSession& second = other.docks().sweeps().sweeps();
+        SweepSession& second = other.review().sweeps().sweeps();
         QVERIFY(waitFor([&] { return second.table() != nullptr; }));
         QSignalSpy failed(&second, &SweepSession::failed);
         second.resume(second.table()->id);
@@ -269,7 +269,7 @@ class SweepPanelTest : public QObject {
     void aFullDiskKeepsWhatIsDone() {
         const auto window = windowWithRun(30);
         QVERIFY(window);
-        SweepPanel& panel = window->docks().sweeps();
+        SweepPanel& panel = window->review().sweeps();
         SweepSession& sweeps = panel.sweeps();
         QSignalSpy failed(&sweeps, &SweepSession::failed);
         signal(SIGXFSZ, SIG_IGN);
@@ -300,7 +300,7 @@ class SweepPanelTest : public QObject {
     void aModelOfAnotherDescriptorAndATruthOfOtherFramesAreNamed() {
         const auto window = windowWithRun(24);
         QVERIFY(window);
-        SweepSession& sweeps = window->docks().sweeps().sweeps();
+        SweepSession& sweeps = window->review().sweeps().sweeps();
         QSignalSpy failed(&sweeps, &SweepSession::failed);
         sweeps.start(request({"sliding_window.descriptor=chnftrs,dct"}));
         QVERIFY(waitFor([&] { return !sweeps.running(); }));
@@ -319,7 +319,7 @@ class SweepPanelTest : public QObject {
     void saysWhatIsMissing() {
         const auto window = windowWithRun(24);
         QVERIFY(window);
-        SweepSession& sweeps = window->docks().sweeps().sweeps();
+        SweepSession& sweeps = window->review().sweeps().sweeps();
         QSignalSpy failed(&sweeps, &SweepSession::failed);
         const auto refused = [&](const SweepRequest& request) {
             failed.clear();
@@ -346,7 +346,7 @@ class SweepPanelTest : public QObject {
     void withoutARunTheFormSaysHowToBegin() {
         MainWindow window;
         window.show();
-        SweepForm& form = window.docks().sweeps().form();
+        SweepForm& form = window.review().sweeps().form();
         form.setAxis(0, QStringLiteral("gradient.quantile"), QStringLiteral("0.1:0.1:0.5"));
         auto* start = form.findChild<QAbstractButton*>(QStringLiteral("sweep_start"));
         QVERIFY(start != nullptr);

@@ -22,6 +22,7 @@
 #include "widgets/parameters/parameter_row.h"
 #include "window/docks/review_docks.h"
 #include "window/main_window.h"
+#include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -56,7 +57,7 @@ class TuningTest : public QObject {
             [&] { return session().viewFrame().index == 40 && session().viewFrame().result && session().runData(); });
     }
     ParameterRow* row(const char* name) {
-        for (auto* row : window_->docks().parameterForm().findChildren<ParameterRow*>())
+        for (auto* row : window_->review().parameterForm().findChildren<ParameterRow*>())
             if (row->name() == QLatin1String(name)) return row;
         return nullptr;
     }
@@ -113,8 +114,8 @@ class TuningTest : public QObject {
         QVERIFY(preview().view()->previewed.tracks_final);
         // Lists that still tell of the run say so.
         bool marked = false;
-        for (QDockWidget* dock : window_->docks().docks())
-            marked = marked || dock->windowTitle().contains(QStringLiteral("(stored)"));
+        for (const DockId id : allDocks())
+            marked = marked || window_->docks().dock(id)->windowTitle().contains(QStringLiteral("(stored)"));
         QVERIFY(marked);
         // Another frame is previewed, too.
         session().goToFrame(41);
@@ -127,7 +128,7 @@ class TuningTest : public QObject {
 
     void whatIsMovedFirstIsMovedOnTheRunShown() {
         QVERIFY(showRun());
-        ParameterForm& form = window_->docks().parameterForm();
+        ParameterForm& form = window_->review().parameterForm();
         emit form.presetChosen(QStringLiteral("thesis"));
         QVERIFY(waitFor([&] { return preview().active(); }));  // a preset is meant as it is
         QVERIFY(preview().differences().size() > 10);

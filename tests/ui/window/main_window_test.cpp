@@ -1,14 +1,13 @@
 #include "window/main_window.h"
 
 #include <QAbstractButton>
-#include <QDockWidget>
 #include <QDropEvent>
-#include <QLabel>
 #include <QLineEdit>
 #include <QMimeData>
 #include <QSet>
 #include <QSignalSpy>
 #include <QTest>
+#include <QTreeWidget>
 #include <algorithm>
 
 #include "canvas/timeline/timeline_view.h"
@@ -21,8 +20,10 @@
 #include "widgets/chip_grid.h"
 #include "widgets/message_bar.h"
 #include "window/docks/review_docks.h"
+#include "workspace/dock_registry.h"
 #include "workspace/key_sheet.h"
 #include "workspace/window_actions.h"
+#include "workspace/workspaces.h"
 
 namespace eyrie::ui {
 
@@ -131,9 +132,10 @@ class MainWindowTest : public QObject {
 
     void everyCommandWithAKeyIsOnTheSheet() {
         MainWindow window;
-        KeySheet sheet(window.actions(), &window);
+        const KeySheet sheet(window.keys(), {}, &window);
         QStringList texts;
-        for (const auto* label : sheet.findChildren<QLabel*>()) texts << label->text();
+        for (QTreeWidgetItemIterator item(sheet.findChild<QTreeWidget*>()); *item != nullptr; ++item)
+            texts << (*item)->text(0);
         for (const ActionSection& section : window.actions().sections())
             for (const QAction* action : section.actions)
                 if (!action->shortcuts().isEmpty())
@@ -144,7 +146,7 @@ class MainWindowTest : public QObject {
         const auto window = windowWithRun(60);
         QVERIFY(window);
         ProjectSession& session = window->session();
-        if (session.runData()->tracks.empty()) QSKIP("the chain found no track in the toy scene");
+        QVERIFY(!session.runData()->tracks.empty());
         const TrackSummary track = session.runData()->tracks.front();
         session.goToTrack(track.id);
         QVERIFY(waitFor([&] {
@@ -168,12 +170,10 @@ class MainWindowTest : public QObject {
     void theStagesOfWhatIsClickedAreShown() {
         const auto window = windowWithRun(40);
         QVERIFY(window);
-        auto* dock = window->findChild<QDockWidget*>(QStringLiteral("stages"));
-        QVERIFY(dock);
-        dock->raise();
+        window->docks().raise(DockId::stages);
         window->session().goToFrame(30);
         QVERIFY(showsFrame(*window, 30));
-        StagesPanel& stages = window->docks().stages();
+        StagesPanel& stages = window->review().stages();
         QVERIFY(waitFor([&] { return !stages.explanation().isEmpty(); }));
         const FrameResult& result = *window->canvas().frame().result;
         QVERIFY(!result.clusters.empty());
@@ -197,8 +197,8 @@ class MainWindowTest : public QObject {
     void withoutStackingTheDockOffersIt() {
         const auto window = windowWithRun(12);
         QVERIFY(window);
-        window->findChild<QDockWidget*>(QStringLiteral("stacks"))->raise();
-        StacksPanel& stacks = window->docks().stacks();
+        window->docks().raise(DockId::stacks);
+        StacksPanel& stacks = window->review().stacks();
         QVERIFY(waitFor([&] { return stacks.explanation().contains(QStringLiteral("without")); }));
         QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
         for (auto* button : stacks.findChildren<QAbstractButton*>())
@@ -220,8 +220,8 @@ class MainWindowTest : public QObject {
         QTest::keyClick(window.get(), Qt::Key_S);
         QVERIFY(waitFor([&] { return !window->canvas().frame().stacks.empty(); }));
         QVERIFY(!window->canvas().frame().stacks.front().related.empty());
-        window->findChild<QDockWidget*>(QStringLiteral("stacks"))->raise();
-        StacksPanel& stacks = window->docks().stacks();
+        window->docks().raise(DockId::stacks);
+        StacksPanel& stacks = window->review().stacks();
         QVERIFY(waitFor([&] { return stacks.explanation().isEmpty(); }));
         QCOMPARE(stacks.grid().cards().size(), window->canvas().frame().stacks.size());
         QTest::mouseClick(stacks.grid().viewport(), Qt::LeftButton, {},
@@ -253,9 +253,9 @@ class MainWindowTest : public QObject {
         QVERIFY(window);
         window->session().goToFrame(25);
         QVERIFY(showsFrame(*window, 25));
-        MotionStatisticsPanel& statistics = window->docks().statistics();
+        MotionStatisticsPanel& statistics = window->review().statistics();
         QVERIFY(statistics.lives().data().series.empty());
-        window->findChild<QDockWidget*>(QStringLiteral("statistics"))->raise();
+        window->docks().raise(DockId::statistics);
         QVERIFY(waitFor([&] { return !statistics.lives().data().series.empty(); }));
         QCOMPARE(statistics.lives().data().series.size(), std::size_t(2));
         double shown = 0;

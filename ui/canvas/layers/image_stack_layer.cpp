@@ -19,7 +19,7 @@ QColor stackColour(int id) {
     return QColor::fromHsvF(static_cast<float>(hue - std::floor(hue)), id % 2 == 0 ? 0.75F : 0.95F, 1.0F);
 }
 
-void StackLayer::paint(QPainter& painter, const OverlayScene& scene) const {
+void ImageStackLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     for (const StackMark& stack : scene.frame.stacks) {
         const QColor colour = stackColour(stack.id);
         QVector<QPointF> dots;

@@ -6,7 +6,7 @@ namespace eyrie::ui {
 
 /// Image stacks: a cross, turned to the heading, where the master vector lies, and dots on its motion vectors, each
 /// stack in a colour of its own (fig. 5.5–5.9).
-class StackLayer : public OverlayLayer {
+class ImageStackLayer : public OverlayLayer {
  public:
     OverlayKind kind() const override { return OverlayKind::stacks; }
     void paint(QPainter& painter, const OverlayScene& scene) const override;

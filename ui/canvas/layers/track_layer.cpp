@@ -99,7 +99,7 @@ void TrackLayer::paintLabels(QPainter& painter, const OverlayScene& scene) const
     // labels do not flicker from frame to frame.
     std::stable_partition(labelled.begin(), labelled.end(),
                           [&](const Labelled& l) { return scene.selected_track == l.state->id; });
-    LabelPlacer placer(scene.view, objects);
+    CaptionPlacer placer(scene.view, objects);
     const QFontMetricsF metrics(painter.font());
     for (const Labelled& label : labelled) {
         const QString text = QString::number(label.state->id);

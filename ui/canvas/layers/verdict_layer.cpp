@@ -27,7 +27,7 @@ QRectF boundsOf(const OrientedBox& box, const ViewTransform& transform) {
 void paintTexts(QPainter& painter, const OverlayScene& scene) {
     std::vector<QRectF> objects;
     for (const VerdictMark& mark : scene.frame.verdicts) objects.push_back(boundsOf(mark.box, scene.transform));
-    LabelPlacer placer(scene.view, objects);
+    CaptionPlacer placer(scene.view, objects);
     const QFontMetricsF metrics(painter.font());
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const VerdictMark& mark = scene.frame.verdicts[i];

@@ -96,7 +96,7 @@ void paintLabelTexts(QPainter& painter, const LabelScene& scene, const ViewTrans
         if (!mark.text.isEmpty()) labelled.push_back({&mark, object});
     }
     std::stable_partition(labelled.begin(), labelled.end(), [](const Labelled& l) { return l.mark->selected; });
-    LabelPlacer placer(view, objects);
+    CaptionPlacer placer(view, objects);
     const QFontMetricsF metrics(painter.font());
     for (const Labelled& label : labelled) {
         const LabelMark& mark = *label.mark;

@@ -2,7 +2,7 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QMenu>
 #include <QProgressBar>
 #include <QSignalBlocker>
@@ -39,7 +39,7 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
     for (QDoubleSpinBox* box : {shortest_, slowest_}) {
         box->setRange(0, 1e6);
         box->setDecimals(1);
-        box->setMaximumWidth(90);
+        box->setMinimumWidth(60);
         box->setKeyboardTracking(false);
     }
     shortest_->setPrefix(tr("life ≥ "));
@@ -52,16 +52,17 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
     coverage_->setMaximumHeight(16);
     coverage_->setAccessibleName(tr("Checked share"));
     toolRow()->addWidget(this_frame_);
-    auto* filters = new QHBoxLayout;
+    auto* filters = new QGridLayout;
     filters->setContentsMargins(2, 0, 2, 2);
     filters->setSpacing(4);
     for (QComboBox* box : {class_, state_}) {
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(6);
-        filters->addWidget(box, 1);
     }
-    filters->addWidget(shortest_);
-    filters->addWidget(slowest_);
+    filters->addWidget(class_, 0, 0);
+    filters->addWidget(state_, 0, 1);
+    filters->addWidget(shortest_, 1, 0);
+    filters->addWidget(slowest_, 1, 1);
     if (auto* rows = qobject_cast<QBoxLayout*>(layout())) {
         rows->insertLayout(1, filters);
         rows->addWidget(coverage_);

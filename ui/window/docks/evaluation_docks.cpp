@@ -6,8 +6,8 @@
 #include <QFileInfo>
 #include <QMainWindow>
 #include <QSettings>
-#include <QTimer>
 #include <algorithm>
+#include <utility>
 
 #include "canvas/video_view.h"
 #include "label/label_workspace.h"
@@ -17,6 +17,7 @@
 #include "tune/evaluate/report_writer.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -63,34 +64,27 @@ const MistakePlace& placeOf(const DiagnosedMistake& one) {
 }  // namespace
 
 EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, WindowActions& actions,
-                                 QMainWindow& window)
-    : QObject(&window), session_(session), canvas_(canvas), actions_(actions), window_(window) {
+                                 OverlaySettings& overlays, DockRegistry& docks, QMainWindow& window)
+    : QObject(&window),
+      session_(session),
+      canvas_(canvas),
+      actions_(actions),
+      overlays_(overlays),
+      docks_(docks),
+      window_(window) {
     evaluation_ = new EvaluationSession(session_, this);
     panel_ = new EvaluationPanel(session_, *evaluation_);
     model_ = new ErrorsModel(this);
     errors_ = new ErrorsPanel(model_);
     chips_ = new ErrorChips(this);
-    const auto dock = [this](const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
-        auto* made = new QDockWidget(title, &window_);
-        made->setObjectName(name);
-        made->setWidget(content);
-        window_.addDockWidget(area, made);
-        docks_.append(made);
-        connect(made, &QDockWidget::visibilityChanged, this, [this, index = docks_.size() - 1](bool visible) {
-            looked_at_[index] = visible;
+    const auto watch = [this](QDockWidget* dock, bool& looked_at) {
+        connect(dock, &QDockWidget::visibilityChanged, this, [this, &looked_at](bool visible) {
+            looked_at = visible;
             updateWanted();
         });
     };
-    dock(QStringLiteral("evaluation"), tr("Evaluation"), panel_, Qt::RightDockWidgetArea);
-    dock(QStringLiteral("errors"), tr("Errors"), errors_, Qt::LeftDockWidgetArea);
-    if (auto* tracks = window_.findChild<QDockWidget*>(QStringLiteral("tracks"))) {
-        window_.tabifyDockWidget(tracks, docks_[1]);
-        tracks->raise();
-    }
-    if (auto* inspector = window_.findChild<QDockWidget*>(QStringLiteral("inspector"))) {
-        window_.tabifyDockWidget(inspector, docks_[0]);
-        inspector->raise();
-    }
+    watch(docks_.add(DockId::evaluation, tr("Evaluation"), panel_), evaluation_looked_at_);
+    watch(docks_.add(DockId::errors, tr("Errors"), errors_), errors_looked_at_);
     wireReport();
     connect(evaluation_, &EvaluationSession::changed, this, [this] {
         tellChange(told_);
@@ -105,7 +99,7 @@ EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, Win
 }
 
 void EvaluationDocks::updateWanted() {
-    evaluation_->setWanted(looked_at_.contains(true) || evaluation_->evaluation() != nullptr);
+    evaluation_->setWanted(evaluation_looked_at_ || errors_looked_at_ || evaluation_->evaluation() != nullptr);
     showErrorsAlone();
 }
 
@@ -113,18 +107,29 @@ void EvaluationDocks::updateWanted() {
 /// bring them back; leaving the docks does, too.
 void EvaluationDocks::showErrorsAlone() {
     if (labelling_ != nullptr && labelling_->active()) return;
-    const bool alone = looked_at_.contains(true) && evaluation_->evaluation() != nullptr;
-    if (alone == !other_overlays_.isEmpty()) return;
-    const auto verdicts = static_cast<qsizetype>(OverlayKind::verdicts);
-    if (alone) {
-        for (QAction* action : actions_.overlay) other_overlays_ << action->isChecked();
-        for (qsizetype i = 0; i < other_overlays_.size(); ++i)
-            actions_.overlay[static_cast<std::size_t>(i)]->setChecked(i == verdicts);
-        return;
+    const bool alone = (evaluation_looked_at_ || errors_looked_at_) && evaluation_->evaluation() != nullptr;
+    if (!alone) {
+        giveOverlaysBack();
+    } else if (!other_overlays_) {
+        other_overlays_ = overlays_.profile();
+        OverlayProfile errors;
+        errors.visible[static_cast<std::size_t>(OverlayKind::verdicts)] = true;
+        overlays_.setProfile(errors);
     }
-    for (qsizetype i = 0; i < other_overlays_.size(); ++i)
-        if (i != verdicts) actions_.overlay[static_cast<std::size_t>(i)]->setChecked(other_overlays_[i]);
-    other_overlays_.clear();
+}
+
+void EvaluationDocks::giveOverlaysBack() {
+    if (!other_overlays_) return;
+    OverlayProfile before = *std::exchange(other_overlays_, std::nullopt);
+    // Switched off meanwhile, verdicts stay so.
+    before.visible[static_cast<std::size_t>(OverlayKind::verdicts)] &= overlays_.isVisible(OverlayKind::verdicts);
+    overlays_.setProfile(before);
+}
+
+void EvaluationDocks::enterWorkspace(WorkspaceKind kind) {
+    if (kind == WorkspaceKind::label) return giveOverlaysBack();  // a dock may have come up before labelling began
+    correcting_ = false;
+    showErrorsAlone();
 }
 
 // ---- the list -------------------------------------------------------------------------------------------------------
@@ -191,7 +196,7 @@ void EvaluationDocks::showErrors() {
 
 void EvaluationDocks::wantChips() {
     const auto& evaluation = evaluation_->evaluation();
-    if (!evaluation || !looked_at_[1]) return;
+    if (!evaluation || !errors_looked_at_) return;
     std::vector<ChipWish> wishes;
     for (const int id : errors_->rowsWithoutChip()) {
         if (id < 1 || id > static_cast<int>(evaluation->mistakes.size())) continue;
@@ -236,7 +241,7 @@ void EvaluationDocks::goTo(int id) {
 }
 
 void EvaluationDocks::askWhy() {
-    if (labelling_ != nullptr && labelling_->active()) actions_.review_workspace->trigger();
+    if (labelling_ != nullptr && labelling_->active()) actions_.workspaceAction(WorkspaceKind::tune)->trigger();
     if (evaluation_->selectedMistake() == nullptr) step(1);
     const DiagnosedMistake* one = evaluation_->selectedMistake();
     if (one == nullptr) return;
@@ -262,19 +267,12 @@ void EvaluationDocks::showMarks() {
 void EvaluationDocks::join(LabelWorkspace& labelling) {
     labelling_ = &labelling;
     connect(&labelling.labels(), &LabelSession::changed, evaluation_, &EvaluationSession::labelsChanged);
-    connect(panel_, &EvaluationPanel::labellingRequested, actions_.label_workspace, &QAction::trigger);
+    connect(panel_, &EvaluationPanel::labellingRequested, actions_.workspaceAction(WorkspaceKind::label),
+            &QAction::trigger);
     connect(&labelling.labels(), &LabelSession::opened, this, [this] {
         const DiagnosedMistake* one = evaluation_->selectedMistake();
         if (correcting_ && one != nullptr && !one->mistake.objects.empty())
             labelling_->labels().select(one->mistake.objects.front());
-    });
-    connect(actions_.label_workspace, &QAction::toggled, this, [this](bool on) {
-        if (on) return;
-        correcting_ = false;
-        QTimer::singleShot(0, this, [this] {  // after the label workspace gave its overlays back
-            other_overlays_.clear();
-            showErrorsAlone();
-        });
     });
 }
 
@@ -294,10 +292,10 @@ void EvaluationDocks::correctTruth() {
     const Mistake mistake = one->mistake;
     const MistakePlace place = placeOf(*one);
     const double zoom = canvas_.transform().zoom();
-    if (!labelling_->active()) actions_.label_workspace->trigger();
+    if (!labelling_->active()) actions_.workspaceAction(WorkspaceKind::label)->trigger();
     session_.goToFrame(place.frame);
     canvas_.restore(zoom, QPointF(place.box.centre.x, place.box.centre.y));
-    docks_[1]->show();  // the list stays, so that the next error is one key away
+    docks_.raise(DockId::errors);  // the list stays, so that the next error is one key away
     if (!mistake.objects.empty()) {
         labelling_->labels().select(mistake.objects.front());
         errors_->setStatus(
@@ -310,8 +308,7 @@ void EvaluationDocks::correctTruth() {
     }
 }
 
-// ---- report
-// -----------------------------------------------------------------------------------------------------------
+// ---- report ---------------------------------------------------------------------------------------------------------
 
 void EvaluationDocks::askForReport() {
     const auto& evaluation = evaluation_->evaluation();

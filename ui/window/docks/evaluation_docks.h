@@ -2,14 +2,17 @@
 
 #include <QList>
 #include <QObject>
+#include <optional>
 
+#include "canvas/overlay_settings.h"
 #include "tune/evaluate/evaluation_session.h"
+#include "workspace/workspace_kind.h"
 
-class QDockWidget;
 class QMainWindow;
 
 namespace eyrie::ui {
 
+class DockRegistry;
 class ErrorChips;
 class ErrorsModel;
 class ErrorsPanel;
@@ -24,13 +27,16 @@ class EvaluationDocks : public QObject {
     Q_OBJECT
 
  public:
-    /// Docks into `window`, which owns the widgets. Everything named must outlive it.
-    EvaluationDocks(ProjectSession& session, VideoView& canvas, WindowActions& actions, QMainWindow& window);
+    /// Everything named must outlive it; `window` is the parent of dialogs.
+    EvaluationDocks(ProjectSession& session, VideoView& canvas, WindowActions& actions, OverlaySettings& overlays,
+                    DockRegistry& docks, QMainWindow& window);
 
-    /// Tabs the docks with those of the review workspace and makes "the truth is wrong" work.
+    /// Makes "the truth is wrong" work.
     void join(LabelWorkspace& labelling);
+    /// To be called before another workspace is shown, and after that.
+    void leaveWorkspace() { giveOverlaysBack(); }
+    void enterWorkspace(WorkspaceKind kind);
 
-    const QList<QDockWidget*>& docks() const { return docks_; }
     EvaluationSession& evaluation() { return *evaluation_; }
     EvaluationPanel& panel() { return *panel_; }
     ErrorsPanel& errors() { return *errors_; }
@@ -61,11 +67,14 @@ class EvaluationDocks : public QObject {
     void wantChips();
     void updateWanted();
     void showErrorsAlone();
+    void giveOverlaysBack();
     void tellChange(const std::shared_ptr<const RunEvaluation>& before);
 
     ProjectSession& session_;
     VideoView& canvas_;
     WindowActions& actions_;
+    OverlaySettings& overlays_;
+    DockRegistry& docks_;
     QMainWindow& window_;
     LabelWorkspace* labelling_ = nullptr;
     EvaluationSession* evaluation_;
@@ -74,10 +83,10 @@ class EvaluationDocks : public QObject {
     ErrorsPanel* errors_;
     ErrorChips* chips_;
     ReportWriter* report_;
-    QList<QDockWidget*> docks_;
-    QList<bool> looked_at_{false, false};
-    QList<bool> other_overlays_;  ///< switched off while errors are shown alone; empty: they are not
-    bool correcting_ = false;     ///< the labels are open because the truth was wrong
+    bool evaluation_looked_at_ = false;
+    bool errors_looked_at_ = false;
+    std::optional<OverlayProfile> other_overlays_;  ///< what was shown before the errors were shown alone
+    bool correcting_ = false;                       ///< the labels are open because the truth was wrong
     std::shared_ptr<const RunEvaluation> told_;
 };
 

@@ -1,8 +1,6 @@
 #include "window/docks/review_docks.h"
 
 #include <QDockWidget>
-#include <QMainWindow>
-#include <algorithm>
 
 #include "review/inspector_panel.h"
 #include "review/run_text.h"
@@ -16,11 +14,12 @@
 #include "widgets/charts/stage_times_chart.h"
 #include "widgets/empty_state.h"
 #include "widgets/parameters/parameter_form.h"
+#include "workspace/dock_registry.h"
 
 namespace eyrie::ui {
 
-ReviewDocks::ReviewDocks(ProjectSession& session, Inspection& inspection, QMainWindow& window)
-    : QObject(&window), session_(session), window_(window) {
+ReviewDocks::ReviewDocks(ProjectSession& session, Inspection& inspection, DockRegistry& docks)
+    : QObject(&docks), session_(session), docks_(docks) {
     runs_model_ = new RunsModel(this);
     tracks_model_ = new TracksModel(this);
     runs_ = new RunsPanel(runs_model_);
@@ -31,53 +30,22 @@ ReviewDocks::ReviewDocks(ProjectSession& session, Inspection& inspection, QMainW
     stages_ = new StagesPanel(session_, inspection);
     stacks_ = new StacksPanel(session_, inspection);
     statistics_ = new MotionStatisticsPanel(session_);
-    QDockWidget* runs = dock(QStringLiteral("runs"), tr("Runs"), runs_, Qt::LeftDockWidgetArea);
-    QDockWidget* tracks = dock(QStringLiteral("tracks"), tr("Tracks"), tracks_, Qt::LeftDockWidgetArea);
-    QDockWidget* inspector = dock(QStringLiteral("inspector"), tr("Inspector"), inspector_, Qt::RightDockWidgetArea);
-    QDockWidget* parameters = dock(QStringLiteral("parameters"), tr("Parameters"), form_, Qt::RightDockWidgetArea);
-    QDockWidget* chart = dock(QStringLiteral("stage_times"), tr("Times"), chart_, Qt::RightDockWidgetArea);
-    QDockWidget* stages = dock(QStringLiteral("stages"), tr("Stages"), stages_, Qt::RightDockWidgetArea);
-    QDockWidget* stacks = dock(QStringLiteral("stacks"), tr("Stacks"), stacks_, Qt::RightDockWidgetArea);
-    window_.tabifyDockWidget(inspector, stages);
-    window_.tabifyDockWidget(stages, stacks);
-    window_.tabifyDockWidget(stacks, parameters);
-    QDockWidget* statistics =
-        dock(QStringLiteral("statistics"), tr("Statistics"), statistics_, Qt::RightDockWidgetArea);
-    window_.tabifyDockWidget(parameters, chart);
-    window_.tabifyDockWidget(chart, statistics);
     sweeps_ = new SweepPanel(session_);
-    window_.tabifyDockWidget(statistics,
-                             dock(QStringLiteral("sweeps"), tr("Sweeps"), sweeps_, Qt::RightDockWidgetArea));
-    inspector->raise();
-    window_.resizeDocks({runs, tracks}, {200, 420}, Qt::Vertical);
-    window_.resizeDocks({runs, inspector}, {350, 440}, Qt::Horizontal);
+    docks_.add(DockId::runs, tr("Runs"), runs_);
+    docks_.add(DockId::tracks, tr("Tracks"), tracks_);
+    docks_.add(DockId::inspector, tr("Inspector"), inspector_);
+    docks_.add(DockId::parameters, tr("Parameters"), form_);
+    docks_.add(DockId::stage_times, tr("Times"), chart_);
+    QDockWidget* stages = docks_.add(DockId::stages, tr("Stages"), stages_);
+    QDockWidget* stacks = docks_.add(DockId::stacks, tr("Stacks"), stacks_);
+    QDockWidget* statistics = docks_.add(DockId::statistics, tr("Statistics"), statistics_);
+    docks_.add(DockId::sweeps, tr("Sweeps"), sweeps_);
     connect(stages, &QDockWidget::visibilityChanged, stages_, &StagesPanel::setLookedAt);
     connect(stacks, &QDockWidget::visibilityChanged, stacks_, &StacksPanel::setLookedAt);
     connect(statistics, &QDockWidget::visibilityChanged, statistics_, &MotionStatisticsPanel::setLookedAt);
     wireRuns();
     wireTracks();
     showRuns();
-}
-
-QDockWidget* ReviewDocks::dock(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
-    auto* dock = new QDockWidget(title, &window_);
-    dock->setObjectName(name);
-    dock->setWidget(content);
-    window_.addDockWidget(area, dock);
-    docks_.append(dock);
-    return dock;
-}
-
-QDockWidget* ReviewDocks::addDock(const QString& name, const QString& title, QWidget* content) {
-    const auto last_on_right = std::find_if(docks_.rbegin(), docks_.rend(), [this](QDockWidget* known) {
-        return window_.dockWidgetArea(known) == Qt::RightDockWidgetArea;
-    });
-    QDockWidget* neighbour = last_on_right == docks_.rend() ? nullptr : *last_on_right;
-    QDockWidget* added = dock(name, title, content, Qt::RightDockWidgetArea);
-    if (neighbour != nullptr) window_.tabifyDockWidget(neighbour, added);
-    for (QDockWidget* known : docks_)
-        if (known->widget() == inspector_) known->raise();
-    return added;
 }
 
 void ReviewDocks::wireSweeps(ParameterBinding& parameters) {
@@ -88,11 +56,7 @@ void ReviewDocks::wireSweeps(ParameterBinding& parameters) {
 }
 
 void ReviewDocks::showTrackList() {
-    for (QDockWidget* dock : docks_) {
-        if (dock->widget() != tracks_) continue;
-        dock->show();
-        dock->raise();
-    }
+    docks_.raise(DockId::tracks);
 }
 
 void ReviewDocks::wireRuns() {

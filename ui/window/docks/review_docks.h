@@ -7,11 +7,9 @@
 #include "review/tracks_model.h"
 #include "session/project_session.h"
 
-class QDockWidget;
-class QMainWindow;
-
 namespace eyrie::ui {
 
+class DockRegistry;
 class Inspection;
 class InspectorPanel;
 class MotionStatisticsPanel;
@@ -24,17 +22,14 @@ class StagesPanel;
 class SweepPanel;
 class TracksPanel;
 
-/// The docks of the review workspace and how their lists follow the session.
+/// The docks about runs and tracks, and those that show what the stages did; how their lists follow the session.
 class ReviewDocks : public QObject {
     Q_OBJECT
 
  public:
-    /// Docks into `window`, which owns the widgets. Session and inspection must outlive them.
-    ReviewDocks(ProjectSession& session, Inspection& inspection, QMainWindow& window);
+    /// Session, inspection and docks must outlive it.
+    ReviewDocks(ProjectSession& session, Inspection& inspection, DockRegistry& docks);
 
-    const QList<QDockWidget*>& docks() const { return docks_; }
-    /// Adds a dock beside the others on the right, behind them. Before the window's layout is restored.
-    QDockWidget* addDock(const QString& name, const QString& title, QWidget* content);
     ParameterForm& parameterForm() { return *form_; }
     StageTimesChart& stageTimes() { return *chart_; }
     StagesPanel& stages() { return *stages_; }
@@ -56,7 +51,6 @@ class ReviewDocks : public QObject {
     void minScoreChanged(double score);
 
  private:
-    QDockWidget* dock(const QString& name, const QString& title, QWidget* content, Qt::DockWidgetArea area);
     void wireRuns();
     void wireTracks();
     void showRuns();
@@ -64,7 +58,7 @@ class ReviewDocks : public QObject {
     void explainNoTracks();
 
     ProjectSession& session_;
-    QMainWindow& window_;
+    DockRegistry& docks_;
     RunsModel* runs_model_;
     TracksModel* tracks_model_;
     RunsPanel* runs_;
@@ -76,7 +70,6 @@ class ReviewDocks : public QObject {
     StacksPanel* stacks_;
     MotionStatisticsPanel* statistics_;
     SweepPanel* sweeps_;
-    QList<QDockWidget*> docks_;
     std::optional<int> parameters_wanted_of_;  ///< run whose parameters are taken over once they are read
 };
 

@@ -12,7 +12,7 @@
 #include "tune/inspect/why_panel.h"
 #include "tune/train/training_dialog.h"
 #include "widgets/parameters/parameter_form.h"
-#include "window/docks/review_docks.h"
+#include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -48,11 +48,11 @@ Tuning::Tuning(const TuningParts& parts) : QObject(&parts.window), parts_(parts)
 void Tuning::buildWhy() {
     why_ = new Why(parts_.session, this);
     why_panel_ = new WhyPanel(parts_.session, *why_);
-    why_dock_ = parts_.docks.addDock(QStringLiteral("why"), tr("Why?"), why_panel_);
-    connect(why_dock_, &QDockWidget::visibilityChanged, why_panel_, &WhyPanel::setLookedAt);
+    QDockWidget* dock = parts_.docks.add(DockId::why, tr("Why?"), why_panel_);
+    connect(dock, &QDockWidget::visibilityChanged, why_panel_, &WhyPanel::setLookedAt);
     connect(why_panel_, &WhyPanel::parameterChosen, this, &Tuning::showParameter);
     connect(why_, &Why::changed, this, &Tuning::showPlaceMark);
-    connect(why_dock_, &QDockWidget::visibilityChanged, this, &Tuning::showPlaceMark);
+    connect(dock, &QDockWidget::visibilityChanged, this, &Tuning::showPlaceMark);
     connect(&parts_.canvas, &VideoView::placeMenuRequested, this, &Tuning::showPlaceMenu);
     connect(&parts_.canvas, &VideoView::cursorMoved, this, [this](std::optional<QPointF> place) { cursor_ = place; });
     connect(parts_.actions.why, &QAction::triggered, this, [this] {
@@ -68,7 +68,7 @@ void Tuning::buildPreview() {
     if (auto* column = qobject_cast<QVBoxLayout*>(parts_.canvas.parentWidget()->layout()))
         column->insertWidget(column->indexOf(&parts_.canvas), preview_bar_);
     // Queued: the settings of the next run take the value over first.
-    ParameterForm& form = parts_.docks.parameterForm();
+    ParameterForm& form = parts_.form;
     connect(&form, &ParameterForm::valueChanged, this, &Tuning::parameterMoved, Qt::QueuedConnection);
     connect(&form, &ParameterForm::presetChosen, this, &Tuning::parametersEdited, Qt::QueuedConnection);
     connect(&form, &ParameterForm::pointedAt, this, [this](const QString& name) {
@@ -88,7 +88,7 @@ void Tuning::buildPreview() {
 void Tuning::parameterMoved(const QString& name, const QString& value) {
     const auto& run = parts_.session.runData();
     // The first thing that is moved while another preset stands in the form: the run is meant, with this one changed.
-    if (run && preview_->enabled() && !preview_->active() && parts_.docks.parameterForm().modifiedCount() == 1 &&
+    if (run && preview_->enabled() && !preview_->active() && parts_.form.modifiedCount() == 1 &&
         differencesBetween(storedOptions(run->parameters), parts_.session.settings().options).size() > 1) {
         emit storedParametersRequested();
         emit parameterRequested(name, value);
@@ -127,9 +127,9 @@ void Tuning::showPreview() {
 
 void Tuning::markStale(bool stale) {
     const QString mark = tr(" (stored)");
-    const QWidget* form = &parts_.docks.parameterForm();
-    for (QDockWidget* dock : parts_.window.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
-        if (dock->widget() == form || dock->objectName() == QLatin1String("runs")) continue;
+    for (const DockId id : allDocks()) {
+        QDockWidget* dock = parts_.docks.dock(id);
+        if (dock == nullptr || id == DockId::parameters || id == DockId::runs) continue;
         QString title = dock->windowTitle();
         if (title.endsWith(mark)) title.chop(mark.size());
         dock->setWindowTitle(stale ? title + mark : title);
@@ -138,15 +138,13 @@ void Tuning::markStale(bool stale) {
 
 void Tuning::askWhy(QPointF place, double margin) {
     if (!parts_.session.viewFrame().result) return;
-    why_dock_->show();
-    why_dock_->raise();
+    parts_.docks.raise(DockId::why);
     why_->want(true);
     why_->ask(place, margin);
 }
 
 void Tuning::askWhyAbout(const OrientedBox& box, const QString& about) {
-    why_dock_->show();
-    why_dock_->raise();
+    parts_.docks.raise(DockId::why);
     why_->want(true);
     why_->askAbout(box, about);
 }
@@ -174,13 +172,8 @@ ComparisonWindow& Tuning::compareRuns() {
 }
 
 void Tuning::showParameter(const QString& name) {
-    ParameterForm& form = parts_.docks.parameterForm();
-    for (QDockWidget* dock : parts_.docks.docks()) {
-        if (dock->widget() != &form) continue;
-        dock->show();
-        dock->raise();
-    }
-    form.reveal(name);
+    parts_.docks.raise(DockId::parameters);
+    parts_.form.reveal(name);
 }
 
 void Tuning::showPlaceMenu(QPointF place, double margin, QPoint global) {
@@ -192,7 +185,7 @@ void Tuning::showPlaceMenu(QPointF place, double margin, QPoint global) {
 
 void Tuning::showPlaceMark() {
     const auto& area = why_->area();
-    if (!area || why_dock_->isHidden()) {
+    if (!area || parts_.docks.dock(DockId::why)->isHidden()) {
         parts_.canvas.setPlaceMark(std::nullopt);
         return;
     }

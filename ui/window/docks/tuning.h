@@ -8,16 +8,16 @@
 #include "tune/compare/live_preview.h"
 #include "tune/inspect/why.h"
 
-class QDockWidget;
 class QMainWindow;
 
 namespace eyrie::ui {
 
 class ComparisonWindow;
+class DockRegistry;
 class OverlaySettings;
+class ParameterForm;
 class PresetLibrary;
 class PreviewBar;
-class ReviewDocks;
 class VideoView;
 class WhyPanel;
 class WindowActions;
@@ -26,7 +26,8 @@ class WindowActions;
 struct TuningParts {
     ProjectSession& session;
     VideoView& canvas;
-    ReviewDocks& docks;
+    DockRegistry& docks;
+    ParameterForm& form;
     WindowActions& actions;
     PresetLibrary& presets;
     OverlaySettings& overlays;
@@ -74,7 +75,6 @@ class Tuning : public QObject {
     TuningParts parts_;
     Why* why_;
     WhyPanel* why_panel_;
-    QDockWidget* why_dock_;
     LivePreview* preview_;
     PreviewBar* preview_bar_;
     QPointer<ComparisonWindow> comparison_;

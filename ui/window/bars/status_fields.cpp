@@ -1,4 +1,4 @@
-#include "window/status_fields.h"
+#include "window/bars/status_fields.h"
 
 #include <QIcon>
 #include <QLabel>

@@ -1,4 +1,4 @@
-#include "window/transport_bar.h"
+#include "window/bars/transport_bar.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>

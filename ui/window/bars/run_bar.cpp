@@ -1,4 +1,4 @@
-#include "window/run_bar.h"
+#include "window/bars/run_bar.h"
 
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>

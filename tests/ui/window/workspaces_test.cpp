@@ -1,0 +1,240 @@
+#include "workspace/workspaces.h"
+
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QSet>
+#include <QTest>
+#include <QTreeWidget>
+
+#include "canvas/layers/overlay_table.h"
+#include "canvas/video_view.h"
+#include "label/label_actions.h"
+#include "label/label_workspace.h"
+#include "ui/support/ui_support.h"
+#include "window/main_window.h"
+#include "workspace/dock_registry.h"
+#include "workspace/key_sheet.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+using test::kPatience_ms;
+
+/// Review, label and tune: what each shows, what it keeps, and the keys.
+class WorkspacesTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+
+    static std::unique_ptr<MainWindow> window(QSize size = {1280, 720}) {
+        auto made = std::make_unique<MainWindow>();
+        made->resize(size);
+        made->show();
+        return QTest::qWaitForWindowActive(made.get()) ? std::move(made) : nullptr;
+    }
+    static std::unique_ptr<MainWindow> windowWithVideo(QSize size = {1280, 720}) {
+        auto made = window(size);
+        made->session().openMedia(test::sceneUnderTest(5));
+        return QTest::qWaitFor([&] { return made->canvas().isVisible(); }, kPatience_ms) ? std::move(made) : nullptr;
+    }
+    static void go(MainWindow& window, Qt::Key key) {
+        QTest::keyClick(&window, key, Qt::ControlModifier);
+        QCoreApplication::processEvents();
+    }
+    /// The least heights of what a window holds, for messages.
+    static QString sizes(MainWindow& window) {
+        QStringList texts{
+            QStringLiteral("%1 x %2, canvas %3").arg(window.width()).arg(window.height()).arg(window.canvas().width())};
+        for (const DockId id : allDocks())
+            if (shown(window, id))
+                texts << QStringLiteral("%1 %2 x %3")
+                             .arg(window.docks().dock(id)->objectName())
+                             .arg(window.docks().dock(id)->minimumSizeHint().width())
+                             .arg(window.docks().dock(id)->minimumSizeHint().height());
+        return texts.join(QStringLiteral(", "));
+    }
+    static bool shown(MainWindow& window, DockId id) { return !window.docks().dock(id)->isHidden(); }
+
+ private slots:
+    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void cleanup() { home_.reset(); }
+
+    void reviewComesFirstWithTracksOnly() {
+        const auto window = this->window();
+        QVERIFY(window);
+        QCOMPARE(window->workspaces().current(), WorkspaceKind::review);
+        for (const OverlayRow& row : overlayTable())
+            QCOMPARE(window->overlays().isVisible(row.kind), row.kind == OverlayKind::tracks);
+        QVERIFY(shown(*window, DockId::tracks) && shown(*window, DockId::inspector));
+        QVERIFY(!shown(*window, DockId::parameters) && !shown(*window, DockId::stages));
+    }
+
+    void keysSwitchBetweenThem() {
+        const auto window = this->window();
+        QVERIFY(window);
+        go(*window, Qt::Key_3);
+        QCOMPARE(window->workspaces().current(), WorkspaceKind::tune);
+        QVERIFY(shown(*window, DockId::parameters) && shown(*window, DockId::why) && shown(*window, DockId::sweeps));
+        QVERIFY(window->overlays().isVisible(OverlayKind::clusters));
+        go(*window, Qt::Key_2);
+        QVERIFY(window->labelling().active());
+        QVERIFY(shown(*window, DockId::objects) && !shown(*window, DockId::tracks));
+        QVERIFY(!window->overlays().isVisible(OverlayKind::tracks));
+        go(*window, Qt::Key_1);
+        QVERIFY(!window->labelling().active());
+        QVERIFY(shown(*window, DockId::tracks) && !shown(*window, DockId::objects));
+        QVERIFY(window->actions().workspaceAction(WorkspaceKind::review)->isChecked());
+    }
+
+    void eachKeepsItsDocksAndOverlays() {
+        const auto window = this->window();
+        QVERIFY(window);
+        window->docks().dock(DockId::runs)->hide();
+        QTest::keyClick(window.get(), Qt::Key_V);
+        go(*window, Qt::Key_3);
+        QVERIFY(shown(*window, DockId::runs));
+        QTest::keyClick(window.get(), Qt::Key_V);  // off: it is on here at first
+        go(*window, Qt::Key_1);
+        QVERIFY(!shown(*window, DockId::runs));
+        QVERIFY(window->overlays().isVisible(OverlayKind::vectors));
+        go(*window, Qt::Key_3);
+        QVERIFY(!window->overlays().isVisible(OverlayKind::vectors));
+    }
+
+    void allIsRememberedFromOneStartToTheNext() {
+        {
+            const auto first = window();
+            QVERIFY(first);
+            first->docks().dock(DockId::inspector)->hide();
+            QTest::keyClick(first.get(), Qt::Key_C);
+            go(*first, Qt::Key_3);
+            first->close();
+        }
+        const auto second = window();
+        QVERIFY(second);
+        QCOMPARE(second->workspaces().current(), WorkspaceKind::tune);
+        go(*second, Qt::Key_1);
+        QVERIFY(!shown(*second, DockId::inspector));
+        QVERIFY(second->overlays().isVisible(OverlayKind::corners));
+    }
+
+    void theLayoutCanBeReset() {
+        const auto window = this->window();
+        QVERIFY(window);
+        for (const DockId id : allDocks()) window->docks().dock(id)->hide();
+        QTest::keyClick(window.get(), Qt::Key_T);
+        window->workspaces().reset();
+        QVERIFY(shown(*window, DockId::tracks) && shown(*window, DockId::inspector));
+        QVERIFY(window->overlays().isVisible(OverlayKind::tracks));
+    }
+
+    void theVideoKeepsHalfOfASmallWindow() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
+            go(*window, key);
+            QTest::qWait(0);
+            QVERIFY2(window->size() == QSize(1280, 720), qPrintable(sizes(*window)));
+            QVERIFY2(window->canvas().width() >= 640 && window->canvas().height() >= 360,
+                     qPrintable(QStringLiteral("%1: %2 x %3")
+                                    .arg(wordOf(window->workspaces().current()))
+                                    .arg(window->canvas().width())
+                                    .arg(window->canvas().height())));
+        }
+    }
+
+    void aDockAmongTabsHasNoTitleBesideItsTab() {
+        const auto window = this->window({1700, 900});
+        QVERIFY(window);
+        go(*window, Qt::Key_3);
+        const auto bare = [&](DockId id) { return window->docks().dock(id)->titleBarWidget() != nullptr; };
+        QVERIFY(QTest::qWaitFor([&] { return bare(DockId::stages); }, kPatience_ms));
+        for (const DockId id : allDocks())
+            if (shown(*window, id) && id != DockId::stages) window->docks().dock(id)->hide();
+        QVERIFY(QTest::qWaitFor([&] { return !bare(DockId::stages); }, kPatience_ms));  // alone it has one
+    }
+
+    void aDockOfAnotherWorkspaceComesWhenItIsAskedFor() {
+        const auto window = this->window();
+        QVERIFY(window);
+        window->docks().raise(DockId::why);
+        QVERIFY(shown(*window, DockId::why));
+        QCOMPARE(window->workspaces().current(), WorkspaceKind::review);
+    }
+
+    void gGoesToAFrameEverywhere() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
+            go(*window, key);
+            QVERIFY(window->actions().go_to_frame->shortcuts().contains(QKeySequence(Qt::Key_G)));
+            window->canvas().setFocus();
+            QTest::keyClick(window.get(), Qt::Key_G);
+            QVERIFY(!window->canvas().hasFocus());
+        }
+    }
+
+    // ---- keys -------------------------------------------------------------------------------------------------------
+
+    void aKeyCanBeChangedAndStaysSo() {
+        {
+            const auto window = this->window();
+            QVERIFY(window);
+            KeySheet sheet(window->keys(), {}, window.get());
+            QAction* corners = window->actions().overlay[static_cast<std::size_t>(OverlayKind::corners)];
+            sheet.choose(corners);
+            sheet.setKey(QKeySequence(Qt::Key_T));
+            QVERIFY2(sheet.answer().contains(QStringLiteral("Tracks")), qPrintable(sheet.answer()));
+            QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_C));
+            sheet.setKey(QKeySequence(Qt::Key_Y));
+            QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_Y));
+            QVERIFY(corners->toolTip().endsWith(QStringLiteral("(Y)")));
+            QTest::keyClick(window.get(), Qt::Key_Y);
+            QVERIFY(window->overlays().isVisible(OverlayKind::corners));
+        }
+        const auto next = window();
+        QVERIFY(next);
+        QAction* corners = next->actions().overlay[static_cast<std::size_t>(OverlayKind::corners)];
+        QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_Y));
+        next->keys().resetAll();
+        QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_C));
+    }
+
+    void aKeyThatLabellingTakesComesBack() {
+        const auto window = this->window();
+        QVERIFY(window);
+        QAction* detections = window->actions().overlay[static_cast<std::size_t>(OverlayKind::detections)];
+        go(*window, Qt::Key_2);
+        QVERIFY(detections->shortcuts().isEmpty());  // D is the next frame here
+        window->keys().setKeysOf(window->labelling().actions().next_frame, {QKeySequence(Qt::Key_F4)});
+        QCOMPARE(detections->shortcut(), QKeySequence(Qt::Key_D));
+        window->keys().setKeysOf(detections, {QKeySequence(Qt::Key_F4)});
+        QVERIFY(detections->shortcuts().isEmpty());
+        go(*window, Qt::Key_1);
+        QCOMPARE(detections->shortcut(), QKeySequence(Qt::Key_F4));
+    }
+
+    void theSheetOfKeysIsSearchedByCommandAndKey() {
+        const auto window = this->window();
+        QVERIFY(window);
+        KeySheet sheet(window->keys(), {}, window.get());
+        const auto visible = [&] {
+            QStringList texts;
+            for (QTreeWidgetItemIterator item(&sheet.list()); *item != nullptr; ++item)
+                if ((*item)->parent() != nullptr && !(*item)->isHidden()) texts << (*item)->text(0);
+            return texts;
+        };
+        const auto all = visible().size();
+        sheet.search().setText(QStringLiteral("go to frame"));
+        QCOMPARE(visible(), QStringList(QStringLiteral("Go to frame")));
+        sheet.search().setText(QStringLiteral("ctrl+r"));
+        QVERIFY(visible().contains(QStringLiteral("Run")));
+        sheet.search().clear();
+        QCOMPARE(visible().size(), all);
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::WorkspacesTest)
+#include "workspaces_test.moc"

@@ -1,0 +1,96 @@
+#include "workspace/key_bindings.h"
+
+#include <QSettings>
+
+namespace eyrie::ui {
+
+namespace {
+
+QString settingOf(const QString& group, const QString& text) {
+    QString name = text;
+    name.remove(QLatin1Char('&')).replace(QLatin1Char('/'), QLatin1Char('-'));
+    return QStringLiteral("keys/") + (group.isEmpty() ? name : group + QLatin1Char('/') + name);
+}
+
+QStringList words(const QList<QKeySequence>& keys) {
+    QStringList words;
+    for (const QKeySequence& key : keys) words << key.toString(QKeySequence::PortableText);
+    return words;
+}
+
+QList<QKeySequence> keysFrom(const QStringList& words) {
+    QList<QKeySequence> keys;
+    for (const QString& word : words)
+        if (const QKeySequence key(word, QKeySequence::PortableText); !key.isEmpty()) keys << key;
+    return keys;
+}
+
+void showTip(QAction& action) {
+    QString tip = action.whatsThis();
+    if (!action.shortcut().isEmpty())
+        tip += QStringLiteral(" (%1)").arg(action.shortcut().toString(QKeySequence::NativeText));
+    action.setToolTip(tip);
+}
+
+}  // namespace
+
+void setTip(QAction& action, const QString& tip) {
+    action.setWhatsThis(tip);
+    showTip(action);
+}
+
+void setKeys(QAction& action, const QList<QKeySequence>& keys) {
+    action.setShortcuts(keys);
+    showTip(action);
+}
+
+void KeyBindings::add(const Group& group) {
+    groups_.append(group);
+    const QSettings settings;
+    for (const ActionSection& section : group.sections)
+        for (QAction* action : section.actions) {
+            Command& command = commands_[action];
+            command.setting = settingOf(group.title, action->text());
+            command.defaults = command.keys = action->shortcuts();
+            if (!settings.contains(command.setting)) continue;
+            command.keys = keysFrom(settings.value(command.setting).toStringList());
+            setKeys(*action, command.keys);
+        }
+}
+
+QAction* KeyBindings::owner(const QKeySequence& key, const QAction* but) const {
+    for (const Group& group : groups_) {
+        QAction* found = nullptr;
+        bool same_group = false;
+        for (const ActionSection& section : group.sections)
+            for (QAction* action : section.actions) {
+                if (action == but)
+                    same_group = true;
+                else if (keysOf(action).contains(key))
+                    found = action;
+            }
+        if (same_group) return found;
+    }
+    return nullptr;
+}
+
+void KeyBindings::setKeysOf(QAction* action, const QList<QKeySequence>& keys) {
+    Command& command = commands_[action];
+    if (command.keys == keys) return;
+    command.keys = keys;
+    setKeys(*action, keys);
+    QSettings settings;
+    if (keys == command.defaults)
+        settings.remove(command.setting);
+    else
+        settings.setValue(command.setting, words(keys));
+    emit keysChanged();
+}
+
+void KeyBindings::resetAll() {
+    for (const Group& group : groups_)
+        for (const ActionSection& section : group.sections)
+            for (QAction* action : section.actions) reset(action);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,89 @@
+#include "workspace/workspaces.h"
+
+#include <QMainWindow>
+
+#include "canvas/layers/overlay_table.h"
+#include "workspace/dock_registry.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr int kLayoutVersion = 2;  ///< counts up when stored layouts no longer fit the docks
+const QString kCurrent = QStringLiteral("current");
+const QString kLayout = QStringLiteral("/layout");
+const QString kOverlays = QStringLiteral("/overlays");
+
+OverlayProfile firstProfile(WorkspaceKind kind) {
+    OverlayProfile profile;
+    for (const OverlayRow& row : overlayTable())
+        profile.visible[static_cast<std::size_t>(row.kind)] = kind == WorkspaceKind::review  ? row.in_review
+                                                              : kind == WorkspaceKind::label ? row.in_label
+                                                                                             : row.in_tune;
+    return profile;
+}
+
+}  // namespace
+
+Workspaces::Workspaces(QMainWindow& window, DockRegistry& docks, OverlaySettings& overlays)
+    : QObject(&window), window_(window), docks_(docks), overlays_(overlays) {
+    for (const WorkspaceKind kind : allWorkspaces()) look(kind).overlays = firstProfile(kind);
+}
+
+void Workspaces::remember() {
+    look(current_) = {window_.saveState(kLayoutVersion), overlays_.profile()};
+}
+
+void Workspaces::show(WorkspaceKind kind) {
+    current_ = kind;
+    // Overlays first: docks that come up may switch them for as long as they are looked at.
+    overlays_.setProfile(look(kind).overlays);
+    docks_.arrange(kind);
+    if (!look(kind).layout.isEmpty()) window_.restoreState(look(kind).layout, kLayoutVersion);
+    emit opened(kind);
+}
+
+void Workspaces::open(WorkspaceKind kind) {
+    if (kind == current_) return;
+    emit leaving();
+    remember();
+    show(kind);
+}
+
+void Workspaces::fit() {
+    if (look(current_).layout.isEmpty()) docks_.arrange(current_);
+}
+
+void Workspaces::reset() {
+    emit leaving();
+    look(current_) = {{}, firstProfile(current_)};
+    show(current_);
+}
+
+QVariantMap Workspaces::state() {
+    emit leaving();
+    remember();
+    QVariantMap state;
+    state[kCurrent] = wordOf(current_);
+    for (const WorkspaceKind kind : allWorkspaces()) {
+        if (look(kind).layout.isEmpty()) continue;
+        QVariantList shown;
+        for (const bool visible : look(kind).overlays.visible) shown << visible;
+        state[wordOf(kind) + kLayout] = look(kind).layout;
+        state[wordOf(kind) + kOverlays] = shown;
+    }
+    return state;
+}
+
+void Workspaces::restore(const QVariantMap& state) {
+    for (const WorkspaceKind kind : allWorkspaces()) {
+        look(kind).layout = state.value(wordOf(kind) + kLayout).toByteArray();
+        const QVariantList visible = state.value(wordOf(kind) + kOverlays).toList();
+        if (visible.size() != kOverlayKindCount) continue;
+        for (qsizetype i = 0; i < visible.size(); ++i)
+            look(kind).overlays.visible[static_cast<std::size_t>(i)] = visible[i].toBool();
+    }
+    show(workspaceOf(state.value(kCurrent).toString()).value_or(WorkspaceKind::review));
+}
+
+}  // namespace eyrie::ui
