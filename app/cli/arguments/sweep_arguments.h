@@ -1,10 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "cli/arguments/evaluation_arguments.h"
+#include "cli/arguments/video_arguments.h"
 #include "sweep/clip_opening.h"
 
 namespace eyrie::cli {
@@ -14,10 +15,9 @@ struct SweepSources {
     std::vector<std::string> sequences;
     std::vector<std::string> ground_truths;  ///< one for each sequence; of a project, one for each run or none
     std::vector<double> gsds;                ///< one for all, or one for each sequence
-    std::optional<double> frame_rate_hz;
-    std::string frames;
-    bool upright = false;
-    std::optional<double> mot_origin;
+    GroundTruthArguments ground_truth;       ///< only where MOTChallenge text begins
+    EvaluationArguments evaluation;
+    VideoArguments video;   ///< without a GSD
     std::string project;    ///< in place of sequences
     std::vector<int> runs;  ///< of the project; none: its last
 };

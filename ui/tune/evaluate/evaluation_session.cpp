@@ -94,7 +94,7 @@ EvaluationRequest EvaluationSession::request() const {
     EvaluationRequest request;
     request.project = session_.project();
     request.run_id = session_.currentRun().value_or(0);
-    request.truth_file = settings_.truth_file;
+    request.truth.file = settings_.truth_file;
     request.detections = settings_.detections;
     request.shown_overlap = settings_.overlap;
     request.options.vehicles_only = settings_.vehicles_only;
