@@ -18,6 +18,7 @@
 #include "cli/reports/console_progress.h"
 #include "cli/reports/run_report.h"
 #include "core/error.h"
+#include "core/project_name.h"
 #include "io/folder.h"
 #include "io/tables/box_csv.h"
 #include "io/video/video_writer.h"
@@ -107,7 +108,7 @@ std::filesystem::path projectPath(const RunArguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
     const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
     const auto stem = std::filesystem::path(input).lexically_normal().stem().string();
-    return (stem.empty() || stem == "." || stem == ".." ? "video" : stem) + ".eyrie";
+    return (stem.empty() || stem == "." || stem == ".." ? "video" : stem) + kProjectEnding;
 }
 
 /// A run that has ended, and what is to be told of it.

@@ -24,6 +24,7 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/label_formats.h"
 #include "widgets/charts/line_chart.h"
 #include "widgets/charts/tracked_bar.h"
 #include "widgets/display_text.h"
@@ -275,8 +276,9 @@ void EvaluationPanel::useTruthFile(const QString& path) {
 }
 
 void EvaluationPanel::chooseTruthFile() {
+    const QString patterns = QString::fromStdString(labelFilePatterns());
     const QString path = QFileDialog::getOpenFileName(this, tr("Ground truth"), QString(),
-                                                      tr("Labels (*.csv *.txt *.json *.xml *.kw18);;All files (*)"));
+                                                      tr("Labels (%1);;All files (*)").arg(patterns));
     if (path.isEmpty())
         showSettings();
     else

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <set>
 
+#include "formats/label_formats.h"
 #include "io/tables/number_text.h"
 #include "widgets/theme_colours.h"
 
@@ -231,8 +232,9 @@ void SweepForm::chooseTruth(int index) {
         truth_file_.clear();
         return;
     }
-    const QString file = QFileDialog::getOpenFileName(this, tr("True boxes"), QFileInfo(truth_file_).path(),
-                                                      tr("Tables of boxes (*.csv *.txt *.json *.xml);;All files (*)"));
+    const QString patterns = QString::fromStdString(labelFilePatterns());
+    const QString file = QFileDialog::getOpenFileName(this, tr("Ground truth"), QFileInfo(truth_file_).path(),
+                                                      tr("Labels (%1);;All files (*)").arg(patterns));
     if (!file.isEmpty()) {
         truth_file_ = file;
         truth_->setItemText(1, QFileInfo(file).fileName() + tr(" …"));
