@@ -24,6 +24,16 @@ bool sameThing(const Mistake& a, const Mistake& b) {
 
 }  // namespace
 
+EvaluationOptions storedWishes() {
+    const QSettings stored;
+    EvaluationOptions wishes;
+    wishes.vehicles_only = stored.value(QStringLiteral("evaluation/vehicles_only")).toBool();
+    wishes.upright = stored.value(QStringLiteral("evaluation/upright")).toBool();
+    const double border_px = stored.value(QStringLiteral("evaluation/border")).toDouble();
+    if (border_px > 0) wishes.border = border_px;
+    return wishes;
+}
+
 class EvaluationSession::Worker {
  public:
     RunEvaluator evaluator;
@@ -33,9 +43,10 @@ EvaluationSession::EvaluationSession(ProjectSession& session, QObject* parent)
     : QObject(parent), session_(session), worker_(std::make_unique<Worker>()) {
     const QSettings stored;
     settings_.overlap = std::clamp(stored.value(QStringLiteral("evaluation/overlap"), 0.1).toDouble(), 0.01, 1.0);
-    settings_.vehicles_only = stored.value(QStringLiteral("evaluation/vehicles_only")).toBool();
-    settings_.upright = stored.value(QStringLiteral("evaluation/upright")).toBool();
-    settings_.border_px = std::max(0.0, stored.value(QStringLiteral("evaluation/border")).toDouble());
+    const EvaluationOptions wishes = storedWishes();
+    settings_.vehicles_only = wishes.vehicles_only;
+    settings_.upright = wishes.upright;
+    settings_.border_px = wishes.border.value_or(0);
     soon_.setSingleShot(true);
     soon_.setInterval(kSettle_ms);
     connect(&soon_, &QTimer::timeout, this, &EvaluationSession::refresh);

@@ -28,6 +28,9 @@ struct EvaluationSettings {
     bool operator==(const EvaluationSettings&) const = default;
 };
 
+/// What counts, as was chosen last; every dock that measures goes by it.
+EvaluationOptions storedWishes();
+
 /// The evaluation of the run shown, computed on its own thread as long as somebody looks: anew when the run, the
 /// settings or the labels change. Holds which error is looked at. Signals arrive on the thread of this object.
 class EvaluationSession : public QObject {

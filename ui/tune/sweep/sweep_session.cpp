@@ -178,9 +178,7 @@ void SweepSession::work(const Job& job, const std::stop_token& stop) {
         if (job.resumed) {
             opened = openResumed(job, plan, stop);
         } else {
-            RunToSweep wanted{job.run_id, {.file = job.request.truth_file}};
-            wanted.wishes.vehicles_only = job.request.vehicles_only;
-            wanted.wishes.upright = job.request.upright;
+            RunToSweep wanted{job.run_id, {.file = job.request.truth_file}, job.request.wishes};
             std::vector<RunToSweep> runs{wanted};
             for (const int run : job.request.other_runs) {
                 wanted.run_id = run;
@@ -192,7 +190,8 @@ void SweepSession::work(const Job& job, const std::stop_token& stop) {
             plan.base = parameterValues(opened.options);
             plan.clips = opened.clips;
             plan.overlaps = job.request.overlaps;
-            plan.vehicles_only = job.request.vehicles_only;
+            plan.vehicles_only = job.request.wishes.vehicles_only;
+            plan.border = job.request.wishes.border;
             check(plan);
         }
         ProjectFile file = ProjectFile::open(job.project);
