@@ -57,4 +57,20 @@ StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id) {
     return stored;
 }
 
+void OpenedClips::add(SweepClip clip, SweepInput input) {
+    const std::vector<std::string>& told = input.scoring.truth.remarks;
+    remarks.insert(remarks.end(), told.begin(), told.end());
+    inputs.push_back(std::move(input));
+    clips.push_back(std::move(clip));
+}
+
+void OpenedClips::add(StoredRun run, const ClipFrames::Open& open, const GroundTruthSource& truth, ProjectFile& project,
+                      const EvaluationOptions& wishes, const StageCacheOptions& options) {
+    run.clip.ground_truth = truth.file.string();
+    SweepInput input =
+        openClip(run.clip, open, run.range, readGroundTruth(truth, project, run.record), wishes, options);
+    input.cache->useStoredMotion(run.options, std::move(run.motion));
+    add(std::move(run.clip), std::move(input));
+}
+
 }  // namespace eyrie

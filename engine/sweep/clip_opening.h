@@ -21,4 +21,16 @@ struct StoredRun {
 /// Throws Error(parameter) when the project has no such run, Error(project) when it has none.
 StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id = {});
 
+/// Sequences as planned and opened.
+struct OpenedClips {
+    std::vector<SweepClip> clips;
+    std::vector<SweepInput> inputs;
+    std::vector<std::string> remarks;
+
+    void add(SweepClip clip, SweepInput input);
+    /// Adds a run whose motion vectors are used again. Throws as openClip() and readGroundTruth() do.
+    void add(StoredRun run, const ClipFrames::Open& open, const GroundTruthSource& truth, ProjectFile& project,
+             const EvaluationOptions& wishes, const StageCacheOptions& options = {});
+};
+
 }  // namespace eyrie

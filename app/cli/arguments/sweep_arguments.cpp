@@ -31,17 +31,10 @@ GroundTruthSource sourceOf(const SweepSources& sources, std::size_t clip) {
     return {absolutePath(sources.ground_truths[clip]), sources.ground_truth.mot_origin};
 }
 
-void add(OpenedSources& opened, SweepClip clip, SweepInput input) {
-    const std::vector<std::string>& remarks = input.scoring.truth.remarks;
-    opened.remarks.insert(opened.remarks.end(), remarks.begin(), remarks.end());
-    opened.inputs.push_back(std::move(input));
-    opened.clips.push_back(std::move(clip));
-}
-
 }  // namespace
 
-OpenedSources openSequences(const SweepSources& sources, const ChainOptions& options, const std::string& project,
-                            std::stop_token stop) {
+OpenedClips openSequences(const SweepSources& sources, const ChainOptions& options, const std::string& project,
+                          std::stop_token stop) {
     if (sources.sequences.size() != sources.ground_truths.size()) {
         throw Error(ErrorKind::parameter, "every --sequence needs its --ground-truth: there are " +
                                               std::to_string(sources.sequences.size()) + " and " +
@@ -54,7 +47,7 @@ OpenedSources openSequences(const SweepSources& sources, const ChainOptions& opt
     for (const double gsd : sources.gsds) checkGsd(gsd);
     sources.video.check();
     const FrameRange range = sources.video.range();
-    OpenedSources opened;
+    OpenedClips opened;
     for (std::size_t i = 0; i < sources.sequences.size(); ++i) {
         const std::string& sequence = sources.sequences[i];
         SweepClip clip;
@@ -69,32 +62,27 @@ OpenedSources openSequences(const SweepSources& sources, const ChainOptions& opt
         clip.scale = chooseScale(*source, range, options, gsd, stop);
         SweepInput input = openClip(clip, opener(clip.sequence, rate, remembered), range, std::move(truth),
                                     sources.evaluation.options);
-        add(opened, std::move(clip), std::move(input));
+        opened.add(std::move(clip), std::move(input));
     }
     return opened;
 }
 
-OpenedSources openStoredRuns(const SweepSources& sources, std::vector<StoredRun> runs, const ChainOptions& options) {
+OpenedClips openStoredRuns(const SweepSources& sources, std::vector<StoredRun> runs, const ChainOptions& options) {
     if (!sources.ground_truths.empty() && sources.ground_truths.size() != runs.size()) {
         throw Error(ErrorKind::parameter,
                     "--ground-truth: give none, for the labels of the project, or one for each "
                     "of the " +
                         std::to_string(runs.size()) + " runs");
     }
-    OpenedSources opened;
+    OpenedClips opened;
     ProjectFile project = ProjectFile::open(sources.project, ProjectFile::Mode::read_only);
     for (std::size_t i = 0; i < runs.size(); ++i) {
         StoredRun& run = runs[i];
-        SweepClip clip = run.clip;
-        const GroundTruthSource truth = sourceOf(sources, i);
-        clip.ground_truth = truth.file.string();
-        SweepInput input = openClip(clip, opener(clip.sequence, clip.scale.frame_rate_hz), run.range,
-                                    readGroundTruth(truth, project, run.record), sources.evaluation.options);
-        input.cache->useStoredMotion(run.options, std::move(run.motion));
         if (signatureUpTo(run.options, SweepStage::motion) != signatureUpTo(options, SweepStage::motion))
-            opened.remarks.push_back("run " + std::to_string(clip.run) +
+            opened.remarks.push_back("run " + std::to_string(run.record.id) +
                                      " has other motion vectors than the parameters given, so these are made anew");
-        add(opened, std::move(clip), std::move(input));
+        const auto open = opener(run.clip.sequence, run.clip.scale.frame_rate_hz);
+        opened.add(std::move(run), open, sourceOf(sources, i), project, sources.evaluation.options);
     }
     return opened;
 }

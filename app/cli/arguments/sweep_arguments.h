@@ -22,20 +22,13 @@ struct SweepSources {
     std::vector<int> runs;  ///< of the project; none: its last
 };
 
-/// Sequences as planned and opened.
-struct OpenedSources {
-    std::vector<SweepClip> clips;
-    std::vector<SweepInput> inputs;
-    std::vector<std::string> remarks;
-};
-
 /// Opens video files, folders and scenes; `options` are used where the scale must be estimated. `project` may remember
 /// their frame rates; it need not exist. Throws Error.
-OpenedSources openSequences(const SweepSources& sources, const ChainOptions& options, const std::string& project,
-                            std::stop_token stop);
+OpenedClips openSequences(const SweepSources& sources, const ChainOptions& options, const std::string& project,
+                          std::stop_token stop);
 
 /// Opens stored runs, whose motion vectors are used unless `options` make others. Ground truth is a file for each, or
 /// the labels of the project. Throws Error.
-OpenedSources openStoredRuns(const SweepSources& sources, std::vector<StoredRun> runs, const ChainOptions& options);
+OpenedClips openStoredRuns(const SweepSources& sources, std::vector<StoredRun> runs, const ChainOptions& options);
 
 }  // namespace eyrie::cli

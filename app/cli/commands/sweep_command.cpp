@@ -160,7 +160,7 @@ int sweep(const SweepArguments& arguments) {
     chosenPositions(plan, arguments.shard);  // shows a wrong shard before anything is opened
 
     const InterruptGuard interrupt;
-    OpenedSources opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, interrupt.token())
+    OpenedClips opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, interrupt.token())
                                         : openStoredRuns(arguments.sources, std::move(runs), base);
     plan.clips = opened.clips;
     check(plan);

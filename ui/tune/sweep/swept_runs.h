@@ -16,9 +16,7 @@ struct RunToSweep {
 };
 
 /// Stored runs opened for a sweep, with their motion vectors.
-struct OpenedRuns {
-    std::vector<SweepClip> clips;
-    std::vector<SweepInput> inputs;
+struct OpenedRuns : OpenedClips {
     ChainOptions options;  ///< of the first
 };
 /// Throws Error, also where one file of true boxes is to serve runs of several videos.
