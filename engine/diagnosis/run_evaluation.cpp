@@ -118,7 +118,6 @@ std::shared_ptr<const RunEvaluation> RunEvaluator::evaluate(const EvaluationRequ
     e.result = kept_->result;
 
     EvaluationOptions wishes = request.options;
-    wishes.overlap = request.shown_overlap;
     wishes.image_size = e.run.sequence.size;
     Scoring scoring = scoringOf(readGroundTruth(request.truth, *kept_->project, e.run), wishes, coveredFrames(e.run));
     e.truth_name = request.truth.file.empty() ? "labels of the project" : request.truth.file.filename().string();
@@ -127,7 +126,7 @@ std::shared_ptr<const RunEvaluation> RunEvaluator::evaluate(const EvaluationRequ
     const BoxesByFrame& truth = scoring.truth.boxes;
     if (stop.stop_requested()) return nullptr;
     std::vector<double> overlaps = request.overlaps;
-    overlaps.push_back(request.shown_overlap);
+    overlaps.push_back(e.options.overlap);
     e.table = evaluateAt(overlaps, truth, e.result, e.options);
     e.shown = std::move(e.table.back());
     e.table.pop_back();

@@ -23,8 +23,7 @@ struct EvaluationRequest {
     bool detections = false;  ///< the run's detections instead of its tracks
     GroundTruthSource truth;
     std::vector<double> overlaps{0.1, 0.2, 0.3};  ///< T_ov of the table
-    double shown_overlap = 0.1;                   ///< T_ov of errors, curves and objects
-    EvaluationOptions options;                    ///< wishes; its `overlap` is not used; `image_size` is filled in
+    EvaluationOptions options;                    ///< wishes; the overlap is that of errors, curves and objects
     std::optional<int> other_run;                 ///< to be compared with, over the frames both reached
     bool with_causes = true;
 };

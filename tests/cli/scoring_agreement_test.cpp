@@ -153,7 +153,7 @@ class ScoringAgreement : public testing::TestWithParam<std::tuple<std::string, b
         request.run_id = 1;
         request.detections = detections();
         if (!file().empty()) request.truth.file = at(file());
-        request.shown_overlap = 0.2;
+        request.options.overlap = 0.2;
         request.options.border = 2;
         RunEvaluator evaluator;
         return figuresOf(evaluator.evaluate(request)->shown);

@@ -139,7 +139,7 @@ TEST_F(RunEvaluations, whatCannotBeComparedSaysWhatToDo) {
     wanted.run_id = 17;
     EXPECT_THAT(messageOf(evaluator, wanted), HasSubstr("no run 17"));
     wanted = request(truthFile());
-    wanted.shown_overlap = 0;
+    wanted.options.overlap = 0;
     EXPECT_THAT(messageOf(evaluator, wanted), HasSubstr("overlap"));
 }
 

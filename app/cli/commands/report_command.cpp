@@ -81,7 +81,7 @@ void addReportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--against", arguments->against,
                         "Another run over the same video; tells whether the difference is more than chance");
     command->add_flag("--detections", arguments->request.detections, "Measure the run's detections, not its tracks");
-    command->add_option("--overlap", arguments->request.shown_overlap, "T_ov of errors and curves")
+    command->add_option("--overlap", arguments->evaluation.options.overlap, "T_ov of errors and curves")
         ->capture_default_str();
     arguments->evaluation.addRuleTo(*command);
     command->add_option("--chips", arguments->chips, "Errors with a picture, at most")->capture_default_str();

@@ -161,7 +161,7 @@ int sweep(const SweepArguments& arguments) {
 
     const InterruptGuard interrupt;
     OpenedClips opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, interrupt.token())
-                                        : openStoredRuns(arguments.sources, std::move(runs), base);
+                                      : openStoredRuns(arguments.sources, std::move(runs), base);
     plan.clips = opened.clips;
     check(plan);
     const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;

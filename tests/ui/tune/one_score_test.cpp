@@ -106,8 +106,8 @@ class OneScoreTest : public QObject {
         EvaluationSession evaluation(session);
         EvaluationSettings settings = evaluation.settings();
         settings.truth_file = truth_file;
-        settings.border_px = of_labels ? 12 : 0;
-        settings.vehicles_only = true;
+        if (of_labels) settings.wishes.border = 12;
+        settings.wishes.vehicles_only = true;
         evaluation.setSettings(settings);
         bool upright = false;
         const Figures expected = scored(session, truth_file, upright);
@@ -125,7 +125,7 @@ class OneScoreTest : public QObject {
         request.wishes = storedWishes();
         for (const auto& [name, value] : evaluation.evaluation()->parameters)
             if (name == "gradient.quantile") request.axes = {name + "=" + value};
-        request.overlaps = {settings.overlap};
+        request.overlaps = {settings.wishes.overlap};
         QSignalSpy finished(&sweeps, &SweepSession::finished);
         QSignalSpy failed(&sweeps, &SweepSession::failed);
         sweeps.start(request);

@@ -229,10 +229,10 @@ void EvaluationPanel::showSettings() {
     truth_->setItemData(file_entry, path, Qt::ToolTipRole);
     truth_->setCurrentIndex(path.isEmpty() ? labels_entry : file_entry);
     measured_->setCurrentIndex(settings.detections ? 1 : 0);
-    overlap_->setValue(settings.overlap);
-    border_->setValue(settings.border_px);
-    vehicles_->setChecked(settings.vehicles_only);
-    upright_->setChecked(settings.upright);
+    overlap_->setValue(settings.wishes.overlap);
+    border_->setValue(settings.wishes.border.value_or(0));
+    vehicles_->setChecked(settings.wishes.vehicles_only);
+    upright_->setChecked(settings.wishes.upright);
     showRuns();
 }
 
@@ -258,10 +258,10 @@ void EvaluationPanel::applySettings() {
                               ? truth_->itemData(file_entry, Qt::UserRole).toString().toStdString()
                               : std::string();
     settings.detections = measured_->currentIndex() == 1;
-    settings.overlap = overlap_->value();
-    settings.border_px = border_->value();
-    settings.vehicles_only = vehicles_->isChecked();
-    settings.upright = upright_->isChecked();
+    settings.wishes.overlap = overlap_->value();
+    settings.wishes.border = border_->value() > 0 ? std::optional(border_->value()) : std::nullopt;
+    settings.wishes.vehicles_only = vehicles_->isChecked();
+    settings.wishes.upright = upright_->isChecked();
     const int other = other_->currentData().toInt();
     settings.other_run = other > 0 ? std::optional(other) : std::nullopt;
     evaluation_.setSettings(settings);
