@@ -21,10 +21,4 @@ SequenceRecord chosenSequence(ProjectFile& project, std::optional<int> id) {
     throw Error(ErrorKind::parameter, name + ": holds several videos; choose one by its number (--sequence): " + known);
 }
 
-void needLabels(ProjectFile& project, const RunRecord& run) {
-    if (!readAnnotations(project, run.sequence.id).objects.empty()) return;
-    throw Error(ErrorKind::project, project.path().string() + ": nobody has labelled " + run.sequence.path +
-                                        " yet; name a file with --ground-truth, or label or import some");
-}
-
 }  // namespace eyrie::cli

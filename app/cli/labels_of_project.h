@@ -11,7 +11,4 @@ namespace eyrie::cli {
 /// which there are, Error(project) when there is none.
 SequenceRecord chosenSequence(ProjectFile& project, std::optional<int> id);
 
-/// Throws Error(project) when nobody has labelled the run's video, so that it cannot be measured by labels.
-void needLabels(ProjectFile& project, const RunRecord& run);
-
 }  // namespace eyrie::cli

@@ -11,6 +11,7 @@
 #include "evaluation/comparison/method_difference.h"
 #include "evaluation/comparison/track_bootstrap.h"
 #include "evaluation/evaluate.h"
+#include "scoring/ground_truth.h"
 #include "store/runs/run_store.h"
 
 namespace eyrie {
@@ -19,11 +20,10 @@ namespace eyrie {
 struct EvaluationRequest {
     std::filesystem::path project;
     int run_id = 0;
-    bool detections = false;           ///< the run's detections instead of its tracks
-    std::filesystem::path truth_file;  ///< any format that can be imported; empty: the project's labels of the video
+    bool detections = false;  ///< the run's detections instead of its tracks
+    GroundTruthSource truth;
     std::vector<double> overlaps{0.1, 0.2, 0.3};  ///< T_ov of the table
-    double shown_overlap = 0.1;                   ///< T_ov of errors, curves and objects
-    EvaluationOptions options;                    ///< its `overlap` is not used; `image_size` is filled in
+    EvaluationOptions options;                    ///< wishes; the overlap is that of errors, curves and objects
     std::optional<int> other_run;                 ///< to be compared with, over the frames both reached
     bool with_causes = true;
 };

@@ -33,6 +33,8 @@ struct EvaluationOptions {
     cv::Size image_size;          ///< px
     Convention convention = Convention::thesis;
     std::optional<int> frame_count;  ///< trackeval only: length of the sequence; default: up to the last true frame
+
+    bool operator==(const EvaluationOptions&) const = default;
 };
 
 /// Throws Error(parameter) naming the option, its value and what is expected.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <set>
 
 #include "annotation/edits/ignore_regions.h"
@@ -33,14 +32,7 @@ std::optional<RunRecord> lastRunOver(const RunStore& store, int sequence_id) {
 CameraMotion cameraMotionOf(const RunStore& store, int sequence_id) {
     const std::optional<RunRecord> run = lastRunOver(store, sequence_id);
     if (!run) return {};
-    std::map<FrameIndex, RegistrationState> states;
-    for (const FrameSummary& frame : store.frameSummaries(run->id)) states[frame.frame] = frame.state;
-    std::vector<Registration> registrations;
-    for (const Homography& homography : store.homographies(run->id)) {
-        const auto state = states.find(homography.to_frame);
-        if (state != states.end()) registrations.push_back({state->second, homography, {}});
-    }
-    return CameraMotion::fromRegistrations(registrations);
+    return CameraMotion::fromRegistrations(store.registrations(run->id));
 }
 
 LabelFile labelsOf(const AnnotationSet& annotations, const SequenceRecord& sequence, const CameraMotion& camera) {

@@ -168,6 +168,18 @@ const std::vector<LabelFormatInfo>& labelFormats() {
     return infos;
 }
 
+std::string labelFilePatterns() {
+    std::set<std::string> patterns;
+    for (const LabelFormatInfo& format : labelFormats()) {
+        for (const std::string& extension : format.extensions) {
+            if (format.reads) patterns.insert("*." + extension);
+        }
+    }
+    std::string text;
+    for (const std::string& pattern : patterns) text += (text.empty() ? "" : " ") + pattern;
+    return text;
+}
+
 std::string sniffLabelFormat(const std::filesystem::path& path) {
     const FileHead head = headOf(path);
     for (const LabelFormat& format : formatTable()) {

@@ -86,6 +86,9 @@ struct LabelFormatInfo {
 
 const std::vector<LabelFormatInfo>& labelFormats();
 
+/// What the names of files with labels look like, for dialogs: "*.csv *.xml".
+std::string labelFilePatterns();
+
 /// The format that a file or folder seems to have. Throws Error(input) when it is missing or none fits, naming what was
 /// looked at.
 std::string sniffLabelFormat(const std::filesystem::path& path);

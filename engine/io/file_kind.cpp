@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/video/image_sequence.h"
+#include "core/project_name.h"
 
 namespace eyrie {
 namespace {
@@ -37,7 +37,7 @@ bool isVideo(std::string_view bytes) {
            has(bytes, 0, "\x1A\x45\xDF\xA3") || (has(bytes, 0, "RIFF") && has(bytes, 8, "AVI ")) ||
            has(bytes, 0, "\0\0\x01\xBA"sv) || has(bytes, 0, "\0\0\x01\xB3"sv) || has(bytes, 0, "\0\0\0\x01"sv) ||
            has(bytes, 0, "OggS") || has(bytes, 0, "FLV\x01") || has(bytes, 0, "\x30\x26\xB2\x75") ||
-           has(bytes, 0, "YUV4MPEG2 ");
+           has(bytes, 0, "YUV4MPEG2 ") || has(bytes, 0, "#EXTM3U") || has(bytes, 0, "ffconcat version");
 }
 
 bool isImage(std::string_view bytes) {
@@ -104,8 +104,7 @@ const char* nameOf(FileKind kind) {
 }
 
 FileKind kindOfFile(const std::filesystem::path& path) {
-    const std::string extension = lowered(path.extension().string());
-    if (extension == ".eyrie") return FileKind::project;
+    if (hasProjectName(path)) return FileKind::project;
     std::ifstream file(path, std::ios::binary);
     if (!file) return FileKind::other;
     std::string bytes(kLookedAt, '\0');
@@ -118,6 +117,7 @@ FileKind kindOfFile(const std::filesystem::path& path) {
     if (isImage(bytes)) return FileKind::image;
     if (isVideo(bytes)) return FileKind::video;
     if (isText(bytes)) return kindOfText(bytes);
+    const std::string extension = lowered(path.extension().string());
     const bool video = std::find(kVideoExtensions.begin(), kVideoExtensions.end(), extension) != kVideoExtensions.end();
     return video ? FileKind::video : FileKind::other;
 }

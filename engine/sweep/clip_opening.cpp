@@ -1,24 +1,24 @@
 #include "sweep/clip_opening.h"
 
-#include <cmath>
+#include <tuple>
 
 #include "core/error.h"
 #include "rerun/replay.h"
-#include "store/runs/run_store.h"
 
 namespace eyrie {
 
-SweepInput openClip(SweepClip& clip, const ClipFrames::Open& open, FrameRange range, const BoxesByFrame& truth,
-                    const StageCacheOptions& options) {
+SweepInput openClip(SweepClip& clip, const ClipFrames::Open& open, FrameRange range, GroundTruth truth,
+                    EvaluationOptions wishes, const StageCacheOptions& options) {
     SweepInput input;
     input.cache = std::make_unique<StageCache>(open, range, clip.scale, options);
     const ClipFrames& frames = input.cache->frames();
     clip.size = frames.info().size;
     clip.first_frame = frames.first();
     clip.last_frame = frames.last();
-    const std::string name = clip.ground_truth.empty() ? "the labels of " + clip.sequence : clip.ground_truth;
-    input.truth = truthWithin(truth, clip.first_frame, clip.last_frame, name);
-    clip.digest = digestOf(frames.reader().read(clip.first_frame), input.truth);
+    wishes.image_size = clip.size;
+    input.scoring = scoringOf(std::move(truth), wishes, FrameSpan{clip.first_frame, clip.last_frame});
+    clip.upright = input.scoring.options.upright;
+    clip.digest = digestOf(frames.reader().read(clip.first_frame), input.scoring.truth.boxes);
     return input;
 }
 
@@ -40,12 +40,13 @@ StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id) {
     if (run->frames_done < 1)
         throw Error(ErrorKind::parameter, name + ": run " + std::to_string(run->id) + " has no frame");
     StoredRun stored;
+    stored.record = *run;
     stored.options = storedOptions(store.parameters(run->id));
     stored.clip.sequence = run->sequence.path;
     stored.clip.run = run->id;
     stored.clip.size = run->sequence.size;
     stored.clip.scale = run->scale;
-    stored.range = {run->first_frame, run->first_frame + run->frames_done - 1};
+    std::tie(stored.range.first, stored.range.last) = coveredFrames(*run);
     for (FrameIndex i = stored.range.first; i <= stored.range.last; ++i) {
         std::optional<FrameResult> frame = store.frameResult(run->id, i);
         if (!frame)
@@ -54,6 +55,22 @@ StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id) {
         stored.motion.push_back(std::move(frame->motion));
     }
     return stored;
+}
+
+void OpenedClips::add(SweepClip clip, SweepInput input) {
+    const std::vector<std::string>& told = input.scoring.truth.remarks;
+    remarks.insert(remarks.end(), told.begin(), told.end());
+    inputs.push_back(std::move(input));
+    clips.push_back(std::move(clip));
+}
+
+void OpenedClips::add(StoredRun run, const ClipFrames::Open& open, const GroundTruthSource& truth, ProjectFile& project,
+                      const EvaluationOptions& wishes, const StageCacheOptions& options) {
+    run.clip.ground_truth = truth.file.string();
+    SweepInput input =
+        openClip(run.clip, open, run.range, readGroundTruth(truth, project, run.record), wishes, options);
+    input.cache->useStoredMotion(run.options, std::move(run.motion));
+    add(std::move(run.clip), std::move(input));
 }
 
 }  // namespace eyrie

@@ -86,10 +86,9 @@ class Work {
     }
 
     std::vector<SweepFigures> score(int clip, const BoxesByFrame& boxes, bool tracks) const {
-        const SweepClip& planned = plan_.clips[static_cast<std::size_t>(clip)];
-        const BoxesByFrame& truth = inputs_[static_cast<std::size_t>(clip)].truth;
+        const Scoring& scoring = inputs_[static_cast<std::size_t>(clip)].scoring;
         std::vector<SweepFigures> figures;
-        for (const Measures& measures : evaluateAt(plan_.overlaps, truth, boxes, plan_.evaluationOf(planned)))
+        for (const Measures& measures : evaluateAt(plan_.overlaps, scoring.truth.boxes, boxes, scoring.options))
             figures.push_back(figuresOf(measures, clip, tracks));
         return figures;
     }
@@ -144,22 +143,6 @@ class Work {
 };
 
 }  // namespace
-
-BoxesByFrame truthWithin(const BoxesByFrame& truth, FrameIndex first, FrameIndex last,
-                         const std::string& ground_truth) {
-    BoxesByFrame within(truth.lower_bound(first), truth.upper_bound(last));
-    const auto holdsBoxes = [](const auto& entry) { return !entry.second.empty(); };
-    if (std::none_of(within.begin(), within.end(), holdsBoxes)) {
-        const std::string known = std::none_of(truth.begin(), truth.end(), holdsBoxes)
-                                      ? "none at all"
-                                      : "only in frames " + std::to_string(truth.begin()->first) + " to " +
-                                            std::to_string(truth.rbegin()->first);
-        throw Error(ErrorKind::input, ground_truth + ": holds no box in the frames to be swept, " +
-                                          std::to_string(first) + " to " + std::to_string(last) + ", " + known +
-                                          "; is it the truth of this video, and does it count frames alike?");
-    }
-    return within;
-}
 
 int runSweep(const SweepPlan& plan, const std::vector<SweepInput>& inputs, const std::vector<int>& positions,
              const std::stop_token& stop, const SweepRunOptions& options) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/labels/box_record.h"
+#include "scoring/scoring.h"
 #include "sweep/plan/sweep_plan.h"
 #include "sweep/results/sweep_figures.h"
 #include "sweep/stage_cache.h"
@@ -16,11 +16,8 @@ namespace eyrie {
 /// A sequence of the plan, opened.
 struct SweepInput {
     std::unique_ptr<StageCache> cache;
-    BoxesByFrame truth;  ///< of the frames that are swept
+    Scoring scoring;
 };
-
-/// The true boxes of the frames of a clip. Throws Error(input) naming `ground_truth` when there is none.
-BoxesByFrame truthWithin(const BoxesByFrame& truth, FrameIndex first, FrameIndex last, const std::string& ground_truth);
 
 /// A point that was measured.
 struct SweepPoint {

@@ -84,10 +84,10 @@ TEST_F(ExitCodes, AProjectWithoutRunsOrLabelsIsFiveEverywhere) {
             {{"export", "--project", "@empty.eyrie", "--format", "mot", "--out", "@x.txt"}, 5, "holds no run"},
             {{"sweep", "--project", "@empty.eyrie", "--parameter", "gradient.quantile=0.3"}, 5, "holds no run"},
             {{"import", "@boxes.csv", "--project", "@empty.eyrie"}, 5, "--video"},
-            {{"evaluate", "--project", "@p.eyrie"}, 5, "--ground-truth"},
-            {{"report", "--project", "@p.eyrie", "--out", "@r.html"}, 5, "--ground-truth"},
+            {{"evaluate", "--project", "@p.eyrie"}, 5, "file of ground truth"},
+            {{"report", "--project", "@p.eyrie", "--out", "@r.html"}, 5, "file of ground truth"},
             {{"export", "--project", "@p.eyrie", "--labels", "--format", "mot", "--out", "@x.txt"}, 5, "labelled"},
-            {{"sweep", "--project", "@p.eyrie", "--parameter", "gradient.quantile=0.3"}, 5, "no labels"},
+            {{"sweep", "--project", "@p.eyrie", "--parameter", "gradient.quantile=0.3"}, 5, "nobody has labelled"},
             {{"info", "@empty.eyrie"}, 0, ""}});
 }
 

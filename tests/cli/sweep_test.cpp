@@ -137,7 +137,7 @@ TEST_F(Sweep, UsesTheMotionVectorsOfAProject) {
     const auto unlabelled =
         cli({"sweep", "--project", at("p.eyrie"), "--parameter", "gradient.quantile=0.1", "--quiet"});
     EXPECT_EQ(unlabelled.exit_code, 5);
-    EXPECT_THAT(unlabelled.errors, HasSubstr("has no labels in the frames of run 1"));
+    EXPECT_THAT(unlabelled.errors, HasSubstr("nobody has labelled"));
     EXPECT_EQ(
         cli({"sweep", "--project", at("p.eyrie"), "--run", "7", "--parameter", "gradient.quantile=0.1"}).exit_code, 2);
 }
@@ -211,7 +211,8 @@ TEST_F(Sweep, RefusesBadInputBeforeItBegins) {
     const auto late = cli({"sweep", "--sequence", in("clip"), "--ground-truth", in("late.csv"), "--gsd", "0.2",
                            "--parameter", "gradient.quantile=0.1", "--out", out, "--quiet"});
     EXPECT_EQ(late.exit_code, 3);
-    EXPECT_THAT(late.errors, HasSubstr("holds no box in the frames to be swept, 0 to 25, only in frames 500 to 525"));
+    EXPECT_THAT(late.errors,
+                HasSubstr("holds no box in the frames to be measured, 0 to 25, only in frames 500 to 525"));
     const auto nowhere = sweep({"--parameter", "gradient.quantile=0.1", "--out", at("no/such/folder/x.eyrie")});
     EXPECT_EQ(nowhere.exit_code, 4) << nowhere.errors;
 }

@@ -74,7 +74,7 @@ class RunEvaluations : public testing::Test {
         EvaluationRequest wanted;
         wanted.project = path();
         wanted.run_id = 1;
-        wanted.truth_file = std::move(file);
+        wanted.truth.file = std::move(file);
         return wanted;
     }
     static std::string messageOf(RunEvaluator& evaluator, const EvaluationRequest& wanted) {
@@ -130,7 +130,7 @@ TEST_F(RunEvaluations, labelsAreReadAgainAfterAChange) {
 }
 
 TEST_F(RunEvaluations, whatCannotBeComparedSaysWhatToDo) {
-    EXPECT_THAT(messageOf(evaluator, request()), HasSubstr("Draw or import them"));
+    EXPECT_THAT(messageOf(evaluator, request()), HasSubstr("Draw or import labels"));
     EXPECT_THAT(messageOf(evaluator, request(truthFile(100, 120))), HasSubstr("frames 100 to 120"));
     EXPECT_THAT(messageOf(evaluator, request(folder / "missing.csv")), HasSubstr("missing.csv"));
     std::ofstream(folder / "bad.csv") << "frame,id,x,y,length,width,heading\n1,2,abc,4,5,6,7\n";
@@ -139,7 +139,7 @@ TEST_F(RunEvaluations, whatCannotBeComparedSaysWhatToDo) {
     wanted.run_id = 17;
     EXPECT_THAT(messageOf(evaluator, wanted), HasSubstr("no run 17"));
     wanted = request(truthFile());
-    wanted.shown_overlap = 0;
+    wanted.options.overlap = 0;
     EXPECT_THAT(messageOf(evaluator, wanted), HasSubstr("overlap"));
 }
 

@@ -341,5 +341,9 @@ TEST_F(FormatValues, TrackEvalTreeIsComplete) {
     EXPECT_EQ(readLabels(root / "EYRIE-train" / "second").format, "mot");
 }
 
+TEST(LabelFormats, DialogsShowTheFilesOfEveryFormat) {
+    EXPECT_EQ(labelFilePatterns(), "*.csv *.json *.kw18 *.trk *.txt *.xml");
+}
+
 }  // namespace
 }  // namespace eyrie

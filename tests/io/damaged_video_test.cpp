@@ -59,6 +59,10 @@ TEST_F(DamagedVideo, WhatIsNoVideoNamesWhatTakesIt) {
     EXPECT_THAT(refusal(folder_ / "p.eyrie"), AllOf(HasSubstr("p.eyrie"), HasSubstr("--project")));
     test::writeBytes(folder_ / "renamed.mp4", "SQLite format 3 and so on");
     EXPECT_THAT(refusal(folder_ / "renamed.mp4"), HasSubstr("is a project"));
+    test::writeBytes(folder_ / "labels.mp4", "[{\"frame\": 1}]");
+    EXPECT_THAT(refusal(folder_ / "labels.mp4"), HasSubstr("is a JSON file, not a video"));
+    test::writeBytes(folder_ / "list.m3u8", "#EXTM3U\n");  // names videos, so it is theirs to judge
+    EXPECT_THAT(refusal(folder_ / "list.m3u8"), testing::Not(HasSubstr("import")));
 }
 
 TEST_F(DamagedVideo, NoiseIsNoVideo) {

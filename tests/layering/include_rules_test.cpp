@@ -62,12 +62,12 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"explain", {"core", "registration", "motion", "detection", "removal", "tracking", "chain", "rerun"}},
     {"sweep",
      {"core", "io", "registration", "motion", "stacking", "detection", "removal", "tracking", "evaluation", "chain",
-      "rerun", "store"}},
+      "rerun", "scoring", "store"}},
     {"chain",
      {"core", "io", "registration", "motion", "stacking", "detection", "learning", "removal", "tracking", "store"}},
     {"report", {"core", "chain", "diagnosis", "evaluation", "io", "store"}},
-    {"diagnosis",
-     {"core", "annotation", "chain", "rerun", "evaluation", "exchange", "formats", "io", "motion", "store"}},
+    {"scoring", {"core", "annotation", "evaluation", "formats", "io", "store"}},
+    {"diagnosis", {"core", "chain", "rerun", "evaluation", "io", "motion", "scoring", "store"}},
 };
 
 /// What a room of the window may include besides itself; no engine rooms named: any.

@@ -99,20 +99,6 @@ TEST(SweepRunner, AnErrorOfWhoKeepsThePointsEndsIt) {
     EXPECT_EQ(kept, 3);
 }
 
-TEST(SweepRunner, TruthMustLieInTheFrames) {
-    const BoxesByFrame truth = test::sweepTruth();
-    EXPECT_EQ(truthWithin(truth, 3, 5, "t.csv").size(), 3U);
-    for (const BoxesByFrame& none : {truth, BoxesByFrame{}}) {
-        try {
-            truthWithin(none, 100, 200, "t.csv");
-            FAIL();
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::input);
-            EXPECT_THAT(error.what(), HasSubstr("t.csv: holds no box in the frames to be swept, 100 to 200"));
-        }
-    }
-}
-
 TEST(SweepTable, ResumesAndMergesToTheSameTable) {
     const test::TemporaryFolder folder;
     const SweepPlan plan = test::sweepPlan({"gradient.quantile=0.1,0.2,0.3", "outliers.min_vectors=2,4"});

@@ -72,7 +72,7 @@ inline SweepPlan sweepPlan(const std::vector<std::string>& axes) {
 inline std::vector<SweepInput> sweepInputs() {
     std::vector<SweepInput> inputs(1);
     inputs[0].cache = std::make_unique<StageCache>(sweepSource, FrameRange{}, kSweepScale);
-    inputs[0].truth = sweepTruth();
+    inputs[0].scoring.truth.boxes = sweepTruth();
     return inputs;
 }
 

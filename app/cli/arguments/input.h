@@ -19,15 +19,4 @@ std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_ra
 /// there is no such project or it does not know the input. Throws Error(project) for one that cannot be read.
 double rememberedRate(const std::filesystem::path& project, const std::string& input);
 
-/// Throws Error(parameter) unless `gsd` is a usable number of metres per pixel.
-void checkGsd(double gsd_m_per_px);
-/// Throws Error(parameter) unless `rate` is a usable number of frames per second.
-void checkFrameRate(double rate_hz);
-/// "A:B", "A:", ":B" or "A" as first and last frame, both included. Throws Error(parameter).
-struct ParsedRange {
-    FrameIndex first = 0;
-    FrameIndex last = -1;
-};
-ParsedRange parseFrames(const std::string& text);
-
 }  // namespace eyrie::cli

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "cli/arguments/evaluation_files.h"
+#include "cli/arguments/described_sequence.h"
 #include "core/error.h"
 
 namespace eyrie::cli {

@@ -5,7 +5,6 @@
 
 #include "chain/chain_options.h"
 #include "chain/chain_run.h"
-#include "cli/arguments/input.h"
 #include "store/runs/run_store.h"
 
 namespace eyrie::cli {
@@ -16,7 +15,7 @@ struct ResumeWishes {
     std::optional<int> run;
     std::optional<double> gsd_m_per_px;
     std::optional<double> frame_rate_hz;
-    std::optional<ParsedRange> frames;
+    std::optional<FrameRange> frames;
     std::optional<ChainOptions> options;
 };
 

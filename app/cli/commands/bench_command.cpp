@@ -14,6 +14,7 @@
 #include "chain/stopwatch.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/preset_arguments.h"
+#include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
 #include "cli/reports/console_progress.h"
 #include "cli/reports/method_times.h"

@@ -5,10 +5,11 @@
 
 #include "chain/scale_estimation.h"
 #include "cli/arguments/earlier_state.h"
-#include "cli/arguments/evaluation_files.h"
+#include "cli/arguments/evaluation_arguments.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/preset_arguments.h"
+#include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/reports/comparison_report.h"
@@ -18,6 +19,7 @@
 #include "evaluation/comparison/published_figures.h"
 #include "io/atomic_file.h"
 #include "rerun/method_run.h"
+#include "scoring/scoring.h"
 #include "store/runs/comparison_store.h"
 
 namespace eyrie::cli {
@@ -25,16 +27,12 @@ namespace {
 
 struct CompareArguments {
     std::string sequence;
-    std::string ground_truth;
-    std::optional<double> gsd_m_per_px;
-    std::optional<double> frame_rate_hz;
-    std::string frames;
+    GroundTruthArguments ground_truth;
+    EvaluationArguments evaluation;
+    VideoArguments video;
     std::vector<std::string> methods;
     std::vector<std::string> stacking{"off"};
     std::vector<std::string> tracking{"off", "on"};
-    std::vector<double> overlaps{0.1, 0.2, 0.3};
-    EvaluationOptions options;
-    std::optional<double> mot_origin;
     PresetArguments preset;
     std::string project;
     std::string csv;
@@ -127,11 +125,11 @@ double laterMs(const StageTimes& times) {
 }
 
 /// Measures every result; the first row is what the others are compared with.
-std::vector<ComparisonRow> rowsAt(double overlap, const CompareArguments& arguments, const EvaluationOptions& given,
-                                  const BoxesByFrame& truth, const std::vector<Planned>& planned,
-                                  const std::vector<MethodResult>& results, std::pair<FrameIndex, FrameIndex> frames,
-                                  double frame_rate_hz) {
-    EvaluationOptions options = given;
+std::vector<ComparisonRow> rowsAt(double overlap, const CompareArguments& arguments, const Scoring& scoring,
+                                  const std::vector<Planned>& planned, const std::vector<MethodResult>& results,
+                                  const FrameSpan& frames, double frame_rate_hz) {
+    const BoxesByFrame& truth = scoring.truth.boxes;
+    EvaluationOptions options = scoring.options;
     options.overlap = overlap;
     std::vector<ComparisonRow> rows;
     std::vector<PairedTallies> tallies;
@@ -165,24 +163,20 @@ std::vector<ComparisonRow> rowsAt(double overlap, const CompareArguments& argume
 }
 
 int compare(const CompareArguments& arguments) {
-    if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
-    if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
-    const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
+    arguments.video.check();
     arguments.outputs.check({growingProject(arguments.project), {arguments.csv, FileKind::text}},
-                            {arguments.sequence, arguments.ground_truth, arguments.preset.preset});
+                            {arguments.sequence, arguments.ground_truth.file, arguments.preset.preset});
     ComparisonReport report;
-    report.options = arguments.options;
     const std::vector<Planned> planned = plan(arguments, report.remarks);
     const InterruptGuard interrupt;
-    const auto source = openInput(arguments.sequence, arguments.frame_rate_hz.value_or(0), interrupt.token(),
+    const auto source = openInput(arguments.sequence, arguments.video.frame_rate_hz.value_or(0), interrupt.token(),
                                   rememberedRate(arguments.project, arguments.sequence));
     const VideoInfo& video = source->info();
-    BoxFile truth = readTruthBoxes(arguments.ground_truth, arguments.mot_origin, video.size);
-    if (truth.boxes.empty()) throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box");
-    report.remarks.insert(report.remarks.end(), truth.remarks.begin(), truth.remarks.end());
-    const FrameRange range{frames.first, frames.last < 0 ? video.frame_count - 1 : frames.last};
+    GroundTruth truth = readGroundTruth(arguments.ground_truth.source(), video.size);
+    FrameRange range = arguments.video.range();
+    if (range.last < 0) range.last = video.frame_count - 1;
     const SceneScale scale = chooseScale(*source, range, planned.front().variant.options,
-                                         arguments.gsd_m_per_px.value_or(0), interrupt.token());
+                                         arguments.video.gsd_m_per_px.value_or(0), interrupt.token());
 
     std::vector<MethodVariant> methods;
     for (const Planned& method : planned) methods.push_back(method.variant);
@@ -208,29 +202,17 @@ int compare(const CompareArguments& arguments) {
     const bool whole = reached == range.last;
     if (recorders) recorders->finish(whole);
 
-    const std::size_t all = truth.boxes.size();
-    std::erase_if(truth.boxes, [&](const auto& entry) { return entry.first < range.first || entry.first > reached; });
-    if (truth.boxes.size() < all) {
-        report.remarks.push_back(std::to_string(all - truth.boxes.size()) + " of " + std::to_string(all) +
-                                 " frames of the ground truth lie outside the frames that were run");
-    }
+    EvaluationOptions wishes = arguments.evaluation.options;
+    wishes.image_size = video.size;
+    const Scoring scoring = scoringOf(std::move(truth), wishes, FrameSpan{range.first, reached});
     report.sequence = arguments.sequence;
-    report.ground_truth = arguments.ground_truth;
+    report.ground_truth = scoring.truth.name;
     report.frames = reached - range.first + 1;
-    report.options.image_size = video.size;
-    if (!report.options.upright && !truth.has_headings) {
-        report.options.upright = true;
-        report.remarks.push_back(truth.format +
-                                 ": boxes are upright, so the enclosing boxes of the results are compared");
-    } else if (!report.options.upright && allUpright(truth.boxes)) {
-        report.remarks.push_back("the ground truth has upright boxes only; if it has no headings, add --upright");
-    }
-    if (truth.boxes.empty()) {
-        throw Error(ErrorKind::input, arguments.ground_truth + ": holds no box in the frames that were run");
-    }
-    for (const double overlap : arguments.overlaps) {
-        report.blocks.push_back(rowsAt(overlap, arguments, report.options, truth.boxes, planned, results,
-                                       {range.first, reached}, scale.frame_rate_hz));
+    report.options = scoring.options;
+    report.remarks.insert(report.remarks.end(), scoring.truth.remarks.begin(), scoring.truth.remarks.end());
+    for (const double overlap : arguments.evaluation.overlaps) {
+        report.blocks.push_back(
+            rowsAt(overlap, arguments, scoring, planned, results, {range.first, reached}, scale.frame_rate_hz));
     }
     if (!arguments.project.empty()) {
         ProjectFile project = ProjectFile::open(arguments.project);
@@ -249,8 +231,7 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("compare", "Measure several methods on one sequence with ground truth");
     command->add_option("--sequence", arguments->sequence, "A video file, a folder of images, or scene:NAME")
         ->required();
-    command->add_option("--ground-truth", arguments->ground_truth, "True boxes, in any format that import reads")
-        ->required();
+    arguments->ground_truth.addTo(*command)->required();
     command->add_option("--methods", arguments->methods,
                         "Methods, or groups of them: detectors (default), gradients, rescaling, motion; the first one "
                         "is what the others are compared with");
@@ -262,19 +243,8 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->check(CLI::IsMember({"on", "off"}))
         ->capture_default_str();
-    command->add_option("--overlap", arguments->overlaps, "Overlaps T_ov from which on a box counts as found")
-        ->delimiter(',')
-        ->capture_default_str();
-    command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel");
-    command->add_option("--fps", arguments->frame_rate_hz, "Frames per second, when the video does not tell");
-    command->add_option("--frames", arguments->frames, "First and last frame, both included, from 0: A:B, A: or :B");
-    command->add_flag("--vehicles", arguments->options.vehicles_only,
-                      "Only vehicles count; other objects of the ground truth count neither way");
-    command->add_flag("--upright", arguments->options.upright,
-                      "Compare enclosing upright boxes, for ground truth without headings");
-    command->add_option("--border", arguments->options.border,
-                        "Leave out results that come this close to the image's edge, px");
-    command->add_option("--mot-origin", arguments->mot_origin, motOriginHelp());
+    arguments->evaluation.addTo(*command);
+    arguments->video.addTo(*command);
     arguments->preset.addTo(*command);
     command->add_option("--project", arguments->project,
                         "Store every method as a run of this project, and the figures beside them");

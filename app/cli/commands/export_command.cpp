@@ -3,8 +3,8 @@
 #include <memory>
 #include <utility>
 
+#include "cli/arguments/described_sequence.h"
 #include "cli/arguments/earlier_state.h"
-#include "cli/arguments/evaluation_files.h"
 #include "cli/arguments/label_arguments.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"

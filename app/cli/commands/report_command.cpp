@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "cli/arguments/earlier_state.h"
+#include "cli/arguments/evaluation_arguments.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
-#include "cli/labels_of_project.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
 #include "report/evaluation_report.h"
@@ -19,10 +19,10 @@ namespace {
 struct ReportArguments {
     EvaluationRequest request;
     std::string project;
-    std::string ground_truth;
+    GroundTruthArguments ground_truth;
+    EvaluationArguments evaluation;
     std::optional<int> run;
     std::optional<int> against;
-    std::optional<double> border;
     std::size_t chips = ReportOptions().chips;
     std::string out;
     OutputArguments outputs;
@@ -38,20 +38,18 @@ std::string nowUtcText() {
 }
 
 void makeReport(const ReportArguments& arguments) {
-    arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, arguments.ground_truth});
+    arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, arguments.ground_truth.file});
     EvaluationRequest request = arguments.request;
     request.project = arguments.project;
-    request.truth_file = arguments.ground_truth;
+    request.truth = arguments.ground_truth.source();
+    request.options = arguments.evaluation.options;
     {
         ProjectFile project = openForReading(arguments.project);
         const RunStore store(project);
-        const RunRecord run = chosenRun(store, arguments.project, arguments.run);
+        request.run_id = chosenRun(store, arguments.project, arguments.run).id;
         if (arguments.against) chosenRun(store, arguments.project, arguments.against, "--against");
-        if (arguments.ground_truth.empty()) needLabels(project, run);
-        request.run_id = run.id;
     }
     request.other_run = arguments.against;
-    request.options.border = arguments.border;
     RunEvaluator evaluator;
     const auto evaluation = evaluator.evaluate(request);
     std::unique_ptr<FrameSource> pixels;
@@ -78,20 +76,14 @@ void addReportCommand(CLI::App& app, int& exit_code) {
         "report", "Write the evaluation of a run as one HTML file: parameters, measures, curves, errors with pictures");
     command->add_option("--project", arguments->project, "Project that holds the run")->required();
     command->add_option("--run", arguments->run, "Number of the run (default: the last)");
-    command->add_option("--ground-truth", arguments->ground_truth,
-                        "True boxes, in any format that import reads (default: the project's labels of the video)");
+    arguments->ground_truth.addTo(*command, kLabelsOtherwise);
     command->add_option("--out", arguments->out, "HTML file to write")->required();
     command->add_option("--against", arguments->against,
                         "Another run over the same video; tells whether the difference is more than chance");
     command->add_flag("--detections", arguments->request.detections, "Measure the run's detections, not its tracks");
-    command->add_option("--overlap", arguments->request.shown_overlap, "T_ov of errors and curves")
+    command->add_option("--overlap", arguments->evaluation.options.overlap, "T_ov of errors and curves")
         ->capture_default_str();
-    command->add_flag("--vehicles", arguments->request.options.vehicles_only,
-                      "Only vehicles count; other objects of the ground truth count neither way");
-    command->add_flag("--upright", arguments->request.options.upright,
-                      "Compare enclosing upright boxes, for ground truth without headings");
-    command->add_option("--border", arguments->border,
-                        "Leave out results that come this close to the image's edge, px");
+    arguments->evaluation.addRuleTo(*command);
     command->add_option("--chips", arguments->chips, "Errors with a picture, at most")->capture_default_str();
     arguments->outputs.addTo(*command);
     command->callback([arguments, &exit_code] {

@@ -12,11 +12,13 @@
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/run_choice.h"
+#include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/reports/console_progress.h"
 #include "cli/reports/run_report.h"
 #include "core/error.h"
+#include "core/project_name.h"
 #include "io/folder.h"
 #include "io/tables/box_csv.h"
 #include "io/video/video_writer.h"
@@ -27,9 +29,7 @@ namespace {
 struct RunArguments {
     std::string input;
     std::string project;
-    std::optional<double> gsd_m_per_px;
-    std::optional<double> frame_rate_hz;
-    std::string frames;
+    VideoArguments video;
     std::string name;
     PresetArguments preset;
     std::string tracks_csv;
@@ -89,7 +89,7 @@ class ConsoleObserver : public ChainObserver {
 SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const RunArguments& arguments,
                    const std::stop_token& stop) {
     ConsoleProgress console("looks");
-    return chooseScale(source, range, options, arguments.gsd_m_per_px.value_or(0), stop,
+    return chooseScale(source, range, options, arguments.video.gsd_m_per_px.value_or(0), stop,
                        [&](const RunProgress& progress) {
                            if (!arguments.quiet)
                                console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
@@ -108,7 +108,7 @@ std::filesystem::path projectPath(const RunArguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
     const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
     const auto stem = std::filesystem::path(input).lexically_normal().stem().string();
-    return (stem.empty() || stem == "." || stem == ".." ? "video" : stem) + ".eyrie";
+    return (stem.empty() || stem == "." || stem == ".." ? "video" : stem) + kProjectEnding;
 }
 
 /// A run that has ended, and what is to be told of it.
@@ -126,12 +126,11 @@ void takeRecord(EndedRun& ended, RunRecorder& recorder) {
 
 EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
                  const InterruptGuard& interrupt) {
-    const ParsedRange frames = arguments.frames.empty() ? ParsedRange{} : parseFrames(arguments.frames);
-    const FrameRange range{frames.first, frames.last};
+    const FrameRange range = arguments.video.range();
     const ChainOptions options = arguments.preset.options();
     const VideoInfo& video = source.info();
     checkRange(range, video);
-    if (!arguments.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
+    if (!arguments.video.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
         std::fputs("GSD unknown: looking at the traffic for the scale\n", stderr);
     }
     const SceneScale scale = scaleOf(source, range, options, arguments, interrupt.token());
@@ -210,9 +209,9 @@ ResumeChoice choiceOf(const RunArguments& arguments, const FrameSource* source, 
     ResumeWishes wishes;
     if (source != nullptr) wishes.video = source->info().path.string();
     wishes.run = arguments.run_id;
-    wishes.gsd_m_per_px = arguments.gsd_m_per_px;
-    wishes.frame_rate_hz = arguments.frame_rate_hz;
-    if (!arguments.frames.empty()) wishes.frames = parseFrames(arguments.frames);
+    wishes.gsd_m_per_px = arguments.video.gsd_m_per_px;
+    wishes.frame_rate_hz = arguments.video.frame_rate_hz;
+    if (!arguments.video.frames.empty()) wishes.frames = arguments.video.range();
     if (arguments.preset_given) wishes.options = arguments.preset.options();
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     return chooseRun(RunStore(file), project.string(), wishes);
@@ -232,9 +231,7 @@ void checkOutputs(const RunArguments& arguments, const std::filesystem::path& pr
 }
 
 int run(const RunArguments& arguments) {
-    if (arguments.gsd_m_per_px) checkGsd(*arguments.gsd_m_per_px);
-    if (arguments.frame_rate_hz) checkFrameRate(*arguments.frame_rate_hz);
-    if (!arguments.frames.empty()) parseFrames(arguments.frames);
+    arguments.video.check();
     arguments.preset.options();
     if (arguments.input.empty() && !(arguments.resume && !arguments.project.empty())) {
         throw Error(ErrorKind::parameter,
@@ -248,7 +245,7 @@ int run(const RunArguments& arguments) {
     std::unique_ptr<FrameSource> source;
     if (!arguments.input.empty()) {
         checkOutputs(arguments, project, arguments.input);
-        source = openInput(arguments.input, arguments.frame_rate_hz.value_or(0), interrupt.token(),
+        source = openInput(arguments.input, arguments.video.frame_rate_hz.value_or(0), interrupt.token(),
                            rememberedRate(project, arguments.input));
     }
     ResumeChoice choice;
@@ -299,10 +296,7 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     command->add_option(
         "--project", arguments->project,
         "Project file; made when it does not exist, else a run is added (default: INPUT's name in this folder)");
-    command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel");
-    command->add_option("--fps", arguments->frame_rate_hz,
-                        "Frames per second, when the video does not tell or is wrong");
-    command->add_option("--frames", arguments->frames, "First and last frame, both included, from 0: A:B, A: or :B");
+    arguments->video.addTo(*command);
     command->add_flag("--resume", arguments->resume,
                       "Go on with a run that ended early; the result is that of a run that never did. With INPUT: the "
                       "newest of that video begun with the same options, or a new one");

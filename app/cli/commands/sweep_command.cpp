@@ -6,7 +6,6 @@
 
 #include "chain/recording/run_recorder.h"
 #include "cli/arguments/earlier_state.h"
-#include "cli/arguments/evaluation_files.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/sweep_arguments.h"
@@ -25,9 +24,6 @@ namespace {
 struct SweepArguments {
     SweepSources sources;
     std::vector<std::string> axes;
-    std::vector<double> overlaps{0.1, 0.2, 0.3};
-    bool vehicles_only = false;
-    std::optional<double> border;
     PresetArguments preset;
     bool preset_given = false;
     std::string out;
@@ -157,14 +153,15 @@ int sweep(const SweepArguments& arguments) {
     plan.engine_version = engineVersion();
     for (const std::string& axis : arguments.axes) plan.axes.push_back(parseAxis(axis, base));
     plan.base = parameterValues(base);
-    plan.overlaps = arguments.overlaps;
-    plan.vehicles_only = arguments.vehicles_only;
-    plan.border = arguments.border;
+    const EvaluationArguments& evaluation = arguments.sources.evaluation;
+    plan.overlaps = evaluation.overlaps;
+    plan.vehicles_only = evaluation.options.vehicles_only;
+    plan.border = evaluation.options.border;
     chosenPositions(plan, arguments.shard);  // shows a wrong shard before anything is opened
 
     const InterruptGuard interrupt;
-    OpenedSources opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, interrupt.token())
-                                        : openStoredRuns(arguments.sources, std::move(runs), base);
+    OpenedClips opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, interrupt.token())
+                                      : openStoredRuns(arguments.sources, std::move(runs), base);
     plan.clips = opened.clips;
     check(plan);
     const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;
@@ -210,20 +207,11 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
         ->add_option("--parameter", arguments->axes,
                      "What to change: NAME=FIRST:STEP:LAST or NAME=VALUE,VALUE,…; once or twice")
         ->required();
-    command->add_option("--overlap", arguments->overlaps, "Overlaps T_ov from which on a box counts as found")
-        ->delimiter(',')
-        ->capture_default_str();
+    sources.evaluation.addTo(*command);
     command->add_option("--gsd", sources.gsds,
                         "Ground sampling distance in metres per pixel: one, or one for each sequence");
-    command->add_option("--fps", sources.frame_rate_hz, "Frames per second, when the video does not tell");
-    command->add_option("--frames", sources.frames, "First and last frame, both included, from 0: A:B, A: or :B");
-    command->add_flag("--vehicles", arguments->vehicles_only,
-                      "Only vehicles count; other objects of the ground truth count neither way");
-    command->add_flag("--upright", sources.upright,
-                      "Compare enclosing upright boxes, for ground truth without headings");
-    command->add_option("--border", arguments->border,
-                        "Leave out results that come this close to the image's edge, px");
-    command->add_option("--mot-origin", sources.mot_origin, motOriginHelp());
+    sources.video.addTimeTo(*command);
+    sources.ground_truth.addOriginTo(*command);
     arguments->preset.addTo(*command);
     command->add_option("--out", arguments->out, "Project file for the points; made when it does not exist");
     command->add_option("--name", arguments->name, "A name for the sweep");

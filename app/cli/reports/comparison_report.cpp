@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/reports/evaluation_text.h"
 #include "evaluation/comparison/published_figures.h"
 
 namespace eyrie::cli {
@@ -211,15 +212,7 @@ std::string jsonText(const ComparisonReport& report) {
                        {"tracking", row.tracking},
                        {"overlap", row.measures.overlap},
                        {"ms_per_frame", row.ms_per_frame}};
-            for (const NamedMeasure& measure : listMeasures(row.measures)) {
-                if (!measure.value) {
-                    entry[measure.key] = nullptr;
-                } else if (measure.decimals == 0) {
-                    entry[measure.key] = std::llround(*measure.value);
-                } else {
-                    entry[measure.key] = *measure.value;
-                }
-            }
+            addMeasures(entry, row.measures);
             entry["f_score_interval"] = jsonOf(row.f_score);
             if (row.difference) {
                 Json difference{{"to", row.compared_with}, {"f_score", jsonOf(row.difference->f_score)}};

@@ -97,6 +97,18 @@ std::string tableText(const EvaluationReport& report) {
     return text;
 }
 
+void addMeasures(nlohmann::ordered_json& entry, const Measures& measures) {
+    for (const NamedMeasure& measure : listMeasures(measures)) {
+        if (!measure.value) {
+            entry[measure.key] = nullptr;
+        } else if (measure.decimals == 0) {
+            entry[measure.key] = std::llround(*measure.value);
+        } else {
+            entry[measure.key] = *measure.value;
+        }
+    }
+}
+
 std::string jsonText(const EvaluationReport& report) {
     using Json = nlohmann::ordered_json;
     Json json{{"convention", nameOf(report.options.convention)},
@@ -111,15 +123,7 @@ std::string jsonText(const EvaluationReport& report) {
     json["measures"] = Json::array();
     for (const Measures& measures : report.measures) {
         Json entry{{"overlap", measures.overlap}};
-        for (const NamedMeasure& measure : listMeasures(measures)) {
-            if (!measure.value) {
-                entry[measure.key] = nullptr;
-            } else if (measure.decimals == 0) {
-                entry[measure.key] = std::llround(*measure.value);
-            } else {
-                entry[measure.key] = *measure.value;
-            }
-        }
+        addMeasures(entry, measures);
         json["measures"].push_back(std::move(entry));
     }
     if (report.registration) {

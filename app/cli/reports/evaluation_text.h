@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,5 +24,7 @@ struct EvaluationReport {
 std::string tableText(const EvaluationReport& report);
 /// The same as JSON; measures that are not defined are null.
 std::string jsonText(const EvaluationReport& report);
+/// Adds every measure by its key.
+void addMeasures(nlohmann::ordered_json& entry, const Measures& measures);
 
 }  // namespace eyrie::cli

@@ -45,7 +45,7 @@ class TimedClip {
         plan_.clips.push_back(clip);
         inputs_.resize(1);
         forget();
-        inputs_[0].truth = *inputs_[0].cache->run(options, {})->tracks;
+        inputs_[0].scoring.truth.boxes = *inputs_[0].cache->run(options, {})->tracks;
     }
     void forget() { inputs_[0].cache = std::make_unique<StageCache>(open_, FrameRange{}, scale_); }
     /// Seconds for all values of a parameter.

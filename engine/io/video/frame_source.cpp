@@ -1,10 +1,9 @@
 #include "io/video/frame_source.h"
 
-#include <cctype>
 #include <cmath>
-#include <fstream>
 
 #include "core/error.h"
+#include "io/file_kind.h"
 #include "io/video/image_sequence.h"
 #include "io/video/video_reader.h"
 
@@ -16,25 +15,17 @@ constexpr double kSameRate = 0.005;
 
 /// A project or a table where a video belongs: says what takes them.
 void refuseOtherThanVideo(const std::filesystem::path& path) {
-    // A project is told by its name: opening it here would drop the locks of its connections (store/file_check.h).
-    std::string beginning(15, '\0');
-    const bool named_project = path.extension() == ".eyrie";
-    if (!named_project) std::ifstream(path, std::ios::binary).read(beginning.data(), std::ssize(beginning));
-    if (named_project || beginning == "SQLite format 3") {
-        throw Error(ErrorKind::input,
-                    path.string() +
-                        ": is a project, not a video; open it as a project in the window, look with "
-                        "eyrie-cli info, or give it to evaluate, report, sweep or export as --project");
+    const FileKind kind = kindOfFile(path);
+    const std::string what = path.string() + ": is " + nameOf(kind) + ", not a video; ";
+    if (kind == FileKind::project) {
+        throw Error(ErrorKind::input, what +
+                                          "open it as a project in the window, look with eyrie-cli info, or give it to "
+                                          "evaluate, report, sweep or export as --project");
     }
-    std::string ending = path.extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    for (const char* table : {".csv", ".txt", ".xml", ".json", ".kw18"}) {
-        if (ending != table) continue;
-        throw Error(ErrorKind::input,
-                    path.string() +
-                        ": is a table, not a video; import its labels into a project (label workspace, or "
-                        "eyrie-cli import; --show tells what is in it), or evaluate against it as "
-                        "--ground-truth");
+    if (kind == FileKind::text || kind == FileKind::json || kind == FileKind::xml) {
+        throw Error(ErrorKind::input, what +
+                                          "import labels into a project (label workspace, or eyrie-cli import; --show "
+                                          "tells what is in it), or evaluate against them as --ground-truth");
     }
 }
 

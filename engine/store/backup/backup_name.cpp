@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "core/project_name.h"
+
 namespace eyrie {
 namespace {
 
@@ -54,7 +56,7 @@ std::string backupFileName(UtcTime made, BackupReason reason) {
     for (const ReasonWord& entry : kWords) {
         if (entry.reason == reason) name += entry.word;
     }
-    return name + ".eyrie";
+    return name + kProjectEnding;
 }
 
 std::optional<ProjectBackup> parseBackupName(const std::filesystem::path& file) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/project_name.h"
 #include "store/database/database_error.h"
 #include "store/health/raw_file.h"
 
@@ -50,7 +51,7 @@ bool hasLog(const std::filesystem::path& project) {
 bool isProject(const std::filesystem::path& path) {
     std::error_code failed;
     if (std::filesystem::is_directory(path, failed)) return false;
-    if (path.extension() == ".eyrie") return true;
+    if (hasProjectName(path)) return true;
     // Opening a pipe would wait for its writer.
     if (!std::filesystem::is_regular_file(path, failed)) return false;
     const auto beginning = readBeginning(path);

@@ -29,7 +29,7 @@ struct SweepClip {
     FrameIndex first_frame = 0;
     FrameIndex last_frame = 0;  ///< included
     SceneScale scale;
-    bool upright = false;  ///< enclosing upright boxes are compared
+    bool upright = false;  ///< enclosing upright boxes are compared, as wished or as the ground truth wants it
 };
 
 /// All that decides what a sweep gives.

@@ -307,7 +307,7 @@ class EvaluationTest : public QObject {
         window->evaluation().panel().useTruthFile({});
         window->evaluation().panel().useTruthFile(truthFile(500));
         QVERIFY(waitFor([&] { return !evaluation.working() && evaluation.evaluation() == nullptr; }));
-        QVERIFY(window->evaluation().panel().explanation().contains(QStringLiteral("no frame in common")));
+        QVERIFY(window->evaluation().panel().explanation().contains(QStringLiteral("holds no box in the frames")));
     }
 
     void anotherRunTellsWhetherTheDifferenceIsReal() {

@@ -329,7 +329,7 @@ class SweepPanelTest : public QObject {
         };
         SweepRequest unlabelled = request({"gradient.quantile=0.1"});
         unlabelled.truth_file.clear();
-        QVERIFY(refused(unlabelled).contains(QStringLiteral("no labels")));
+        QVERIFY(refused(unlabelled).contains(QStringLiteral("nobody has labelled")));
         QVERIFY(refused(request({"gradient.quantile=0.5:0.1:0.1"})).contains(QStringLiteral("empty")));
         QVERIFY(refused(request({"gradient.quantle=0.5"})).contains(QStringLiteral("nearest")));
         SweepRequest bad = request({"gradient.quantile=0.5"});

@@ -94,9 +94,9 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
 LabelImportDialog::~LabelImportDialog() = default;
 
 bool LabelImportDialog::choose() {
-    const QString path = QFileDialog::getOpenFileName(
-        parentWidget(), tr("Import labels"), {},
-        tr("Label files (*.csv *.txt *.xml *.json *.kw18 *.viratdata.objects.txt);;All files (*)"));
+    const QString path =
+        QFileDialog::getOpenFileName(parentWidget(), tr("Import labels"), {},
+                                     tr("Labels (%1);;All files (*)").arg(QString::fromStdString(labelFilePatterns())));
     if (path.isEmpty()) return false;
     setFile(path.toStdString());
     return true;

@@ -6,6 +6,7 @@
 #include <QString>
 #include <algorithm>
 
+#include "core/project_name.h"
 #include "session/project/media.h"
 
 namespace eyrie::ui {
@@ -13,8 +14,6 @@ namespace eyrie::ui {
 namespace fs = std::filesystem;
 
 namespace {
-const char kExtension[] = ".eyrie";
-
 bool isThere(const fs::path& path) {
     std::error_code unreachable;
     return fs::exists(path, unreachable);
@@ -31,7 +30,7 @@ fs::path projectInDataFolder(const std::string& media_name, const std::string& m
                  QStringLiteral("_"));
     name = name.left(60);
     if (name.isEmpty()) name = QStringLiteral("video");
-    return data / "eyrie" / "projects" / (name.toStdString() + "-" + hash.toStdString() + kExtension);
+    return data / "eyrie" / "projects" / (name.toStdString() + "-" + hash.toStdString() + kProjectEnding);
 }
 
 std::vector<fs::path> projectPlaces(const std::string& media_name, const std::string& media_identity) {
@@ -41,7 +40,7 @@ std::vector<fs::path> projectPlaces(const std::string& media_name, const std::st
         // A folder "flight.2" is not a file "flight" of kind "2".
         std::error_code unreachable;
         const fs::path stem = fs::is_directory(video, unreachable) ? video.filename() : video.stem();
-        places.push_back(video.parent_path() / (stem.string() + kExtension));
+        places.push_back(video.parent_path() / (stem.string() + kProjectEnding));
     }
     places.push_back(projectInDataFolder(media_name, media_identity));
     std::stable_partition(places.begin(), places.end(), isThere);

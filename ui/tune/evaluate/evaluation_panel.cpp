@@ -24,6 +24,7 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/label_formats.h"
 #include "widgets/charts/line_chart.h"
 #include "widgets/charts/tracked_bar.h"
 #include "widgets/display_text.h"
@@ -228,10 +229,10 @@ void EvaluationPanel::showSettings() {
     truth_->setItemData(file_entry, path, Qt::ToolTipRole);
     truth_->setCurrentIndex(path.isEmpty() ? labels_entry : file_entry);
     measured_->setCurrentIndex(settings.detections ? 1 : 0);
-    overlap_->setValue(settings.overlap);
-    border_->setValue(settings.border_px);
-    vehicles_->setChecked(settings.vehicles_only);
-    upright_->setChecked(settings.upright);
+    overlap_->setValue(settings.wishes.overlap);
+    border_->setValue(settings.wishes.border.value_or(0));
+    vehicles_->setChecked(settings.wishes.vehicles_only);
+    upright_->setChecked(settings.wishes.upright);
     showRuns();
 }
 
@@ -257,10 +258,10 @@ void EvaluationPanel::applySettings() {
                               ? truth_->itemData(file_entry, Qt::UserRole).toString().toStdString()
                               : std::string();
     settings.detections = measured_->currentIndex() == 1;
-    settings.overlap = overlap_->value();
-    settings.border_px = border_->value();
-    settings.vehicles_only = vehicles_->isChecked();
-    settings.upright = upright_->isChecked();
+    settings.wishes.overlap = overlap_->value();
+    settings.wishes.border = border_->value() > 0 ? std::optional(border_->value()) : std::nullopt;
+    settings.wishes.vehicles_only = vehicles_->isChecked();
+    settings.wishes.upright = upright_->isChecked();
     const int other = other_->currentData().toInt();
     settings.other_run = other > 0 ? std::optional(other) : std::nullopt;
     evaluation_.setSettings(settings);
@@ -275,8 +276,9 @@ void EvaluationPanel::useTruthFile(const QString& path) {
 }
 
 void EvaluationPanel::chooseTruthFile() {
+    const QString patterns = QString::fromStdString(labelFilePatterns());
     const QString path = QFileDialog::getOpenFileName(this, tr("Ground truth"), QString(),
-                                                      tr("Labels (*.csv *.txt *.json *.xml *.kw18);;All files (*)"));
+                                                      tr("Labels (%1);;All files (*)").arg(patterns));
     if (path.isEmpty())
         showSettings();
     else

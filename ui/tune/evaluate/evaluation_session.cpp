@@ -24,6 +24,17 @@ bool sameThing(const Mistake& a, const Mistake& b) {
 
 }  // namespace
 
+EvaluationOptions storedWishes() {
+    const QSettings stored;
+    EvaluationOptions wishes;
+    wishes.overlap = std::clamp(stored.value(QStringLiteral("evaluation/overlap"), 0.1).toDouble(), 0.01, 1.0);
+    wishes.vehicles_only = stored.value(QStringLiteral("evaluation/vehicles_only")).toBool();
+    wishes.upright = stored.value(QStringLiteral("evaluation/upright")).toBool();
+    const double border_px = stored.value(QStringLiteral("evaluation/border")).toDouble();
+    if (border_px > 0) wishes.border = border_px;
+    return wishes;
+}
+
 class EvaluationSession::Worker {
  public:
     RunEvaluator evaluator;
@@ -31,11 +42,7 @@ class EvaluationSession::Worker {
 
 EvaluationSession::EvaluationSession(ProjectSession& session, QObject* parent)
     : QObject(parent), session_(session), worker_(std::make_unique<Worker>()) {
-    const QSettings stored;
-    settings_.overlap = std::clamp(stored.value(QStringLiteral("evaluation/overlap"), 0.1).toDouble(), 0.01, 1.0);
-    settings_.vehicles_only = stored.value(QStringLiteral("evaluation/vehicles_only")).toBool();
-    settings_.upright = stored.value(QStringLiteral("evaluation/upright")).toBool();
-    settings_.border_px = std::max(0.0, stored.value(QStringLiteral("evaluation/border")).toDouble());
+    settings_.wishes = storedWishes();
     soon_.setSingleShot(true);
     soon_.setInterval(kSettle_ms);
     connect(&soon_, &QTimer::timeout, this, &EvaluationSession::refresh);
@@ -73,11 +80,12 @@ void EvaluationSession::setWanted(bool wanted) {
 void EvaluationSession::setSettings(const EvaluationSettings& settings) {
     if (settings == settings_) return;
     settings_ = settings;
+    const EvaluationOptions& wishes = settings_.wishes;
     QSettings stored;
-    stored.setValue(QStringLiteral("evaluation/overlap"), settings_.overlap);
-    stored.setValue(QStringLiteral("evaluation/vehicles_only"), settings_.vehicles_only);
-    stored.setValue(QStringLiteral("evaluation/upright"), settings_.upright);
-    stored.setValue(QStringLiteral("evaluation/border"), settings_.border_px);
+    stored.setValue(QStringLiteral("evaluation/overlap"), wishes.overlap);
+    stored.setValue(QStringLiteral("evaluation/vehicles_only"), wishes.vehicles_only);
+    stored.setValue(QStringLiteral("evaluation/upright"), wishes.upright);
+    stored.setValue(QStringLiteral("evaluation/border"), wishes.border.value_or(0));
     if (settings_.truth_file.empty())
         stored.remove(truthKey(session_.project()));
     else
@@ -94,12 +102,9 @@ EvaluationRequest EvaluationSession::request() const {
     EvaluationRequest request;
     request.project = session_.project();
     request.run_id = session_.currentRun().value_or(0);
-    request.truth_file = settings_.truth_file;
+    request.truth.file = settings_.truth_file;
     request.detections = settings_.detections;
-    request.shown_overlap = settings_.overlap;
-    request.options.vehicles_only = settings_.vehicles_only;
-    request.options.upright = settings_.upright;
-    if (settings_.border_px > 0) request.options.border = settings_.border_px;
+    request.options = settings_.wishes;
     request.other_run = settings_.other_run;
     return request;
 }

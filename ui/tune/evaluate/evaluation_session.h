@@ -19,14 +19,14 @@ namespace eyrie::ui {
 struct EvaluationSettings {
     std::filesystem::path truth_file;  ///< empty: the labels of the project
     bool detections = false;
-    double overlap = 0.1;  ///< T_ov of errors, curves and overlay
-    bool vehicles_only = false;
-    bool upright = false;
-    double border_px = 0;  ///< 0: results at the border take part
+    EvaluationOptions wishes;  ///< the overlap is that of errors, curves and overlay
     std::optional<int> other_run;
 
     bool operator==(const EvaluationSettings&) const = default;
 };
+
+/// What counts, as was chosen last; every dock that measures goes by it.
+EvaluationOptions storedWishes();
 
 /// The evaluation of the run shown, computed on its own thread as long as somebody looks: anew when the run, the
 /// settings or the labels change. Holds which error is looked at. Signals arrive on the thread of this object.

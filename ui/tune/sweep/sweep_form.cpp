@@ -15,7 +15,9 @@
 #include <cmath>
 #include <set>
 
+#include "formats/label_formats.h"
 #include "io/tables/number_text.h"
+#include "tune/evaluate/evaluation_session.h"
 #include "widgets/theme_colours.h"
 
 namespace eyrie::ui {
@@ -63,7 +65,8 @@ SweepForm::SweepForm(QWidget* parent) : QWidget(parent) {
     grid->addWidget(new QLabel(tr("Against"), this), 5, 0);
     truth_ = new QComboBox(this);
     truth_->addItems({tr("labels of the project"), tr("a file …")});
-    truth_->setToolTip(tr("The true boxes that every point is measured against"));
+    truth_->setToolTip(
+        tr("The true boxes that every point is measured against; what counts is chosen in the dock Evaluation"));
     grid->addWidget(truth_, 5, 1);
     overlaps_ = new QLineEdit(QStringLiteral("0.1, 0.2, 0.3"), this);
     overlaps_->setToolTip(tr("Overlaps T_ov from which on a box counts as found"));
@@ -231,8 +234,9 @@ void SweepForm::chooseTruth(int index) {
         truth_file_.clear();
         return;
     }
-    const QString file = QFileDialog::getOpenFileName(this, tr("True boxes"), QFileInfo(truth_file_).path(),
-                                                      tr("Tables of boxes (*.csv *.txt *.json *.xml);;All files (*)"));
+    const QString patterns = QString::fromStdString(labelFilePatterns());
+    const QString file = QFileDialog::getOpenFileName(this, tr("Ground truth"), QFileInfo(truth_file_).path(),
+                                                      tr("Labels (%1);;All files (*)").arg(patterns));
     if (!file.isEmpty()) {
         truth_file_ = file;
         truth_->setItemText(1, QFileInfo(file).fileName() + tr(" …"));
@@ -251,6 +255,7 @@ SweepRequest SweepForm::request() const {
     for (const auto& [run, action] : runs_)
         if (action->isChecked() && action->isEnabled()) request.other_runs.push_back(run);
     request.truth_file = truth_file_.toStdString();
+    request.wishes = storedWishes();
     request.overlaps.clear();
     for (const QString& part : overlaps_->text().split(QLatin1Char(','), Qt::SkipEmptyParts))
         request.overlaps.push_back(parseReal(part.trimmed().toStdString()).value_or(-1));

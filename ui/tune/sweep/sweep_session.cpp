@@ -154,14 +154,15 @@ OpenedRuns SweepSession::openResumed(const Job& job, SweepPlan& plan, const std:
                         "This sweep was begun by eyrie-cli over files; go on with it there "
                         "(eyrie-cli sweep … --resume).");
         }
-        runs.push_back({clip.run, clip.ground_truth, clip.upright});
+        runs.push_back({clip.run, {.file = clip.ground_truth}, plan.evaluationOf(clip)});
     }
     OpenedRuns opened = openRunsForSweep(job.project, runs, stop);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        if (opened.clips[i].digest == plan.clips[i].digest) continue;
+        if (opened.clips[i].digest == plan.clips[i].digest && opened.clips[i].upright == plan.clips[i].upright)
+            continue;
         throw Error(ErrorKind::parameter, "The video or the true boxes of run " + std::to_string(runs[i].run_id) +
-                                              " have changed since this sweep was begun, so its points would not "
-                                              "belong together. Start a new sweep.");
+                                              ", or how they are compared, have changed since this sweep was begun, "
+                                              "so its points would not belong together. Start a new sweep.");
     }
     return opened;
 }
@@ -177,16 +178,20 @@ void SweepSession::work(const Job& job, const std::stop_token& stop) {
         if (job.resumed) {
             opened = openResumed(job, plan, stop);
         } else {
-            std::vector<RunToSweep> runs{{job.run_id, job.request.truth_file, job.request.upright}};
-            for (const int run : job.request.other_runs)
-                if (run != job.run_id) runs.push_back({run, job.request.truth_file, job.request.upright});
+            RunToSweep wanted{job.run_id, {.file = job.request.truth_file}, job.request.wishes};
+            std::vector<RunToSweep> runs{wanted};
+            for (const int run : job.request.other_runs) {
+                wanted.run_id = run;
+                if (run != job.run_id) runs.push_back(wanted);
+            }
             opened = openRunsForSweep(job.project, runs, stop);
             plan.engine_version = engineVersion();
             for (const std::string& axis : job.request.axes) plan.axes.push_back(parseAxis(axis, opened.options));
             plan.base = parameterValues(opened.options);
             plan.clips = opened.clips;
             plan.overlaps = job.request.overlaps;
-            plan.vehicles_only = job.request.vehicles_only;
+            plan.vehicles_only = job.request.wishes.vehicles_only;
+            plan.border = job.request.wishes.border;
             check(plan);
         }
         ProjectFile file = ProjectFile::open(job.project);

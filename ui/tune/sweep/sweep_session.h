@@ -23,8 +23,7 @@ struct SweepRequest {
     std::vector<int> other_runs;       ///< swept over, too, with the parameters of the run shown
     std::filesystem::path truth_file;  ///< empty: the labels of the project; for runs of one video only
     std::vector<double> overlaps{0.1, 0.2, 0.3};
-    bool vehicles_only = false;
-    bool upright = false;
+    EvaluationOptions wishes{};      ///< what counts
     bool many_points_meant = false;  ///< the user was asked
 };
 

@@ -8,17 +8,15 @@
 
 namespace eyrie::ui {
 
-/// A stored run that is to be swept. `truth_file`: labels in any known format; empty: those of the project.
+/// A stored run that is to be swept.
 struct RunToSweep {
     int run_id = 0;
-    std::filesystem::path truth_file;
-    bool upright = false;
+    GroundTruthSource truth{};
+    EvaluationOptions wishes{};
 };
 
 /// Stored runs opened for a sweep, with their motion vectors.
-struct OpenedRuns {
-    std::vector<SweepClip> clips;
-    std::vector<SweepInput> inputs;
+struct OpenedRuns : OpenedClips {
     ChainOptions options;  ///< of the first
 };
 /// Throws Error, also where one file of true boxes is to serve runs of several videos.

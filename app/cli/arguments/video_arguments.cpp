@@ -1,0 +1,65 @@
+#include "cli/arguments/video_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+
+#include "cli/reports/figure_text.h"
+#include "core/error.h"
+
+namespace eyrie::cli {
+namespace {
+
+bool readFrameNumber(const std::string& text, FrameIndex& value) {
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && stop == end && value >= 0;
+}
+
+}  // namespace
+
+void VideoArguments::addTo(CLI::App& command) {
+    command.add_option("--gsd", gsd_m_per_px, "Ground sampling distance in metres per pixel");
+    addTimeTo(command);
+}
+
+void VideoArguments::addTimeTo(CLI::App& command) {
+    command.add_option("--fps", frame_rate_hz, "Frames per second, when the video does not tell or is wrong");
+    command.add_option("--frames", frames, "First and last frame, both included, from 0: A:B, A: or :B");
+}
+
+void VideoArguments::check() const {
+    if (gsd_m_per_px) checkGsd(*gsd_m_per_px);
+    if (frame_rate_hz && !(std::isfinite(*frame_rate_hz) && *frame_rate_hz > 0 && *frame_rate_hz <= 10000)) {
+        throw Error(ErrorKind::parameter,
+                    "--fps " + numberText(*frame_rate_hz) + ": expected frames per second above 0, e.g. 25");
+    }
+    range();
+}
+
+FrameRange VideoArguments::range() const {
+    FrameRange range;
+    if (frames.empty()) return range;
+    const auto colon = frames.find(':');
+    const std::string first = frames.substr(0, colon);
+    const std::string last = colon == std::string::npos ? first : frames.substr(colon + 1);
+    const bool good = (first.empty() || readFrameNumber(first, range.first)) &&
+                      (last.empty() || readFrameNumber(last, range.last)) &&
+                      (range.last < 0 || range.first <= range.last);
+    if (!good) {
+        throw Error(
+            ErrorKind::parameter,
+            "--frames " + frames + ": expected FIRST:LAST, both included and from 0, e.g. 100:249, 100: or :249");
+    }
+    return range;
+}
+
+void checkGsd(double gsd) {
+    if (!(gsd >= 0.001 && gsd <= 100)) {
+        throw Error(ErrorKind::parameter,
+                    "--gsd " + numberText(gsd) +
+                        ": expected metres per pixel from 0.001 to 100, e.g. 0.3; leave it out when unknown");
+    }
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,160 @@
+#include "scoring/scoring.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "store/labels/annotation_store.h"
+#include "store/runs/result_writer.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A car that drives in frames 10 to 19, in a file or as labels of a project.
+class ScoringTest : public testing::Test {
+ protected:
+    static OrientedBox boxIn(int frame, double heading) { return {{50.0 + 4 * frame, 40}, 20, 10, heading}; }
+    static GroundTruth truth(double heading) {
+        GroundTruth truth;
+        truth.name = "t.csv";
+        for (int frame = 10; frame < 20; ++frame) {
+            BoxRecord record;
+            record.frame = frame;
+            record.box = boxIn(frame, heading);
+            truth.boxes[frame] = {record};
+        }
+        return truth;
+    }
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder / name) << text;
+        return folder / name;
+    }
+    std::filesystem::path project() const { return folder / "p.eyrie"; }
+    /// Over 20 frames, in which the camera moves by `step` px a frame.
+    RunRecord writeRun(double step) const {
+        ProjectFile::openOrCreate(project());
+        RunRecord run;
+        run.sequence = {.path = "/nowhere/clip.mp4", .size = {320, 240}, .frame_count = 20, .frame_rate_hz = 25};
+        run.last_frame = 19;
+        ResultWriter writer(project(), run, {});
+        for (int frame = 0; frame < 20; ++frame) {
+            FrameResult result;
+            result.motion.frame = frame;
+            result.motion.image_size = {320, 240};
+            Registration& registration = result.motion.registration;
+            registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
+            registration.current_from_previous.from_frame = std::max(0, frame - 1);
+            registration.current_from_previous.to_frame = frame;
+            registration.current_from_previous.matrix(0, 2) = frame % 2 == 0 ? -step : step;
+            writer.write(result);
+        }
+        writer.finish(RunState::finished, "");
+        ProjectFile file = ProjectFile::open(project(), ProjectFile::Mode::read_only);
+        return RunStore(file).runs().back();
+    }
+    void label() const {
+        ProjectFile file = ProjectFile::open(project());
+        AnnotationStore store(file, sequencesOf(file).front().id);
+        LabelledObject object;
+        object.id = store.newObjectId();
+        object.keyframes = {{.frame = 10, .box = boxIn(10, 0.5)}, {.frame = 18, .box = boxIn(10, 0.5)}};
+        object.last_frame = 18;
+        AnnotationEdit edit;
+        edit.name = "draw";
+        edit.objects.push_back({std::nullopt, object});
+        store.apply(edit);
+    }
+    GroundTruth labels(const RunRecord& run) const {
+        ProjectFile file = ProjectFile::open(project(), ProjectFile::Mode::read_only);
+        return readGroundTruth({}, file, run);
+    }
+
+    const test::TemporaryFolder folder;
+};
+
+TEST_F(ScoringTest, onlyFramesThatTheResultCoversCount) {
+    const Scoring all = scoringOf(truth(0.5), {}, std::nullopt);
+    EXPECT_EQ(all.truth.boxes.size(), 10U);
+    EXPECT_THAT(all.truth.remarks, IsEmpty());
+    const Scoring some = scoringOf(truth(0.5), {}, FrameSpan{15, 40});
+    EXPECT_EQ(some.truth.boxes.size(), 5U);
+    EXPECT_THAT(some.truth.remarks, ElementsAre(HasSubstr("covers frames 15 to 40, so 5 of 10")));
+}
+
+TEST_F(ScoringTest, aTruthOfOtherFramesIsRefused) {
+    const auto messageOf = [](GroundTruth truth) {
+        try {
+            scoringOf(std::move(truth), {}, FrameSpan{100, 200});
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::input);
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string beginning = "t.csv: holds no box in the frames to be measured, 100 to 200, ";
+    EXPECT_THAT(messageOf(truth(0.5)), HasSubstr(beginning + "only in frames 10 to 19"));
+    GroundTruth empty = truth(0.5);
+    empty.boxes = {{150, {}}};
+    EXPECT_THAT(messageOf(empty), HasSubstr(beginning + "none at all"));
+}
+
+TEST_F(ScoringTest, uprightBoxesAreComparedWhereThereAreNoHeadings) {
+    GroundTruth without = truth(0);
+    without.has_headings = false;
+    const Scoring scoring = scoringOf(without, {}, std::nullopt);
+    EXPECT_TRUE(scoring.options.upright);
+    EXPECT_THAT(scoring.truth.remarks, ElementsAre(HasSubstr("no headings, so enclosing upright boxes")));
+    const Scoring upright = scoringOf(truth(0), {}, std::nullopt);
+    EXPECT_FALSE(upright.options.upright);
+    EXPECT_THAT(upright.truth.remarks, ElementsAre(HasSubstr("if they have no headings")));
+    EvaluationOptions wishes;
+    wishes.upright = true;
+    EXPECT_THAT(scoringOf(without, wishes, std::nullopt).truth.remarks, IsEmpty());
+}
+
+TEST_F(ScoringTest, aFormatWithoutHeadingsIsKnownByItsName) {
+    const GroundTruth mot = readGroundTruth({write("gt.txt", "1,1,41.5,36.5,20,10,1,3,1\n")}, std::nullopt);
+    EXPECT_FALSE(mot.has_headings);
+    EXPECT_NEAR(mot.boxes.at(0).front().box.centre.x, 50, 1e-9);
+    const GroundTruth shifted = readGroundTruth({folder / "gt.txt", 0}, std::nullopt);
+    EXPECT_NEAR(shifted.boxes.at(0).front().box.centre.x, 51, 1e-9);
+    const auto csv = write("t.csv", "frame,id,x,y,length,width,heading\n0,1,50,40,20,10,0\n");
+    EXPECT_TRUE(readGroundTruth({csv}, std::nullopt).has_headings);
+}
+
+TEST_F(ScoringTest, filesThatCannotBeTheTruthAreRefused) {
+    EXPECT_THROW(readGroundTruth({folder / "absent.csv"}, std::nullopt), Error);
+    EXPECT_THROW(readGroundTruth({write("none.csv", "frame,id,x,y,length,width,heading\n")}, std::nullopt), Error);
+}
+
+TEST_F(ScoringTest, labelsGoOverTheGroundAsTheRunRegisteredIt) {
+    const RunRecord shaking = writeRun(6);
+    const RunRecord standing = writeRun(0);
+    label();
+    EXPECT_NEAR(labels(standing).boxes.at(11).front().box.centre.x, 90, 0.01);
+    EXPECT_NEAR(labels(shaking).boxes.at(11).front().box.centre.x, 96, 0.01);
+    EXPECT_TRUE(labels(standing).boxes.at(3).empty()) << "a frame without objects is labelled, too";
+    EXPECT_EQ(labels(standing).boxes.size(), 20U);
+    EXPECT_THAT(labels(standing).name, HasSubstr("labels of the project"));
+}
+
+TEST_F(ScoringTest, aVideoThatNobodyLabelledSaysSo) {
+    const RunRecord run = writeRun(0);
+    try {
+        labels(run);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::project);
+        EXPECT_THAT(error.what(), HasSubstr("nobody has labelled /nowhere/clip.mp4 yet. Draw or import"));
+    }
+}
+
+}  // namespace
+}  // namespace eyrie
