@@ -20,9 +20,9 @@ std::string differenceText(const std::string& measure, const BootstrapInterval& 
     return markupEscaped(measure) + " against run " + std::to_string(other.id) +
            (other.name.empty() ? "" : " (" + markupEscaped(other.name) + ")") + ": " +
            (difference.value >= 0 ? "+" : "") + interval(difference) + ", <b>" +
-           (!real                  ? "not distinguishable"
-            : difference.value > 0 ? "really better"
-                                   : "really worse") +
+           (!real                  ? "no significant difference"
+            : difference.value > 0 ? "significantly better"
+                                   : "significantly worse") +
            "</b>";
 }
 

@@ -90,7 +90,7 @@ QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
 
 QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int role) const {
     if (orientation == Qt::Horizontal && role == Qt::ToolTipRole && section == score_column)
-        return tr("Probability that the track is a vehicle that moves, from all its evidence");
+        return tr("Probability that the track is a moving vehicle, from 0 to 1");
     if (orientation != Qt::Horizontal || role != Qt::DisplayRole) {
         return RecordModel::headerData(section, orientation, role);
     }

@@ -249,7 +249,7 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("compare", "Measure several methods on one sequence with ground truth");
     command->add_option("--sequence", arguments->sequence, "A video file, a folder of images, or scene:NAME")
         ->required();
-    command->add_option("--ground-truth", arguments->ground_truth, "True boxes, in any format that import reads")
+    command->add_option("--ground-truth", arguments->ground_truth, "Ground truth, in any format that import reads")
         ->required();
     command->add_option("--methods", arguments->methods,
                         "Methods, or groups of them: detectors (default), gradients, rescaling, motion; the first one "
@@ -262,14 +262,14 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->check(CLI::IsMember({"on", "off"}))
         ->capture_default_str();
-    command->add_option("--overlap", arguments->overlaps, "Overlaps T_ov from which on a box counts as found")
+    command->add_option("--overlap", arguments->overlaps, "Lowest overlaps T_ov at which a box counts as found")
         ->delimiter(',')
         ->capture_default_str();
     command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel");
     command->add_option("--fps", arguments->frame_rate_hz, "Frames per second, when the video does not tell");
     command->add_option("--frames", arguments->frames, "First and last frame, both included, from 0: A:B, A: or :B");
     command->add_flag("--vehicles", arguments->options.vehicles_only,
-                      "Only vehicles count; other objects of the ground truth count neither way");
+                      "Only vehicles count; other objects of the ground truth are ignored");
     command->add_flag("--upright", arguments->options.upright,
                       "Compare enclosing upright boxes, for ground truth without headings");
     command->add_option("--border", arguments->options.border,

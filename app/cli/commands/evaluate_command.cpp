@@ -187,7 +187,7 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<EvaluateArguments>();
     CLI::App* command = app.add_subcommand("evaluate", "Measure tracks or detections against ground truth");
     command->add_option("--ground-truth", arguments->ground_truth,
-                        "True boxes, in any format that import reads (default: the project's labels of the video)");
+                        "Ground truth, in any format that import reads (default: the project's labels of the video)");
     CLI::Option* result = command->add_option(
         "--result", arguments->result, "Boxes to measure: our CSV, MOTChallenge text, or what else import reads");
     CLI::Option* project =
@@ -195,10 +195,10 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
     command->add_option("--run", arguments->run, "Number of the run (default: the last)")->needs(project);
     command->add_flag("--detections", arguments->detections, "Measure the run's detections instead of its tracks")
         ->needs(project);
-    command->add_option("--overlap", arguments->overlaps, "Overlaps T_ov from which on a box counts as found")
+    command->add_option("--overlap", arguments->overlaps, "Lowest overlaps T_ov at which a box counts as found")
         ->capture_default_str();
     command->add_flag("--vehicles", arguments->options.vehicles_only,
-                      "Only vehicles count; other objects of the ground truth count neither way");
+                      "Only vehicles count; other objects of the ground truth are ignored");
     command->add_flag("--upright", arguments->options.upright,
                       "Compare enclosing upright boxes, for ground truth without headings");
     command->add_option("--border", arguments->options.border,

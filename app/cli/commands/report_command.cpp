@@ -79,7 +79,7 @@ void addReportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--project", arguments->project, "Project that holds the run")->required();
     command->add_option("--run", arguments->run, "Number of the run (default: the last)");
     command->add_option("--ground-truth", arguments->ground_truth,
-                        "True boxes, in any format that import reads (default: the project's labels of the video)");
+                        "Ground truth, in any format that import reads (default: the project's labels of the video)");
     command->add_option("--out", arguments->out, "HTML file to write")->required();
     command->add_option("--against", arguments->against,
                         "Another run over the same video; tells whether the difference is more than chance");
@@ -87,7 +87,7 @@ void addReportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--overlap", arguments->request.shown_overlap, "T_ov of errors and curves")
         ->capture_default_str();
     command->add_flag("--vehicles", arguments->request.options.vehicles_only,
-                      "Only vehicles count; other objects of the ground truth count neither way");
+                      "Only vehicles count; other objects of the ground truth are ignored");
     command->add_flag("--upright", arguments->request.options.upright,
                       "Compare enclosing upright boxes, for ground truth without headings");
     command->add_option("--border", arguments->border,

@@ -197,7 +197,7 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
     CLI::Option* sequence = command->add_option("--sequence", sources.sequences,
                                                 "A video file, a folder of images, or scene:NAME; may be repeated");
     command->add_option("--ground-truth", sources.ground_truths,
-                        "True boxes of each sequence, in any format that import reads (with --project: default the "
+                        "Ground truth of each sequence, in any format that import reads (with --project: default the "
                         "project's labels)");
     command->add_option("--project", sources.project, "Sweep over a stored run, whose motion vectors are used again")
         ->excludes(sequence);
@@ -210,7 +210,7 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
         ->add_option("--parameter", arguments->axes,
                      "What to change: NAME=FIRST:STEP:LAST or NAME=VALUE,VALUE,…; once or twice")
         ->required();
-    command->add_option("--overlap", arguments->overlaps, "Overlaps T_ov from which on a box counts as found")
+    command->add_option("--overlap", arguments->overlaps, "Lowest overlaps T_ov at which a box counts as found")
         ->delimiter(',')
         ->capture_default_str();
     command->add_option("--gsd", sources.gsds,
@@ -218,7 +218,7 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
     command->add_option("--fps", sources.frame_rate_hz, "Frames per second, when the video does not tell");
     command->add_option("--frames", sources.frames, "First and last frame, both included, from 0: A:B, A: or :B");
     command->add_flag("--vehicles", arguments->vehicles_only,
-                      "Only vehicles count; other objects of the ground truth count neither way");
+                      "Only vehicles count; other objects of the ground truth are ignored");
     command->add_flag("--upright", sources.upright,
                       "Compare enclosing upright boxes, for ground truth without headings");
     command->add_option("--border", arguments->border,

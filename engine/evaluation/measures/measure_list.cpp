@@ -39,7 +39,7 @@ void listDetection(List& list, const DetectionMeasures& d) {
     list.count("tp", "TP", "true positives", d.true_positives);
     list.count("fp", "FP", "false positives", d.false_positives);
     list.count("fn", "FN", "false negatives", d.false_negatives);
-    list.count("ignored_results", "ignored results", "results that count neither way", d.ignored_results);
+    list.count("ignored_results", "ignored results", "results that are not counted", d.ignored_results);
     list.real("precision", "precision", "TP / (TP + FP)", d.precision);
     list.real("recall", "recall", "TP / (TP + FN)", d.recall);
     list.real("f_score", "f-score", "harmonic mean of precision and recall", d.f_score);

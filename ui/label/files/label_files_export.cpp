@@ -27,7 +27,7 @@ LabelExportDialog::LabelExportDialog(LabelSession& labels, QWidget* parent)
       carries_(new QLabel),
       target_(new QLineEdit),
       columns_(new QLineEdit(QStringLiteral("frame,id,cname,x1,y1,x2,y2"))),
-      clip_(new QCheckBox(tr("Cut boxes off at the image's border"))),
+      clip_(new QCheckBox(tr("Clip boxes to the image"))),
       text_(reportField()) {
     setWindowTitle(tr("Export labels"));
     for (const LabelFormatInfo& format : labelFormats())

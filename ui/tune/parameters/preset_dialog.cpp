@@ -44,7 +44,7 @@ PresetDialog::PresetDialog(PresetLibrary& presets, ChainOptions present, QWidget
     : QDialog(parent), presets_(presets), present_(std::move(present)) {
     setWindowTitle(tr("Presets"));
     resize(900, 520);
-    list_ = presetTable({tr("Preset"), tr("Kept in"), tr("Saved")});
+    list_ = presetTable({tr("Preset"), tr("Stored in"), tr("Saved")});
     other_ = new QComboBox;
     other_->setAccessibleName(tr("Compare with"));
     differences_ = presetTable({tr("Parameter"), tr("Preset"), tr("Compared with")});

@@ -151,15 +151,14 @@ OpenedRuns SweepSession::openResumed(const Job& job, SweepPlan& plan, const std:
     for (const SweepClip& clip : plan.clips) {
         if (clip.run == 0) {
             throw Error(ErrorKind::parameter,
-                        "This sweep was begun by eyrie-cli over files; go on with it there "
-                        "(eyrie-cli sweep … --resume).");
+                        "This sweep was started by eyrie-cli on files; resume it there (eyrie-cli sweep … --resume).");
         }
         runs.push_back({clip.run, clip.ground_truth, clip.upright});
     }
     OpenedRuns opened = openRunsForSweep(job.project, runs, stop);
     for (std::size_t i = 0; i < runs.size(); ++i) {
         if (opened.clips[i].digest == plan.clips[i].digest) continue;
-        throw Error(ErrorKind::parameter, "The video or the true boxes of run " + std::to_string(runs[i].run_id) +
+        throw Error(ErrorKind::parameter, "The video or the ground truth of run " + std::to_string(runs[i].run_id) +
                                               " have changed since this sweep was begun, so its points would not "
                                               "belong together. Start a new sweep.");
     }

@@ -24,7 +24,7 @@ BoxesByFrame labelsOfProject(ProjectFile& project, const StoredRun& run) {
     if (std::all_of(truth.begin(), truth.end(), [](const auto& entry) { return entry.second.empty(); })) {
         throw Error(ErrorKind::input, "This project has no labels in the frames of run " +
                                           std::to_string(run.clip.run) +
-                                          ". Label (Ctrl+2) or import some, or choose a file of true boxes.");
+                                          ". Label (Ctrl+2) or import some, or choose a ground truth file.");
     }
     return truth;
 }
@@ -46,10 +46,11 @@ OpenedRuns openRunsForSweep(const std::filesystem::path& project_path, const std
         } else {
             if (!opened.clips.empty() && opened.clips.front().sequence != clip.sequence &&
                 opened.clips.front().ground_truth == clip.ground_truth) {
-                throw Error(ErrorKind::parameter, clip.ground_truth +
-                                                      ": one file of true boxes belongs to one video, "
-                                                      "but the runs chosen are of several. Use the "
-                                                      "labels of the project, or choose fewer runs.");
+                throw Error(
+                    ErrorKind::parameter,
+                    clip.ground_truth +
+                        ": a ground truth file belongs to one video, but the chosen runs are of several. Use the "
+                        "labels of the project, or choose fewer runs.");
             }
             ImportOptions options;
             options.image_size = clip.size;
