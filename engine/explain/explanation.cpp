@@ -86,12 +86,12 @@ void decideByFate(Story& story, const std::vector<const CornerVerdict*>& corners
             break;
         case CornerFate::too_fast:
             story.decide("The corners here move " + story.speedText(closest->speed) + ", at most " +
-                             story.speedText(closest->limit) + " are believed",
+                             story.speedText(closest->limit) + " are accepted",
                          closest->parameter);
             break;
         case CornerFate::parallax:
             story.decide("The corners here move along the epipolar lines, " + story.speedText(closest->speed) +
-                             ", no faster than standing things of this scene seem to",
+                             ", no faster than the parallax of what stands in this scene",
                          closest->parameter);
             break;
         case CornerFate::shadow:

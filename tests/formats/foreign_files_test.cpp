@@ -147,7 +147,7 @@ TEST_F(ForeignFiles, CvatPolygonsBecomeTheBoxesAroundThem) {
                         read("p.xml", head + "<polygon frame=\"0\" keyframe=\"1\" points=\"" + bad +
                                           "\"/></track></annotations>");
                     }),
-                    HasSubstr("no point"));
+                    HasSubstr("is not a point"));
     }
 }
 
@@ -203,7 +203,7 @@ TEST_F(ForeignFiles, OneBadEntryOfKwcocoIsLeftOutAndSaid) {
     EXPECT_EQ(labels.boxes.at(0)[0].score, 1);
     EXPECT_EQ(labels.boxes.at(0)[1].object_class, "class 1");
     EXPECT_THAT(labels.notes, Contains(AllOf(HasSubstr("annotations[1]"), HasSubstr("has a box in frame 0 already"))));
-    EXPECT_THAT(labels.notes, Contains(AllOf(HasSubstr("annotations[3].bbox[0]"), HasSubstr("is no number"))));
+    EXPECT_THAT(labels.notes, Contains(AllOf(HasSubstr("annotations[3].bbox[0]"), HasSubstr("is not a number"))));
     EXPECT_THAT(labels.notes, Contains(HasSubstr("1 category has no name")));
 }
 

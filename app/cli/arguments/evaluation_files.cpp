@@ -66,7 +66,7 @@ MotSequence readJsonDescription(const std::filesystem::path& file) {
         }
         if (number("frames")) sequence.frame_count = json["frames"].get<int>();
     } catch (const nlohmann::json::exception& error) {
-        throw Error(ErrorKind::input, file.string() + ": is no valid JSON: " + error.what());
+        throw Error(ErrorKind::input, file.string() + ": is not valid JSON: " + error.what());
     }
     return sequence;
 }

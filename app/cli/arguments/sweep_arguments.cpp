@@ -126,8 +126,9 @@ OpenedSources openStoredRuns(const SweepSources& sources, std::vector<StoredRun>
         SweepInput input = openClip(clip, opener(clip.sequence, clip.scale.frame_rate_hz), run.range, truth);
         input.cache->useStoredMotion(run.options, std::move(run.motion));
         if (signatureUpTo(run.options, SweepStage::motion) != signatureUpTo(options, SweepStage::motion))
-            opened.remarks.push_back("run " + std::to_string(clip.run) +
-                                     " has other motion vectors than the parameters given, so these are made anew");
+            opened.remarks.push_back(
+                "run " + std::to_string(clip.run) +
+                " has other motion vectors than the parameters given would find, so they are computed again");
         opened.inputs.push_back(std::move(input));
         opened.clips.push_back(std::move(clip));
     }

@@ -156,9 +156,9 @@ void importLabels(const ImportArguments& arguments) {
 
 void addImportCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<ImportArguments>();
-    CLI::App* command = app.add_subcommand(
-        "import",
-        "Take over labels of other programs, into a project or as our ground truth; shows first what it found");
+    CLI::App* command = app.add_subcommand("import",
+                                           "Import labels of other programs into a project, or convert them to Eyrie's "
+                                           "ground truth; first shows what it found");
     command->add_option("file", arguments->file, "File or folder of labels")->required();
     addLabelOptions(*command, arguments->labels, "--format", "--columns");
     command->add_option("--sequence-name", arguments->labels.sequence, "Video to take from a KWCOCO file with several");
@@ -177,7 +177,7 @@ void addImportCommand(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0.0, 1000.0));
     command
         ->add_flag("--add-doubles", arguments->add_doubles,
-                   "Take objects that the project has already with the same boxes all the same")
+                   "Also import objects that the project already has with the same boxes")
         ->needs(project);
     command
         ->add_flag(
@@ -185,7 +185,7 @@ void addImportCommand(CLI::App& app, int& exit_code) {
             "Link boxes without id that overlap from frame to frame to objects; without, each is an object of one "
             "frame")
         ->needs(project);
-    command->add_option("--out", arguments->out, "Write our ground truth CSV instead")->excludes(project);
+    command->add_option("--out", arguments->out, "Write Eyrie's ground truth CSV instead")->excludes(project);
     arguments->outputs.addTo(*command);
     command->add_flag("--show", arguments->show, "Only show what is in the file");
     command->callback([arguments, &exit_code] {

@@ -84,7 +84,7 @@ void listBoxErrors(List& list, const BoxErrors& e) {
     list.real("length_bias_px", "length bias, px", "mean of result - truth", known(e.length_bias_px), 2);
     list.real("width_error_px", "width error, px", "mean absolute", known(e.width_px), 2);
     list.real("width_bias_px", "width bias, px", "mean of result - truth", known(e.width_bias_px), 2);
-    list.real("heading_error_deg", "heading error, deg", "mean absolute, front and rear told apart",
+    list.real("heading_error_deg", "heading error, deg", "mean absolute, front and rear distinguished",
               heading(e.heading_degrees), 2);
     list.real("axis_error_deg", "axis error, deg", "mean absolute, modulo 180", heading(e.heading_axis_degrees), 2);
 }

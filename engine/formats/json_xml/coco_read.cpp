@@ -148,7 +148,7 @@ class CocoReader {
             const JsonPlace result = root_.at(i);
             orLeaveOut([&] {
                 const int image = result.at("image_id").whole();
-                if (image < 0 || image >= kFrameLimit) result.at("image_id").fail("is no frame");
+                if (image < 0 || image >= kFrameLimit) result.at("image_id").fail("is not a frame");
                 images_[image] = {image, true};
                 readAnnotation(result);
             });

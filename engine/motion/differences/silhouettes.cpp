@@ -201,7 +201,8 @@ void SilhouetteOptions::describe(ParameterVisitor& visitor) {
                  {"m/s", "Slower vehicles get no silhouette.", ""});
     visitor.real("motion.silhouette_max_length", max_length_m, 1, 200,
                  {"m", "Longer silhouettes are no single vehicle and are not used.", ""});
-    visitor.real("motion.silhouette_max_width", max_width_m, 1, 50, {"m", "Wider ones neither.", ""});
+    visitor.real("motion.silhouette_max_width", max_width_m, 1, 50,
+                 {"m", "Wider silhouettes are not used either.", ""});
 }
 
 Silhouettes::Silhouettes(const SilhouetteOptions& options, const SceneScale& scale)

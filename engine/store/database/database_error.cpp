@@ -51,8 +51,8 @@ Error databaseError(const std::filesystem::path& path, const std::string& doing,
             }
             break;
         case SQLITE_NOMEM:
-            return Error(ErrorKind::project, "the memory of this machine does not suffice for the project " + file +
-                                                 " (" + why + "); close other programs");
+            return Error(ErrorKind::project,
+                         "not enough memory for the project " + file + " (" + why + "); close other programs");
         case SQLITE_CONSTRAINT:
             if (exception.getExtendedErrorCode() == SQLITE_CONSTRAINT_FOREIGNKEY) {
                 return Error(ErrorKind::project, "the run was removed from the project " + file +

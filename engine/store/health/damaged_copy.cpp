@@ -212,7 +212,7 @@ DamagedCopy copyDamaged(const Path& project, const Path& folder, const CopyWatch
         copyCompanion(project, copy, "-wal");
     }
     if (mendHeader(copy, has_log))
-        result.notes.push_back("the beginning of the file (header) was damaged and was made anew");
+        result.notes.push_back("the beginning of the file (header) was damaged and was rebuilt");
     if (!hasTables(copy)) {
         removeDatabase(copy.string() + "-wal");
         replaceTables(copy, folder);

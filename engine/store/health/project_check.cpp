@@ -162,7 +162,9 @@ HealthItem lookAround(const Path& path) {
     for (; !failed && entries != std::filesystem::directory_iterator(); entries.increment(failed)) {
         const std::string other = entries->path().filename().string();
         if (other.starts_with(name + ".new-") || other.starts_with(name + ".repair-")) {
-            found.push_back(other + " is a rest of a program that was killed, or works now; it may be deleted then");
+            found.push_back(
+                other +
+                " was left by a program that was killed, unless one is writing it now; if not, it may be deleted");
         } else if (other.starts_with(name + "-wal.left-")) {
             found.push_back(other + " holds changes of a project that lay here before");
         }

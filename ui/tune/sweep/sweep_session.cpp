@@ -159,8 +159,8 @@ OpenedRuns SweepSession::openResumed(const Job& job, SweepPlan& plan, const std:
     for (std::size_t i = 0; i < runs.size(); ++i) {
         if (opened.clips[i].digest == plan.clips[i].digest) continue;
         throw Error(ErrorKind::parameter, "The video or the ground truth of run " + std::to_string(runs[i].run_id) +
-                                              " have changed since this sweep was begun, so its points would not "
-                                              "belong together. Start a new sweep.");
+                                              " have changed since this sweep was started, so its points would not be "
+                                              "comparable. Start a new sweep.");
     }
     return opened;
 }
