@@ -295,10 +295,10 @@ Explanation explain(const PlaceEvidence& evidence, const ChainOptions& options, 
     if (stored != nullptr) {
         const std::string miss = story.told.sentence;
         story.told.found = true;
-        story.told.sentence = "Found: track " + std::to_string(stored->id) + ", " + nameOf(stored->status) + ", " +
+        story.told.sentence = "Track " + std::to_string(stored->id) + " is here: " + nameOf(stored->status) + ", " +
                               nameOf(stored->origin);
         if (story.decided)
-            story.told.sentence += " – but not by a detection of its own in this frame. " + miss;
+            story.told.sentence += ", but without a detection of its own in this frame. " + miss;
         else
             story.told.sentence += ".";
         if (!story.decided) story.told.parameter.clear();

@@ -170,7 +170,7 @@ TEST_F(DamagedLabels, CvatNamesTheLine) {
     EXPECT_THAT(refusal("cvat", "<annotations><track id=\"1\" label=\"a\"><box " + good +
                                     "/><box frame=\"9999999\" keyframe=\"1\" xtl=\"1\" ytl=\"1\" xbr=\"2\" ybr=\"2\"/>"
                                     "</track></annotations>"),
-                HasSubstr("span more frames than can be meant"));
+                HasSubstr("span implausibly many frames"));
 }
 
 TEST_F(DamagedLabels, EntitiesThatGrowAreRefused) {

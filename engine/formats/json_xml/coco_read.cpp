@@ -252,7 +252,7 @@ class CocoReader {
         shapes_.tell(labels_);
         say(unnamed_categories_, "category has", "categories have", " no name and are called by their number");
         say(by_confidence_, "annotation takes", "annotations take",
-            " the class of the highest confidence, which is another than category_id");
+            " the class of the highest confidence, which differs from category_id");
         say(static_cast<int>(named_.size()), "track has a name", "tracks have names", " for an id and got a number");
         left_out_.tell(labels_);
     }

@@ -287,7 +287,7 @@ class CvatReader {
             labels_.not_filled += next - end;
             count_ += end - begin;
             if (count_ > kMostBoxes + kMostBoxesPerElement * elements_)
-                text_.fail(track, "the keyframes span more frames than can be meant");
+                text_.fail(track, "the keyframes span implausibly many frames");
             const bool moves = !last;
             for (FrameIndex frame = begin; frame < end; ++frame) {
                 FileBox box = moves ? between(boxes[i], boxes[i + 1], frame) : boxes[i];

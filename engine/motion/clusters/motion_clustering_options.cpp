@@ -28,12 +28,11 @@ void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
     visitor.real("clustering.across", across_m, 0.1, 50,
                  {"m", "Motion vectors are linked up to this distance across their motion. Larger: lanes merge.",
                   "Teutsch §4.2"});
-    visitor.real(
-        "clustering.roof_length", roof_length_m, 0, 50,
-        {"m",
-         "Up to this distance along their motion vectors are linked that move twice as alike, when no standing "
-         "corner lies between them: front and rear of a plain roof. 0: off.",
-         ""});
+    visitor.real("clustering.roof_length", roof_length_m, 0, 50,
+                 {"m",
+                  "Up to this distance along their motion, vectors that move twice as alike are linked when no "
+                  "standing corner lies between them: front and rear of a plain roof. 0: off.",
+                  ""});
     visitor.real("clustering.min_distance", min_distance_px, 0, 100,
                  {"px", "Lowest linkage distance, whatever the ground sampling distance.", ""});
     visitor.real("clustering.velocity_share", velocity_share, 0, 1,

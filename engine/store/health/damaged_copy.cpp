@@ -203,8 +203,8 @@ DamagedCopy copyDamaged(const Path& project, const Path& folder, const CopyWatch
         if (!copyBytes(project, copy, watch)) return stopped();
         if (isSound(copy)) {
             result.notes.push_back(
-                "the log beside the project contradicts it and was left out, and with it the newest "
-                "changes, if they were of this project");
+                "the log beside the project contradicts it and was left out, with the newest changes if they were of "
+                "this project");
             return result;
         }
         removeDatabase(copy);
