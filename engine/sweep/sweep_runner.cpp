@@ -156,7 +156,7 @@ BoxesByFrame truthWithin(const BoxesByFrame& truth, FrameIndex first, FrameIndex
                                             std::to_string(truth.rbegin()->first);
         throw Error(ErrorKind::input, ground_truth + ": holds no box in the frames to be swept, " +
                                           std::to_string(first) + " to " + std::to_string(last) + ", " + known +
-                                          "; is it the truth of this video, and does it count frames alike?");
+                                          "; is it the ground truth of this video, and does it count frames alike?");
     }
     return within;
 }

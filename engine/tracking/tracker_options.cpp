@@ -44,7 +44,7 @@ void describeAssociation(TrackerOptions& o, ParameterVisitor& v) {
             "the track's size. 0 switches the test off.",
             ""});
     v.integer("tracking.size_patience", o.size_patience, 1, 1000,
-              {"frames", "After so many such detections in a row the new size is believed.", ""});
+              {"frames", "After this many such detections in a row the new size is accepted.", ""});
     v.real("tracking.car_length", o.car_length_m, 0, 50,
            {"m", "Length of a usual car. A first box that is shorter is expected to grow.", ""});
     v.real("tracking.car_width", o.car_width_m, 0, 20,

@@ -234,9 +234,9 @@ TEST_F(DamagedLabels, CocoNamesTheEntry) {
 TEST_F(DamagedLabels, UnknownFilesAreRefusedWithAdvice) {
     EXPECT_THAT(refusal("auto", ""), HasSubstr("is empty"));
     EXPECT_THAT(refusal("auto", "hello world\nthis is prose\n"),
-                AllOf(HasSubstr("no format that is known"), HasSubstr("--format")));
+                AllOf(HasSubstr("matches no known format"), HasSubstr("--format")));
     EXPECT_THAT(messageOf([&] { readLabels(folder_ / "absent.txt"); }), HasSubstr("absent.txt: there is no such file"));
-    EXPECT_THAT(messageOf([&] { readLabels(folder_.path()); }), HasSubstr("the folder looks like no format"));
+    EXPECT_THAT(messageOf([&] { readLabels(folder_.path()); }), HasSubstr("the folder matches no known label format"));
     EXPECT_THAT(messageOf([&] { readLabels(folder_.path(), "nonsense"); }),
                 HasSubstr("\"nonsense\" is unknown; there are native"));
     for (const LabelFormatInfo& info : labelFormats()) {

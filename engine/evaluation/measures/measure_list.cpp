@@ -103,8 +103,8 @@ std::vector<std::string> remarksOn(const Measures& measures) {
     std::vector<std::string> remarks;
     if (measures.shared_frames == 0) {
         remarks.push_back(
-            "truth and result have no frame in common; check that both belong to the same video and "
-            "count frames alike (ours from 0, MOTChallenge from 1)");
+            "ground truth and result have no frame in common; check that both belong to the same video and "
+            "count frames alike (Eyrie from 0, MOTChallenge from 1)");
     }
     const DetectionMeasures& detection = measures.detection;
     const int fewer = std::min(detection.ground_truth, detection.true_positives + detection.false_positives);

@@ -175,6 +175,7 @@ void ObjectInspector::showObject(const std::optional<ObjectDetails>& details) {
     joins_->clear();
     for (const JoinOffer& offer : details->joins) {
         auto* item = new QListWidgetItem(offer.text, joins_);
+        item->setToolTip(offer.text);
         item->setData(Qt::UserRole, offer.object);
     }
     joins_heading_->setVisible(!details->joins.empty());

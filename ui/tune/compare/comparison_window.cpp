@@ -50,7 +50,9 @@ QTableWidgetItem* number(double value, int row) {
 }
 
 QTableWidgetItem* words(const QString& text) {
-    return new QTableWidgetItem(text);
+    auto* item = new QTableWidgetItem(text);
+    item->setToolTip(text);
+    return item;
 }
 
 QString idText(const std::optional<int>& id) {
