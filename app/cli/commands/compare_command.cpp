@@ -262,11 +262,13 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->check(CLI::IsMember({"on", "off"}))
         ->capture_default_str();
-    command->add_option("--overlap", arguments->overlaps, "Lowest overlaps T_ov at which a box counts as found")
+    command
+        ->add_option("--overlap", arguments->overlaps,
+                     "Smallest overlap T_ov at which a box counts as found; several are possible")
         ->delimiter(',')
         ->capture_default_str();
     command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel");
-    command->add_option("--fps", arguments->frame_rate_hz, "Frames per second, when the video does not tell");
+    command->add_option("--fps", arguments->frame_rate_hz, "Frames per second, when the video does not state it");
     command->add_option("--frames", arguments->frames, "First and last frame, both included, from 0: A:B, A: or :B");
     command->add_flag("--vehicles", arguments->options.vehicles_only,
                       "Only vehicles count; other objects of the ground truth are ignored");

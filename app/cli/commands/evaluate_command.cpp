@@ -195,7 +195,9 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
     command->add_option("--run", arguments->run, "Number of the run (default: the last)")->needs(project);
     command->add_flag("--detections", arguments->detections, "Measure the run's detections instead of its tracks")
         ->needs(project);
-    command->add_option("--overlap", arguments->overlaps, "Lowest overlaps T_ov at which a box counts as found")
+    command
+        ->add_option("--overlap", arguments->overlaps,
+                     "Smallest overlap T_ov at which a box counts as found; several are possible")
         ->capture_default_str();
     command->add_flag("--vehicles", arguments->options.vehicles_only,
                       "Only vehicles count; other objects of the ground truth are ignored");

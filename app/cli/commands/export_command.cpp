@@ -87,13 +87,11 @@ void addExportCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<ExportArguments>();
     arguments->options.sequence.clear();
     CLI::App* command =
-        app.add_subcommand("export", "Write labels or tracks for other programs; says what their format cannot carry");
+        app.add_subcommand("export", "Write labels or tracks for other programs; says what their format cannot hold");
     CLI::Option* project = command->add_option("--project", arguments->project, "Project with the labels or runs");
     CLI::Option* run =
         command->add_option("--run", arguments->run, "Tracks of this run (default: the last)")->needs(project);
-    command->add_flag("--labels", arguments->labels, "What people labelled instead of a run")
-        ->needs(project)
-        ->excludes(run);
+    command->add_flag("--labels", arguments->labels, "Labels instead of a run")->needs(project)->excludes(run);
     command->add_flag("--detections", arguments->detections, "The run's detections instead of its tracks")
         ->needs(project);
     command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
@@ -115,7 +113,8 @@ void addExportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--benchmark", arguments->options.benchmark, "TrackEval: name of the benchmark")
         ->capture_default_str();
     command->add_option("--split", arguments->options.split, "TrackEval: name of the split")->capture_default_str();
-    command->add_option("--tracker", arguments->options.tracker, "TrackEval: write a tracker's result of this name");
+    command->add_option("--tracker", arguments->options.tracker,
+                        "TrackEval: write the result of a tracker of this name");
     arguments->outputs.addTo(*command);
     command->callback([arguments, &exit_code] {
         if (arguments->from.empty() == arguments->project.empty()) {

@@ -165,13 +165,12 @@ void addImportCommand(CLI::App& app, int& exit_code) {
     CLI::Option* project = command->add_option("--project", arguments->project, "Project that gets the labels");
     command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
         ->needs(project);
-    command
-        ->add_option("--video", arguments->video, "Video that the labels belong to, for a project that knows none yet")
+    command->add_option("--video", arguments->video, "Video that the labels belong to, for a project that has none yet")
         ->needs(project);
     command
         ->add_option(
             "--tolerance", arguments->tolerance_px,
-            "How far interpolated boxes may be from the file's, px (below 0.5 whole pixels come back as they were); "
+            "How far interpolated boxes may be from the file's, px (below 0.5, whole pixels come back exactly); "
             "0 makes every box a keyframe")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1000.0));
@@ -180,10 +179,9 @@ void addImportCommand(CLI::App& app, int& exit_code) {
                    "Also import objects that the project already has with the same boxes")
         ->needs(project);
     command
-        ->add_flag(
-            "--link", arguments->link,
-            "Link boxes without id that overlap from frame to frame to objects; without, each is an object of one "
-            "frame")
+        ->add_flag("--link", arguments->link,
+                   "Link boxes without ids into objects where they overlap from frame to frame; without this, each is "
+                   "an object of one frame")
         ->needs(project);
     command->add_option("--out", arguments->out, "Write Eyrie's ground truth CSV instead")->excludes(project);
     arguments->outputs.addTo(*command);

@@ -302,7 +302,7 @@ void addRunCommand(CLI::App& app, int& exit_code) {
         "Project file; made when it does not exist, else a run is added (default: INPUT's name in this folder)");
     command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel");
     command->add_option("--fps", arguments->frame_rate_hz,
-                        "Frames per second, when the video does not tell or is wrong");
+                        "Frames per second, when the video does not state it or is wrong");
     command->add_option("--frames", arguments->frames, "First and last frame, both included, from 0: A:B, A: or :B");
     command->add_flag("--resume", arguments->resume,
                       "Resume a run that ended early; the result is the same as without the break. With INPUT: the "

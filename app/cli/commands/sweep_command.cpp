@@ -210,12 +210,14 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
         ->add_option("--parameter", arguments->axes,
                      "What to change: NAME=FIRST:STEP:LAST or NAME=VALUE,VALUE,…; once or twice")
         ->required();
-    command->add_option("--overlap", arguments->overlaps, "Lowest overlaps T_ov at which a box counts as found")
+    command
+        ->add_option("--overlap", arguments->overlaps,
+                     "Smallest overlap T_ov at which a box counts as found; several are possible")
         ->delimiter(',')
         ->capture_default_str();
     command->add_option("--gsd", sources.gsds,
                         "Ground sampling distance in metres per pixel: one, or one for each sequence");
-    command->add_option("--fps", sources.frame_rate_hz, "Frames per second, when the video does not tell");
+    command->add_option("--fps", sources.frame_rate_hz, "Frames per second, when the video does not state it");
     command->add_option("--frames", sources.frames, "First and last frame, both included, from 0: A:B, A: or :B");
     command->add_flag("--vehicles", arguments->vehicles_only,
                       "Only vehicles count; other objects of the ground truth are ignored");

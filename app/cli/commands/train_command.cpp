@@ -190,7 +190,7 @@ void addTrainCommand(CLI::App& app, int& exit_code) {
                         "Video, image folder or scene:NAME whose labelled vehicles are cut out");
     command->add_option("--ground-truth", arguments->ground_truths, "Table of boxes for each --images");
     command->add_option("--every", arguments->every, "Use every n-th frame of --images")->capture_default_str();
-    command->add_option("--rendered", arguments->rendered, "Also train on this many frames rendered of built-in scenes")
+    command->add_option("--rendered", arguments->rendered, "Also train on this many rendered frames of built-in scenes")
         ->check(CLI::Range(0, 10000));
     command->add_option("--out", arguments->out, "The model file to write")->required();
     command->add_option("--seed", arguments->seed, "Seed of everything drawn at random (default 1)");

@@ -74,7 +74,7 @@ void GradientOptions::describe(ParameterVisitor& visitor) {
     visitor.flag("gradient.need_support", need_support,
                  {"", "Keep only components that hold motion vectors of the cluster itself.", ""});
     visitor.real("gradient.support_share", support_share, 0, 1,
-                 {"", "… at least this share of the cluster's vectors.", ""});
+                 {"", "Components kept for their motion vectors hold at least this share of the cluster's.", ""});
     visitor.flag(
         "gradient.handle_cut", handle_cut,
         {"", "Components cut by the edge of the search area (kerbs, walls) keep only their part near the vectors.",

@@ -43,7 +43,10 @@ void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
     visitor.real("clustering.velocity_floor", velocity_floor_px, 0, 5,
                  {"px/frame", "Linked vectors may always differ in velocity by this.", ""});
     visitor.real("clustering.velocity_noise_factor", velocity_noise_factor, 0, 10,
-                 {"", "… or by this many deviations of the background's residual speed.", ""});
+                 {"",
+                  "Linked vectors may always differ in velocity by this many deviations of the background's residual "
+                  "speed, too.",
+                  ""});
     visitor.real("clustering.velocity_noise_limit", velocity_noise_limit_px, 0, 5,
                  {"px/frame", "The background's noise does not raise the allowed difference beyond this.", ""});
     visitor.integer("clustering.min_members", min_members, 1, 1000, {"vectors", "Smaller clusters are dropped.", ""});

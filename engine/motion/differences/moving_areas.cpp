@@ -167,19 +167,22 @@ void MovingAreaOptions::describe(ParameterVisitor& visitor) {
         {"", "Where a car carries at least this many corners, areas are used only if they agree very well.", ""});
     visitor.real("motion.area_gap", gap_s, 0.01, 10,
                  {"s", "Time between the three pictures that are compared. Longer: slower vehicles.", ""});
-    visitor.real("motion.area_noise_factor", noise_factor, 0, 100,
-                 {"", "Pixels differ if they exceed this many deviations of the frame's own differences …", ""});
-    visitor.real("motion.area_contrast", min_contrast, 0, 255, {"grey", "… and this difference.", ""});
+    visitor.real(
+        "motion.area_noise_factor", noise_factor, 0, 100,
+        {"", "Pixels differ where the difference exceeds this many deviations of the frame's own differences.", ""});
+    visitor.real("motion.area_contrast", min_contrast, 0, 255,
+                 {"grey", "Pixels differ where the difference exceeds this, too.", ""});
     visitor.real("motion.area_min_size", min_area_m2, 0, 1000, {"m²", "Smaller areas are left out.", ""});
-    visitor.integer("motion.area_min_size_px", min_area_px, 1, 100000, {"px²", "… whatever the scale.", ""});
+    visitor.integer("motion.area_min_size_px", min_area_px, 1, 100000,
+                    {"px²", "Areas of fewer pixels are left out, whatever the scale.", ""});
     visitor.real("motion.area_max_length", max_length_m, 0.1, 1000, {"m", "Longer areas are left out.", ""});
     visitor.real(
         "motion.area_min_shift", min_shift_px, 0, 50,
         {"px", "Areas that moved less between two of the pictures may be misregistered and are left out.", ""});
     visitor.real("motion.area_min_correlation", min_correlation, -1, 1,
-                 {"", "Lowest correlation of an area's pixels with where they went and where they came from …", ""});
+                 {"", "Lowest correlation of an area's pixels with where they went and where they came from.", ""});
     visitor.real("motion.area_sure_correlation", sure_correlation, -1, 1,
-                 {"", "… and where a car carries motion.area_few_corners corners or more.", ""});
+                 {"", "The same where a car carries motion.area_few_corners corners or more.", ""});
 }
 
 int MovingAreaOptions::gapFrames(const SceneScale& scale) const {

@@ -148,7 +148,7 @@ QWidget* EvaluationPanel::buildChoices() {
     overlap_->setDecimals(2);
     overlap_->setPrefix(tr("T_ov "));
     overlap_->setKeyboardTracking(false);
-    overlap_->setToolTip(tr("Lowest overlap at which an object counts as found, for errors, objects and curves"));
+    overlap_->setToolTip(tr("Smallest overlap at which an object counts as found, for errors, objects and curves"));
     other_ = new QComboBox;
     other_->setToolTip(tr("Another run over the same video; tells whether the difference is more than chance"));
     other_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);

@@ -66,7 +66,7 @@ SweepForm::SweepForm(QWidget* parent) : QWidget(parent) {
     truth_->setToolTip(tr("The ground truth that every point is measured against"));
     grid->addWidget(truth_, 5, 1);
     overlaps_ = new QLineEdit(QStringLiteral("0.1, 0.2, 0.3"), this);
-    overlaps_->setToolTip(tr("Lowest overlaps T_ov at which a box counts as found"));
+    overlaps_->setToolTip(tr("Smallest overlap T_ov at which a box counts as found; several are possible"));
     auto* overlap_label = new QLabel(tr("T_ov"), this);
     auto* overlap_line = new QHBoxLayout;
     overlap_line->setSpacing(6);
