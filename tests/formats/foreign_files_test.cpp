@@ -182,7 +182,7 @@ TEST_F(ForeignFiles, OneBadRowOfViameIsLeftOutAndSaid) {
         EXPECT_THAT(labels.notes, Contains(AllOf(HasSubstr("left out"), HasSubstr(place), HasSubstr(reason))));
     };
     leftOut("d.csv:3:", "right edge is left of the left one");
-    leftOut("d.csv:4:", "no number");
+    leftOut("d.csv:4:", "is not a number");
     leftOut("d.csv:6:", "has a box in this frame already");
     leftOut("d.csv:7:", "never closed");
     // a name with a comma in the first line is no hindrance to knowing the format
@@ -241,7 +241,7 @@ TEST_F(ForeignFiles, UavdtSaysWhatItCannotCarry) {
     std::vector<std::string> remarks = report.notes;
     for (const ExportLoss& loss : report.losses) remarks.push_back(loss.remark);
     EXPECT_EQ(report.lost(LossKind::occlusion), 1);
-    EXPECT_THAT(remarks, Contains(HasSubstr("1 box partly hidden became a medium occlusion")));
+    EXPECT_THAT(remarks, Contains(HasSubstr("1 box partly occluded became medium occlusion")));
     EXPECT_THAT(remarks, Contains(HasSubstr("1 box reaching beyond the image")));
     EXPECT_THAT(remarks, Contains(HasSubstr("written as in view (1)")));
 }

@@ -165,7 +165,7 @@ void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptio
     report.add(LossKind::class_name, classes_of_areas, "are ignored and lost their class and id");
     report.add(LossKind::occlusion, fully, "fully occluded became large occlusion, the highest degree of UAVDT");
     report.add(LossKind::occlusion, partly, "partly occluded became medium occlusion, as the degree is unknown");
-    report.add(LossKind::other, beyond, "reaching beyond the image: how far out of view they are was not kept");
+    report.add(LossKind::other, beyond, "reaching beyond the image: how far out of view was not kept");
     if (objects > 0)
         report.notes.push_back("every box is written as in view (1): how far one is out of view is not kept");
 }
