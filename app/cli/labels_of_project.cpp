@@ -10,7 +10,7 @@ SequenceRecord chosenSequence(ProjectFile& project, std::optional<int> id) {
     const std::string name = project.path().string();
     if (sequences.empty()) {
         throw Error(ErrorKind::project,
-                    name + ": knows no video; make a run first (eyrie-cli run) or name the video (--video)");
+                    name + ": holds no video; make a run first (eyrie-cli run) or name the video (--video)");
     }
     if (!id && sequences.size() == 1) return sequences.front();
     std::string known;

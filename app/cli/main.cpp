@@ -83,8 +83,7 @@ int commandOf(int argc, char** argv) {
                      error.code().message().c_str());
         return eyrie::cli::exit_input;
     } catch (const std::bad_alloc&) {
-        std::fputs("eyrie-cli: the memory of this machine does not suffice; close other programs or use fewer frames\n",
-                   stderr);
+        std::fputs("eyrie-cli: not enough memory; close other programs or use fewer frames\n", stderr);
         return eyrie::cli::exit_input;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "eyrie-cli: unexpected: %s\n", error.what());

@@ -293,9 +293,8 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
     } catch (const Error& error) {
         fail(error.kind(), error.what());
     } catch (const std::bad_alloc&) {
-        fail(ErrorKind::input, source.info().path.string() +
-                                   ": the memory of this machine does not suffice; close other programs or use fewer "
-                                   "frames");
+        fail(ErrorKind::input,
+             source.info().path.string() + ": not enough memory; close other programs or use fewer frames");
     } catch (const std::exception& error) {
         fail(ErrorKind::internal, error.what());
     }

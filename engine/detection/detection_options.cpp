@@ -69,7 +69,7 @@ void DetectionOptions::describe(ParameterVisitor& visitor) {
                  {"", "Search areas are motion clusters extended by this factor along the motion, to catch split ones.",
                   "Teutsch §5.4"});
     visitor.real("detection.extend_across", extend_across, 1, 10,
-                 {"", "… and by this factor across the motion.", "Teutsch §5.4"});
+                 {"", "Search areas are motion clusters extended by this factor across the motion.", "Teutsch §5.4"});
     visitor.real("detection.min_roi_length", min_roi_length_m, 0, 100,
                  {"m", "A search area is at least this long.", ""});
     visitor.real("detection.min_roi_width", min_roi_width_m, 0, 100, {"m", "A search area is at least this wide.", ""});

@@ -164,9 +164,8 @@ std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const MistakeEv
         if (overlap(alarm.box.scaled(kBesideIgnored, kBesideIgnored),
                     ignored.box.scaled(kBesideIgnored, kBesideIgnored)) > 0)
             return CauseHere{MistakeCause::ignored_object,
-                             ignored.object_class.empty()
-                                 ? std::string()
-                                 : "beside an object that does not count (" + ignored.object_class + ")"};
+                             ignored.object_class.empty() ? std::string()
+                                                          : "beside an ignored object (" + ignored.object_class + ")"};
     }
     return std::nullopt;
 }
@@ -324,15 +323,15 @@ const char* explanationOf(MistakeCause cause) {
         case MistakeCause::duplicate:
             return "A second box on an object that is found already (duplicates.*).";
         case MistakeCause::ignored_object:
-            return "It lies beside an object that does not count, such as a person or a standing vehicle.";
+            return "It lies beside an ignored object, such as a person or a standing vehicle.";
         case MistakeCause::outside_image:
             return "Its middle lies outside the image: the track goes on after the object has left.";
         case MistakeCause::coasting:
             return "The track went on by prediction although nothing was detected (tracking.*).";
         case MistakeCause::shadow:
-            return "It moves along beside an object: probably its shadow (motion.shadow.*).";
+            return "It moves along beside an object: probably its shadow (motion.shadow_*).";
         case MistakeCause::parallax:
-            return "It moves as a standing thing above the ground seems to under this camera (motion.parallax.*).";
+            return "It moves like the parallax of something that stands above the ground (motion.parallax_*).";
         case MistakeCause::unlabelled:
             return "It moves steadily, but no object is there. The ground truth may lack it.";
         case MistakeCause::swapped:

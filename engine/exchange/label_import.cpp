@@ -169,8 +169,8 @@ LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const C
     if (result.loose.boxes > 0) {
         result.notes.push_back(std::to_string(result.loose.boxes) + " boxes have no id; " +
                                (loose == LooseBoxes::link
-                                    ? "linked by their overlap from frame to frame they are " +
-                                          std::to_string(result.loose.objects) + " objects, to be looked through"
+                                    ? "linked by their overlap from frame to frame into " +
+                                          std::to_string(result.loose.objects) + " objects; please check them"
                                     : "each is an object of one frame, unless they are linked"));
     }
     if (doubles == Doubles::skip) result.doubles = leaveDoublesOut(imported, labels, camera, store, tolerance_px);

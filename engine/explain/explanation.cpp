@@ -86,12 +86,12 @@ void decideByFate(Story& story, const std::vector<const CornerVerdict*>& corners
             break;
         case CornerFate::too_fast:
             story.decide("The corners here move " + story.speedText(closest->speed) + ", at most " +
-                             story.speedText(closest->limit) + " are believed",
+                             story.speedText(closest->limit) + " are accepted",
                          closest->parameter);
             break;
         case CornerFate::parallax:
             story.decide("The corners here move along the epipolar lines, " + story.speedText(closest->speed) +
-                             ", no faster than standing things of this scene seem to",
+                             ", no faster than the parallax of what stands in this scene",
                          closest->parameter);
             break;
         case CornerFate::shadow:
@@ -295,10 +295,10 @@ Explanation explain(const PlaceEvidence& evidence, const ChainOptions& options, 
     if (stored != nullptr) {
         const std::string miss = story.told.sentence;
         story.told.found = true;
-        story.told.sentence = "Found: track " + std::to_string(stored->id) + ", " + nameOf(stored->status) + ", " +
+        story.told.sentence = "Track " + std::to_string(stored->id) + " is here: " + nameOf(stored->status) + ", " +
                               nameOf(stored->origin);
         if (story.decided)
-            story.told.sentence += " – but not by a detection of its own in this frame. " + miss;
+            story.told.sentence += ", but without a detection of its own in this frame. " + miss;
         else
             story.told.sentence += ".";
         if (!story.decided) story.told.parameter.clear();

@@ -120,7 +120,7 @@ void tellNoCluster(Story& story, const std::set<int>& here, const Linkage& linka
     const auto needed = static_cast<std::size_t>(clustering.minMembersFor(motion));
     const bool by_density = static_cast<int>(needed) > story.options.clustering.min_members;
     const std::string count_parameter = by_density ? "clustering.min_density_share" : "clustering.min_members";
-    const std::string text = countText(largest, "motion vector hangs", "motion vectors hang") + " together here, " +
+    const std::string text = countText(largest, "motion vector is", "motion vectors are") + " linked here, " +
                              std::to_string(needed) + " are needed";
     if (largest < needed) {
         story.fail("clustering", text, count_parameter);
@@ -164,7 +164,7 @@ void tellNoCluster(Story& story, const std::set<int>& here, const Linkage& linka
                      "clustering.max_width");
         return;
     }
-    story.fail("clustering", "left over when a cluster that is too wide was split", "clustering.split_width");
+    story.fail("clustering", "left over when a cluster that was too wide was split", "clustering.split_width");
     story.decide(
         "The vectors here were left over when a cluster of " + story.lengthText(box.width) + " width was split",
         "clustering.split_width");
@@ -221,7 +221,7 @@ bool tellClusters(Story& story, std::vector<int>& clusters) {
         if (gap.other >= 0 && gap.distance < 4)
             story.note("clustering",
                        "the nearest vector outside is " + gapText(gap, linkage, story) +
-                           (split ? "; they came apart when a cluster that is too large was split" : ""),
+                           (split ? "; they came apart when a cluster that was too large was split" : ""),
                        split ? "clustering.split_width" : parameterOf(gap, linkage, story));
     }
     if (clusters.size() > 1)

@@ -139,8 +139,8 @@ bool tellRemoval(Story& story, std::vector<int>& detections) {
                 const auto pair = std::find_if(pairs.begin(), pairs.end(),
                                                [&](const RemovedDuplicate& d) { return d.removed == index; });
                 if (pair == pairs.end()) {
-                    story.note("removal", "given up as a duplicate of another detection", "duplicates.threshold");
-                    why = "The detection here was given up as a duplicate of another";
+                    story.note("removal", "removed as a duplicate of another detection", "duplicates.threshold");
+                    why = "The detection here was removed as a duplicate of another";
                     parameter = "duplicates.threshold";
                     break;
                 }
@@ -148,7 +148,7 @@ bool tellRemoval(Story& story, std::vector<int>& detections) {
                 const std::string text =
                     parts ? "joined with another part of a vehicle: together " + story.lengthText(pair->value) +
                                 " long, up to " + story.lengthText(pair->limit) + " are one vehicle"
-                          : "given up as a duplicate: overlaps another detection by " + numberText(pair->value) +
+                          : "removed as a duplicate: overlaps another detection by " + numberText(pair->value) +
                                 ", duplicates overlap by " + numberText(pair->limit);
                 story.note("removal", text, pair->parameter);
                 why = "The detection here was " + text;

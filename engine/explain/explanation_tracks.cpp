@@ -102,7 +102,7 @@ void tellTracks(Story& story, const std::vector<int>& detections) {
                          (track.ended_by == "tracking.min_visible" ? " of its box is in the picture, more than "
                                                                    : " frames without evidence, at most ") +
                          numberText(track.ended_limit) +
-                         (track.ended_by == "tracking.min_visible" ? " is needed" : " are borne"),
+                         (track.ended_by == "tracking.min_visible" ? " is needed" : " are allowed"),
                      track.ended_by);
     }
     for (const int index : detections) {

@@ -63,7 +63,7 @@ int numberFromOne(std::map<ObjectId, LabelledObject>& objects, std::vector<std::
         moved.emplace(object.id, std::move(object));
     }
     objects = std::move(moved);
-    notes.push_back("ids were raised by " + std::to_string(step) + ": ours count from 1");
+    notes.push_back("ids were raised by " + std::to_string(step) + ": Eyrie's count from 1");
     return step;
 }
 

@@ -69,8 +69,8 @@ void reportLosses(const LabelFile& labels, const Carries& carries, ExportReport&
     }
     if (!carries.id) report.add(LossKind::id, ids, "lost their id");
     if (!carries.object_class) report.add(LossKind::class_name, classes, "lost their class");
-    if (!carries.occlusion) report.add(LossKind::occlusion, occluded, "are occluded, which was not carried");
-    if (!carries.ignore) report.add(LossKind::ignore, ignored, "are ignored, which was not carried: they count there");
+    if (!carries.occlusion) report.add(LossKind::occlusion, occluded, "are occluded, which was not kept");
+    if (!carries.ignore) report.add(LossKind::ignore, ignored, "are ignored, which was not kept: they count there");
     if (!carries.score) report.add(LossKind::score, scores, "lost their score");
     report.add(LossKind::velocity, velocities, "lost their velocity");
 }

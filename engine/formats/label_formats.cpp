@@ -186,9 +186,9 @@ std::string sniffLabelFormat(const std::filesystem::path& path) {
         if (format.fits && format.fits(head)) return format.info.name;
     }
     throw Error(ErrorKind::input, path.string() +
-                                      (head.folder ? ": the folder looks like no format of labels that is known"
+                                      (head.folder          ? ": the folder matches no known label format"
                                        : head.lines.empty() ? ": is empty"
-                                                            : ":1: the beginning looks like no format that is known") +
+                                                            : ":1: the beginning matches no known format") +
                                       "; say which it is (--format), or describe its columns (--columns)");
 }
 

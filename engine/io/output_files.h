@@ -18,7 +18,7 @@ struct OutputFile {
 };
 
 /// Checks what is to be written against what is read and what is there. Inputs are files or folders (then every file
-/// in them is read); names of no file are passed over. Any project that this process has open must be among the inputs:
+/// in them is read); names of no file are skipped. Any project that this process has open must be among the inputs:
 /// it is recognised as the same file (also through links) without being opened. Devices and pipes are written to as
 /// they are.
 ///

@@ -87,11 +87,12 @@ void DuplicateRemovalOptions::describe(ParameterVisitor& visitor) {
          "Duplicates are fused into their union, or the one with the higher score stays; by_detector: fused for "
          "segmentations, suppressed for the sliding window.",
          "Teutsch §5.5.1"});
-    visitor.choice("duplicates.measure", measure, {"containment", "overlap"},
-                   {"",
-                    "How strong two boxes overlap: share of the smaller one inside the other, or intersection over "
-                    "union.",
-                    "Teutsch §5.5.1"});
+    visitor.choice(
+        "duplicates.measure", measure, {"containment", "overlap"},
+        {"",
+         "How the overlap of two boxes is measured: share of the smaller one inside the other, or intersection over "
+         "union.",
+         "Teutsch §5.5.1"});
     visitor.real(
         "duplicates.threshold", threshold, 0.001, 1,
         {"", "Boxes that overlap at least this much are duplicates. Smaller: neighbours merge.", "Teutsch §5.5.1"});

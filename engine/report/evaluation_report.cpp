@@ -20,9 +20,9 @@ std::string differenceText(const std::string& measure, const BootstrapInterval& 
     return markupEscaped(measure) + " against run " + std::to_string(other.id) +
            (other.name.empty() ? "" : " (" + markupEscaped(other.name) + ")") + ": " +
            (difference.value >= 0 ? "+" : "") + interval(difference) + ", <b>" +
-           (!real                  ? "not distinguishable"
-            : difference.value > 0 ? "really better"
-                                   : "really worse") +
+           (!real                  ? "no significant difference"
+            : difference.value > 0 ? "significantly better"
+                                   : "significantly worse") +
            "</b>";
 }
 
@@ -51,7 +51,7 @@ void tellWhat(ReportPage& page, const RunEvaluation& e, const ReportOptions& opt
     std::string certain = "f-score " + interval(e.f_score);
     if (e.mota) certain += ", MOTA " + interval(*e.mota);
     page.paragraph("At T_ov " + fixedText(e.options.overlap, 2) + ": " + certain +
-                   ". In parentheses the 95 % interval had other tracks been filmed (bootstrap over whole tracks).");
+                   ". In parentheses: 95 % intervals (bootstrap over whole tracks).");
     if (!e.difference) return;
     page.paragraph(differenceText("f-score", e.difference->difference.f_score, e.difference->other));
     if (e.difference->difference.mota)

@@ -124,13 +124,13 @@ void addChips(ReportPage& page, const RunEvaluation& e, FrameSource* pixels, con
         }
         if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(by_frame.size()));
     }
-    page.chapter("The gravest errors");
+    page.chapter("The worst errors");
     if (!trouble.empty()) page.paragraph("Pictures are missing: " + markupEscaped(trouble));
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         // A table for each printed page: rows with pictures must not be broken.
         if (k > 0 && k % kChipsOnPage == 0) {
             page.endTable();
-            page.chapter("The gravest errors, continued");
+            page.chapter("The worst errors, continued");
         }
         if (k % kChipsOnPage == 0)
             page.beginTable({"", "Kind", "Frames", "Count", "Object", "Track", "Probable cause", "Detail"}, 1000,

@@ -14,7 +14,7 @@ void addFigures(ReportPage& page, const RunEvaluation& evaluation, EvaluationRep
 
 /// How often each kind and probable cause occurs.
 void tellCauses(ReportPage& page, const RunEvaluation& evaluation, EvaluationReportFile& report);
-/// The gravest errors with pictures, see makeEvaluationReport().
+/// The worst errors with pictures, see makeEvaluationReport().
 void addChips(ReportPage& page, const RunEvaluation& evaluation, FrameSource* pixels, const ReportOptions& options,
               EvaluationReportFile& report, const std::function<void(double)>& progress, const std::stop_token& stop);
 /// At most so many errors, a line each.

@@ -36,7 +36,7 @@ void describeAssociation(TrackerOptions& o, ParameterVisitor& v) {
     v.integer("tracking.split_patience", o.split_patience, 1, 1000,
               {"frames",
                "A track whose box keeps falling into separate parts for this long, and was seldom seen in one "
-               "piece, is taken for a merged one and gives the parts free.",
+               "piece, is taken for a merged one and releases the parts.",
                ""});
     v.real("tracking.size_gate", o.size_gate, 0, 100,
            {"",
@@ -44,7 +44,7 @@ void describeAssociation(TrackerOptions& o, ParameterVisitor& v) {
             "the track's size. 0 switches the test off.",
             ""});
     v.integer("tracking.size_patience", o.size_patience, 1, 1000,
-              {"frames", "After so many such detections in a row the new size is believed.", ""});
+              {"frames", "After this many such detections in a row the new size is accepted.", ""});
     v.real("tracking.car_length", o.car_length_m, 0, 50,
            {"m", "Length of a usual car. A first box that is shorter is expected to grow.", ""});
     v.real("tracking.car_width", o.car_width_m, 0, 20,
@@ -113,11 +113,11 @@ void describeLife(TrackerOptions& o, ParameterVisitor& v) {
             ""});
     v.choice("tracking.appearance", o.appearance, {"none", "stopped", "lost"},
              {"",
-              "Which lost tracks are looked for by what they looked like when they were detected last. stopped: those "
+              "Which lost tracks are searched for by their appearance when they were last detected. stopped: those "
               "that were slow; a vehicle that stands keeps its track and its id until it moves on.",
               ""});
     v.real("tracking.appearance_agreement", o.appearance_agreement, 0.1, 1,
-           {"", "Normalised correlation from which a lost track is taken for found.", ""});
+           {"", "Lowest normalised correlation at which a lost track counts as found again.", ""});
     v.real("tracking.max_standing", o.max_standing_s, 0, 3600,
            {"s", "How long a track is kept by its appearance alone.", ""});
     v.real("tracking.max_failed", o.max_failed_s, 0, 60,
@@ -127,10 +127,10 @@ void describeLife(TrackerOptions& o, ParameterVisitor& v) {
     v.flag("tracking.suppress_duplicates", o.suppress_duplicates,
            {"", "Of two tracks that lie on each other and move alike, keep the older one.", "Teutsch §8.2"});
     v.real("tracking.duplicate_overlap", o.duplicate_overlap, 0.05, 1,
-           {"", "Overlap from which two tracks that move alike are one.", ""});
+           {"", "Lowest overlap at which two tracks that move alike are one.", ""});
     v.real("tracking.duplicate_containment", o.duplicate_containment, 0.05, 1,
            {"",
-            "Share of the smaller box inside the other from which two tracks that move alike are one. A detection "
+            "Lowest share of the smaller box inside the other at which two tracks that move alike are one. A detection "
             "inside a track by this share starts no track.",
             ""});
 }

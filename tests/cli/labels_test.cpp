@@ -164,7 +164,7 @@ TEST_F(LabelCommands, LossesAreSaid) {
     const auto out = cli({"export", "--from", truth(), "--format", "kw18", "--out", at("t.kw18")});
     EXPECT_THAT(out.output,
                 AllOf(HasSubstr("lost        25 boxes lost their rotation"), HasSubstr("55 boxes lost their class"),
-                      HasSubstr("10 boxes are ignored, which was not carried")));
+                      HasSubstr("10 boxes are ignored, which was not kept")));
 }
 
 TEST_F(LabelCommands, TracksOfRunsMakeATrackEvalTree) {

@@ -112,7 +112,7 @@ TEST_F(RunAgain, NeedsOnlyTheProject) {
     const auto result =
         cli({"run", "--resume", "--project", at("p.eyrie"), "--tracks", at("t.csv"), "--annotated", at("a.mp4")});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
-    EXPECT_THAT(result.errors, HasSubstr("going on with run 1"));
+    EXPECT_THAT(result.errors, HasSubstr("resuming run 1"));
     EXPECT_THAT(result.output, HasSubstr("48 of 48 frames"));
     EXPECT_EQ(openSource(at("a.mp4"))->info().frame_count, 48) << "those of before are in the video, too";
     ASSERT_EQ(
@@ -148,7 +148,7 @@ TEST_F(RunAgain, RefusesWhatContradictsTheRun) {
         EXPECT_EQ(result.exit_code, 2) << result.errors;
         return result.errors;
     };
-    EXPECT_THAT(refusal({"--gsd", "0.3"}), HasSubstr("run 1 of " + at("p.eyrie") + " was begun with --gsd 0.2"));
+    EXPECT_THAT(refusal({"--gsd", "0.3"}), HasSubstr("run 1 of " + at("p.eyrie") + " was started with --gsd 0.2"));
     EXPECT_THAT(refusal({"--frames", "0:20"}), HasSubstr("--frames 0:59"));
     EXPECT_THAT(refusal({"--fps", "10"}), HasSubstr("--fps 25"));
     EXPECT_THAT(refusal({"--set", "tracking.min_overlap=0.33"}), HasSubstr("tracking.min_overlap="));
@@ -174,7 +174,7 @@ TEST_F(RunAgain, FindsAVideoThatMovedAndRefusesAnother) {
     }
     const auto other = cli({"run", at("other"), "--resume", "--run", "1", "--project", at("p.eyrie")});
     EXPECT_EQ(other.exit_code, 3) << other.output;
-    EXPECT_THAT(other.errors, HasSubstr("is not the video it was"));
+    EXPECT_THAT(other.errors, HasSubstr("is not the same video"));
     const auto moved = cli({"run", at("there/clip"), "--resume", "--run", "1", "--project", at("p.eyrie")});
     EXPECT_EQ(moved.exit_code, 0) << moved.errors;
     EXPECT_THAT(moved.output, HasSubstr("60 of 60 frames"));

@@ -176,7 +176,7 @@ TEST_F(Sweep, ShardsJoinToTheWhole) {
         sweep({"--parameter", "gradient.quantile=0.1:0.1:0.4", "--out", at("3.eyrie"), "--shard", "2/2"}).exit_code, 0);
     const auto foreign = cli({"merge", at("1.eyrie"), at("3.eyrie"), "--out", at("n.eyrie")});
     EXPECT_EQ(foreign.exit_code, 2);
-    EXPECT_THAT(foreign.errors, HasSubstr("no parts of one sweep: the values of gradient.quantile differ"));
+    EXPECT_THAT(foreign.errors, HasSubstr("not parts of one sweep: the values of gradient.quantile differ"));
     EXPECT_EQ(cli({"merge", at("nothing.eyrie"), "--out", at("n.eyrie")}).exit_code, 5);
     EXPECT_EQ(with({"--out", at("4.eyrie"), "--shard", "3/2"}).exit_code, 2);
     EXPECT_EQ(with({"--out", at("4.eyrie"), "--shard", "x"}).exit_code, 2);

@@ -308,7 +308,7 @@ TEST(Explanation, hitTellsItsTrackAndTheRowOfTheOverlapMatrix) {
     const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
     EXPECT_TRUE(told.found);
     EXPECT_TRUE(told.parameter.empty());
-    EXPECT_THAT(told.sentence, StartsWith("Found: track 12, confirmed"));
+    EXPECT_THAT(told.sentence, StartsWith("Track 12 is here: confirmed"));
     const auto association = std::find_if(told.steps.begin(), told.steps.end(),
                                           [](const ExplanationStep& step) { return step.stage == "association"; });
     ASSERT_NE(association, told.steps.end());

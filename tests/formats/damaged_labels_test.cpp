@@ -130,7 +130,7 @@ TEST_F(DamagedLabels, WrongColumnsOfOneFormatAreToldApart) {
     EXPECT_THAT(refusal("visdrone", "1,1,1,1,1,1,1,4,0,3\n"), HasSubstr("occlusion 3"));
     EXPECT_THAT(refusal("virat", "0 1 2 3 4 5 6 9\n"), HasSubstr("type 9"));
     EXPECT_THAT(refusal("viame", "1,a,0,0,0,1,1,1,-1,car\n"), HasSubstr("ends before the score of the class"));
-    EXPECT_THAT(refusal("viame", "1,a,0,0,0,1,1,1,-1,(atr) rotation x\n"), HasSubstr("no angle"));
+    EXPECT_THAT(refusal("viame", "1,a,0,0,0,1,1,1,-1,(atr) rotation x\n"), HasSubstr("is not an angle"));
     EXPECT_THAT(refusal("viame", "1,\"a,0,0,0,1,1,1,-1\n"), HasSubstr("never closed"));
     EXPECT_THAT(refusal("viame", "1,\"a\"b,0,0,0,1,1,1,-1\n"), HasSubstr("closing quote"));
     EXPECT_THAT(refusal("columns", "1,3,1,2,3,4\n", "frame,n,[x,y,w,h]"),
@@ -170,7 +170,7 @@ TEST_F(DamagedLabels, CvatNamesTheLine) {
     EXPECT_THAT(refusal("cvat", "<annotations><track id=\"1\" label=\"a\"><box " + good +
                                     "/><box frame=\"9999999\" keyframe=\"1\" xtl=\"1\" ytl=\"1\" xbr=\"2\" ybr=\"2\"/>"
                                     "</track></annotations>"),
-                HasSubstr("span more frames than can be meant"));
+                HasSubstr("span implausibly many frames"));
 }
 
 TEST_F(DamagedLabels, EntitiesThatGrowAreRefused) {
@@ -211,20 +211,20 @@ TEST_F(DamagedLabels, CocoNamesTheEntry) {
                 HasSubstr("annotations[1].image_id: there is no such image"));
     EXPECT_THAT(with(R"({"bbox":[0,0,1,1]})"), HasSubstr("\"image_id\" is missing"));
     EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,0,1]})"), HasSubstr("annotations[1].bbox: 3 numbers"));
-    EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,"x",1,1]})"), HasSubstr("bbox[1]: is no number"));
+    EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,"x",1,1]})"), HasSubstr("bbox[1]: is not a number"));
     EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,0,-1,1]})"), HasSubstr("negative"));
     EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,0,1e30,1]})"), HasSubstr("outside any image"));
-    EXPECT_THAT(with(R"({"image_id":1,"bbox":{}})"), HasSubstr("bbox: is no list"));
+    EXPECT_THAT(with(R"({"image_id":1,"bbox":{}})"), HasSubstr("bbox: is not a list"));
     EXPECT_THAT(with(R"({"image_id":1.5,"bbox":[0,0,1,1]})"), HasSubstr("whole number"));
     EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,0,1,1],"track_id":-4})"), HasSubstr("negative"));
     EXPECT_THAT(with(R"({"image_id":1,"bbox":[0,0,1,1],"dive_detection_attributes":{"rotation":"a"}})"),
-                HasSubstr("rotation: is no number"));
+                HasSubstr("rotation: is not a number"));
     EXPECT_THAT(refusal("coco", beside(R"({"image_id":1,"bbox":[0,0,1,1e999]})")), HasSubstr("labels.txt"));
-    EXPECT_THAT(with("7"), HasSubstr("annotations[1]: is no object"));
-    EXPECT_THAT(refusal("coco", beside("{")), HasSubstr("no valid JSON"));
+    EXPECT_THAT(with("7"), HasSubstr("annotations[1]: is not an object"));
+    EXPECT_THAT(refusal("coco", beside("{")), HasSubstr("is not valid JSON"));
     EXPECT_THAT(refusal("coco", "{}"), HasSubstr("is this COCO"));
-    EXPECT_THAT(refusal("coco", ""), HasSubstr("no valid JSON"));
-    EXPECT_THAT(refusal("coco", "{\"images\":\"\xff\"}"), HasSubstr("no valid JSON"));
+    EXPECT_THAT(refusal("coco", ""), HasSubstr("is not valid JSON"));
+    EXPECT_THAT(refusal("coco", "{\"images\":\"\xff\"}"), HasSubstr("is not valid JSON"));
     EXPECT_THAT(refusal("coco", R"({"images":[{"id":1},{"id":1}],"annotations":[]})"),
                 HasSubstr("images[1]: another image has the id 1"));
     EXPECT_THAT(refusal("kwcoco", R"({"images":[{"id":1,"frame_index":2000000000}],"annotations":[]})"),
@@ -234,9 +234,9 @@ TEST_F(DamagedLabels, CocoNamesTheEntry) {
 TEST_F(DamagedLabels, UnknownFilesAreRefusedWithAdvice) {
     EXPECT_THAT(refusal("auto", ""), HasSubstr("is empty"));
     EXPECT_THAT(refusal("auto", "hello world\nthis is prose\n"),
-                AllOf(HasSubstr("no format that is known"), HasSubstr("--format")));
+                AllOf(HasSubstr("matches no known format"), HasSubstr("--format")));
     EXPECT_THAT(messageOf([&] { readLabels(folder_ / "absent.txt"); }), HasSubstr("absent.txt: there is no such file"));
-    EXPECT_THAT(messageOf([&] { readLabels(folder_.path()); }), HasSubstr("the folder looks like no format"));
+    EXPECT_THAT(messageOf([&] { readLabels(folder_.path()); }), HasSubstr("the folder matches no known label format"));
     EXPECT_THAT(messageOf([&] { readLabels(folder_.path(), "nonsense"); }),
                 HasSubstr("\"nonsense\" is unknown; there are native"));
     for (const LabelFormatInfo& info : labelFormats()) {

@@ -147,7 +147,7 @@ TEST_F(ForeignFiles, CvatPolygonsBecomeTheBoxesAroundThem) {
                         read("p.xml", head + "<polygon frame=\"0\" keyframe=\"1\" points=\"" + bad +
                                           "\"/></track></annotations>");
                     }),
-                    HasSubstr("no point"));
+                    HasSubstr("is not a point"));
     }
 }
 
@@ -182,7 +182,7 @@ TEST_F(ForeignFiles, OneBadRowOfViameIsLeftOutAndSaid) {
         EXPECT_THAT(labels.notes, Contains(AllOf(HasSubstr("left out"), HasSubstr(place), HasSubstr(reason))));
     };
     leftOut("d.csv:3:", "right edge is left of the left one");
-    leftOut("d.csv:4:", "no number");
+    leftOut("d.csv:4:", "is not a number");
     leftOut("d.csv:6:", "has a box in this frame already");
     leftOut("d.csv:7:", "never closed");
     // a name with a comma in the first line is no hindrance to knowing the format
@@ -203,7 +203,7 @@ TEST_F(ForeignFiles, OneBadEntryOfKwcocoIsLeftOutAndSaid) {
     EXPECT_EQ(labels.boxes.at(0)[0].score, 1);
     EXPECT_EQ(labels.boxes.at(0)[1].object_class, "class 1");
     EXPECT_THAT(labels.notes, Contains(AllOf(HasSubstr("annotations[1]"), HasSubstr("has a box in frame 0 already"))));
-    EXPECT_THAT(labels.notes, Contains(AllOf(HasSubstr("annotations[3].bbox[0]"), HasSubstr("is no number"))));
+    EXPECT_THAT(labels.notes, Contains(AllOf(HasSubstr("annotations[3].bbox[0]"), HasSubstr("is not a number"))));
     EXPECT_THAT(labels.notes, Contains(HasSubstr("1 category has no name")));
 }
 
@@ -241,7 +241,7 @@ TEST_F(ForeignFiles, UavdtSaysWhatItCannotCarry) {
     std::vector<std::string> remarks = report.notes;
     for (const ExportLoss& loss : report.losses) remarks.push_back(loss.remark);
     EXPECT_EQ(report.lost(LossKind::occlusion), 1);
-    EXPECT_THAT(remarks, Contains(HasSubstr("1 box partly hidden became a medium occlusion")));
+    EXPECT_THAT(remarks, Contains(HasSubstr("1 box partly occluded became medium occlusion")));
     EXPECT_THAT(remarks, Contains(HasSubstr("1 box reaching beyond the image")));
     EXPECT_THAT(remarks, Contains(HasSubstr("written as in view (1)")));
 }

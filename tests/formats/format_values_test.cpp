@@ -305,7 +305,7 @@ TEST_F(FormatValues, ColumnTemplatesThatCannotWorkAreRefused) {
     EXPECT_THAT(refusal("frame,x,y,w,h,x2"), HasSubstr("more than two"));
     EXPECT_THAT(refusal("id,x,y,w,h"), HasSubstr("neither frame nor image"));
     EXPECT_THAT(refusal("frame,x,y,w,h,foo"), HasSubstr("\"foo\" names no column"));
-    EXPECT_THAT(refusal("frame,x,y,w,h,w"), HasSubstr("told twice"));
+    EXPECT_THAT(refusal("frame,x,y,w,h,w"), HasSubstr("given twice"));
     EXPECT_THAT(refusal("frame,n,x,y,w,h"), HasSubstr("n needs a group"));
     EXPECT_THAT(refusal("frame,[x,y,[w,h]]"), HasSubstr("nest"));
     EXPECT_THAT(refusal("frame,[x,y,w,h"), HasSubstr("never closed"));

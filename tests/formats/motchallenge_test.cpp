@@ -81,12 +81,12 @@ TEST_F(MotChallenge, AnEmptyFileHoldsNoBoxes) {
 
 TEST_F(MotChallenge, MalformedLinesAreNamedWithTheirPlace) {
     const std::string good = "1,1,10,10,5,5,1,3,1\n";
-    EXPECT_THAT(messageFor(good + "1,2,10,ten,5,5,1,3,1\n"), HasSubstr("boxes.txt:2:8: \"ten\" is no number"));
+    EXPECT_THAT(messageFor(good + "1,2,10,ten,5,5,1,3,1\n"), HasSubstr("boxes.txt:2:8: \"ten\" is not a number"));
     EXPECT_THAT(messageFor(good + "0,2,10,10,5,5,1,3,1\n"), HasSubstr(":2:1: frame 0"));
-    EXPECT_THAT(messageFor("1.5,2,10,10,5,5\n"), HasSubstr(":1:1: \"1.5\" is no whole number"));
+    EXPECT_THAT(messageFor("1.5,2,10,10,5,5\n"), HasSubstr(":1:1: \"1.5\" is not a whole number"));
     EXPECT_THAT(messageFor("1,2,10,10,-5,5\n"), HasSubstr(":1:11: the width is negative"));
     EXPECT_THAT(messageFor("1,2,10,10,5,-5\n"), HasSubstr("the height is negative"));
-    EXPECT_THAT(messageFor("1,2,nan,10,5,5\n"), HasSubstr(":1:5: \"nan\" is no number"));
+    EXPECT_THAT(messageFor("1,2,nan,10,5,5\n"), HasSubstr(":1:5: \"nan\" is not a number"));
     EXPECT_THAT(messageFor("1,2,1e999,10,5,5\n"), HasSubstr(":1:5:"));
     EXPECT_THAT(messageFor("1,2,,10,5,5\n"), HasSubstr(":1:5:"));
     EXPECT_THAT(messageFor("99999999999,2,1,10,5,5\n"), HasSubstr("whole number in range"));

@@ -83,7 +83,7 @@ TEST_F(PatchSheets, thatAreDamagedAreRefusedNamingThePlace) {
     std::ofstream(folder / "neg.png") << "no image";
     EXPECT_THAT(messageOf(), HasSubstr("neg.png"));
     cv::imwrite((folder / "neg.png").string(), cv::Mat(33, 32, CV_8UC1, cv::Scalar(0)));
-    EXPECT_THAT(messageOf(), HasSubstr("no sheet"));
+    EXPECT_THAT(messageOf(), HasSubstr("is not a sheet"));
     std::filesystem::remove(folder / "pos.png");
     EXPECT_THAT(messageOf(), HasSubstr("pos.png"));
 }

@@ -307,8 +307,8 @@ TEST_F(AnnotationStoreTest, ASecondWindowReadsAndSaysWhy) {
     AnnotationStore second(other, 1);
     EXPECT_TRUE(second.readOnly());
     EXPECT_THAT(second.readOnlyReason(), HasSubstr("process " + std::to_string(getpid())));
-    expectError(ErrorKind::output, "can only be read", [&] { second.apply(test::sampleEdit(9)); });
-    expectError(ErrorKind::output, "can only be read", [&] { second.undo(); });
+    expectError(ErrorKind::output, "are read-only", [&] { second.apply(test::sampleEdit(9)); });
+    expectError(ErrorKind::output, "are read-only", [&] { second.undo(); });
     // It follows the first.
     EXPECT_FALSE(second.refresh());
     first->apply(moved(first->annotations().objects.at(1), 2));

@@ -134,7 +134,7 @@ TEST(SweepTable, ResumesAndMergesToTheSameTable) {
         mergeSweeps({folder / "shard1.eyrie", folder / "foreign.eyrie"}, folder / "n.eyrie");
         FAIL();
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("no parts of one sweep: the values of outliers.min_vectors differ"));
+        EXPECT_THAT(error.what(), HasSubstr("not parts of one sweep: the values of outliers.min_vectors differ"));
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "n.eyrie"));
 

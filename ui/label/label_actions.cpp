@@ -25,30 +25,30 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     draw = addToggle(tr("&Draw: click rear, then front (Shift: then width)"), {QKeySequence(Qt::Key_B)}, false);
     draw->setIcon(QIcon::fromTheme(QStringLiteral("draw-rectangle")));
     draw->setIconText(tr("Draw"));
-    redraw = add(tr("Draw the box of the selected object anew in this frame"), {QKeySequence(tr("Ctrl+B"))});
-    region = addToggle(tr("Draw an ignore region: corners, double click ends"), {QKeySequence(Qt::Key_Z)}, false);
+    redraw = add(tr("Redraw the selected object's box in this frame"), {QKeySequence(tr("Ctrl+B"))});
+    region = addToggle(tr("Draw an ignore region: click its corners, double-click to end"), {QKeySequence(Qt::Key_Z)},
+                       false);
     delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Shift+Z"))});
-    region_begins = add(tr("The ignore region under the cursor begins here"), {QKeySequence(tr("Ctrl+["))});
-    region_ends = add(tr("The ignore region under the cursor ends here"), {QKeySequence(tr("Ctrl+]"))});
+    region_begins = add(tr("Begin the ignore region under the cursor here"), {QKeySequence(tr("Ctrl+["))});
+    region_ends = add(tr("End the ignore region under the cursor here"), {QKeySequence(tr("Ctrl+]"))});
     region_anchor =
         add(tr("Fix the ignore region under the cursor to the ground or to the image"), {QKeySequence(tr("Alt+Z"))});
     keyframe = add(tr("Set a keyframe here"), {QKeySequence(Qt::Key_K)});
-    spread_size = add(tr("Give this size to all keyframes of the object"), {QKeySequence(tr("Shift+K"))});
-    spread_correction =
-        add(tr("Correct all keyframes of the object as this one was corrected"), {QKeySequence(tr("Ctrl+K"))});
-    fit_pictures = add(tr("Lay the object's computed boxes on the pictures, by the boxes set by hand"),
-                       {QKeySequence(tr("Ctrl+F"))});
-    carry_corrections = addToggle(tr("Corrections go on to computed keyframes"), {}, true);
+    spread_size = add(tr("Apply this size to all keyframes of the object"), {QKeySequence(tr("Shift+K"))});
+    spread_correction = add(tr("Apply this correction to all keyframes of the object"), {QKeySequence(tr("Ctrl+K"))});
+    fit_pictures =
+        add(tr("Refine the object's computed boxes, guided by those set by hand"), {QKeySequence(tr("Ctrl+F"))});
+    carry_corrections = addToggle(tr("Carry corrections over to computed keyframes"), {}, true);
     copy_on = add(tr("Copy the box to the next frame and go there"), {QKeySequence(Qt::Key_C)});
-    copy_back = add(tr("Copy the box to the frame before and go there"), {QKeySequence(tr("Shift+C"))});
+    copy_back = add(tr("Copy the box to the previous frame and go there"), {QKeySequence(tr("Shift+C"))});
     delete_keyframe = add(tr("Delete this keyframe"), {QKeySequence(Qt::Key_Delete)});
     delete_object = add(tr("Delete the object"), {QKeySequence(tr("Shift+Delete"))});
     end_here = add(tr("The object ends here"), {QKeySequence(Qt::Key_T)});
     occluded = add(tr("Occluded: no, partly, fully"), {QKeySequence(Qt::Key_O)});
     outside = add(tr("Outside the image from here"), {QKeySequence(Qt::Key_L)});
     ignore = add(tr("Ignore from here"), {QKeySequence(Qt::Key_I)});
-    spread_flags = add(tr("Give these flags to the selected objects over the range of frames above"),
-                       {QKeySequence(tr("Shift+O"))});
+    spread_flags =
+        add(tr("Set these flags on the selected objects in the toolbar's frame range"), {QKeySequence(tr("Shift+O"))});
     turn_left = add(tr("Turn by 1° counter-clockwise"), {QKeySequence(Qt::Key_BracketLeft)});
     turn_right = add(tr("Turn by 1° clockwise"), {QKeySequence(Qt::Key_BracketRight)});
     const Qt::Key arrows[] = {Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down};
@@ -71,15 +71,15 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     ten_on = add(tr("10 frames forward"), {QKeySequence(tr("Shift+D"))});
     ten_back = add(tr("10 frames back"), {QKeySequence(tr("Shift+A"))});
     next_object = add(tr("Next object"), {QKeySequence(Qt::Key_N)});
-    previous_object = add(tr("Object before"), {QKeySequence(tr("Shift+N"))});
+    previous_object = add(tr("Previous object"), {QKeySequence(tr("Shift+N"))});
     next_keyframe = add(tr("Next keyframe"), {QKeySequence(Qt::Key_E)});
-    previous_keyframe = add(tr("Keyframe before"), {QKeySequence(Qt::Key_Q)});
+    previous_keyframe = add(tr("Previous keyframe"), {QKeySequence(Qt::Key_Q)});
     next_attention = add(tr("Next frame that needs attention"), {QKeySequence(Qt::Key_W)});
-    next_unchecked = add(tr("Next one not checked"), {QKeySequence(Qt::Key_U)});
-    follow = addToggle(tr("Keep the object in the middle"), {QKeySequence(Qt::Key_S)}, false);
-    follow_upright = addToggle(tr("… and turn the picture so that it heads up"), {}, true);
+    next_unchecked = add(tr("Next unchecked object"), {QKeySequence(Qt::Key_U)});
+    follow = addToggle(tr("Keep the object centred"), {QKeySequence(Qt::Key_S)}, false);
+    follow_upright = addToggle(tr("… and turn the picture so that it points up"), {}, true);
     this_frame = addToggle(tr("List objects of this frame only"), {QKeySequence(Qt::Key_H)}, false);
-    deselect = add(tr("Stop drawing, select nothing"), {QKeySequence(Qt::Key_Escape)});
+    deselect = add(tr("Stop drawing, clear the selection"), {QKeySequence(Qt::Key_Escape)});
 
     section(tr("Review"));
     checked = add(tr("Mark as checked"), {QKeySequence(Qt::Key_V)});
@@ -92,12 +92,12 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     proposals->setIcon(QIcon::fromTheme(QStringLiteral("tools-wizard")));
     next_proposal = add(tr("Next proposal"), {QKeySequence(tr("Shift+P"))});
     accept =
-        add(tr("Take the selected proposals over"), {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
+        add(tr("Accept the selected proposals"), {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
     reject = add(tr("Reject the selected proposals"), {QKeySequence(Qt::Key_Backspace)}, true);
-    accept_all = add(tr("Take over all proposals of this frame"), {QKeySequence(tr("Shift+Return"))}, true);
+    accept_all = add(tr("Accept all proposals of this frame"), {QKeySequence(tr("Shift+Return"))}, true);
     accept_range =
-        add(tr("Take over all proposals in the range of frames above"), {QKeySequence(tr("Ctrl+Return"))}, true);
-    offer_again = add(tr("Offer rejected ones again"), {});
+        add(tr("Accept all proposals in the toolbar's frame range"), {QKeySequence(tr("Ctrl+Return"))}, true);
+    offer_again = add(tr("Offer rejected proposals again"), {});
     proposal_tolerance = add(tr("Keyframes of proposals…"), {});
     track_on = add(tr("Track the box forward"), {QKeySequence(tr("Shift+F"))});
     track_back = add(tr("Track the box backward"), {QKeySequence(tr("Shift+B"))});
@@ -107,7 +107,7 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     join = add(tr("&Join in time with…"), {QKeySequence(Qt::Key_J)});
     fuse = add(tr("&Fuse in parallel with…"), {QKeySequence(tr("Shift+J"))});
     split = add(tr("&Split here"), {QKeySequence(Qt::Key_Y)});
-    swap = add(tr("S&wap from here with the other selected one"), {QKeySequence(tr("Shift+S"))});
+    swap = add(tr("S&wap the two selected from here"), {QKeySequence(tr("Shift+S"))});
     renumber = add(tr("&Renumber from here"), {QKeySequence(Qt::Key_R)});
     delete_before = add(tr("Delete &before this frame"), {QKeySequence(tr("Ctrl+Backspace"))});
     delete_after = add(tr("Delete &after this frame"), {QKeySequence(tr("Ctrl+Delete"))});

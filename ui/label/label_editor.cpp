@@ -150,7 +150,7 @@ void LabelEditor::spreadSize() {
 void LabelEditor::spreadCorrection() {
     if (!ready()) return;
     if (keyframeAt(*object(), frame()) == nullptr || object()->keyframes.size() < 2) {
-        emit labels_.notice(tr("Correct the box here first: what changes goes to the other keyframes."));
+        emit labels_.notice(tr("Correct the box here first; the change is then applied to the other keyframes."));
         return;
     }
     applyObject(named(tr("Correction of %1 in all keyframes")),
@@ -222,7 +222,7 @@ void LabelEditor::endHere() {
     const bool now_stands = standsAtItsEnd(changed) && !standsAtItsEnd(*object()) && changed.keyframes.size() > 1;
     const FrameIndex from = changed.keyframes.back().frame;
     if (applyObject(named(tr("End %1 here")), std::move(changed)) && now_stands)
-        emit labels_.notice(tr("It stands from frame %1 on and brakes until there.").arg(from));
+        emit labels_.notice(tr("It brakes up to frame %1 and stands still from there on.").arg(from));
 }
 
 // ---- flags, class, review -------------------------------------------------------------------------------------------
@@ -231,7 +231,7 @@ void LabelEditor::toggleFlag(const QString& name, const std::function<void(Keyfr
     if (!ready()) return;
     const LabelledBox shown = boxAt(*object(), frame(), labels_.camera());
     if (!shown.exists()) {
-        emit labels_.notice(tr("The object does not live in this frame."));
+        emit labels_.notice(tr("The object does not exist in this frame."));
         return;
     }
     Keyframe keyframe = shownAt(*object(), frame(), labels_.camera());

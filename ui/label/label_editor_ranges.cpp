@@ -19,7 +19,7 @@ void LabelEditor::spreadFlags(FrameIndex first, FrameIndex last) {
     if (!ready()) return;
     const LabelledBox shown = boxAt(*object(), frame(), labels_.camera());
     if (!shown.exists()) {
-        emit labels_.notice(tr("The object does not live in this frame."));
+        emit labels_.notice(tr("The object does not exist in this frame."));
         return;
     }
     setFlags(first, last, {shown.occlusion, shown.outside, shown.ignore});
@@ -64,7 +64,7 @@ int LabelEditor::changeRegionsAt(cv::Point2d point, const QString& name,
 
 int LabelEditor::anchorRegionsAt(cv::Point2d point) {
     const auto here = regionsAt(labels_.annotations(), frame(), labels_.camera());
-    return changeRegionsAt(point, tr("Fix an ignore region to something else"), [&](IgnoreRegion& region) {
+    return changeRegionsAt(point, tr("Change what an ignore region is fixed to"), [&](IgnoreRegion& region) {
         for (const RegionInFrame& shown : here)
             if (shown.id == region.id) region.polygon = shown.polygon;
         region.reference_frame = frame();

@@ -68,7 +68,7 @@ void addFlagSpans(ObjectTimelineRow& row, const LabelledObject& object) {
 }
 
 QString sourceText(const LabelledBox& box, bool lives, const Keyframe* keyframe) {
-    if (!lives) return tr("expected here; moving it makes it live as long");
+    if (!lives) return tr("predicted here; move it to extend the object to this frame");
     if (box.outside) return tr("outside the image");
     switch (box.source) {
         case BoxSource::keyframe:
@@ -133,7 +133,7 @@ std::vector<ObjectTimelineRow> timelineRows(const LabelSession& labels) {
 QString joinText(const LabelSession& labels, ObjectId other, bool later, int gap, double distance_px) {
     const LabelledObject* object = labels.object(other);
     const QString name = object != nullptr ? QString::fromStdString(nameOf(*object)) : QString::number(other);
-    return (later ? tr("%1, %2 frames later, %3 px away") : tr("%1, %2 frames before, %3 px away"))
+    return (later ? tr("%1, %2 frames later, %3 px away") : tr("%1, %2 frames earlier, %3 px away"))
         .arg(name)
         .arg(gap)
         .arg(distance_px, 0, 'f', 1);
@@ -181,7 +181,7 @@ ObjectDetails objectDetails(const LabelSession& labels, const LabelEditor& edito
     for (const ReviewSpan& span : labels.review().spansOf(object.id)) {
         if (span.state == ReviewState::unseen || frame < span.first_frame || frame > span.last_frame) continue;
         details.review =
-            (span.state == ReviewState::checked ? tr("Checked by %1, %2") : tr("Questionable, says %1, %2"))
+            (span.state == ReviewState::checked ? tr("Checked by %1, %2") : tr("Marked questionable by %1, %2"))
                 .arg(QString::fromStdString(span.person), localTimeText(span.when_utc));
     }
     for (const JoinSuggestion& offer : suggestJoins(labels.annotations(), object.id, labels.camera()))

@@ -31,11 +31,11 @@ void LabelWorkspace::offer(QAction* action, const std::function<std::optional<La
     auto plan = make();
     if (!plan) return;
     const QString key = action->shortcut().toString(QKeySequence::NativeText);
-    const QString text = tr("%1 → %2. Press %3 again to do it, Esc to leave it.")
+    const QString text = tr("%1 → %2. Press %3 again to confirm, Esc to cancel.")
                              .arg(QString::fromStdString(plan->edit.name), plan->text, key);
     planned_ = {action, frame, labels_->selection(), std::move(plan)};
     showScene();
-    around_.messages.showTopic(kLabelTopic, MessageKind::info, text, tr("Do it"),
+    around_.messages.showTopic(kLabelTopic, MessageKind::info, text, tr("Confirm"),
                                [this, action] { action->trigger(); });
 }
 
@@ -63,8 +63,8 @@ void LabelWorkspace::identityWithOther(bool fuse) {
                 ->setData(offer.object);
     }
     if (menu.isEmpty()) {
-        tell(fuse ? tr("No other object overlaps this one. Select both (Ctrl and click) to fuse them anyway.")
-                  : tr("No other object begins or ends near this one. Select both (Ctrl and click) to join them "
+        tell(fuse ? tr("No other object overlaps this one. Select both (Ctrl+click) to fuse them anyway.")
+                  : tr("No other object begins or ends near this one. Select both (Ctrl+click) to join them "
                        "anyway."));
         return;
     }
@@ -88,7 +88,7 @@ void LabelWorkspace::wireIdentity() {
         if (const auto other = otherSelected())
             offer(actions_->swap, [&] { return editor_->planSwap(*other); });
         else
-            tell(tr("Select the two objects to swap from this frame on (Ctrl and click)."));
+            tell(tr("Select the two objects to swap from this frame on (Ctrl+click)."));
     });
     connect(actions_->renumber, &QAction::triggered, this,
             [this] { offer(actions_->renumber, [this] { return editor_->planRenumber(); }); });

@@ -31,7 +31,7 @@ void LabelWorkspace::wireTool() {
     connect(tool_, &LabelTool::boxDrawn, this,
             [this](const OrientedBox& box, FrameIndex frame) { editor_->add(box, frame); });
     connect(tool_, &LabelTool::boxRedrawn, this, [this](ObjectId id, FrameIndex frame, const OrientedBox& box) {
-        editor_->setBox(id, frame, box, true, tr("Draw box of %1 anew"));
+        editor_->setBox(id, frame, box, true, tr("Redraw box of %1"));
     });
     connect(actions_->redraw, &QAction::triggered, this, [this] {
         if (labels_->selected() && labels_->mayEdit()) tool_->startDrawing(labels_->selected());
@@ -190,7 +190,7 @@ void LabelWorkspace::wireProposals() {
     connect(actions_->proposals, &QAction::toggled, this, [this](bool on) {
         proposals_->setShown(on);
         if (on && !around_.session.currentRun())
-            tell(tr("There is no run to take tracks from. Make one with Run, then come back."));
+            tell(tr("There is no run to propose tracks from. Start one with Run first."));
     });
     connect(actions_->next_proposal, &QAction::triggered, this, [this] {
         const auto here = proposals_->pendingIn(around_.session.currentFrame());
@@ -210,12 +210,12 @@ void LabelWorkspace::wireProposals() {
         for (const Proposal* proposal : proposals_->pendingIn(around_.session.currentFrame()))
             tracks.push_back(proposal->track);
         const auto objects = proposals_->accept(tracks);
-        if (!objects.empty()) tell(tr("Took over %1 tracks.").arg(objects.size()));
+        if (!objects.empty()) tell(tr("Accepted %1 tracks.").arg(objects.size()));
     });
     connect(actions_->accept_range, &QAction::triggered, this, [this] {
         const FrameRange range = markedRange();
         const auto objects = proposals_->acceptRange(range.first, range.last);
-        tell(objects.empty() ? tr("No proposal is left there.") : tr("Took over %1 tracks.").arg(objects.size()));
+        tell(objects.empty() ? tr("No proposal is left there.") : tr("Accepted %1 tracks.").arg(objects.size()));
     });
     connect(actions_->offer_again, &QAction::triggered, proposals_, &LabelProposals::offerAgain);
     connect(actions_->proposal_tolerance, &QAction::triggered, this, [this] {
@@ -255,7 +255,7 @@ void LabelWorkspace::acceptSelected() {
     if (!proposals_->selected()) return;
     const auto objects = proposals_->accept(proposals_->selection());
     if (objects.empty()) return;
-    if (objects.size() > 1) tell(tr("Took over %1 tracks.").arg(objects.size()));
+    if (objects.size() > 1) tell(tr("Accepted %1 tracks.").arg(objects.size()));
     if (const Proposal* next = proposals_->next(around_.session.currentFrame()))
         selectProposal(next);
     else

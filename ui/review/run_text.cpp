@@ -26,11 +26,11 @@ QString howItEnded(const RunRecord& run, const RunFacts& facts) {
         case RunState::failed:
             return tr("%1 failed after %2").arg(name, done);
         case RunState::running:
-            return tr("%1 is at work").arg(name);
+            return tr("%1 is still running").arg(name);
         case RunState::stopped:
             break;
     }
-    return tr("%1 was stopped after %2 of %3; they are kept")
+    return tr("%1 was stopped after %2 of %3, which are kept")
         .arg(name, QLocale().toString(facts.counts.frames), frames(facts.frames_planned));
 }
 
@@ -65,8 +65,8 @@ QString whyNoTracks(const RunFacts& facts) {
         case NothingFollowed::no_frames:
             return tr("No frame was processed.");
         case NothingFollowed::not_registered:
-            return tr("No frame could be registered onto the one before it (%1), so nothing could be told to move. "
-                      "Blurred, blank or cut pictures and ground without texture cannot be registered.")
+            return tr("No frame could be registered onto the one before it (%1), so no motion could be measured. "
+                      "Blurred or blank pictures, cuts and ground without texture cannot be registered.")
                 .arg(facts.counts.reasons.empty()
                          ? tr("no reason was stored")
                          : QString::fromStdString(
@@ -84,7 +84,7 @@ QString whyNoTracks(const RunFacts& facts) {
         case NothingFollowed::none_confirmed:
             return tr("Vehicles were detected, but none often enough to become a track (tracking.confirm_hits).");
         case NothingFollowed::all_dropped:
-            return tr("What was followed was left out when the tracks were finished. Press W on a vehicle to see why.");
+            return tr("Every track was dropped when the tracks were finished. Press W on a vehicle to see why.");
     }
     return {};
 }

@@ -140,8 +140,8 @@ QString RunsModel::stateText(const RunRecord& run) const {
 
 QString RunsModel::toolTipOf(const RunRecord& run) const {
     QStringList lines{shownName(run), QString::fromStdString(run.sequence.path),
-                      tr("frames %1 to %2, %3 done").arg(run.first_frame).arg(run.last_frame).arg(run.frames_done),
-                      tr("%1 frames a second, Eyrie %2")
+                      tr("frames %1 to %2, %3 processed").arg(run.first_frame).arg(run.last_frame).arg(run.frames_done),
+                      tr("%1 frames/s, Eyrie %2")
                           .arg(numberText(run.scale.frame_rate_hz, 2), QString::fromStdString(run.engine_version))};
     lines << tr("Scale: %1").arg(scaleText(run.scale));
     if (run.live && run.id != live_run_) lines << tr("Written by %1").arg(QString::fromStdString(run.writer));
@@ -149,7 +149,21 @@ QString RunsModel::toolTipOf(const RunRecord& run) const {
     return lines.join(QLatin1Char('\n'));
 }
 
+QString RunsModel::helpOf(int column) const {
+    switch (column) {
+        case frames_column:
+            return tr("Frames processed; of how many, if the run ended early");
+        case length_column:
+            return tr("Length of the processed part of the video");
+        case gsd_column:
+            return tr("Ground sampling distance in metres per pixel; ≈: estimated from the traffic");
+        default:
+            return {};
+    }
+}
+
 QVariant RunsModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation == Qt::Horizontal && role == Qt::ToolTipRole) return helpOf(section);
     if (orientation != Qt::Horizontal || role != Qt::DisplayRole) {
         return RecordModel::headerData(section, orientation, role);
     }

@@ -43,6 +43,8 @@ class RunsModel : public RecordModel<RunRecord> {
 
  private:
     QString textOf(const RunRecord& run, int column) const;
+    /// What a column holds, for its title's tooltip.
+    QString helpOf(int column) const;
     QVariant sortValueOf(const RunRecord& run, int column) const;
     QString stateText(const RunRecord& run) const;
     QString toolTipOf(const RunRecord& run) const;

@@ -88,9 +88,33 @@ QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
     }
 }
 
+QString TracksModel::helpOf(int column) const {
+    switch (column) {
+        case id_column:
+            return tr("Number of the track");
+        case first_column:
+            return tr("First frame");
+        case last_column:
+            return tr("Last frame");
+        case life_column:
+            return tr("From first to last frame, in seconds");
+        case speed_column:
+            return tr("Mean speed over the ground, in %1").arg(speedUnit(scale_));
+        case length_column:
+            return tr("Mean length, in %1").arg(lengthUnit(scale_));
+        case width_column:
+            return tr("Mean width, in %1").arg(lengthUnit(scale_));
+        case status_column:
+            return tr("Confirmed: relied on. Tentative: too new to be relied on, and not part of the result");
+        case score_column:
+            return tr("Probability that the track is a moving vehicle, from 0 to 1");
+        default:
+            return {};
+    }
+}
+
 QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    if (orientation == Qt::Horizontal && role == Qt::ToolTipRole && section == score_column)
-        return tr("Probability that the track is a vehicle that moves, from all its evidence");
+    if (orientation == Qt::Horizontal && role == Qt::ToolTipRole) return helpOf(section);
     if (orientation != Qt::Horizontal || role != Qt::DisplayRole) {
         return RecordModel::headerData(section, orientation, role);
     }

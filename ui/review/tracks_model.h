@@ -35,6 +35,8 @@ class TracksModel : public RecordModel<TrackSummary> {
 
  private:
     QString textOf(const TrackSummary& track, int column) const;
+    /// What a column holds, for its title's tooltip.
+    QString helpOf(int column) const;
     QVariant sortValueOf(const TrackSummary& track, int column) const;
     double secondsOf(const TrackSummary& track) const;
     SceneScale scale_;

@@ -22,7 +22,7 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
         tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size."));
     tentative_->setText(tr("Tentative"));
     tentative_->setCheckable(true);
-    tentative_->setToolTip(tr("Also list tracks that were never confirmed and are no part of the result"));
+    tentative_->setToolTip(tr("Also list tracks that were never confirmed and are not part of the result"));
     toolRow()->addWidget(tentative_);
     sensitivity_->setRange(0, 100);
     sensitivity_->setValue(100);
@@ -30,8 +30,8 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     sensitivity_->setFixedWidth(90);
     sensitivity_->setAccessibleName(tr("Sensitivity"));
     sensitivity_->setToolTip(
-        tr("Sensitivity: to the left, only tracks that are surely vehicles that move are listed and drawn; on the far "
-           "right, all tracks are."));
+        tr("Sensitivity: on the left, only tracks that are surely moving vehicles are listed and drawn; on the far "
+           "right, all tracks."));
     count_->setToolTip(tr("Tracks shown at this sensitivity, of all tracks"));
     toolRow()->addWidget(sensitivity_);
     toolRow()->addWidget(count_);

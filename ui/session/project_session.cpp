@@ -165,7 +165,7 @@ void ProjectSession::adoptGsd() {
 
 void ProjectSession::removeRun(int run_id) {
     if (running() && own_run_ == run_id) {
-        emit problem(tr("This run is still at work. Stop it before removing it."));
+        emit problem(tr("This run has not ended yet. Stop it before removing it."));
         return;
     }
     const RunRecord* run = findRun(run_id);

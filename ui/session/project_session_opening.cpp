@@ -264,7 +264,7 @@ void ProjectSession::adoptMovedVideo(const SequenceRecord& known, const std::str
         if (run.sequence.id == known.id) run.sequence.path = identity;
     reader_.relocateSequence(known.id, identity);
     emit runsChanged();
-    emit notice(tr("The video lies at %1 now; the project remembers it.").arg(QString::fromStdString(identity)));
+    emit notice(tr("The video is at %1 now; the project remembers it.").arg(QString::fromStdString(identity)));
 }
 
 void ProjectSession::showWithoutVideo(const SequenceRecord& sequence, std::optional<int> run_id,

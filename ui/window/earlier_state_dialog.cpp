@@ -38,8 +38,8 @@ EarlierStateDialog::EarlierStateDialog(EarlierStates& states, const std::filesys
     auto* columns = new QHBoxLayout;
     columns->addWidget(list_, 1);
     columns->addWidget(differences_, 1);
-    auto* note = new QLabel(tr("The state of each day of use is kept before the work of that day. What is there now is "
-                               "kept before another state takes its place."),
+    auto* note = new QLabel(tr("The project's state is kept at the start of each day of use. The present state is kept "
+                               "before another one replaces it."),
                             this);
     note->setWordWrap(true);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);

@@ -285,7 +285,7 @@ void MainWindow::wireRunMessages() {
     });
     connect(&session_, &ProjectSession::videoNotFound, this, [this](const QString& message) {
         messages_->showTopic(kVideoTopic, MessageKind::warning,
-                             tr("%1. The results can be looked at without it.").arg(message), tr("Locate…"),
+                             tr("%1. The results can be viewed without it.").arg(message), tr("Locate…"),
                              [this] { locateVideo(); });
     });
     connect(run_bar_, &RunBar::gsdRefused, this,

@@ -31,7 +31,7 @@ void RunGuard::beforeEnding(const QString& doing, std::function<void()> then) {
         else
             then();
     };
-    ask(window_, tr("A run is at work. Stop it before %1?").arg(doing),
+    ask(window_, tr("A run is still running. Stop it before %1?").arg(doing),
         tr("The frames done so far are kept in either case."),
         {{tr("Stop the run"),
           [this, wait] {

@@ -56,10 +56,9 @@ KeySheet::KeySheet(KeyBindings& keys, const QString& first, QWidget* parent) : Q
     key_ = new QKeySequenceEdit;
     set_ = new QPushButton(tr("Use this key"));
     none_ = new QPushButton(tr("No key"));
-    default_ = new QPushButton(tr("As it was"));
-    default_->setToolTip(tr("Give the command the keys that it came with"));
-    auto* all = new QPushButton(tr("All as they were"));
-    all->setToolTip(tr("Give every command the keys that it came with"));
+    default_ = new QPushButton(tr("Default"));
+    default_->setToolTip(tr("Restore the default keys of this command"));
+    auto* all = new QPushButton(tr("Restore all defaults"));
     answer_ = new QLabel;
     answer_->setWordWrap(true);
     for (QPushButton* button : {set_, none_, default_, all}) button->setAutoDefault(false);
@@ -116,7 +115,7 @@ void KeySheet::fill(const QString& first) {
     const std::pair<QString, QString> mouse[] = {{tr("Zoom to the cursor"), tr("Wheel")},
                                                  {tr("Move the picture"), tr("Drag, also with Space held")},
                                                  {tr("Select a track"), tr("Click")},
-                                                 {tr("Zoom in, again: fit"), tr("Double click")},
+                                                 {tr("Zoom in, again: fit"), tr("Double-click")},
                                                  {tr("Go through the video"), tr("Drag the timeline")},
                                                  {tr("Zoom the timeline; Shift scrolls it"), tr("Wheel on it")}};
     auto* title = heading(list_, tr("Mouse"));
@@ -170,7 +169,7 @@ void KeySheet::showChosen() {
     none_->setEnabled(action != nullptr && !keys_.keysOf(action).isEmpty());
     default_->setEnabled(action != nullptr && keys_.changed(action));
     key_->clear();
-    answer_->setText(action == nullptr ? tr("Choose a command to give it another key.") : QString());
+    answer_->setText(action == nullptr ? tr("Choose a command to change its key.") : QString());
 }
 
 void KeySheet::setKey(const QKeySequence& key) {

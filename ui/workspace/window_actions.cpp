@@ -42,7 +42,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     restore_run =
         add(tr("Bring back the re&moved run"), {"edit-undo", {}, QT_TR_NOOP("Possible until the project is closed")});
     train =
-        add(tr("Train from &labels…"), {nullptr, {}, QT_TR_NOOP("A classifier of your own for the sliding window")});
+        add(tr("Train from &labels…"), {nullptr, {}, QT_TR_NOOP("Train your own classifier for the sliding window")});
 
     section(tr("Playback"));
     play = add(tr("&Play"), {"media-playback-start", {QKeySequence(Qt::Key_Space)}});
@@ -66,9 +66,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
         add(tr("&Previous error"), {"go-previous", {QKeySequence(tr("Shift+N")), QKeySequence(tr("Shift+F8"))}});
     why_error = add(tr("Wh&y this error?"), {"help-contextual",
                                              {QKeySequence(tr("Shift+W"))},
-                                             QT_TR_NOOP("What decided at the place of the error that is looked at")});
+                                             QT_TR_NOOP("What decided at the place of the selected error")});
     wrong_truth =
-        add(tr("The &truth is wrong here…"),
+        add(tr("The ground &truth is wrong here…"),
             {"document-edit",
              {QKeySequence(tr("Ctrl+T"))},
              QT_TR_NOOP("Open the object in the label workspace; the run is scored again after each change")});
@@ -78,14 +78,14 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     one_to_one = add(tr("Actual size (1:1)"), {"zoom-original", {QKeySequence(Qt::Key_1)}});
     zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
-    deselect = add(tr("Select nothing"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
+    deselect = add(tr("Clear the selection"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
     why = add(
         tr("&Why here?"),
         {"help-contextual", {QKeySequence(Qt::Key_W)}, QT_TR_NOOP("What decided about the place under the cursor")});
     live_preview = addToggle(tr("Live &preview of parameters"),
                              {nullptr,
                               {QKeySequence(Qt::Key_P)},
-                              QT_TR_NOOP("Show the present frame with each parameter that is moved in the form")},
+                              QT_TR_NOOP("Show the current frame with the parameters of the form")},
                              true);
     compare = add(tr("&Compare A and B…"),
                   {nullptr,

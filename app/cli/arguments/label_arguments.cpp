@@ -22,12 +22,14 @@ std::string nounOf(int count, const char* one, const char* many) {
 void addLabelOptions(CLI::App& command, LabelArguments& arguments, const char* format_name, const char* columns_name) {
     command.add_option(format_name, arguments.format, "Format of the file: auto, " + formatNames(false))
         ->capture_default_str();
-    command.add_option("--class-map", arguments.class_map, "Class of the file and ours, a=b; once for each");
-    command.add_option("--shift", arguments.shift, "Frames to add to every frame of the file")->capture_default_str();
+    command.add_option("--class-map", arguments.class_map,
+                       "Class of the file and the class it becomes, as a=b; may be repeated");
+    command.add_option("--shift", arguments.shift, "Number to add to every frame number of the file")
+        ->capture_default_str();
     command.add_option("--scale", arguments.scale, "Factor on all lengths, for labels of another image size")
         ->capture_default_str();
     command.add_option(columns_name, arguments.columns,
-                       "Columns of a table of one's own, as frame,id,cname,x1,y1,x2,y2 or frame,n,[id,x,y,w,h]");
+                       "Columns of your own table, such as frame,id,cname,x1,y1,x2,y2 or frame,n,[id,x,y,w,h]");
     command.add_option("--first-frame", arguments.first_frame,
                        "Number of a video's first frame in such a table (else 0)");
     command.add_option("--pixel-origin", arguments.pixel_origin,
@@ -42,7 +44,7 @@ ImportOptions importOptionsOf(const LabelArguments& arguments) {
         const std::size_t equals = mapping.find('=');
         if (equals == std::string::npos || equals + 1 == mapping.size()) {
             throw Error(ErrorKind::parameter,
-                        "--class-map " + mapping + ", expected a class of the file and ours: a=b");
+                        "--class-map " + mapping + ", expected a class of the file and the class it becomes: a=b");
         }
         options.class_map[mapping.substr(0, equals)] = mapping.substr(equals + 1);
     }

@@ -40,8 +40,8 @@ ResumeChoice chosen(const RunStore& store, const std::string& project, const Run
     const std::string difference = differenceOf(store, run, wishes);
     if (difference.empty()) return {run, ""};
     throw Error(ErrorKind::parameter, "--resume: run " + std::to_string(run.id) + " of " + project +
-                                          " was begun with " + difference +
-                                          "; leave out what differs to go on with it, or --resume for a new run");
+                                          " was started with " + difference +
+                                          "; leave out what differs to resume it, or --resume for a new run");
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ ResumeChoice chooseRun(const RunStore& store, const std::string& project, const 
         if (usable && difference.empty()) return {run, ""};
         if (!choice.why_new.empty() || run.state == RunState::finished) continue;
         choice.why_new = "run " + std::to_string(run.id) +
-                         (usable ? " was begun with " + difference : " cannot be gone on with: " + textOf(obstacle));
+                         (usable ? " was started with " + difference : " cannot be resumed: " + textOf(obstacle));
     }
     return choice;
 }

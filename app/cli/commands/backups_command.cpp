@@ -129,7 +129,7 @@ void addBackupsCommand(CLI::App& app, int&) {
     };
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command =
-        app.add_subcommand("backups", "List the earlier states of a project, and what differs from the present one");
+        app.add_subcommand("backups", "List the earlier states of a project, and how they differ from the present one");
     command->add_option("PROJECT", arguments->project, "Project (.eyrie); it may be gone")->required();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] { listEarlierStates(arguments->project, arguments->json); });
@@ -142,7 +142,8 @@ void addRestoreCommand(CLI::App& app, int& exit_code) {
         std::string out;
     };
     const auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("restore", "Make a project what it was; the present state is kept first");
+    CLI::App* command =
+        app.add_subcommand("restore", "Restore a project to an earlier state; the present state is kept first");
     command->add_option("PROJECT", arguments->project, "Project (.eyrie) that no other program has open")->required();
     command->add_option("--backup", arguments->backup, "Name of the earlier state, as eyrie-cli backups lists it")
         ->required();

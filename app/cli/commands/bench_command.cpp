@@ -289,7 +289,7 @@ void bench(const BenchArguments& arguments) {
 
 void addBenchCommand(CLI::App& app, int&) {
     const auto arguments = std::make_shared<BenchArguments>();
-    CLI::App* command = app.add_subcommand("bench", "Measure the time of every stage, beside the usual OpenCV means");
+    CLI::App* command = app.add_subcommand("bench", "Measure the time of every stage, next to a plain OpenCV baseline");
     command->add_option("--input", arguments->input, "Video, folder of images or scene:NAME")->capture_default_str();
     command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel")
         ->capture_default_str();

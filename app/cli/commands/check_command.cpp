@@ -94,7 +94,7 @@ int check(const CheckArguments& arguments) {
 
 void addCheckCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<CheckArguments>();
-    CLI::App* command = app.add_subcommand("check", "Tell the health of a project, and save what can be read of it");
+    CLI::App* command = app.add_subcommand("check", "Check a project for damage, and save what can be read of it");
     command->add_option("PROJECT", arguments->project, "Project (.eyrie); it is only read")->required();
     command->add_option("--repair", arguments->repair, "Write all that can be read into this new project");
     command->add_flag("--json", arguments->json, "Print JSON");

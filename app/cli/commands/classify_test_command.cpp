@@ -187,21 +187,21 @@ void addClassifyTestCommand(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "classify-test", "Compare descriptors and classifiers over sources of samples (Teutsch table 7.4)");
     command->add_option("--samples", arguments->samples,
-                        "Folders with patch sheets, each a source; several divided by commas");
-    command->add_option("--rendered", arguments->rendered, "Render so many frames as a further source")
+                        "Folders with patch sheets, each a source; several separated by commas");
+    command->add_option("--rendered", arguments->rendered, "Render this many frames as a further source")
         ->check(CLI::Range(0, 10000));
     command->add_option("--train-on", arguments->train_on, "Only train on these sources (folder names, or rendered)")
         ->delimiter(',');
     command->add_option("--descriptors", arguments->descriptors, "Only these (default: all)")->delimiter(',');
     command->add_option("--classifiers", arguments->classifiers, "Only these (default: all)")->delimiter(',');
-    command->add_option("--vehicles", arguments->vehicles, "Train on at most so many vehicles, and as many others")
+    command->add_option("--vehicles", arguments->vehicles, "Train on at most this many vehicles, and as many others")
         ->check(CLI::Range(10, 6000))
         ->capture_default_str();
-    command->add_option("--test-others", arguments->test_others, "Test on at most so many others of each source")
+    command->add_option("--test-others", arguments->test_others, "Test on at most this many others of each source")
         ->check(CLI::Range(10, 1000000))
         ->capture_default_str();
     command->add_option("--set", arguments->settings, "NAME=VALUE of a training parameter, e.g. training.trees=200");
-    command->add_option("--seed", arguments->seed, "Chooses everything drawn at random")
+    command->add_option("--seed", arguments->seed, "Seed of everything drawn at random")
         ->check(CLI::Range(0, 1000000000));
     command->add_option("--out", arguments->out, "Folder for the ROC curves, a CSV file each");
     arguments->outputs.addTo(*command);

@@ -146,7 +146,7 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("evaluate", "Measure tracks or detections against ground truth");
     arguments->ground_truth.addTo(*command, kLabelsOtherwise);
     CLI::Option* result = command->add_option(
-        "--result", arguments->result, "Boxes to measure: our CSV, MOTChallenge text, or what else import reads");
+        "--result", arguments->result, "Boxes to measure: Eyrie's CSV, MOTChallenge text, or what else import reads");
     CLI::Option* project =
         command->add_option("--project", arguments->project, "Measure a run of this project instead")->excludes(result);
     command->add_option("--run", arguments->run, "Number of the run (default: the last)")->needs(project);
@@ -173,8 +173,7 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
         }
         if (arguments->ground_truth.file.empty() && arguments->project.empty()) {
             throw Error(ErrorKind::parameter,
-                        "evaluate needs the truth: --ground-truth FILE; only with --project are the project's labels "
-                        "used instead");
+                        "evaluate needs ground truth: --ground-truth FILE, or the project's labels with --project");
         }
         evaluateAndPrint(*arguments);
         exit_code = exit_ok;

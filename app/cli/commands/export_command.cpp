@@ -87,13 +87,11 @@ void addExportCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<ExportArguments>();
     arguments->options.sequence.clear();
     CLI::App* command =
-        app.add_subcommand("export", "Write labels or tracks for other programs; says what their format cannot carry");
+        app.add_subcommand("export", "Write labels or tracks for other programs; says what their format cannot hold");
     CLI::Option* project = command->add_option("--project", arguments->project, "Project with the labels or runs");
     CLI::Option* run =
         command->add_option("--run", arguments->run, "Tracks of this run (default: the last)")->needs(project);
-    command->add_flag("--labels", arguments->labels, "What people labelled instead of a run")
-        ->needs(project)
-        ->excludes(run);
+    command->add_flag("--labels", arguments->labels, "Labels instead of a run")->needs(project)->excludes(run);
     command->add_flag("--detections", arguments->detections, "The run's detections instead of its tracks")
         ->needs(project);
     command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
@@ -101,21 +99,22 @@ void addExportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--from", arguments->from, "File or folder of labels to convert")->excludes(project);
     addLabelOptions(*command, arguments->from_labels, "--from-format", "--from-columns");
     command->add_option("--format", arguments->format, "One of " + formatNames(true))->required();
-    command->add_option("--out", arguments->out, "File, or folder for formats with a text per image")->required();
-    command->add_option("--columns", arguments->options.columns, "Columns of a table of one's own, for format columns");
+    command->add_option("--out", arguments->out, "File, or folder for formats with a text file per image")->required();
+    command->add_option("--columns", arguments->options.columns, "Columns of your own table, for format columns");
     command->add_option("--out-first-frame", arguments->options.first_frame_number,
                         "Number of a video's first frame in such a table (else 0)");
     command->add_option("--out-pixel-origin", arguments->options.first_pixel_edge,
                         "Where the first pixel begins in such a table (else 0) and in MOTChallenge text (else 1)");
-    CLI::Option* clip = command->add_flag("--clip", arguments->clip, "Cut boxes at the image's border");
-    command->add_flag("--keep-outside", arguments->keep, "Do not cut, not even for YOLO-OBB")->excludes(clip);
+    CLI::Option* clip = command->add_flag("--clip", arguments->clip, "Clip boxes to the image");
+    command->add_flag("--keep-outside", arguments->keep, "Do not clip, not even for YOLO-OBB")->excludes(clip);
     command->add_flag("--unrotated-bounds", arguments->options.unrotated_bounds,
                       "COCO and KWCOCO: bbox is the unrotated box, as DIVE reads it");
     command->add_option("--name", arguments->options.sequence, "Name of the sequence (default: the video's)");
     command->add_option("--benchmark", arguments->options.benchmark, "TrackEval: name of the benchmark")
         ->capture_default_str();
     command->add_option("--split", arguments->options.split, "TrackEval: name of the split")->capture_default_str();
-    command->add_option("--tracker", arguments->options.tracker, "TrackEval: write a tracker's result of this name");
+    command->add_option("--tracker", arguments->options.tracker,
+                        "TrackEval: write the result of a tracker of this name");
     arguments->outputs.addTo(*command);
     command->callback([arguments, &exit_code] {
         if (arguments->from.empty() == arguments->project.empty()) {

@@ -159,36 +159,34 @@ void importLabels(const ImportArguments& arguments) {
 
 void addImportCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<ImportArguments>();
-    CLI::App* command = app.add_subcommand(
-        "import",
-        "Take over labels of other programs, into a project or as our ground truth; shows first what it found");
+    CLI::App* command = app.add_subcommand("import",
+                                           "Import labels of other programs into a project, or convert them to Eyrie's "
+                                           "ground truth; first shows what it found");
     command->add_option("file", arguments->file, "File or folder of labels")->required();
     addLabelOptions(*command, arguments->labels, "--format", "--columns");
     command->add_option("--sequence-name", arguments->labels.sequence, "Video to take from a KWCOCO file with several");
     CLI::Option* project = command->add_option("--project", arguments->project, "Project that gets the labels");
     command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
         ->needs(project);
-    command
-        ->add_option("--video", arguments->video, "Video that the labels belong to, for a project that knows none yet")
+    command->add_option("--video", arguments->video, "Video that the labels belong to, for a project that has none yet")
         ->needs(project);
     command
         ->add_option(
             "--tolerance", arguments->tolerance_px,
-            "How far interpolated boxes may be from the file's, px (below 0.5 whole pixels come back as they were); "
+            "How far interpolated boxes may be from the file's, px (below 0.5, whole pixels come back exactly); "
             "0 makes every box a keyframe")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1000.0));
     command
         ->add_flag("--add-doubles", arguments->add_doubles,
-                   "Take objects that the project has already with the same boxes all the same")
+                   "Also import objects that the project already has with the same boxes")
         ->needs(project);
     command
-        ->add_flag(
-            "--link", arguments->link,
-            "Link boxes without id that overlap from frame to frame to objects; without, each is an object of one "
-            "frame")
+        ->add_flag("--link", arguments->link,
+                   "Link boxes without ids into objects where they overlap from frame to frame; without this, each is "
+                   "an object of one frame")
         ->needs(project);
-    command->add_option("--out", arguments->out, "Write our ground truth CSV instead")->excludes(project);
+    command->add_option("--out", arguments->out, "Write Eyrie's ground truth CSV instead")->excludes(project);
     arguments->outputs.addTo(*command);
     command->add_flag("--show", arguments->show, "Only show what is in the file");
     command->callback([arguments, &exit_code] {

@@ -66,7 +66,7 @@ Json factsOf(RunStore& store, const RunRecord& run) {
 void printVideo(const Json& facts) {
     std::printf("%s\n", facts["file"].get<std::string>().c_str());
     std::printf("  %s, %s\n", facts["codec"].get<std::string>().c_str(), facts["container"].get<std::string>().c_str());
-    std::printf("  %d×%d px, %d frames, %.4g frames a second%s, %.2f s\n", facts["width"].get<int>(),
+    std::printf("  %d×%d px, %d frames, %.4g frames/s%s, %.2f s\n", facts["width"].get<int>(),
                 facts["height"].get<int>(), facts["frames"].get<int>(), facts["frame_rate_hz"].get<double>(),
                 facts["variable_frame_rate"].get<bool>() ? " on average (variable)" : "",
                 facts["duration_s"].get<double>());
@@ -136,9 +136,9 @@ void addInfoCommand(CLI::App& app, int&) {
         bool json = false;
     };
     const auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("info", "Tell what a video, a folder of images or a project holds");
+    CLI::App* command = app.add_subcommand("info", "Show what a video, a folder of images or a project holds");
     command->add_option("FILE", arguments->file, "Video, folder of images or project (.eyrie)")->required();
-    command->add_option("--fps", arguments->frame_rate_hz, "Frames a second, in place of the video's own")
+    command->add_option("--fps", arguments->frame_rate_hz, "Frames per second, instead of the video's own")
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] {

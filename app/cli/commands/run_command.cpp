@@ -131,7 +131,7 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     const VideoInfo& video = source.info();
     checkRange(range, video);
     if (!arguments.video.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
-        std::fputs("GSD unknown: looking at the traffic for the scale\n", stderr);
+        std::fputs("GSD unknown: estimating the scale from the traffic\n", stderr);
     }
     const SceneScale scale = scaleOf(source, range, options, arguments, interrupt.token());
     RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
@@ -152,13 +152,14 @@ void tellWhereItGoesOn(const ResumedRun& resumed) {
     const std::string which = "run " + std::to_string(resumed.run.id);
     switch (resumed.restart) {
         case RestartReason::none:
-            std::fprintf(stderr, "going on with %s: %d of %d frames are done\n", which.c_str(), done, total);
+            std::fprintf(stderr, "resuming %s: %d of %d frames are done\n", which.c_str(), done, total);
             break;
         case RestartReason::nothing_kept:
-            std::fprintf(stderr, "%s begins again at its first frame: nothing was kept to go on from\n", which.c_str());
+            std::fprintf(stderr, "%s starts again from its first frame: no state was kept to resume from\n",
+                         which.c_str());
             break;
         case RestartReason::damaged_state:
-            std::fprintf(stderr, "%s begins again at its first frame: what was kept to go on from is damaged\n",
+            std::fprintf(stderr, "%s starts again from its first frame: the state kept to resume from is damaged\n",
                          which.c_str());
             break;
     }
@@ -238,7 +239,7 @@ int run(const RunArguments& arguments) {
                     "INPUT is missing: name a video, a folder of images or a scene; --resume can do with --project");
     }
     if (arguments.run_id && !arguments.resume) {
-        throw Error(ErrorKind::parameter, "--run names the run to go on with; add --resume, or leave it out");
+        throw Error(ErrorKind::parameter, "--run names the run to resume; add --resume, or leave it out");
     }
     const InterruptGuard interrupt;
     const std::filesystem::path project = projectPath(arguments);
@@ -252,7 +253,7 @@ int run(const RunArguments& arguments) {
     if (arguments.resume) {
         choice = choiceOf(arguments, source.get(), project);
         if (!choice.run && !choice.why_new.empty() && !arguments.quiet) {
-            std::fprintf(stderr, "a new run is begun: %s\n", choice.why_new.c_str());
+            std::fprintf(stderr, "starting a new run: %s\n", choice.why_new.c_str());
         }
     }
     if (!source) {
@@ -279,7 +280,7 @@ int run(const RunArguments& arguments) {
         return exitCodeOf(summary.error);
     }
     if (summary.outcome == RunOutcome::stopped && !arguments.quiet) {
-        std::fprintf(stderr, "stopped; eyrie-cli run --resume --project %s does the rest\n", project.c_str());
+        std::fprintf(stderr, "stopped; eyrie-cli run --resume --project %s resumes it\n", project.c_str());
     }
     return summary.outcome == RunOutcome::stopped ? exit_stopped : exit_ok;
 }
@@ -298,14 +299,14 @@ void addRunCommand(CLI::App& app, int& exit_code) {
         "Project file; made when it does not exist, else a run is added (default: INPUT's name in this folder)");
     arguments->video.addTo(*command);
     command->add_flag("--resume", arguments->resume,
-                      "Go on with a run that ended early; the result is that of a run that never did. With INPUT: the "
-                      "newest of that video begun with the same options, or a new one");
-    command->add_option("--run", arguments->run_id, "Number of the run to go on with (default: the newest)");
+                      "Resume a run that ended early; the result is the same as without the break. With INPUT: the "
+                      "newest of that video started with the same options, or a new one");
+    command->add_option("--run", arguments->run_id, "Number of the run to resume (default: the newest)");
     command->add_option("--name", arguments->name, "A name for the run");
     arguments->preset.addTo(*command);
     command->add_option("--tracks", arguments->tracks_csv, "Write the tracks as CSV");
     command->add_option("--detections", arguments->detections_csv, "Write the detections as CSV");
-    command->add_option("--annotated", arguments->annotated, "Write the video with everything drawn in (mp4)");
+    command->add_option("--annotated", arguments->annotated, "Write the video with all results drawn in (mp4)");
     command->add_option("--timing", arguments->timing, "Write median times per stage as JSON");
     arguments->outputs.addTo(*command);
     command->add_flag("--quiet", arguments->quiet, "No progress");

@@ -178,7 +178,7 @@ int sweep(const SweepArguments& arguments) {
     std::fputs((arguments.json ? jsonText(table, criterion) : tableText(table, criterion)).c_str(), stdout);
     for (const std::string& remark : opened.remarks) std::fprintf(stderr, "note: %s\n", remark.c_str());
     if (!whole) {
-        std::fprintf(stderr, "stopped; %s keeps what is done, the same command with --resume does the rest\n",
+        std::fprintf(stderr, "stopped; %s keeps the finished points, the same command with --resume does the rest\n",
                      project.path().string().c_str());
     }
     return whole ? exit_ok : exit_stopped;
@@ -194,7 +194,7 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
     CLI::Option* sequence = command->add_option("--sequence", sources.sequences,
                                                 "A video file, a folder of images, or scene:NAME; may be repeated");
     command->add_option("--ground-truth", sources.ground_truths,
-                        "True boxes of each sequence, in any format that import reads (with --project: default the "
+                        "Ground truth of each sequence, in any format that import reads (with --project: default the "
                         "project's labels)");
     command->add_option("--project", sources.project, "Sweep over a stored run, whose motion vectors are used again")
         ->excludes(sequence);
@@ -216,8 +216,8 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
     command->add_option("--out", arguments->out, "Project file for the points; made when it does not exist");
     command->add_option("--name", arguments->name, "A name for the sweep");
     command->add_option("--shard", arguments->shard, "Do only part I of N, written I/N; eyrie-cli merge joins them");
-    command->add_flag("--resume", arguments->resume, "Go on with a sweep that was stopped");
-    command->add_flag("--yes", arguments->yes, "Begin even with more than 10000 points");
+    command->add_flag("--resume", arguments->resume, "Resume a sweep that was stopped");
+    command->add_flag("--yes", arguments->yes, "Start even with more than 10000 points");
     command->add_option("--best", arguments->criterion, "The measure that decides which point is best")
         ->capture_default_str();
     command->add_option("--of", arguments->of, "Judge detections or tracks (default: by the parameters)")
@@ -261,7 +261,7 @@ void addMergeCommand(CLI::App& app, int& exit_code) {
         });
         if (exists && !is_part && !arguments->add) {
             throw Error(ErrorKind::parameter, "--out " + arguments->out +
-                                                  ": exists already; choose another name, or say --add to put the "
+                                                  ": exists already; choose another name, or use --add to put the "
                                                   "sweep into that project");
         }
         arguments->outputs.check({growingProject(arguments->out), {arguments->csv, FileKind::text}},

@@ -185,21 +185,21 @@ void addTrainCommand(CLI::App& app, int& exit_code) {
     command->add_option("--classifier", arguments->classifier, "One of " + namesOf(allClassifiers()))
         ->capture_default_str();
     command->add_option("--samples", arguments->samples,
-                        "Folders with patch sheets: pos.png, neg.png, patches.csv; several divided by commas");
+                        "Folders with patch sheets: pos.png, neg.png, patches.csv; several separated by commas");
     command->add_option("--images", arguments->inputs,
-                        "Video, image folder or scene:NAME whose labelled vehicles are cut");
+                        "Video, image folder or scene:NAME whose labelled vehicles are cut out");
     command->add_option("--ground-truth", arguments->ground_truths, "Table of boxes for each --images");
     command->add_option("--every", arguments->every, "Use every n-th frame of --images")->capture_default_str();
-    command
-        ->add_option("--rendered", arguments->rendered, "Render so many frames of scenes of its own and use them, too")
+    command->add_option("--rendered", arguments->rendered, "Also train on this many rendered frames of built-in scenes")
         ->check(CLI::Range(0, 10000));
     command->add_option("--out", arguments->out, "The model file to write")->required();
-    command->add_option("--seed", arguments->seed, "Chooses everything drawn at random (default 1)");
+    command->add_option("--seed", arguments->seed, "Seed of everything drawn at random (default 1)");
     command->add_option("--hard-negative-rounds", arguments->rounds,
-                        "How often false alarms are added and training starts anew (default 2)");
+                        "How often false alarms are added and training is repeated (default 2)");
     command->add_option("--trees", arguments->trees, "Trees of AdaBoost and Random Forest (default 1000)");
     command->add_option("--set", arguments->settings, "NAME=VALUE of a training parameter, e.g. training.folds=5");
-    command->add_option("--note", arguments->note, "Text kept in the model: where the samples come from, their terms");
+    command->add_option("--note", arguments->note,
+                        "Note kept in the model, such as the source and licence of the samples");
     arguments->outputs.addTo(*command);
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

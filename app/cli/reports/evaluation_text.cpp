@@ -39,8 +39,9 @@ std::string rightAligned(const std::string& text, std::size_t width) {
 }
 
 std::string conventionText(Convention convention) {
-    return convention == Convention::thesis ? "thesis (Teutsch §7.1)"
-                                            : "trackeval (TrackEval: ignored objects are removed and forgive nothing)";
+    return convention == Convention::thesis
+               ? "thesis (Teutsch §7.1)"
+               : "trackeval (TrackEval: ignored objects are removed, and results on them are false alarms)";
 }
 
 std::string comparedText(const EvaluationOptions& options) {

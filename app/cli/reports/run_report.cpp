@@ -66,9 +66,9 @@ const char* whyNothing(NothingFollowed nothing) {
         case NothingFollowed::no_frames:
             return "no frame was processed";
         case NothingFollowed::not_registered:
-            return "no frame could be registered onto the one before it, so nothing could be told to move";
+            return "no frame could be registered onto the one before it, so no motion could be measured";
         case NothingFollowed::no_motion:
-            return "nothing moved otherwise than the ground (motion.min_speed decides)";
+            return "nothing moved differently from the ground (motion.min_speed decides)";
         case NothingFollowed::no_detections:
             return "something moved, but nothing looked like a vehicle (detection.method decides, and --gsd)";
         case NothingFollowed::all_rejected:
@@ -76,7 +76,7 @@ const char* whyNothing(NothingFollowed nothing) {
         case NothingFollowed::none_confirmed:
             return "nothing was detected often enough to become a track (tracking.confirm_hits decides)";
         case NothingFollowed::all_dropped:
-            return "what was followed was left out when the tracks were finished (the finishing parameters decide)";
+            return "every track was dropped when the tracks were finished (the finishing parameters decide)";
     }
     return "";
 }

@@ -21,7 +21,7 @@ class CameraMotion {
     /// Knows nothing: no two frames are connected.
     CameraMotion() = default;
     /// From maps between neighbouring frames (`to_frame` = `from_frame` + 1), in any order; others, and matrices that
-    /// are not finite or not invertible, are passed over and break the chain there.
+    /// are not finite or not invertible, are skipped and break the chain there.
     explicit CameraMotion(const std::vector<Homography>& steps);
     /// The same of a run's registration; frames whose registration failed break the chain.
     static CameraMotion fromRegistrations(const std::vector<Registration>& registrations);

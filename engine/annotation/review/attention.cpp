@@ -81,7 +81,7 @@ class Observer {
         const double slower = std::min(before, after);
         const double faster = std::max(before, after);
         if (faster - slower < options_.jump_px || faster < slower * options_.jump_factor) return;
-        add(frame, AttentionKind::jump, inWords("%.1f px/frame after %.1f before", after, before));
+        add(frame, AttentionKind::jump, inWords("%.1f px/frame, %.1f before", after, before));
     }
 
     void compareSizes(const OrientedBox& from, const Keyframe& to) {

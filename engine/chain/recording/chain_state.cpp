@@ -58,9 +58,9 @@ Unpacked unpacked(std::string_view bytes, const ChainOptions& options, const Sce
 }
 
 [[noreturn]] void refuseOtherClassifier(const ChainOptions& options) {
-    throw Error(ErrorKind::input, modelLocation(options.detection.sliding_window.model).string() +
-                                      " is not the classifier it was when the run was begun; put the old file back, or "
-                                      "begin a new run");
+    throw Error(ErrorKind::input,
+                modelLocation(options.detection.sliding_window.model).string() +
+                    " is not the classifier that the run was started with; put the old file back, or start a new run");
 }
 
 template <class Stage>
@@ -132,10 +132,10 @@ std::unique_ptr<ChainProgress> unpackedState(std::string_view bytes, const Chain
     } catch (const DamagedState&) {
         return nullptr;
     } catch (const ChangedPicture& changed) {
-        throw Error(ErrorKind::input, video.path.string() + " is not the video it was: frame " +
-                                          std::to_string(changed.frame) +
-                                          " shows something else than when the run was begun; put the old video back, "
-                                          "or begin a new run");
+        throw Error(
+            ErrorKind::input,
+            video.path.string() + " is not the same video any more: frame " + std::to_string(changed.frame) +
+                " shows something else than when the run was started; put the old video back, or start a new run");
     }
 }
 

@@ -17,7 +17,7 @@ ScaleOrigin originOf(const SceneScale& scale);
 enum class NothingFollowed {
     has_tracks,      ///< there are tracks
     no_frames,       ///< no frame was done
-    not_registered,  ///< no frame could be registered, so nothing could be told to move
+    not_registered,  ///< no frame could be registered, so no motion could be measured
     no_motion,       ///< no corner moved otherwise than the ground
     no_detections,   ///< what moved was nowhere outlined as a vehicle
     all_rejected,    ///< every detection was rejected as duplicate, outlier or for its size

@@ -19,8 +19,8 @@ std::string sizeText(cv::Size size) {
 void checkVideo(const RunRecord& run, const VideoInfo& video) {
     const auto refuse = [&](const std::string& now, const std::string& then) {
         throw Error(ErrorKind::input, video.path.string() + " is not the video that run " + std::to_string(run.id) +
-                                          " was begun with: it has " + now + " now, " + then +
-                                          " then; put the old video back, or begin a new run");
+                                          " was started with: it has " + now + " now, " + then +
+                                          " then; put the old video back, or start a new run");
     };
     if (video.size != run.sequence.size) refuse(sizeText(video.size), sizeText(run.sequence.size));
     if (video.frame_count != run.sequence.frame_count) {
@@ -50,9 +50,9 @@ std::string textOf(ResumeObstacle obstacle) {
         case ResumeObstacle::finished:
             return "it is finished";
         case ResumeObstacle::live:
-            return "another program is at work on it";
+            return "another program is writing it";
         case ResumeObstacle::other_engine:
-            return "another version of Eyrie began it, whose frames would not go with those of this one";
+            return "another version of Eyrie started it, whose frames would not match those of this one";
         case ResumeObstacle::other_parameters:
             return "it has other parameters than this version of Eyrie knows";
     }
@@ -90,7 +90,7 @@ ResumedRun resumedRun(const std::filesystem::path& project, int run_id, FrameSou
         throw obstacle == ResumeObstacle::live
             ? Error(ErrorKind::project, which + " is being written by " + found->writer + "; let it end there first")
             : Error(ErrorKind::parameter,
-                    which + " cannot be gone on with: " + textOf(obstacle) + "; begin a new run instead");
+                    which + " cannot be resumed: " + textOf(obstacle) + "; start a new run instead");
     }
     checkVideo(*found, source.info());
     resumed.options = storedOptions(store.parameters(run_id));

@@ -17,9 +17,10 @@ std::string textOf(const DroppedState& dropped) {
         case TrackDrop::hardly_detected:
             return track + " was guessed rather than detected";
         case TrackDrop::could_stand:
-            return track + " moves no faster than a standing thing would seem to, and was never taken for a vehicle";
+            return track +
+                   " moves no faster than the parallax of a standing thing, and was never classified as a vehicle";
         case TrackDrop::unlikely:
-            return track + " is unlikely to be a vehicle that moves: seldom detected, unlike a vehicle, or short";
+            return track + " is unlikely to be a moving vehicle: seldom detected, unlike a vehicle, or short";
     }
     return track;
 }

@@ -10,15 +10,15 @@ const char* wordsOf(RegistrationFault fault) {
         case RegistrationFault::too_few_corners:
             return "too few corners";
         case RegistrationFault::no_match:
-            return "the picture does not fit to the one before";
+            return "the picture does not match the one before";
         case RegistrationFault::cut:
-            return "cut: the picture does not fit to the one before";
+            return "cut: the picture does not match the one before";
         case RegistrationFault::too_few_found_again:
-            return "too few corners found again";
+            return "too few corners tracked";
         case RegistrationFault::too_few_agree:
             return "too few corners agree";
         case RegistrationFault::impossible_motion:
-            return "the motion found is not one a camera makes";
+            return "the motion found is impossible for a camera";
     }
     return "";
 }

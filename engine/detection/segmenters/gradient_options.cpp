@@ -74,7 +74,7 @@ void GradientOptions::describe(ParameterVisitor& visitor) {
     visitor.flag("gradient.need_support", need_support,
                  {"", "Keep only components that hold motion vectors of the cluster itself.", ""});
     visitor.real("gradient.support_share", support_share, 0, 1,
-                 {"", "… at least this share of the cluster's vectors.", ""});
+                 {"", "Components kept for their motion vectors hold at least this share of the cluster's.", ""});
     visitor.flag(
         "gradient.handle_cut", handle_cut,
         {"", "Components cut by the edge of the search area (kerbs, walls) keep only their part near the vectors.",
@@ -83,7 +83,7 @@ void GradientOptions::describe(ParameterVisitor& visitor) {
     visitor.flag("gradient.join_components", join_components,
                  {"",
                   "Fuse components that fit into one vehicle together: roofs are plain, so front, rear and sides "
-                  "answer alone.",
+                  "respond separately.",
                   ""});
     visitor.real("gradient.vehicle_length", vehicle_length_m, 0, 100, {"m", "Largest length of a fused box.", ""});
     visitor.real("gradient.vehicle_width", vehicle_width_m, 0, 100, {"m", "Largest width of a fused box.", ""});
@@ -93,7 +93,7 @@ void GradientOptions::describe(ParameterVisitor& visitor) {
                  {"m", "A box ends at most this far beside its motion vectors; 0: no limit.", ""});
     visitor.real(
         "gradient.length_correction", length_correction, 0, 4,
-        {"", "Boxes get shorter by this many largest LBP radii, since patterns answer beside an edge too.", ""});
+        {"", "Boxes get shorter by this many largest LBP radii, since patterns respond beside an edge, too.", ""});
     visitor.real("gradient.width_correction", width_correction, 0, 4,
                  {"", "Boxes get narrower by this many largest LBP radii.", ""});
     visitor.flag(

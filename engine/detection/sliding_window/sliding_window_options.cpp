@@ -79,7 +79,7 @@ void SlidingWindowOptions::describe(ParameterVisitor& visitor) {
     visitor.flag("sliding_window.need_support", need_support,
                  {"", "Keep only windows whose box holds motion vectors of the cluster itself.", ""});
     visitor.real("sliding_window.support_share", support_share, 0, 1,
-                 {"", "… at least this share of the cluster's vectors.", ""});
+                 {"", "Windows kept for their motion vectors hold at least this share of the cluster's.", ""});
     visitor.flag("sliding_window.fall_back", fall_back,
                  {"", "Deliver the box of the motion cluster where no window is accepted.", ""});
 }

@@ -12,7 +12,7 @@ struct DetectionMeasures {
     int false_positives = 0;
     int false_negatives = 0;
     int ground_truth = 0;     ///< objects that count, TP + FN
-    int ignored_results = 0;  ///< results that count neither way: on ignored objects or at the border
+    int ignored_results = 0;  ///< results that are not counted: on ignored objects or at the border
     int frames = 0;
     double overlap_sum = 0;  ///< over the true positives
 

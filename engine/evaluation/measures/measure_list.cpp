@@ -39,7 +39,7 @@ void listDetection(List& list, const DetectionMeasures& d) {
     list.count("tp", "TP", "true positives", d.true_positives);
     list.count("fp", "FP", "false positives", d.false_positives);
     list.count("fn", "FN", "false negatives", d.false_negatives);
-    list.count("ignored_results", "ignored results", "results that count neither way", d.ignored_results);
+    list.count("ignored_results", "ignored results", "results that are not counted", d.ignored_results);
     list.real("precision", "precision", "TP / (TP + FP)", d.precision);
     list.real("recall", "recall", "TP / (TP + FN)", d.recall);
     list.real("f_score", "f-score", "harmonic mean of precision and recall", d.f_score);
@@ -84,7 +84,7 @@ void listBoxErrors(List& list, const BoxErrors& e) {
     list.real("length_bias_px", "length bias, px", "mean of result - truth", known(e.length_bias_px), 2);
     list.real("width_error_px", "width error, px", "mean absolute", known(e.width_px), 2);
     list.real("width_bias_px", "width bias, px", "mean of result - truth", known(e.width_bias_px), 2);
-    list.real("heading_error_deg", "heading error, deg", "mean absolute, front and rear told apart",
+    list.real("heading_error_deg", "heading error, deg", "mean absolute, front and rear distinguished",
               heading(e.heading_degrees), 2);
     list.real("axis_error_deg", "axis error, deg", "mean absolute, modulo 180", heading(e.heading_axis_degrees), 2);
 }
@@ -103,8 +103,8 @@ std::vector<std::string> remarksOn(const Measures& measures) {
     std::vector<std::string> remarks;
     if (measures.shared_frames == 0) {
         remarks.push_back(
-            "truth and result have no frame in common; check that both belong to the same video and "
-            "count frames alike (ours from 0, MOTChallenge from 1)");
+            "ground truth and result have no frame in common; check that both belong to the same video and "
+            "count frames alike (Eyrie from 0, MOTChallenge from 1)");
     }
     const DetectionMeasures& detection = measures.detection;
     const int fewer = std::min(detection.ground_truth, detection.true_positives + detection.false_positives);

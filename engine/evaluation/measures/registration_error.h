@@ -33,7 +33,7 @@ struct RegistrationError {
 FrameRegistrationError gridError(const Homography& estimate, const cv::Matx33d& truth, cv::Size image, int columns = 9,
                                  int rows = 7);
 
-/// Compares every registration with the truth of its two frames; frames without a truth are passed over.
+/// Compares every registration with the truth of its two frames; frames without a truth are skipped.
 RegistrationError registrationError(const std::vector<Registration>& registrations, const TrueHomographies& truth,
                                     cv::Size image);
 

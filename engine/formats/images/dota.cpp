@@ -89,7 +89,7 @@ void writeDota(const LabelFile& labels, const std::filesystem::path& path, const
         writePlainFile(folder / (imageStem(labels, frame) + ".txt"), text);
     }
     report.files.push_back(folder);
-    report.add(LossKind::clipped, cut, "were cut at the image's border and are no rectangles any more");
+    report.add(LossKind::clipped, cut, "were cut at the image's border and are no longer rectangles");
     report.add(LossKind::class_name, blanks, "have a class with blanks or commas, which became \"-\"");
 }
 

@@ -115,12 +115,12 @@ std::optional<fs::path> firstImageText(const fs::path& folder, const char* label
 
 std::vector<ImageText> findImageTexts(const fs::path& path, const char* labels_name, LabelFile& labels) {
     if (!isFolder(path)) {
-        labels.notes.push_back("a text of one image became frame 0");
+        labels.notes.push_back("a text file of one image became frame 0");
         return {{path, 0}};
     }
     const fs::path folder = textFolder(path, labels_name);
     const std::vector<fs::path> files = textsIn(folder);
-    if (files.empty()) throw Error(ErrorKind::input, folder.string() + ": holds no text of labels (*.txt)");
+    if (files.empty()) throw Error(ErrorKind::input, folder.string() + ": holds no label files (*.txt)");
     std::vector<ImageText> texts;
     if (const std::optional<fs::path> images = imageFolderFor(folder)) {
         const std::map<std::string, FrameIndex> frames = framesOfImages(*images, labels);

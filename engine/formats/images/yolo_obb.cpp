@@ -198,7 +198,7 @@ void writeYolo(const LabelFile& labels, const fs::path& path, const ExportOption
     writeFileAtomically(path / "data.yaml", yaml);
     report.files = {path / kYoloFolder, path / "data.yaml"};
     report.notes.push_back("for training, put the images into " + (path / "images").string() + ", named as the texts");
-    report.add(LossKind::clipped, cut, "were cut at the image's border and are no rectangles any more");
+    report.add(LossKind::clipped, cut, "were cut at the image's border and are no longer rectangles");
 }
 
 bool looksLikeYolo(const FileHead& head) {

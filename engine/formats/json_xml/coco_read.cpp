@@ -148,7 +148,7 @@ class CocoReader {
             const JsonPlace result = root_.at(i);
             orLeaveOut([&] {
                 const int image = result.at("image_id").whole();
-                if (image < 0 || image >= kFrameLimit) result.at("image_id").fail("is no frame");
+                if (image < 0 || image >= kFrameLimit) result.at("image_id").fail("is not a frame");
                 images_[image] = {image, true};
                 readAnnotation(result);
             });
@@ -252,7 +252,7 @@ class CocoReader {
         shapes_.tell(labels_);
         say(unnamed_categories_, "category has", "categories have", " no name and are called by their number");
         say(by_confidence_, "annotation takes", "annotations take",
-            " the class of the highest confidence, which is another than category_id");
+            " the class of the highest confidence, which differs from category_id");
         say(static_cast<int>(named_.size()), "track has a name", "tracks have names", " for an id and got a number");
         left_out_.tell(labels_);
     }

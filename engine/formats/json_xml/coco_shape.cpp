@@ -21,7 +21,7 @@ Points pointsOf(const JsonPlace& list) {
         if (!pairs) {
             points.emplace_back(first.pixels() - 0.5, list.at(i + 1).pixels() - 0.5);
         } else {
-            if (first.size() != 2) first.fail("is no point");
+            if (first.size() != 2) first.fail("is not a point");
             points.emplace_back(first.at(std::size_t{0}).pixels() - 0.5, first.at(1).pixels() - 0.5);
         }
     }
@@ -73,7 +73,7 @@ std::optional<double> rotationOf(const JsonPlace& annotation) {
     const JsonPlace attributes = annotation.at("dive_detection_attributes");
     if (!attributes.has("rotation")) return std::nullopt;
     const JsonPlace turn = attributes.at("rotation");
-    if (std::abs(turn.real()) > 1000) turn.fail("is no angle in radians");
+    if (std::abs(turn.real()) > 1000) turn.fail("is not an angle in radians");
     return wrapPi(turn.real());
 }
 

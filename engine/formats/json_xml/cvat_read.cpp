@@ -32,7 +32,7 @@ class CvatText {
     explicit CvatText(const std::filesystem::path& path) : path_(path), bytes_(readWholeFile(path)) {
         if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.erase(0, 3);
         if (!isUtf8(bytes_) || bytes_.find('\0') != std::string::npos) {
-            throw Error(ErrorKind::input, path_.string() + ": is no UTF-8 text; export it again as UTF-8 XML");
+            throw Error(ErrorKind::input, path_.string() + ": is not UTF-8 text; export it again as UTF-8 XML");
         }
         if (bytes_.find("<!DOCTYPE") != std::string::npos || bytes_.find("<!ENTITY") != std::string::npos) {
             throw Error(ErrorKind::input,
@@ -65,7 +65,7 @@ class CvatText {
     }
     int whole(pugi::xml_node node, const char* name, std::optional<int> fallback = std::nullopt) const {
         const double value = real(node, name, fallback ? std::optional<double>(*fallback) : std::nullopt);
-        if (value != std::floor(value)) fail(node, std::string(name) + " is no whole number");
+        if (value != std::floor(value)) fail(node, std::string(name) + " is not a whole number");
         return static_cast<int>(value);
     }
     /// The number that is an element's text, where there is such an element with text.
@@ -74,7 +74,7 @@ class CvatText {
         const std::string text = node.text().get();
         if (text.empty()) return std::nullopt;
         const std::optional<int> value = parseWhole(text);
-        if (!value || *value < 0 || *value > kFrameLimit) fail(node, inQuotes(text) + " is no number in range");
+        if (!value || *value < 0 || *value > kFrameLimit) fail(node, inQuotes(text) + " is not a number in range");
         return value;
     }
 
@@ -113,7 +113,7 @@ BoxEdges edgesOfPolygon(const CvatText& text, pugi::xml_node node) {
         const auto x = parseReal(point.substr(0, comma));
         const auto y = parseReal(point.substr(std::min(comma + 1, point.size())));
         if (!x || !y || std::abs(*x) > kLargestCoordinate || std::abs(*y) > kLargestCoordinate)
-            text.fail(node, "points holds " + inQuotes(point) + ", which is no point");
+            text.fail(node, "points holds " + inQuotes(point) + ", which is not a point");
         left = first ? *x : std::min(left, *x);
         right = first ? *x : std::max(right, *x);
         top = first ? *y : std::min(top, *y);
@@ -171,7 +171,7 @@ class CvatReader {
 
     LabelFile read() {
         const pugi::xml_node root = text_.root();
-        if (!root) text_.failAt(0, "there is no <annotations>; this is no file of CVAT");
+        if (!root) text_.failAt(0, "there is no <annotations>; this is not a CVAT file");
         readMeta(root.child("meta"));
         if (!root.child("track") && root.child("image")) {
             text_.fail(root.child("image"),
@@ -287,7 +287,7 @@ class CvatReader {
             labels_.not_filled += next - end;
             count_ += end - begin;
             if (count_ > kMostBoxes + kMostBoxesPerElement * elements_)
-                text_.fail(track, "the keyframes span more frames than can be meant");
+                text_.fail(track, "the keyframes span implausibly many frames");
             const bool moves = !last;
             for (FrameIndex frame = begin; frame < end; ++frame) {
                 FileBox box = moves ? between(boxes[i], boxes[i + 1], frame) : boxes[i];
@@ -311,7 +311,7 @@ class CvatReader {
             if (count > 0) labels_.notes.push_back(counted(count, one, many) + what);
         };
         say(running_on_, "track has", "tracks have", " no end and run to the end of the clip, as CVAT shows them");
-        say(other_shapes_, "shape", "shapes", " other than boxes were passed over");
+        say(other_shapes_, "shape", "shapes", " other than boxes were skipped");
         say(polygons_, "polygon", "polygons", " became the boxes around them");
         say(empty_tracks_, "track holds", "tracks hold", " no visible keyframe and were left out");
         say(renumbered_, "track", "tracks", " got a new id, as another has it already");

@@ -69,7 +69,7 @@ nlohmann::json readLabelJson(const std::filesystem::path& path) {
     try {
         return nlohmann::json::parse(bytes);
     } catch (const nlohmann::json::exception& error) {
-        throw Error(ErrorKind::input, path.string() + ": is no valid JSON: " + error.what());
+        throw Error(ErrorKind::input, path.string() + ": is not valid JSON: " + error.what());
     }
 }
 

@@ -26,18 +26,18 @@ class JsonPlace {
         return found != value_.end() && !found->is_null();
     }
     JsonPlace at(const char* key) const {
-        if (!value_.is_object()) fail("is no object");
+        if (!value_.is_object()) fail("is not an object");
         const auto found = value_.find(key);
         if (found == value_.end() || found->is_null()) fail(std::string("\"") + key + "\" is missing");
         return {*this, *found, key, 0};
     }
     JsonPlace at(std::size_t index) const { return {*this, value_.at(index), nullptr, index}; }
     std::size_t size() const {
-        if (!value_.is_array()) fail("is no list");
+        if (!value_.is_array()) fail("is not a list");
         return value_.size();
     }
     double real() const {
-        if (!value_.is_number() || !std::isfinite(value_.get<double>())) fail("is no number");
+        if (!value_.is_number() || !std::isfinite(value_.get<double>())) fail("is not a number");
         return value_.get<double>();
     }
     double pixels() const {
@@ -47,11 +47,11 @@ class JsonPlace {
     }
     int whole() const {
         const double number = real();
-        if (number != std::floor(number) || std::abs(number) > 2e9) fail("is no whole number in range");
+        if (number != std::floor(number) || std::abs(number) > 2e9) fail("is not a whole number in range");
         return static_cast<int>(number);
     }
     std::string text() const {
-        if (!value_.is_string()) fail("is no text");
+        if (!value_.is_string()) fail("is not text");
         const std::string& text = value_.get_ref<const std::string&>();
         for (const char c : text) {
             if (static_cast<unsigned char>(c) < 0x20) fail("holds control characters");

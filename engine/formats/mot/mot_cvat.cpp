@@ -69,7 +69,7 @@ void writeForCvat(const LabelFile& labels, const fs::path& path, const ExportOpt
     report.files.push_back(folder / kList);
     writeOrientedSidecar(labels, path / "gt.txt", report);
     report.add(LossKind::class_name, unnamed, "have no class and became \"object\"");
-    report.add(LossKind::occlusion, fully, "fully hidden became occluded, which is all that CVAT knows");
+    report.add(LossKind::occlusion, fully, "fully occluded became occluded, as CVAT has one degree only");
     if (lowest < 1) report.notes.push_back("ids were raised by " + std::to_string(1 - lowest) + ": they count from 1");
     report.notes.push_back("pixels count from " + shortestText(first_pixel_edge) +
                            "; CVAT takes the folder gt in a zip file as \"MOT 1.1\"");

@@ -160,8 +160,8 @@ void writeTree(const LabelFile& labels, const fs::path& root, const ExportOption
     }
     report.notes.push_back(commandFor(root, options));
     report.notes.push_back(
-        "its figures are those of eyrie-cli evaluate --convention trackeval --overlap 0.5 --upright; ignored boxes "
-        "forgive nothing there");
+        "its figures are those of eyrie-cli evaluate --convention trackeval --overlap 0.5 --upright; results on "
+        "ignored boxes are false alarms there");
 }
 
 std::vector<fs::path> sequencesOf(const fs::path& root) {

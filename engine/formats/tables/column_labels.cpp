@@ -63,7 +63,7 @@ LabelBox boxOf(const TextLine& line, const FieldsOfBox& fields, double first_pix
     const auto at = [&](Column column) { return fields.field(column); };
     if (fields.has(Column::heading)) {
         const double degrees = line.number(at(Column::heading), "heading in degrees");
-        if (std::abs(degrees) > 1e6) line.fail(at(Column::heading), "the heading is no angle in degrees");
+        if (std::abs(degrees) > 1e6) line.fail(at(Column::heading), "the heading is not an angle in degrees");
         record.box.heading = wrapPi(radiansFromDegrees(degrees));
     }
     if (fields.has(Column::id) && !line.text(at(Column::id)).empty()) {

@@ -53,9 +53,9 @@ const std::map<std::string, Column, std::less<>>& columnNames() {
 void checkAxis(const std::string& text, const ColumnTemplate& columns, Column low, Column high, Column centre,
                Column size, const char* axis) {
     const int known = columns.has(low) + columns.has(high) + columns.has(centre) + columns.has(size);
-    if (known < 2) refuse(text, std::string("two columns must tell the ") + axis + " extent of a box");
+    if (known < 2) refuse(text, std::string("two columns must give the ") + axis + " extent of a box");
     if (known > 2)
-        refuse(text, std::string("more than two columns tell the ") + axis + " extent of a box; pass over with _");
+        refuse(text, std::string("more than two columns give the ") + axis + " extent of a box; skip columns with _");
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ ColumnTemplate parseColumns(const std::string& text) {
         const auto known = columnNames().find(name);
         if (known == columnNames().end()) refuse(text, inQuotes(name) + " names no column");
         if (known->second != Column::unused && columns.has(known->second)) {
-            refuse(text, inQuotes(name) + " is told twice");
+            refuse(text, inQuotes(name) + " is given twice");
         }
         (in_group ? columns.repeated : columns.once).push_back(known->second);
     }
@@ -107,8 +107,8 @@ ColumnTemplate parseColumns(const std::string& text) {
         refuse(text, "n needs a group in brackets behind it");
     }
     if (grouped(Column::frame) || grouped(Column::image)) refuse(text, "a line belongs to one frame");
-    if (!columns.has(Column::frame) && !columns.has(Column::image)) refuse(text, "neither frame nor image is told");
-    if (columns.has(Column::class_name) && columns.has(Column::class_number)) refuse(text, "the class is told twice");
+    if (!columns.has(Column::frame) && !columns.has(Column::image)) refuse(text, "neither frame nor image is given");
+    if (columns.has(Column::class_name) && columns.has(Column::class_number)) refuse(text, "the class is given twice");
     checkAxis(text, columns, Column::left, Column::right, Column::centre_x, Column::width, "horizontal");
     checkAxis(text, columns, Column::top, Column::bottom, Column::centre_y, Column::height, "vertical");
     return columns;

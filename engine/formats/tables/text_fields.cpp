@@ -83,7 +83,7 @@ double TextLine::number(std::size_t field, const char* name) const {
     double value = 0;
     const auto [end, error] = std::from_chars(first, last, value);
     if (error != std::errc() || end != last || !std::isfinite(value)) {
-        fail(field, "\"" + text.substr(0, 40) + "\" is no number; expected the " + name);
+        fail(field, "\"" + text.substr(0, 40) + "\" is not a number; expected the " + name);
     }
     return value;
 }
@@ -91,7 +91,7 @@ double TextLine::number(std::size_t field, const char* name) const {
 int TextLine::integer(std::size_t field, const char* name) const {
     const double value = number(field, name);
     if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max()) {
-        fail(field, "\"" + fields_[field].text + "\" is no whole number in range; expected the " + name);
+        fail(field, "\"" + fields_[field].text + "\" is not a whole number in range; expected the " + name);
     }
     return static_cast<int>(value);
 }
@@ -150,11 +150,11 @@ std::vector<std::string> readTextLines(const std::filesystem::path& file) {
         if (lines.empty() && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
         if (line.find('\0') != std::string::npos) {
             throw Error(ErrorKind::input, file.string() + ":" + std::to_string(lines.size() + 1) +
-                                              ": holds zero bytes; this is no text file");
+                                              ": holds zero bytes; this is not a text file");
         }
         if (!isUtf8(line)) {
             throw Error(ErrorKind::input, file.string() + ":" + std::to_string(lines.size() + 1) +
-                                              ": is no UTF-8 text; save the file as UTF-8");
+                                              ": is not UTF-8 text; save the file as UTF-8");
         }
         lines.push_back(std::move(line));
     }

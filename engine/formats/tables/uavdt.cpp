@@ -67,7 +67,7 @@ void readWhole(const fs::path& path, LabelFile& labels) {
         labels.notes.push_back(counted(out_of_view, "box lies", "boxes lie") +
                                " partly out of view; the benchmark leaves them out, here they are kept");
     }
-    if (occluded > 0) labels.notes.push_back("how much of a box is hidden is not kept, only that it partly is");
+    if (occluded > 0) labels.notes.push_back("the degree of occlusion is not kept, only that a box is partly occluded");
 }
 
 /// The ids of ignored areas are of another count than those of the objects.
@@ -163,9 +163,9 @@ void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptio
     report.add(LossKind::rounded, rounded, "were rounded to whole pixels");
     report.add(LossKind::class_name, strange, "have a class that UAVDT does not know and became cars");
     report.add(LossKind::class_name, classes_of_areas, "are ignored and lost their class and id");
-    report.add(LossKind::occlusion, fully, "fully hidden became a large occlusion, the most that UAVDT knows");
-    report.add(LossKind::occlusion, partly, "partly hidden became a medium occlusion, as nobody said how much");
-    report.add(LossKind::other, beyond, "reaching beyond the image: how far out of view was not carried");
+    report.add(LossKind::occlusion, fully, "fully occluded became large occlusion, the highest degree of UAVDT");
+    report.add(LossKind::occlusion, partly, "partly occluded became medium occlusion, as the degree is unknown");
+    report.add(LossKind::other, beyond, "reaching beyond the image: how far out of view was not kept");
     if (objects > 0)
         report.notes.push_back("every box is written as in view (1): how far one is out of view is not kept");
 }

@@ -40,7 +40,7 @@ void takeViameAttribute(const TextLine& line, std::size_t field, LabelBox& recor
     }
     if (key == "rotation") {
         const std::optional<double> turn = parseReal(value);
-        if (!turn || std::abs(*turn) > 1000) line.fail(field, "the rotation is no angle in radians");
+        if (!turn || std::abs(*turn) > 1000) line.fail(field, "the rotation is not an angle in radians");
         record.box.heading = wrapPi(*turn);
     } else if (key == "occluded") {
         record.occlusion = value == "fully"                       ? Occlusion::fully
@@ -154,7 +154,7 @@ std::vector<Row> readRows(const std::filesystem::path& path, LabelFile& labels, 
     }
     if (passed_over > 0) {
         labels.notes.push_back(counted(passed_over, "entry", "entries") +
-                               " of other kinds (key points, polygons, notes, attributes) were passed over");
+                               " of other kinds (key points, polygons, notes, attributes) were skipped");
     }
     return rows;
 }

@@ -32,7 +32,7 @@ LabelFile readVivid(const std::filesystem::path& path, const ImportOptions&) {
         if (!text.empty()) labels.image_names[record.frame] = text;
         labels.boxes[record.frame].push_back(std::move(record));
     });
-    labels.notes.push_back("classes are not told; map \"\" to one (such as =car)");
+    labels.notes.push_back("classes are not given; map \"\" to one (such as =car)");
     return labels;
 }
 

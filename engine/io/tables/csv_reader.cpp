@@ -42,7 +42,7 @@ bool CsvReader::readFields() {
         if (!rest.empty() && rest.back() == '\r') rest.remove_suffix(1);
         if (trimmed(rest).empty()) continue;
         if (rest.find('\0') != std::string_view::npos)
-            refuseLine("the line holds bytes that are no text; is this a CSV file?");
+            refuseLine("the line holds bytes that are not text; is this a CSV file?");
 
         fields_.clear();
         for (bool more = true; more;) {

@@ -84,7 +84,7 @@ Preset readPreset(const std::filesystem::path& path) {
         preset.name = root["name"].get<std::string>();
     }
     if (!root.contains("parameters") || !root["parameters"].is_object())
-        refusePreset(path, "\"parameters\" is missing or no object of names and values");
+        refusePreset(path, "\"parameters\" is missing or not an object of names and values");
     for (const auto& [name, value] : root["parameters"].items())
         preset.values.emplace_back(name, valueText(path, name, value));
     return preset;

@@ -9,7 +9,7 @@
 namespace eyrie {
 
 /// The images of a folder (png, jpg, jpeg, tif, tiff, pgm, bmp) in natural order of their names: frame2 before frame10.
-/// Hidden files and files of other kinds are passed over. A single image file is a sequence of one.
+/// Hidden files and files of other kinds are skipped. A single image file is a sequence of one.
 ///
 /// Images of 16 bit are brought to 8 by one straight line for the whole sequence, fixed by the first image: from 0 to
 /// the largest number of 8, 10, 12, 14 or 16 bit that its brightest pixel needs. If all but 0.2 % of its pixels lie in

@@ -61,7 +61,7 @@ void ClassifierOptions::describe(ParameterVisitor& visitor) {
         {"trees", "Trees of AdaBoost and Random Forest. More are slower and rarely worse.", "Teutsch §7.3.3"});
     visitor.real("training.feature_share", feature_share, 0.001, 1,
                  {"",
-                  "Share of the features, drawn anew for each tree, that AdaBoost may choose from. Less trains "
+                  "Share of the features, drawn again for each tree, that AdaBoost may choose from. Less trains "
                   "faster and makes the trees more different.",
                   ""});
     visitor.real("training.weight_trimming", weight_trimming, 0, 0.5,

@@ -32,7 +32,8 @@ cv::Mat readSheet(const fs::path& path) {
     if (sheet.empty()) throw Error(ErrorKind::input, path.string() + ": cannot be read as an image");
     if (sheet.cols % kCellWidth != 0 || sheet.rows % kCellHeight != 0) {
         throw Error(ErrorKind::input, path.string() + ": " + std::to_string(sheet.cols) + "×" +
-                                          std::to_string(sheet.rows) + " px is no sheet of cells 32 wide and 16 high");
+                                          std::to_string(sheet.rows) +
+                                          " px is not a sheet of cells 32 wide and 16 high");
     }
     return sheet;
 }

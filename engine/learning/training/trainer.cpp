@@ -165,11 +165,11 @@ class Trainer {
 
 void TrainingOptions::describe(ParameterVisitor& visitor) {
     visitor.integer("training.seed", seed, 0, 1'000'000'000,
-                    {"", "Chooses everything that is drawn at random; the same seed gives the same model.", ""});
+                    {"", "Seed of everything drawn at random; the same seed gives the same model.", ""});
     visitor.integer("training.hard_negative_rounds", hard_negative_rounds, 0, 20,
                     {"rounds",
-                     "How often the samples that the model so far takes for vehicles are added and it is "
-                     "trained anew. More lowers false alarms.",
+                     "How often the samples that the model wrongly takes for vehicles are added and it is trained "
+                     "again. More: fewer false alarms.",
                      ""});
     visitor.real("training.others_per_vehicle", others_per_vehicle, 0.01, 100,
                  {"", "Samples of background per sample of a vehicle in the first round.", "Teutsch §7.2"});

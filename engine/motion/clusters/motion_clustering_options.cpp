@@ -28,12 +28,11 @@ void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
     visitor.real("clustering.across", across_m, 0.1, 50,
                  {"m", "Motion vectors are linked up to this distance across their motion. Larger: lanes merge.",
                   "Teutsch §4.2"});
-    visitor.real(
-        "clustering.roof_length", roof_length_m, 0, 50,
-        {"m",
-         "Up to this distance along their motion vectors are linked that move twice as alike, when no standing "
-         "corner lies between them: front and rear of a plain roof. 0: off.",
-         ""});
+    visitor.real("clustering.roof_length", roof_length_m, 0, 50,
+                 {"m",
+                  "Up to this distance along their motion, vectors that move twice as alike are linked when no "
+                  "standing corner lies between them: front and rear of a plain roof. 0: off.",
+                  ""});
     visitor.real("clustering.min_distance", min_distance_px, 0, 100,
                  {"px", "Lowest linkage distance, whatever the ground sampling distance.", ""});
     visitor.real("clustering.velocity_share", velocity_share, 0, 1,
@@ -44,7 +43,10 @@ void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
     visitor.real("clustering.velocity_floor", velocity_floor_px, 0, 5,
                  {"px/frame", "Linked vectors may always differ in velocity by this.", ""});
     visitor.real("clustering.velocity_noise_factor", velocity_noise_factor, 0, 10,
-                 {"", "… or by this many deviations of the background's residual speed.", ""});
+                 {"",
+                  "Linked vectors may always differ in velocity by this many deviations of the background's residual "
+                  "speed, too.",
+                  ""});
     visitor.real("clustering.velocity_noise_limit", velocity_noise_limit_px, 0, 5,
                  {"px/frame", "The background's noise does not raise the allowed difference beyond this.", ""});
     visitor.integer("clustering.min_members", min_members, 1, 1000, {"vectors", "Smaller clusters are dropped.", ""});

@@ -59,7 +59,8 @@ void DifferenceOptions::describe(ParameterVisitor& visitor) {
                   "Pixels move where the difference exceeds this many deviations of the frame's own differences. "
                   "Larger: fewer false areas, weak vehicles are lost.",
                   ""});
-    visitor.real("difference.min_contrast", min_contrast, 0, 255, {"grey", "… and this difference.", ""});
+    visitor.real("difference.min_contrast", min_contrast, 0, 255,
+                 {"grey", "Pixels move where the difference exceeds this, too.", ""});
     visitor.real(
         "difference.strong_limit", strong_limit, 1, 100,
         {"", "An area reaches Otsu's threshold somewhere, but no more than this many times the lowest difference.",
@@ -68,12 +69,13 @@ void DifferenceOptions::describe(ParameterVisitor& visitor) {
     visitor.real("difference.closing", closing_m, 0, 20,
                  {"m", "Diameter of the closing, which joins front, rear and sides; 0: none.", "Teutsch §2.2"});
     visitor.real("difference.min_area", min_area_m2, 0, 1000, {"m²", "Smaller areas are dropped.", ""});
-    visitor.integer("difference.min_area_px", min_area_px, 1, 100000, {"px²", "… whatever the scale.", ""});
+    visitor.integer("difference.min_area_px", min_area_px, 1, 100000,
+                    {"px²", "Areas of fewer pixels are dropped, whatever the scale.", ""});
     visitor.real("difference.max_length", max_length_m, 0.1, 10000, {"m", "Longer areas are dropped.", ""});
     visitor.real("difference.ghost_deviation", ghost_deviation, 0, 255,
-                 {"grey", "Ghosts, which show bare ground, deviate less than this inside …", "Teutsch §2.2"});
+                 {"grey", "Ghosts, which show bare ground, deviate less than this inside.", "Teutsch §2.2"});
     visitor.real("difference.ghost_gradient", ghost_gradient, 0, 255,
-                 {"grey/px", "… and have a smaller mean gradient than this.", "Teutsch §2.2"});
+                 {"grey/px", "Ghosts have a smaller mean gradient than this, too.", "Teutsch §2.2"});
 }
 
 }  // namespace eyrie

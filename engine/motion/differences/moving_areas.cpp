@@ -162,22 +162,27 @@ void MovingAreaOptions::describe(ParameterVisitor& visitor) {
                   "Only while fewer corners than this lie on a car at their mean density. Larger: also where vehicles "
                   "carry more corners, with more false areas.",
                   ""});
-    visitor.real("motion.area_few_corners", few_corners, 0, 10000,
-                 {"", "From so many corners on a car on, areas are taken only where they agree very well.", ""});
+    visitor.real(
+        "motion.area_few_corners", few_corners, 0, 10000,
+        {"", "Where a car carries at least this many corners, areas are used only if they agree very well.", ""});
     visitor.real("motion.area_gap", gap_s, 0.01, 10,
                  {"s", "Time between the three pictures that are compared. Longer: slower vehicles.", ""});
-    visitor.real("motion.area_noise_factor", noise_factor, 0, 100,
-                 {"", "Pixels differ from this many deviations of the frame's own differences on.", ""});
-    visitor.real("motion.area_contrast", min_contrast, 0, 255, {"grey", "… and from this difference on.", ""});
+    visitor.real(
+        "motion.area_noise_factor", noise_factor, 0, 100,
+        {"", "Pixels differ where the difference exceeds this many deviations of the frame's own differences.", ""});
+    visitor.real("motion.area_contrast", min_contrast, 0, 255,
+                 {"grey", "Pixels differ where the difference exceeds this, too.", ""});
     visitor.real("motion.area_min_size", min_area_m2, 0, 1000, {"m²", "Smaller areas are left out.", ""});
-    visitor.integer("motion.area_min_size_px", min_area_px, 1, 100000, {"px²", "… whatever the scale.", ""});
+    visitor.integer("motion.area_min_size_px", min_area_px, 1, 100000,
+                    {"px²", "Areas of fewer pixels are left out, whatever the scale.", ""});
     visitor.real("motion.area_max_length", max_length_m, 0.1, 1000, {"m", "Longer areas are left out.", ""});
-    visitor.real("motion.area_min_shift", min_shift_px, 0, 50,
-                 {"px", "Areas that went less far between two of the pictures may be misregistered.", ""});
+    visitor.real(
+        "motion.area_min_shift", min_shift_px, 0, 50,
+        {"px", "Areas that moved less between two of the pictures may be misregistered and are left out.", ""});
     visitor.real("motion.area_min_correlation", min_correlation, -1, 1,
-                 {"", "An area's pixels agree at least so well with where they went and where they came from.", ""});
+                 {"", "Lowest correlation of an area's pixels with where they went and where they came from.", ""});
     visitor.real("motion.area_sure_correlation", sure_correlation, -1, 1,
-                 {"", "… and so well where a car carries motion.area_few_corners corners or more.", ""});
+                 {"", "The same where a car carries motion.area_few_corners corners or more.", ""});
 }
 
 int MovingAreaOptions::gapFrames(const SceneScale& scale) const {

@@ -194,14 +194,18 @@ void SilhouetteOptions::describe(ParameterVisitor& visitor) {
          "and more changes of light.",
          ""});
     visitor.real("motion.silhouette_contrast", contrast, 1, 255,
-                 {"grey", "A vehicle differs from the ground under it by at least this …", ""});
+                 {"grey", "A vehicle differs from the ground under it by at least this.", ""});
     visitor.real("motion.silhouette_noise_factor", noise_factor, 0, 50,
-                 {"", "… and by this many times the spread of the ground's brightness over time.", ""});
+                 {"",
+                  "A vehicle differs from the ground under it by at least this many times the spread of the ground's "
+                  "brightness over time.",
+                  ""});
     visitor.real("motion.silhouette_min_speed", min_speed_m_s, 0, 50,
                  {"m/s", "Slower vehicles get no silhouette.", ""});
     visitor.real("motion.silhouette_max_length", max_length_m, 1, 200,
                  {"m", "Longer silhouettes are no single vehicle and are not used.", ""});
-    visitor.real("motion.silhouette_max_width", max_width_m, 1, 50, {"m", "Wider ones neither.", ""});
+    visitor.real("motion.silhouette_max_width", max_width_m, 1, 50,
+                 {"m", "Wider silhouettes are not used either.", ""});
 }
 
 Silhouettes::Silhouettes(const SilhouetteOptions& options, const SceneScale& scale)

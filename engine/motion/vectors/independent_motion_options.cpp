@@ -43,12 +43,11 @@ void IndependentMotionOptions::describe(ParameterVisitor& visitor) {
                   "Faster corners are tracking errors. Used where the ground sampling distance is known; 0: no "
                   "limit.",
                   ""});
-    visitor.flag(
-        "motion.follow_turns", follow_turns,
-        {"",
-         "The velocity over the baseline is half of it old. Where the path clearly bends, carry the velocity on "
-         "to the present.",
-         ""});
+    visitor.flag("motion.follow_turns", follow_turns,
+                 {"",
+                  "A velocity over the baseline lags by half of it. Where the path clearly bends, extrapolate the "
+                  "velocity to the present.",
+                  ""});
     visitor.flag("motion.find_slow", find_slow,
                  {"", "Test corners that seem to stand still again over a longer baseline.", ""});
     visitor.integer("motion.slow_baseline", slow_baseline, 2, 60,

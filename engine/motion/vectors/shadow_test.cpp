@@ -39,8 +39,9 @@ void ShadowTestOptions::describe(ParameterVisitor& visitor) {
                   "elsewhere is a dark vehicle. Larger for a low sun.",
                   ""});
     visitor.real("motion.shadow_owner_length", owner_length_m, 0, 100,
-                 {"m", "Motion vectors own a shadow when they spread over at least this length …", ""});
-    visitor.real("motion.shadow_owner_width", owner_width_m, 0, 100, {"m", "… and this width.", ""});
+                 {"m", "Motion vectors own a shadow when they spread over at least this length.", ""});
+    visitor.real("motion.shadow_owner_width", owner_width_m, 0, 100,
+                 {"m", "Motion vectors own a shadow when they spread over at least this width, too.", ""});
 }
 
 ShadowTest::ShadowTest(const ShadowTestOptions& options, const SceneScale& scale)

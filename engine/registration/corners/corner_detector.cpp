@@ -172,8 +172,11 @@ void CornerOptions::describe(ParameterVisitor& visitor) {
         {"m", "Distance between corners. Smaller: more motion vectors on each vehicle, more time.", "Teutsch §4.2"});
     visitor.real("registration.min_corner_distance", min_distance_px, 1.5, 50,
                  {"px", "Corners are never closer than this, however coarse the picture.", ""});
-    visitor.integer("registration.max_corners", max_corners, 100, 50000,
-                    {"", "Most corners tracked at a time; they then thin out evenly, least near moving ones.", ""});
+    visitor.integer(
+        "registration.max_corners", max_corners, 100, 50000,
+        {"",
+         "Largest number of corners tracked at a time; above it they are thinned out evenly, least near moving ones.",
+         ""});
     visitor.real(
         "registration.corner_deviation", max_deviation_px, 0.05, 5,
         {"px",

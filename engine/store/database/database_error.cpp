@@ -22,7 +22,7 @@ bool isFailureToRead(int extended_code) {
 Error damagedProject(const std::filesystem::path& path, const std::string& what) {
     return Error(ErrorKind::project,
                  "the project " + path.string() + " is damaged (" + what +
-                     "); take a copy from a backup, or start a new project and run the video again");
+                     "); restore an earlier state, or save what can be read with eyrie-cli check --repair");
 }
 
 Error databaseError(const std::filesystem::path& path, const std::string& doing, const SQLite::Exception& exception) {
@@ -51,8 +51,8 @@ Error databaseError(const std::filesystem::path& path, const std::string& doing,
             }
             break;
         case SQLITE_NOMEM:
-            return Error(ErrorKind::project, "the memory of this machine does not suffice for the project " + file +
-                                                 " (" + why + "); close other programs");
+            return Error(ErrorKind::project,
+                         "not enough memory for the project " + file + " (" + why + "); close other programs");
         case SQLITE_CONSTRAINT:
             if (exception.getExtendedErrorCode() == SQLITE_CONSTRAINT_FOREIGNKEY) {
                 return Error(ErrorKind::project, "the run was removed from the project " + file +

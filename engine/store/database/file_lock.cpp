@@ -96,7 +96,7 @@ FileLock::Attempt FileLock::tryTake(const std::filesystem::path& file) {
         }
         return {Outcome::taken, std::unique_ptr<FileLock>(new FileLock(file, descriptor)), {}};
     }
-    return {Outcome::impossible, nullptr, file.string() + " comes and goes; try again"};
+    return {Outcome::impossible, nullptr, file.string() + " keeps appearing and disappearing; try again"};
 }
 
 std::optional<std::string> FileLock::holderOf(const std::filesystem::path& file) {

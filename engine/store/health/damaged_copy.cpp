@@ -203,8 +203,8 @@ DamagedCopy copyDamaged(const Path& project, const Path& folder, const CopyWatch
         if (!copyBytes(project, copy, watch)) return stopped();
         if (isSound(copy)) {
             result.notes.push_back(
-                "the log beside the project contradicts it and was left out, and with it the newest "
-                "changes, if they were of this project");
+                "the log beside the project contradicts it and was left out, with the newest changes if they were of "
+                "this project");
             return result;
         }
         removeDatabase(copy);
@@ -212,7 +212,7 @@ DamagedCopy copyDamaged(const Path& project, const Path& folder, const CopyWatch
         copyCompanion(project, copy, "-wal");
     }
     if (mendHeader(copy, has_log))
-        result.notes.push_back("the beginning of the file (header) was damaged and was made anew");
+        result.notes.push_back("the beginning of the file (header) was damaged and was rebuilt");
     if (!hasTables(copy)) {
         removeDatabase(copy.string() + "-wal");
         replaceTables(copy, folder);

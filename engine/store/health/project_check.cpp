@@ -152,17 +152,18 @@ HealthItem lookAtRuns(const Path& path, SQLite::Database& database) {
 HealthItem lookAround(const Path& path) {
     std::vector<std::string> found;
     const std::string name = path.filename().string();
-    if (hasLog(path)) found.push_back(name + "-wal holds changes that move into the project when it is opened next");
+    if (hasLog(path)) found.push_back(name + "-wal holds changes that move into the project when it is next opened");
     std::error_code failed;
     if (std::filesystem::exists(path.string() + "-journal", failed)) {
-        found.push_back(name +
-                        "-journal is of a change that was broken off; it is taken back when the project is opened");
+        found.push_back(name + "-journal is of a change that was interrupted; it is undone when the project is opened");
     }
     std::filesystem::directory_iterator entries(std::filesystem::absolute(path).parent_path(), failed);
     for (; !failed && entries != std::filesystem::directory_iterator(); entries.increment(failed)) {
         const std::string other = entries->path().filename().string();
         if (other.starts_with(name + ".new-") || other.starts_with(name + ".repair-")) {
-            found.push_back(other + " is a rest of a program that was killed, or works now; it may be deleted then");
+            found.push_back(
+                other +
+                " was left by a program that was killed, or one is writing it now; if none is, it may be deleted");
         } else if (other.starts_with(name + "-wal.left-")) {
             found.push_back(other + " holds changes of a project that lay here before");
         }
@@ -228,7 +229,7 @@ HealthReport checkProject(const Path& path, const CopyWatch& watch) {
         const int number = schema::numberOf(*database);
         return {"", Health::good,
                 "schema " + std::to_string(number) +
-                    (number < schema::currentNumber() ? ", is brought up to date when opened next" : "")};
+                    (number < schema::currentNumber() ? ", is brought up to date when it is next opened" : "")};
     });
     add("structure", [&] { return lookAtStructure(path, *database); });
     // Where a table of ours is something else, asking it may never end.

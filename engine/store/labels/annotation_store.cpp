@@ -38,7 +38,7 @@ int ensureSequence(ProjectFile& project, const SequenceRecord& sequence) {
 }
 
 void relocateSequence(ProjectFile& project, int sequence_id, const std::string& path) {
-    guarded(project.path(), "storing where the video lies now", [&] {
+    guarded(project.path(), "storing where the video is now", [&] {
         SQLite::Statement statement(project.database(), "UPDATE sequence SET path = ? WHERE id = ?");
         RowWriter(statement).text(path).integer(sequence_id).run();
     });
@@ -83,7 +83,7 @@ AnnotationStore::~AnnotationStore() = default;
 bool AnnotationStore::tryToWrite() {
     if (lock_) return true;
     if (project_.mode() == ProjectFile::Mode::read_only) {
-        read_only_reason_ = "the labels can only be read: the project is open for reading only";
+        read_only_reason_ = "the labels are read-only: the project is open for reading only";
         return false;
     }
     auto lock = WriterLock::tryTake(project_.path(), read_only_reason_);

@@ -10,11 +10,11 @@ std::unique_ptr<WriterLock> WriterLock::tryTake(const std::filesystem::path& pro
         case FileLock::Outcome::taken:
             return std::unique_ptr<WriterLock>(new WriterLock(std::move(attempt.lock)));
         case FileLock::Outcome::held:
-            reason = "the labels can only be read here: " + attempt.words +
-                     " is labelling this project; close that window to go on here";
+            reason = "the labels are read-only here: " + attempt.words +
+                     " is labelling this project; close that window to label here";
             break;
         case FileLock::Outcome::impossible:
-            reason = "the labels can only be read: " + attempt.words +
+            reason = "the labels are read-only: " + attempt.words +
                      "; check the permissions of the folder, or copy the project to a drive of this computer";
             break;
     }

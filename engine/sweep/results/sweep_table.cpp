@@ -97,7 +97,7 @@ SweepTable mergeSweeps(const std::vector<std::filesystem::path>& files, const st
         const std::string difference = differenceOf(shards.front().plan, table.plan);
         if (difference.empty()) continue;
         throw Error(ErrorKind::parameter, shards.front().file.string() + " and " + file.string() +
-                                              " are no parts of one sweep: " + difference);
+                                              " are not parts of one sweep: " + difference);
     }
     // All points are compared before anything is written.
     std::map<int, std::pair<const Shard*, const SweepPointRecord*>> points;

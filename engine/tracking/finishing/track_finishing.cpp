@@ -116,7 +116,7 @@ void FinishingOptions::describe(ParameterVisitor& v) {
             "in all by at most this long. 0: never.",
             ""});
     v.real("finishing.min_length", min_length_m, 0, 100,
-           {"m", "Tracks whose boxes stay shorter are no vehicles. Used where the ground sampling distance is known.",
+           {"m", "Tracks whose boxes stay shorter are not vehicles. Used where the ground sampling distance is known.",
             ""});
     v.real("finishing.min_width", min_width_m, 0, 100, {"m", "The same for the width.", ""});
     v.real("finishing.max_sharing", max_sharing, 0, 1,
@@ -137,7 +137,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
     v.real("finishing.standing_height", standing_height, 0, 0.9,
            {"",
             "A track that goes along the camera's flow no faster than a standing thing of this share of the flight "
-            "height would seem to, and that the classifier never took for a vehicle, stands and is dropped. 0: never.",
+            "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped. 0: "
+            "never.",
             ""});
     v.real(
         "finishing.standing_depth", standing_depth, 0, 0.9,
@@ -145,7 +146,7 @@ void FinishingOptions::describe(ParameterVisitor& v) {
          ""});
     v.real("finishing.min_score", min_score, 0, 1,
            {"",
-            "Tracks whose probability of being a vehicle that moves, gathered along their life, is lower are dropped. "
+            "Tracks with a lower probability of being a moving vehicle, gathered along their life, are dropped. "
             "Needs a method with a classifier. 0: none; larger: fewer false tracks, unsure vehicles are lost.",
             ""});
     v.flag(

@@ -46,8 +46,7 @@ class LabelKeepingTest : public QObject, test::Labelling {
         QVERIFY(second);
         QVERIFY(second->labelling().labels().readOnly());
         QVERIFY(!second->messages().texts().isEmpty());
-        QVERIFY(
-            second->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("The labels can only be read")));
+        QVERIFY(second->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("The labels are read-only")));
         second->labelling().labels().select(id);
         const double x = object(*second, id).keyframes[0].box.centre.x;
         key(*second, Qt::Key_Right);

@@ -81,7 +81,7 @@ class TuningTest : public QObject {
         tuning().askWhy(QPointF(centre.x, centre.y), 2);
         QVERIFY(waitFor([&] { return tuning().why().view() && !tuning().why().waiting(); }));
         QVERIFY(tuning().why().view()->told.found);
-        QVERIFY(tuning().whyPanel().text().contains(QStringLiteral("Found: track")));
+        QVERIFY(tuning().whyPanel().text().contains(QStringLiteral(" is here: ")));
         QVERIFY(tuning().whyPanel().text().contains(QStringLiteral("clustering.min_members")));
         // The answer follows its track through the frames.
         session().goToFrame(45);

@@ -1,10 +1,12 @@
 #include <QClipboard>
 #include <QHeaderView>
+#include <QHelpEvent>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QTableView>
 #include <QTest>
+#include <QToolTip>
 #include <memory>
 
 #include "panels_support.h"
@@ -178,6 +180,41 @@ class TablesTest : public QObject {
         QCOMPARE(panel.table()->horizontalHeader()->sortIndicatorSection(), int(TracksModel::speed_column));
         model.setTracks(several(2, sampleTrack), {});
         QCOMPARE(panel.table()->model()->index(0, 0).data().toInt(), 2);
+    }
+
+    void columnsGrowWithWhatTheyHoldUnlessSomebodyChoseTheirWidth() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.resize(900, 240);
+        panel.show();
+        std::vector<TrackSummary> tracks = several(2, sampleTrack);
+        model.setTracks(tracks, {});
+        QTableView& table = *panel.table();
+        table.setColumnWidth(TracksModel::first_column, table.columnWidth(TracksModel::first_column) + 2);
+        const int chosen = table.columnWidth(TracksModel::first_column);
+        const int narrow = table.columnWidth(TracksModel::last_column);
+        tracks[1].first_frame = 1'000'000'000;
+        tracks[1].last_frame = 2'000'000'000;
+        model.setTracks(tracks, {});
+        QTRY_VERIFY(table.columnWidth(TracksModel::last_column) > narrow);
+        QCOMPARE(table.columnWidth(TracksModel::first_column), chosen);
+
+        // What a narrow cell cannot show, its tooltip does.
+        const QRect cell = table.visualRect(table.model()->index(1, TracksModel::first_column));
+        QHelpEvent help(QEvent::ToolTip, cell.center(), table.viewport()->mapToGlobal(cell.center()));
+        QApplication::sendEvent(table.viewport(), &help);
+        QVERIFY(QToolTip::text().startsWith(QStringLiteral("1000000000\n")));
+        QToolTip::hideText();
+    }
+
+    void titlesExplainTheirColumns() {
+        TracksModel model;
+        model.setTracks({}, {0.25, 25, true});
+        const auto help = [&](int column) {
+            return model.headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString();
+        };
+        QVERIFY(help(TracksModel::speed_column).contains(QStringLiteral("km/h")));
+        QVERIFY(help(TracksModel::score_column).contains(QStringLiteral("from 0 to 1")));
     }
 
     void thousandsOfTracksAreNoTrouble() {

@@ -342,7 +342,7 @@ QString TimelineView::describeFrame(FrameIndex frame) const {
                         .arg(done.rms_px, 0, 'f', 3);
             break;
         case RegistrationState::frozen:
-            text += tr("\nthe same picture as the frame before");
+            text += tr("\nthe same picture as the previous frame");
             break;
         case RegistrationState::failed:
             text += tr("\ncould not be registered; tracks coast");

@@ -56,9 +56,9 @@ void LabelFitting::start() {
         if (const LabelledObject* object = labels_.object(id); object != nullptr && hasBoth(*object))
             objects.push_back(*object);
     if (objects.empty()) {
-        emit labels_.notice(tr(
-            "There is nothing to lay on the pictures: correct one box of an object taken over from a run, or press K "
-            "where its box is right; the others follow."));
+        emit labels_.notice(
+            tr("There is nothing to refine: correct one box of an accepted proposal, or press K where its box is "
+               "right; the others follow."));
         return;
     }
     working_ = true;
@@ -119,15 +119,15 @@ void LabelFitting::take(const std::vector<Fitted>& fitted) {
         sure += fit.sure;
     }
     if (changed.empty()) {
-        if (!fitted.empty()) emit labels_.notice(tr("The boxes already lie where the pictures look most alike."));
+        if (!fitted.empty()) emit labels_.notice(tr("The boxes already fit the pictures as well as they can."));
         return;
     }
     const QString name = changed.size() == 1
-                             ? tr("Lay %1 on the pictures").arg(QString::fromStdString(nameOf(changed.front())))
-                             : tr("Lay %1 objects on the pictures").arg(changed.size());
+                             ? tr("Refine boxes of %1").arg(QString::fromStdString(nameOf(changed.front())))
+                             : tr("Refine boxes of %1 objects").arg(changed.size());
     if (!labels_.apply(editOf(name.toStdString(), labels_.annotations(), std::move(changed)))) return;
     if (sure < frames)
-        emit labels_.notice(tr("Laid on the pictures; %1 of %2 frames look different from the boxes set by hand.")
+        emit labels_.notice(tr("Boxes refined; %1 of %2 frames look different from the boxes set by hand.")
                                 .arg(frames - sure)
                                 .arg(frames));
 }

@@ -199,8 +199,8 @@ std::vector<ObjectId> LabelProposals::take(const std::vector<TrackId>& tracks, F
         taken[track] = id;
         ids.push_back(id);
     }
-    edit.name = (ids.size() == 1 ? tr("Take over track %1").arg(taken.empty() ? 0 : taken.begin()->first)
-                                 : tr("Take over %1 tracks").arg(ids.size()))
+    edit.name = (ids.size() == 1 ? tr("Accept track %1").arg(taken.empty() ? 0 : taken.begin()->first)
+                                 : tr("Accept %1 tracks").arg(ids.size()))
                     .toStdString();
     if (!labels_.apply(edit)) return {};
     for (const auto& [track, object] : taken) taken_[track] = object;

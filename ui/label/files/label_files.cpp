@@ -36,11 +36,11 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
       link_(new QCheckBox(tr("Link boxes without id by their overlap from frame to frame"))),
       text_(reportField()) {
     setWindowTitle(tr("Import labels"));
-    format_->addItem(tr("Find out"), QStringLiteral("auto"));
+    format_->addItem(tr("Detect"), QStringLiteral("auto"));
     for (const LabelFormatInfo& format : labelFormats())
         if (format.reads) format_->addItem(QString::fromStdString(format.title), QString::fromStdString(format.name));
     columns_->setPlaceholderText(QStringLiteral("frame,id,cname,x1,y1,x2,y2"));
-    columns_->setToolTip(tr("Columns of a table of your own, in its order"));
+    columns_->setToolTip(tr("Columns of your own table, in order"));
     shift_->setRange(-1000000, 1000000);
     shift_->setSuffix(tr(" frames"));
     shift_->setKeyboardTracking(false);

@@ -27,7 +27,7 @@ LabelExportDialog::LabelExportDialog(LabelSession& labels, QWidget* parent)
       carries_(new QLabel),
       target_(new QLineEdit),
       columns_(new QLineEdit(QStringLiteral("frame,id,cname,x1,y1,x2,y2"))),
-      clip_(new QCheckBox(tr("Cut boxes off at the image's border"))),
+      clip_(new QCheckBox(tr("Clip boxes to the image"))),
       text_(reportField()) {
     setWindowTitle(tr("Export labels"));
     for (const LabelFormatInfo& format : labelFormats())
@@ -39,7 +39,7 @@ LabelExportDialog::LabelExportDialog(LabelSession& labels, QWidget* parent)
     place->addWidget(choose);
     auto* form = new QFormLayout;
     form->addRow(tr("Format"), format_);
-    form->addRow(tr("Carries"), carries_);
+    form->addRow(tr("Holds"), carries_);
     form->addRow(tr("Columns"), columns_);
     form->addRow(tr("To"), place);
     form->addRow(clip_);
@@ -139,7 +139,7 @@ void LabelExportDialog::startExport() {
             const ExportReport report = writeLabels(labelsOf(set, sequence, *camera), path, format, options);
             text = tr("Wrote %1 boxes.\n").arg(report.boxes);
             for (const auto& file : report.files) text += QString::fromStdString(file.string()) + QLatin1Char('\n');
-            text += report.losses.empty() ? tr("Nothing was lost.\n") : tr("What the format could not carry:\n");
+            text += report.losses.empty() ? tr("Nothing was lost.\n") : tr("What the format could not hold:\n");
             for (const ExportLoss& loss : report.losses)
                 text += QStringLiteral("• %1\n").arg(QString::fromStdString(loss.remark));
             text += lines(report.notes);

@@ -43,7 +43,7 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     empty_ = new EmptyState;
     empty_->setTexts(
         tr("Nothing is selected. Click a box in the video or a row in the list; N goes to the next object, "
-           "U to the next one that nobody has checked."));
+           "U to the next unchecked one."));
     auto* page = new QWidget;
     auto* layout = new QVBoxLayout(page);
     title_ = new QLabel;
@@ -72,12 +72,12 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     colour_->setMenu(colours);
     occluded_ = button(tr("Occluded"), tr("Not, partly or fully hidden from here (O)"), true);
     outside_ = button(tr("Outside"), tr("Outside the image from here until the next keyframe (L)"), true);
-    ignore_ = button(tr("Ignore"), tr("Counts neither way from here until the next keyframe (I)"), true);
-    checked_ = button(tr("Checked"), tr("Somebody looked at all of it and it is right (V)"), false);
-    questionable_ = button(tr("Questionable"), tr("Somebody should look at it again (X)"), false);
+    ignore_ = button(tr("Ignore"), tr("Ignored by the evaluation from here until the next keyframe (I)"), true);
+    checked_ = button(tr("Checked"), tr("Reviewed in full and found right (V)"), false);
+    questionable_ = button(tr("Questionable"), tr("To be looked at again (X)"), false);
     notes_ = new QLineEdit;
     notes_->setPlaceholderText(tr("Notes"));
-    joins_heading_ = new QLabel(tr("May be the same vehicle (double click joins):"));
+    joins_heading_ = new QLabel(tr("May be the same vehicle (double-click to join):"));
     joins_heading_->setWordWrap(true);
     joins_ = new QListWidget;
     joins_->setAlternatingRowColors(true);
@@ -175,6 +175,7 @@ void ObjectInspector::showObject(const std::optional<ObjectDetails>& details) {
     joins_->clear();
     for (const JoinOffer& offer : details->joins) {
         auto* item = new QListWidgetItem(offer.text, joins_);
+        item->setToolTip(offer.text);
         item->setData(Qt::UserRole, offer.object);
     }
     joins_heading_->setVisible(!details->joins.empty());

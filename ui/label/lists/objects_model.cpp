@@ -135,7 +135,31 @@ QVariant ObjectsModel::sortValueOf(const ObjectRow& row, int column) const {
     }
 }
 
+QString ObjectsModel::helpOf(int column) const {
+    switch (column) {
+        case id_column:
+            return tr("Number of the object");
+        case first_column:
+            return tr("First frame");
+        case last_column:
+            return tr("Last frame");
+        case keyframes_column:
+            return tr("Number of keyframes");
+        case life_column:
+            return tr("From first to last frame, in seconds");
+        case speed_column:
+            return tr("Mean speed over the ground, in %1").arg(speedUnit(scale_));
+        case state_column:
+            return tr("Review: new (not checked), partly or fully checked, or questionable");
+        case origin_column:
+            return tr("Drawn by hand, accepted from a run, corrected since then, or imported");
+        default:
+            return {};
+    }
+}
+
 QVariant ObjectsModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation == Qt::Horizontal && role == Qt::ToolTipRole) return helpOf(section);
     if (orientation != Qt::Horizontal || role != Qt::DisplayRole)
         return RecordModel::headerData(section, orientation, role);
     switch (section) {

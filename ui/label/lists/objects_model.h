@@ -58,6 +58,8 @@ class ObjectsModel : public RecordModel<ObjectRow> {
 
  private:
     QString textOf(const ObjectRow& row, int column) const;
+    /// What a column holds, for its title's tooltip.
+    QString helpOf(int column) const;
     QVariant sortValueOf(const ObjectRow& row, int column) const;
     SceneScale scale_;
 };

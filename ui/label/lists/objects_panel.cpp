@@ -33,7 +33,7 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
         tr("Draw an object (B)"));
     this_frame_->setText(tr("This frame"));
     this_frame_->setCheckable(true);
-    this_frame_->setToolTip(tr("List only objects that live in the frame shown"));
+    this_frame_->setToolTip(tr("List only objects in the frame shown"));
     class_->addItem(tr("All classes"));
     state_->addItems({tr("Any state"), tr("Not checked"), tr("Checked"), tr("Questionable")});
     for (QDoubleSpinBox* box : {shortest_, slowest_}) {
@@ -44,7 +44,7 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
     }
     shortest_->setPrefix(tr("life ≥ "));
     shortest_->setSuffix(tr(" s"));
-    shortest_->setToolTip(tr("List only objects that live at least this long"));
+    shortest_->setToolTip(tr("List only objects with at least this life, in seconds"));
     slowest_->setPrefix(tr("v ≥ "));
     slowest_->setToolTip(tr("List only objects at least this fast, in px/frame over the ground"));
     coverage_->setRange(0, 1000);

@@ -31,18 +31,18 @@ ComparisonHeader::ComparisonHeader(ProjectSession& session, PresetLibrary& prese
     second_->setAccessibleName(tr("B"));
     for (QComboBox* box : {first_, second_}) {
         box->setToolTip(
-            tr("A run of the project, a preset, or the parameters as they stand in the form. What is no run is "
-               "computed from the motion vectors of one."));
+            tr("A run of the project, a preset, or the parameters in the form. Presets and the form are computed from "
+               "the motion vectors of a run."));
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(20);
     }
     auto* swap = new QToolButton;
     swap->setText(tr("⇄"));
-    swap->setToolTip(tr("Change A and B round"));
+    swap->setToolTip(tr("Swap A and B"));
     wipe_ = new QToolButton;
     wipe_->setText(tr("Wipe"));
     wipe_->setCheckable(true);
-    wipe_->setToolTip(tr("B over A with a border that can be dragged, instead of side by side (X)"));
+    wipe_->setToolTip(tr("B over A with a divider to drag, instead of side by side (X)"));
     summary_ = new QLabel;
     summary_->setForegroundRole(QPalette::PlaceholderText);
     summary_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);

@@ -50,7 +50,9 @@ QTableWidgetItem* number(double value, int row) {
 }
 
 QTableWidgetItem* words(const QString& text) {
-    return new QTableWidgetItem(text);
+    auto* item = new QTableWidgetItem(text);
+    item->setToolTip(text);
+    return item;
 }
 
 QString idText(const std::optional<int>& id) {
@@ -266,8 +268,8 @@ void ComparisonWindow::showComparison() {
         const ResultDifference& d = found[static_cast<std::size_t>(i)];
         const QString what = d.kind == DifferenceKind::only_first    ? tr("only in A")
                              : d.kind == DifferenceKind::only_second ? tr("only in B")
-                             : d.kind == DifferenceKind::box         ? tr("other box")
-                                                                     : tr("other id");
+                             : d.kind == DifferenceKind::box         ? tr("different box")
+                                                                     : tr("different id");
         differences_->setItem(i, 0, number(std::round(10 * d.size) / 10, i));
         differences_->setItem(
             i, 1,
@@ -293,7 +295,7 @@ void ComparisonWindow::showComparison() {
     const auto count = [&](DifferenceKind kind) {
         return std::count_if(found.begin(), found.end(), [&](const ResultDifference& d) { return d.kind == kind; });
     };
-    header_->setSummary(tr("%1 only in A, %2 only in B, %3 other boxes, %4 changes of id%5")
+    header_->setSummary(tr("%1 only in A, %2 only in B, %3 different boxes, %4 different ids%5")
                             .arg(count(DifferenceKind::only_first))
                             .arg(count(DifferenceKind::only_second))
                             .arg(count(DifferenceKind::box))

@@ -24,8 +24,7 @@ PreviewBar::PreviewBar(LivePreview& preview, QWidget* parent) : QFrame(parent), 
     range_->setSuffix(tr(" frames back"));
     range_->setKeyboardTracking(false);
     range_->setToolTip(
-        tr("Frames before this one that are done with the new parameters, too, so that tracks are "
-           "followed by them; 0: none"));
+        tr("Earlier frames that are processed with the new parameters, too, so that tracks follow from them; 0: none"));
     run_ = new QPushButton(QIcon::fromTheme(QStringLiteral("media-record")), tr("Run with these"), this);
     discard_ = new QPushButton(tr("Discard"), this);
     discard_->setToolTip(tr("Back to the parameters and the results of the run"));
@@ -70,7 +69,7 @@ void PreviewBar::refresh() {
                     .arg(QString::fromLatin1(nameOf(view->previewed.start)))
                     .arg(view->milliseconds, 0, 'f', 0);
         if (preview_.framesLeft() > 0) text += tr(" · tracks: %1 frames left").arg(preview_.framesLeft());
-        if (view->previewed.approximate) text += tr(" · motion vectors found anew, a run may differ slightly");
+        if (view->previewed.approximate) text += tr(" · motion vectors recomputed, a run may differ slightly");
         if (view->previewed.start == PreviewStart::finishing) text += tr(" · shows in finished runs only");
     } else {
         text += tr(" · computing …");

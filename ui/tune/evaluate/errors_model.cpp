@@ -89,7 +89,27 @@ QVariant ErrorsModel::sortValueOf(const ErrorRow& row, int column) const {
     }
 }
 
+QString ErrorsModel::helpOf(int column) const {
+    switch (column) {
+        case chip_column:
+            return tr("The place of the error in the video");
+        case frame_column:
+            return tr("First and last frame of the error");
+        case count_column:
+            return tr("Boxes or events that the error counts");
+        case object_column:
+            return tr("Objects of the ground truth");
+        case track_column:
+            return tr("Tracks of the run");
+        case cause_column:
+            return tr("Last stage that still had the object: the probable cause, not a proven one");
+        default:
+            return {};
+    }
+}
+
 QVariant ErrorsModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation == Qt::Horizontal && role == Qt::ToolTipRole) return helpOf(section);
     if (orientation != Qt::Horizontal || role != Qt::DisplayRole)
         return RecordModel::headerData(section, orientation, role);
     switch (section) {

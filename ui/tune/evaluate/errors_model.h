@@ -54,6 +54,8 @@ class ErrorsModel : public RecordModel<ErrorRow> {
 
  private:
     QString textOf(const ErrorRow& row, int column) const;
+    /// What a column holds, for its title's tooltip.
+    QString helpOf(int column) const;
     QVariant sortValueOf(const ErrorRow& row, int column) const;
     std::map<int, QImage> chips_;
 };

@@ -147,7 +147,7 @@ void ErrorsPanel::resizeEvent(QResizeEvent* event) {
 void ErrorsPanel::fillMenu(QMenu& menu, int id) {
     menu.addAction(tr("Go there"), this, [this, id] { emit errorActivated(id); });
     menu.addAction(tr("Why?\tShift+W"), this, [this, id] { emit whyAsked(id); });
-    menu.addAction(tr("The truth is wrong here…"), this, [this, id] { emit truthIsWrong(id); });
+    menu.addAction(tr("The ground truth is wrong here…"), this, [this, id] { emit truthIsWrong(id); });
     const ErrorRow* row = errors_->recordAt(errors_->rowOf(id));
     if (row == nullptr) return;
     menu.addAction(tr("Only “%1”").arg(row->kind), this, [this, kind = row->kind] { setShownKind(kind); });

@@ -59,10 +59,10 @@ QString differenceLine(const QString& measure, const BootstrapInterval& differen
             .arg(sign, numberText(difference.value, 3), numberText(difference.low, 3), numberText(difference.high, 3));
     const bool real = difference.low > 0 || difference.high < 0;
     if (!real)
-        return QObject::tr("%1 against %2: %3, <b>not distinguishable</b>").arg(measure, runName(other), numbers);
+        return QObject::tr("%1 against %2: %3, <b>no significant difference</b>").arg(measure, runName(other), numbers);
     return difference.value > 0
-               ? QObject::tr("%1 against %2: %3, <b>really better</b>").arg(measure, runName(other), numbers)
-               : QObject::tr("%1 against %2: %3, <b>really worse</b>").arg(measure, runName(other), numbers);
+               ? QObject::tr("%1 against %2: %3, <b>significantly better</b>").arg(measure, runName(other), numbers)
+               : QObject::tr("%1 against %2: %3, <b>significantly worse</b>").arg(measure, runName(other), numbers);
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ WindowedRatios windowedRatios(const std::vector<FrameCounts>& frames, int window
 
 QString certaintyText(const RunEvaluation& evaluation) {
     QStringList lines;
-    lines << QObject::tr("f-score <b>%1</b>, 95 % of such scenes: %2 – %3")
+    lines << QObject::tr("f-score <b>%1</b>, 95 % interval %2 – %3")
                  .arg(numberText(evaluation.f_score.value, 3), numberText(evaluation.f_score.low, 3),
                       numberText(evaluation.f_score.high, 3));
     if (evaluation.mota) lines.back() += QObject::tr(" · MOTA %1").arg(spanText(*evaluation.mota));
@@ -149,14 +149,14 @@ QWidget* EvaluationPanel::buildChoices() {
     overlap_->setDecimals(2);
     overlap_->setPrefix(tr("T_ov "));
     overlap_->setKeyboardTracking(false);
-    overlap_->setToolTip(tr("Overlap from which on an object counts as found, for errors, objects and curves"));
+    overlap_->setToolTip(tr("Smallest overlap at which an object counts as found, for errors, objects and curves"));
     other_ = new QComboBox;
     other_->setToolTip(tr("Another run over the same video; tells whether the difference is more than chance"));
     other_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     more_ = new QToolButton;
     more_->setText(tr("Options"));
     more_->setCheckable(true);
-    vehicles_ = new QCheckBox(tr("Vehicles only: other objects count neither way"));
+    vehicles_ = new QCheckBox(tr("Vehicles only: other objects are ignored"));
     upright_ = new QCheckBox(tr("Compare upright boxes (truth without headings)"));
     border_ = new QDoubleSpinBox;
     border_->setRange(0, 200);
@@ -224,7 +224,7 @@ void EvaluationPanel::showSettings() {
     const QSignalBlocker blockers[] = {QSignalBlocker(truth_),    QSignalBlocker(measured_), QSignalBlocker(overlap_),
                                        QSignalBlocker(vehicles_), QSignalBlocker(upright_),  QSignalBlocker(border_)};
     const QString path = QString::fromStdString(settings.truth_file.string());
-    truth_->setItemText(file_entry, path.isEmpty() ? tr("No file yet") : QFileInfo(path).fileName());
+    truth_->setItemText(file_entry, path.isEmpty() ? tr("No file chosen") : QFileInfo(path).fileName());
     truth_->setItemData(file_entry, path, Qt::UserRole);
     truth_->setItemData(file_entry, path, Qt::ToolTipRole);
     truth_->setCurrentIndex(path.isEmpty() ? labels_entry : file_entry);
@@ -292,7 +292,7 @@ QWidget* EvaluationPanel::buildResult() {
     headline_ = new QLabel;
     headline_->setWordWrap(true);
     headline_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    headline_->setToolTip(tr("Intervals: whole tracks drawn anew 2,000 times (bootstrap)"));
+    headline_->setToolTip(tr("Intervals: whole tracks resampled 2,000 times (bootstrap)"));
     remarks_ = new QLabel;
     remarks_->setWordWrap(true);
     table_ = new QTableWidget;

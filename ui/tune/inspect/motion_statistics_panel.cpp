@@ -69,7 +69,7 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
     : QWidget(parent), session_(session) {
     empty_ = new EmptyState;
     empty_->setTexts(
-        tr("Here you see how fast the corners move that move by themselves, and how long they last. Run the video "
+        tr("Shows how fast the independently moving corners are and how long they last. Run the video "
            "first, or choose a run."));
     auto* charts = new QWidget;
     scope_ = new QComboBox(charts);
@@ -155,7 +155,7 @@ void MotionStatisticsPanel::showSpeeds() {
     const ViewFrame& frame = session_.viewFrame();
     if (wholeRun() ? !counted_ : !frame.result) {
         speed_title_->setText(wholeRun() ? tr("<b>Speed</b>: reading the motion vectors of the run …")
-                                         : tr("The run has not done this frame."));
+                                         : tr("The run has not processed this frame."));
         speeds_->setData({});
         return;
     }
@@ -189,10 +189,10 @@ void MotionStatisticsPanel::showLives() {
         return;
     }
     const VectorLives lives = wholeRun() ? counted_->lives() : counted_->livesOf(result->motion.motion_vectors);
-    life_title_->setText((wholeRun() ? tr("<b>Life</b> of the %1 motion vectors of the run, mean %2 frames; those of "
-                                          "tracks belong to one for %3 frames")
+    life_title_->setText((wholeRun() ? tr("<b>Life</b> of the %1 motion vectors of the run, mean %2 frames; those in a "
+                                          "track stay in it for %3 frames")
                                      : tr("<b>Life</b> in the run of the %1 motion vectors of this frame, mean %2 "
-                                          "frames; those of tracks belong to one for %3 frames"))
+                                          "frames; those in a track stay in it for %3 frames"))
                              .arg(QLocale().toString(lives.vectors))
                              .arg(numberText(lives.mean_life, 1))
                              .arg(numberText(lives.mean_association, 1)));

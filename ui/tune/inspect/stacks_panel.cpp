@@ -40,7 +40,7 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
         if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
     });
     connect(whole_area_, &QCheckBox::toggled, this, [this] {
-        summary_->setText(tr("The stacks are being cut anew …"));
+        summary_->setText(tr("The stacks are being cut again …"));
         want();
     });
     connect(empty_, &EmptyState::actionTriggered, this, &StacksPanel::stackingRunRequested);
@@ -80,19 +80,19 @@ void StacksPanel::refresh() {
     QString action;
     if (!session_.currentRun()) {
         why =
-            tr("Image stacks lay the same vehicle of many frames over each other, so that noise and background fade "
-               "and the vehicle stays. Run the video first, or choose a run.");
+            tr("An image stack lays one vehicle's pictures from many frames over each other: noise and background "
+               "fade, the vehicle stays. Run the video first, or choose a run.");
     } else if (stackingOff()) {
         why =
-            tr("This run did without image stacking. With it, the same vehicle of up to 50 frames is laid over each "
+            tr("This run used no image stacking. With it, a vehicle's pictures from up to 50 frames are laid over each "
                "other; noise and background fade, and the detector searches the stacked image.");
         action = tr("Run with stacking");
     } else if (session_.following()) {
-        why = tr("The run is at work. Go to a frame that it has done, and its stacks can be looked at.");
+        why = tr("The run is still running. Go to a frame that it has processed to see its stacks.");
     } else if (!inspection_.problem().isEmpty()) {
         why = inspection_.problem();
     } else if (!session_.viewFrame().result) {
-        why = tr("The run has not done this frame.");
+        why = tr("The run has not processed this frame.");
     }
     if (why.isEmpty()) {  // pictures that are shown stay until others come
         if (pages_->currentWidget() == empty_) empty_->setTexts(tr("This frame is being replayed …"));
@@ -117,7 +117,7 @@ void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {
                           .arg(options.min_height)
                           .arg(options.capacity);
     if (!view->exact)
-        summary += tr("\nThe replay began later than the run, so that they may differ slightly from its.");
+        summary += tr("\nThe replay began later than the run, so they may differ slightly from the run's.");
     summary_->setText(summary);
     if (view->stacks.empty()) {
         empty_->setTexts(tr("No stack in this frame: they begin with the detections of the frame before."));

@@ -59,7 +59,7 @@ QWidget* StagesPanel::buildHeader() {
     QFont bold = title_->font();
     bold.setBold(true);
     title_->setFont(bold);
-    back_ = button("go-previous", tr("Former cluster of the frame"), header);
+    back_ = button("go-previous", tr("Previous cluster of the frame"), header);
     on_ = button("go-next", tr("Next cluster of the frame"), header);
     auto* smaller = button("zoom-out", tr("Smaller pictures"), header);
     auto* fit = button("zoom-fit-best", tr("Fit the pictures"), header);
@@ -115,20 +115,19 @@ QString StagesPanel::explanation() const {
 std::pair<QString, QString> StagesPanel::whyEmpty() const {
     const auto& result = session_.viewFrame().result;
     if (!session_.currentRun())
-        return {tr("Here each step of a detection can be looked at, from the search area to the boxes. Run the video "
+        return {tr("Shows each step of a detection, from the search area to the boxes. Run the video "
                    "first, or choose a run."),
                 {}};
     if (session_.following())
-        return {tr("The run is at work. Go to a frame that it has done, and its steps can be looked at."), {}};
+        return {tr("The run is still running. Go to a frame that it has processed to see its steps."), {}};
     if (!inspection_.problem().isEmpty()) return {inspection_.problem(), {}};
-    if (!result) return {tr("The run has not done this frame."), {}};
+    if (!result) return {tr("The run has not processed this frame."), {}};
     if (result->clusters.empty()) return {tr("Nothing moves in this frame: there are no motion clusters."), {}};
     if (!inspection_.hasChoice())
-        return {
-            tr("Click a cluster, a search area, a detection or a track in the picture, and each step that led to its "
-               "boxes is shown here."),
-            tr("Show the first cluster")};
-    if (!inspection_.cluster()) return {tr("What was chosen has no motion cluster in this frame."), {}};
+        return {tr("Click a cluster, a search area, a detection or a track in the picture to see each step that led to "
+                   "its boxes."),
+                tr("Show the first cluster")};
+    if (!inspection_.cluster()) return {tr("The selection has no motion cluster in this frame."), {}};
     return {};
 }
 
@@ -139,7 +138,7 @@ QString StagesPanel::summaryOf(const ReplayView& view) const {
         words << tr("motion: %1").arg(spelled(nameOf(view.options.difference.method)));
     words << (view.options.stacking.enabled ? tr("stacking on") : tr("stacking off"));
     QString text = words.join(QStringLiteral(" · "));
-    if (!view.exact) text += tr("\nThe replay began later than the run, so that stacks may differ slightly from its.");
+    if (!view.exact) text += tr("\nThe replay began later than the run, so stacks may differ slightly from the run's.");
     return text;
 }
 

@@ -87,17 +87,18 @@ void WhyPanel::refresh() {
     };
     if (!session_.currentRun())
         return empty(
-            tr("Here each place of a frame can be asked why something was found there, or was not. Run the "
+            tr("Answers why something was found at a place of a frame, or was not. Run the "
                "video first, or choose a run."));
-    if (session_.following()) return empty(tr("The run is at work. Go to a frame that it has done, and ask."));
+    if (session_.following())
+        return empty(tr("The run is still running. Go to a frame that it has processed, and ask there."));
     if (!why_.asked())
         return empty(
             tr("Point at a place of the picture, hit or missed, and press W, or choose “Why here?” from its "
                "context menu. Every comparison that was made there is listed, and the one that decided."));
     if (!why_.problem().isEmpty()) return empty(why_.problem());
     if (!view)
-        return empty(why_.waiting() ? tr("The frames before this one are looked at …")
-                                    : tr("The run has not done this frame."));
+        return empty(why_.waiting() ? tr("Looking at the frames before this one …")
+                                    : tr("The run has not processed this frame."));
     const bool current = view->frame == session_.viewFrame().index && !why_.waiting();
     QString title = why_.about();
     if (!title.isEmpty()) title += QLatin1Char('\n');

@@ -19,6 +19,13 @@ namespace eyrie::ui {
 
 namespace {
 
+/// Long values are cut off in the table; the tooltip has them whole.
+QTableWidgetItem* presetCell(const QString& text) {
+    auto* item = new QTableWidgetItem(text);
+    item->setToolTip(text);
+    return item;
+}
+
 QTableWidget* presetTable(const QStringList& columns) {
     auto* made = new QTableWidget(0, static_cast<int>(columns.size()));
     made->setHorizontalHeaderLabels(columns);
@@ -44,7 +51,7 @@ PresetDialog::PresetDialog(PresetLibrary& presets, ChainOptions present, QWidget
     : QDialog(parent), presets_(presets), present_(std::move(present)) {
     setWindowTitle(tr("Presets"));
     resize(900, 520);
-    list_ = presetTable({tr("Preset"), tr("Kept in"), tr("Saved")});
+    list_ = presetTable({tr("Preset"), tr("Stored in"), tr("Saved")});
     other_ = new QComboBox;
     other_->setAccessibleName(tr("Compare with"));
     differences_ = presetTable({tr("Parameter"), tr("Preset"), tr("Compared with")});
@@ -122,7 +129,7 @@ void PresetDialog::refresh() {
     other_->clear();
     for (int row = 0; row < list_->rowCount(); ++row) {
         const auto& entry = entries[static_cast<std::size_t>(row)];
-        list_->setItem(row, 0, new QTableWidgetItem(text(entry.name)));
+        list_->setItem(row, 0, presetCell(text(entry.name)));
         list_->setItem(row, 1,
                        new QTableWidgetItem(entry.origin == PresetStore::Origin::built_in  ? tr("the program")
                                             : entry.origin == PresetStore::Origin::project ? tr("this project")
@@ -169,9 +176,9 @@ void PresetDialog::compare() {
     differences_->setRowCount(static_cast<int>(differences.size()));
     for (int row = 0; row < differences_->rowCount(); ++row) {
         const ParameterDifference& d = differences[static_cast<std::size_t>(row)];
-        differences_->setItem(row, 0, new QTableWidgetItem(text(d.name)));
-        differences_->setItem(row, 1, new QTableWidgetItem(text(d.first)));
-        differences_->setItem(row, 2, new QTableWidgetItem(text(d.second)));
+        differences_->setItem(row, 0, presetCell(text(d.name)));
+        differences_->setItem(row, 1, presetCell(text(d.first)));
+        differences_->setItem(row, 2, presetCell(text(d.second)));
     }
     differences_->resizeColumnsToContents();
     message_->setText(differences.empty()

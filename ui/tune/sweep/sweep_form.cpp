@@ -66,10 +66,10 @@ SweepForm::SweepForm(QWidget* parent) : QWidget(parent) {
     truth_ = new QComboBox(this);
     truth_->addItems({tr("labels of the project"), tr("a file …")});
     truth_->setToolTip(
-        tr("The true boxes that every point is measured against; what counts is chosen in the dock Evaluation"));
+        tr("The ground truth that every point is measured against; what counts is chosen in the Evaluation dock"));
     grid->addWidget(truth_, 5, 1);
     overlaps_ = new QLineEdit(QStringLiteral("0.1, 0.2, 0.3"), this);
-    overlaps_->setToolTip(tr("Overlaps T_ov from which on a box counts as found"));
+    overlaps_->setToolTip(tr("Smallest overlap T_ov at which a box counts as found; several are possible"));
     auto* overlap_label = new QLabel(tr("T_ov"), this);
     auto* overlap_line = new QHBoxLayout;
     overlap_line->setSpacing(6);
@@ -224,9 +224,10 @@ void SweepForm::refresh() {
     start_->setText(tr("Start"));
     showRuns();
     start_->setEnabled(complete && !running_ && !run_.isEmpty());
-    start_->setToolTip(run_.isEmpty() ? tr("Run the video first, or choose a run")
-                                      : tr("Motion vectors are taken from the run; everything behind the changed "
-                                           "parameters is done again"));
+    start_->setToolTip(
+        run_.isEmpty()
+            ? tr("Run the video first, or choose a run")
+            : tr("Motion vectors are taken from the run; every stage behind the changed parameters is computed again"));
 }
 
 void SweepForm::chooseTruth(int index) {

@@ -61,7 +61,7 @@ SweepPanel::SweepPanel(ProjectSession& session, QWidget* parent)
     progress_->setTextVisible(false);
     progress_text_ = new QLabel(progress_line_);
     cancel_ = new QPushButton(tr("Cancel"), progress_line_);
-    cancel_->setToolTip(tr("What is done stays and can be resumed"));
+    cancel_->setToolTip(tr("Finished points are kept, and the sweep can be resumed"));
     line->addWidget(progress_, 1);
     line->addWidget(progress_text_);
     line->addWidget(cancel_);
@@ -71,8 +71,8 @@ SweepPanel::SweepPanel(ProjectSession& session, QWidget* parent)
     pages_ = new QStackedLayout(below);
     empty_ = new EmptyState;
     empty_->setTexts(
-        tr("A sweep tries many values of one or two parameters on the run that is shown and measures each against the "
-           "true boxes. Choose a parameter above; the curve or heat map appears here as points are done."));
+        tr("A sweep tries many values of one or two parameters on the run that is shown and measures each against "
+           "ground truth. Choose a parameter above; the curve or heat map appears here as points are done."));
     pages_->addWidget(empty_);
     pages_->addWidget(buildResult());
     rows->addWidget(below, 1);
@@ -98,7 +98,7 @@ QWidget* SweepPanel::buildResult() {
     list_->setMinimumContentsLength(14);
     list_->setToolTip(tr("The sweeps of this project"));
     resume_ = new QPushButton(tr("Resume"), result);
-    resume_->setToolTip(tr("Do the points that are missing"));
+    resume_->setToolTip(tr("Compute the missing points"));
     remove_ = new QToolButton(result);
     remove_->setText(tr("Remove"));
     first->addWidget(list_, 1);
@@ -109,8 +109,8 @@ QWidget* SweepPanel::buildResult() {
     view_ = new QComboBox(result);
     view_->addItems({tr("measure"), tr("precision, recall, f"), tr("precision over recall"), tr("recall over alarms")});
     view_->setToolTip(
-        tr("What the chart shows. Recall over false alarms per frame stands for the ROC, as detection "
-           "knows no true negatives."));
+        tr("What the chart shows. Recall over false alarms per frame stands for the ROC, as detection has no true "
+           "negatives."));
     measure_ = new QComboBox(result);
     fillMeasures();
     of_ = new QComboBox(result);
@@ -144,11 +144,11 @@ QWidget* SweepPanel::buildResult() {
     rows->addLayout(last);
     connect(copy, &QToolButton::clicked, this, [this] {
         chart_->copyText();
-        emit notice(tr("The values of the chart are in the clipboard."));
+        emit notice(tr("The values of the chart were copied."));
     });
     connect(picture, &QToolButton::clicked, this, [this] {
         chart_->copyPicture();
-        emit notice(tr("The chart is in the clipboard."));
+        emit notice(tr("The picture of the chart was copied."));
     });
     return result;
 }
@@ -165,7 +165,7 @@ void SweepPanel::wireSweeps() {
         showList();
     });
     connect(&sweeps_, &SweepSession::finished, this, [this](bool whole) {
-        emit notice(whole ? tr("The sweep is done.") : tr("The sweep was cancelled; Resume does the rest."));
+        emit notice(whole ? tr("The sweep is done.") : tr("The sweep was cancelled; Resume computes the rest."));
     });
     connect(list_, &QComboBox::activated, this, [this](int index) { sweeps_.select(list_->itemData(index).toInt()); });
     connect(resume_, &QPushButton::clicked, this, [this] { sweeps_.resume(list_->currentData().toInt()); });
@@ -311,10 +311,9 @@ void SweepPanel::showProgress(const SweepProgress& progress) {
 }
 
 void SweepPanel::ask(const SweepRequest& request, double points) {
-    const auto answer =
-        QMessageBox::question(this, tr("A large sweep"),
-                              tr("This sweep has %1 points. It may take very long. Begin it all the same?")
-                                  .arg(QLocale().toString(points, 'f', 0)));
+    const auto answer = QMessageBox::question(this, tr("A large sweep"),
+                                              tr("This sweep has %1 points. It may take very long. Start it anyway?")
+                                                  .arg(QLocale().toString(points, 'f', 0)));
     if (answer != QMessageBox::Yes) return;
     SweepRequest meant = request;
     meant.many_points_meant = true;

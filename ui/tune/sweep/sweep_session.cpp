@@ -151,8 +151,7 @@ OpenedRuns SweepSession::openResumed(const Job& job, SweepPlan& plan, const std:
     for (const SweepClip& clip : plan.clips) {
         if (clip.run == 0) {
             throw Error(ErrorKind::parameter,
-                        "This sweep was begun by eyrie-cli over files; go on with it there "
-                        "(eyrie-cli sweep … --resume).");
+                        "This sweep was started by eyrie-cli on files; resume it there (eyrie-cli sweep … --resume).");
         }
         runs.push_back({clip.run, {.file = clip.ground_truth}, plan.evaluationOf(clip)});
     }
@@ -160,9 +159,9 @@ OpenedRuns SweepSession::openResumed(const Job& job, SweepPlan& plan, const std:
     for (std::size_t i = 0; i < runs.size(); ++i) {
         if (opened.clips[i].digest == plan.clips[i].digest && opened.clips[i].upright == plan.clips[i].upright)
             continue;
-        throw Error(ErrorKind::parameter, "The video or the true boxes of run " + std::to_string(runs[i].run_id) +
-                                              ", or how they are compared, have changed since this sweep was begun, "
-                                              "so its points would not belong together. Start a new sweep.");
+        throw Error(ErrorKind::parameter, "The video or the ground truth of run " + std::to_string(runs[i].run_id) +
+                                              ", or how they are compared, have changed since this sweep was started, "
+                                              "so its points would not be comparable. Start a new sweep.");
     }
     return opened;
 }

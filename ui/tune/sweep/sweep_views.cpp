@@ -179,7 +179,7 @@ SweepChartData chartOf(const SweepTable& table, SweepView view, const SweepCrite
 QString pointText(const SweepTable& table, int position, const SweepCriterion& criterion) {
     const auto value = valueAt(table, position, criterion);
     const QString shown =
-        value ? QLocale::c().toString(*value, 'f', measureText(criterion.key).decimals) : QObject::tr("not done");
+        value ? QLocale::c().toString(*value, 'f', measureText(criterion.key).decimals) : QObject::tr("not computed");
     return QObject::tr("<b>%1</b>: %2").arg(valueText(table.plan.describe(position)).toHtmlEscaped(), shown);
 }
 

@@ -17,9 +17,8 @@ OpenedRuns openRunsForSweep(const std::filesystem::path& project_path, const std
         if (!file.empty() && !opened.clips.empty() && opened.clips.front().sequence != run.clip.sequence &&
             opened.clips.front().ground_truth == file) {
             throw Error(ErrorKind::parameter, file +
-                                                  ": one file of true boxes belongs to one video, but the runs chosen "
-                                                  "are of several. Use the labels of the project, or choose fewer "
-                                                  "runs.");
+                                                  ": a ground truth file belongs to one video, but the chosen runs are "
+                                                  "of several. Use the labels of the project, or choose fewer runs.");
         }
         const Media media = mediaOfIdentity(run.clip.sequence, {.remembered_hz = run.clip.scale.frame_rate_hz});
         if (opened.clips.empty()) opened.options = run.options;

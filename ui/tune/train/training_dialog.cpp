@@ -50,7 +50,7 @@ TrainingDialog::TrainingDialog(const std::filesystem::path& project, QWidget* pa
     chart_ = new SweepChart;
     message_ =
         new QLabel(tr("The labelled vehicles of the projects are cut out and learned; whole sequences are held "
-                      "out, and the classifier is tested on them beside the one that comes with the program."));
+                      "out, and the classifier is tested on them next to the one that comes with the program."));
     message_->setWordWrap(true);
     progress_ = new QProgressBar;
     progress_->setRange(0, 1000);

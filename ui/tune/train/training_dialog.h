@@ -16,7 +16,7 @@ namespace eyrie::ui {
 
 class SweepChart;
 
-/// Trains a classifier from labelled projects and shows it beside the one that comes with the program.
+/// Trains a classifier from labelled projects and shows it next to the one that comes with the program.
 class TrainingDialog : public QDialog {
     Q_OBJECT
 

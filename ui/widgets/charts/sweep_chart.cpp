@@ -259,7 +259,7 @@ int SweepChart::pointAt(QPointF place, QString& text) const {
                    .arg(data_.y_label, data_.rows[row], data_.x_label, data_.columns[column],
                         std::isfinite(value)
                             ? data_.value_label + QStringLiteral(" = ") + QString::number(value, 'f', data_.decimals)
-                            : tr("not done"));
+                            : tr("not computed"));
         return position;
     }
     double nearest = kClickReach;

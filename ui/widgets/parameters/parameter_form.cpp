@@ -80,7 +80,7 @@ QWidget* ParameterForm::makePresetLine() {
     label->setBuddy(presets_);
     presets_->setToolTip(tr("Start from these values"));
     save_preset_->setText(tr("Save as…"));
-    save_preset_->setToolTip(tr("Keep the present values as a preset"));
+    save_preset_->setToolTip(tr("Save the current values as a preset"));
     layout->addWidget(label);
     layout->addWidget(presets_, 1);
     layout->addWidget(save_preset_);

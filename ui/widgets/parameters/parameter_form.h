@@ -56,7 +56,7 @@ class ParameterForm : public QWidget {
     /// A person changed one value.
     void valueChanged(const QString& name, const QString& value);
     void presetChosen(const QString& name);
-    /// Keep the present values as a preset.
+    /// Save the current values as a preset.
     void savePresetRequested();
     /// Show all presets.
     void presetsRequested();

@@ -4,13 +4,17 @@
 #include <QClipboard>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QHelpEvent>
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QMenu>
 #include <QScopedValueRollback>
+#include <QScrollBar>
 #include <QSettings>
 #include <QStackedLayout>
 #include <QTableView>
+#include <QTextDocument>
+#include <QToolTip>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -19,6 +23,11 @@
 #include "widgets/tables/table_text.h"
 
 namespace eyrie::ui {
+namespace {
+
+constexpr QLatin1String kFittedKey("_fitted");
+
+}  // namespace
 
 TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, QWidget* parent)
     : QWidget(parent),
@@ -92,13 +101,25 @@ void TablePanel::buildTable() {
     table_->horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
     table_->setContextMenuPolicy(Qt::CustomContextMenu);
     table_->installEventFilter(this);
+    table_->viewport()->installEventFilter(this);
+    // Widths follow the rows in view and these many more.
+    table_->horizontalHeader()->setResizeContentsPrecision(100);
     restoreColumns();
+    widening_due_.setSingleShot(true);
+    widening_due_.setInterval(1000);
+    connect(&widening_due_, &QTimer::timeout, this, &TablePanel::widenColumns);
+    connect(proxy_, &QAbstractItemModel::dataChanged, this, &TablePanel::widenColumnsSoon);
+    connect(proxy_, &QAbstractItemModel::headerDataChanged, this, &TablePanel::widenColumnsSoon);
+    connect(proxy_, &QAbstractItemModel::rowsInserted, this, &TablePanel::widenColumnsSoon);
+    connect(proxy_, &QAbstractItemModel::modelReset, this, &TablePanel::widenColumnsSoon);
+    connect(table_->verticalScrollBar(), &QScrollBar::valueChanged, this, &TablePanel::widenColumnsSoon);
 
     connect(table_->horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, [this](int column) {
         // Widths that somebody chose stay.
         QHeaderView* header = table_->horizontalHeader();
         if (fitted_widths_.value(column, -1) != header->sectionSize(column)) return;
-        header->resizeSection(column, std::max(header->sectionSize(column), header->sectionSizeHint(column)));
+        fitted_widths_[column] = std::max(header->sectionSize(column), header->sectionSizeHint(column));
+        header->resizeSection(column, fitted_widths_[column]);
     });
     connect(table_->horizontalHeader(), &QWidget::customContextMenuRequested, this, &TablePanel::showHeaderMenu);
     connect(table_, &QWidget::customContextMenuRequested, this, &TablePanel::showRowMenu);
@@ -142,20 +163,38 @@ void TablePanel::selectId(int id) {
     table_->selectionModel()->clear();
 }
 
-void TablePanel::fitColumns() {
+int TablePanel::neededWidth(int column) const {
     // The arrow of the order needs room in the column that has it only.
     constexpr int kMargin = 14;
     constexpr int kArrow = 18;
     const QHeaderView* header = table_->horizontalHeader();
     const QAbstractItemView* view = table_;
+    const QString title = proxy_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+    const int arrow = header->sortIndicatorSection() == column ? kArrow : 0;
+    const int own = header->fontMetrics().horizontalAdvance(title) + kMargin + arrow;
+    return std::max(own, view->sizeHintForColumn(column) + 1);
+}
+
+void TablePanel::fitColumns() {
     fitted_widths_.clear();
     for (int column = 0; column < proxy_->columnCount(); ++column) {
-        const QString title = proxy_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-        const int arrow = header->sortIndicatorSection() == column ? kArrow : 0;
-        const int own = header->fontMetrics().horizontalAdvance(title) + kMargin + arrow;
-        fitted_widths_ << std::max(own, view->sizeHintForColumn(column) + 1);
+        fitted_widths_ << neededWidth(column);
         table_->setColumnWidth(column, fitted_widths_.back());
     }
+}
+
+void TablePanel::widenColumns() {
+    for (int column = 0; column < fitted_widths_.size(); ++column) {
+        if (table_->columnWidth(column) != fitted_widths_[column]) continue;
+        const int needed = neededWidth(column);
+        if (needed <= fitted_widths_[column]) continue;
+        fitted_widths_[column] = needed;
+        table_->setColumnWidth(column, needed);
+    }
+}
+
+void TablePanel::widenColumnsSoon() {
+    if (!widening_due_.isActive()) widening_due_.start();
 }
 
 void TablePanel::keepSelection() {
@@ -209,7 +248,26 @@ QString TablePanel::selectedText() const {
     return tableText(*proxy_, rows, shownColumns());
 }
 
+bool TablePanel::showToolTip(const QPoint& place, const QPoint& global_place) {
+    const QModelIndex index = table_->indexAt(place);
+    const QAbstractItemView* view = table_;
+    if (!index.isValid() || view->sizeHintForIndex(index).width() <= view->visualRect(index).width()) return false;
+    const QString text = index.data(Qt::DisplayRole).toString();
+    const QString about = index.data(Qt::ToolTipRole).toString();
+    if (text.isEmpty()) return false;
+    const bool rich = Qt::mightBeRichText(about);
+    const QString whole = about.isEmpty() ? text
+                          : rich          ? text.toHtmlEscaped() + QStringLiteral("<br>") + about
+                                          : text + QLatin1Char('\n') + about;
+    QToolTip::showText(global_place, whole, table_->viewport(), view->visualRect(index));
+    return true;
+}
+
 bool TablePanel::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == table_->viewport() && event->type() == QEvent::ToolTip) {
+        const auto* help = static_cast<QHelpEvent*>(event);
+        return showToolTip(help->pos(), help->globalPos());
+    }
     if (watched != table_ || event->type() != QEvent::KeyPress) return QWidget::eventFilter(watched, event);
     const auto* key = static_cast<QKeyEvent*>(event);
     if (key->matches(QKeySequence::Copy)) {
@@ -250,7 +308,12 @@ void TablePanel::showHeaderMenu(const QPoint& place) {
 void TablePanel::restoreColumns() {
     const QByteArray state = QSettings().value(settings_key_).toByteArray();
     columns_fit_ = !state.isEmpty() && table_->horizontalHeader()->restoreState(state);
-    if (!columns_fit_) table_->resizeColumnsToContents();
+    if (columns_fit_) {
+        for (const QVariant& width : QSettings().value(settings_key_ + kFittedKey).toList())
+            fitted_widths_ << width.toInt();
+    } else {
+        table_->resizeColumnsToContents();
+    }
     // A memory of an older version may know fewer columns, or hide all.
     table_->horizontalHeader()->setStretchLastSection(true);
     if (shownColumns().isEmpty()) table_->showColumn(0);
@@ -258,6 +321,9 @@ void TablePanel::restoreColumns() {
 
 void TablePanel::saveColumns() const {
     QSettings().setValue(settings_key_, table_->horizontalHeader()->saveState());
+    QVariantList widths;
+    for (const int width : fitted_widths_) widths << width;
+    QSettings().setValue(settings_key_ + kFittedKey, widths);
 }
 
 }  // namespace eyrie::ui

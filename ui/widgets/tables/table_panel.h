@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QList>
+#include <QTimer>
 #include <QWidget>
 
 #include "widgets/tables/table_sort_proxy.h"
@@ -59,6 +60,12 @@ class TablePanel : public QWidget {
     void showTableOrEmptyState();
     void keepSelection();
     void fitColumns();
+    /// Columns whose width nobody chose grow with what they hold; none gets narrower.
+    void widenColumns();
+    void widenColumnsSoon();
+    int neededWidth(int column) const;
+    /// The whole text of a cell that shows only part of it, above what the model says of the row.
+    bool showToolTip(const QPoint& place, const QPoint& global_place);
     int idOf(const QModelIndex& index) const;
     QList<int> shownColumns() const;
 
@@ -71,7 +78,8 @@ class TablePanel : public QWidget {
     EmptyState* empty_;
     EmptyState* nothing_found_;
     QStackedLayout* stack_;
-    QList<int> fitted_widths_;
+    QList<int> fitted_widths_;  ///< of a column with another width somebody chose it
+    QTimer widening_due_;
     bool columns_fit_ = false;  ///< widths were remembered, or fitted to the first rows
     int kept_id_ = 0;           ///< selected by user or program; selected again when its row comes back
     bool telling_ = true;       ///< false while the program selects

@@ -58,9 +58,8 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     frame_rate_->setSuffix(tr(" fps"));
     frame_rate_->setSpecialValueText(QStringLiteral("–"));
     frame_rate_->setKeyboardTracking(false);
-    frame_rate_->setToolTip(
-        tr("Frames per second of the video. Folders of images do not tell: give theirs. The project "
-           "remembers what is given here."));
+    frame_rate_->setToolTip(tr(
+        "Frames per second of the video. Folders of images do not state it: give it here. The project remembers it."));
     frame_rate_->setAccessibleName(tr("Frames per second"));
     connect(frame_rate_, &QDoubleSpinBox::editingFinished, this, &RunBar::frameRateEdited);
 

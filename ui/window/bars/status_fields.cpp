@@ -53,7 +53,7 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     connect(&session_, &ProjectSession::openingEnded, this, &StatusFields::hideProgress);
     connect(&session_, &ProjectSession::runPreparing, this, [this] {
         work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run …")
-                                                            : tr("reading the scale off the traffic …"));
+                                                            : tr("estimating the scale from the traffic …"));
         bar_->setRange(0, 0);
         showProgress();
     });
@@ -112,7 +112,7 @@ void StatusFields::showRun(const RunProgress& progress) {
         progress.frames_total > 0 ? progress.frames_done / static_cast<double>(progress.frames_total) : 0;
     const int percent = static_cast<int>(share * 100);
     QString text =
-        progress.estimating_scale ? tr("looking for the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
+        progress.estimating_scale ? tr("estimating the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
     if (!progress.estimating_scale && progress.frames_per_second > 0) {
         const auto left_us = static_cast<std::int64_t>(std::ceil(progress.seconds_left) * 1e6);
         text += tr("   %1 fps   %2 left")

@@ -177,13 +177,13 @@ void EvaluationDocks::showErrors() {
             rows.push_back(rowOf(evaluation->mistakes[i], static_cast<int>(i) + 1));
     }
     if (evaluation)
-        errors_->emptyState()->setTexts(tr("Not one error: every object was found in every frame."));
+        errors_->emptyState()->setTexts(tr("No errors: every object was found in every frame."));
     else
         errors_->emptyState()->setTexts(
             evaluation_->working() ? tr("The run is being compared with the ground truth …")
             : evaluation_->obstacle().isEmpty()
                 ? tr("Every miss, false alarm, switch, fragment, split and merge of the run is listed here with its "
-                     "probable cause, once it was compared with ground truth.")
+                     "probable cause, once it has been compared with ground truth.")
                 : evaluation_->obstacle());
     model_->clearChips();  // numbers mean other errors now
     model_->setErrors(std::move(rows));
