@@ -84,7 +84,7 @@ void tellCauses(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
         by_cause[static_cast<int>(one.cause)] += one.mistake.count();
     }
     if (cells.empty()) {
-        page.paragraph("Not one error.");
+        page.paragraph("No errors.");
         return;
     }
     std::vector<ChartBar> bars;

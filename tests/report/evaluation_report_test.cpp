@@ -120,7 +120,7 @@ TEST(EvaluationReport, longListsAreCutAndSaySo) {
     options.rows = 4;
     EXPECT_THAT(makeEvaluationReport(e, nullptr, options).html, HasSubstr("And 6 more"));
     e.mistakes.clear();
-    EXPECT_THAT(makeEvaluationReport(e, nullptr).html, HasSubstr("Not one error"));
+    EXPECT_THAT(makeEvaluationReport(e, nullptr).html, HasSubstr("No errors"));
 }
 
 TEST(EvaluationReport, aFolderThatCannotBeWrittenIsNamed) {
