@@ -10,7 +10,7 @@ class App;
 /// for everything that goes wrong, which main() turns into a message and an exit code.
 namespace eyrie::cli {
 
-/// Exit codes, documented in `eyrie-cli --help` and the README.
+/// Exit codes, documented in `eyrie-cli --help` and docs/manual.md.
 enum ExitCode {
     exit_ok = 0,
     exit_internal = 1,

@@ -18,7 +18,7 @@ struct TrackEvidence {
 TrackEvidence evidenceOf(const TrackPath& path, int looks, const GroundMotion& ground, const SceneScale& scale);
 
 /// Probability that a track of this evidence is a vehicle that moves. A logistic regression over ten figures of the
-/// evidence, learned by tests/learn_track_score from real clips and rendered scenes; see the README.
+/// evidence, learned by tests/learn_track_score from real clips and rendered scenes; see docs/figures.md.
 double probabilityOf(const TrackEvidence& evidence);
 
 }  // namespace eyrie
