@@ -268,7 +268,7 @@ TEST_F(LabelExchange, BoxesWithoutIdAreLinkedOnRequest) {
     AnnotationStore store(project_, sequence_.id);
     const LabelImport plan = planImport(detections(), sequence_, {}, store, 0.45, Doubles::skip, LooseBoxes::link);
     EXPECT_EQ(plan.objects, 4) << "a car, another before and behind its gap, a person";
-    EXPECT_THAT(plan.notes, Contains(HasSubstr("they are 4 objects")));
+    EXPECT_THAT(plan.notes, Contains(HasSubstr("into 4 objects")));
     store.apply(plan.edit);
     int whole = 0;
     for (const auto& [id, object] : store.annotations().objects) {

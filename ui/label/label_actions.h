@@ -14,7 +14,8 @@ class LabelActions : public QObject {
     Q_OBJECT
 
  public:
-    /// `window` carries the keys; those of `canvas` work only while it has the focus. `keys` knows the window's already.
+    /// `window` carries the keys; those of `canvas` work only while it has the focus. `keys` knows the window's
+    /// already.
     LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas);
 
     const QList<ActionSection>& sections() const { return sections_; }

@@ -89,9 +89,7 @@ class LabelEditor : public QObject {
     void carryOut(const std::optional<Plan>& plan);
     void join(ObjectId other, GapFilling gap) { carryOut(planJoin(other, gap)); }
     void fuse(ObjectId other) { carryOut(planFuse(other)); }
-    void splitHere() { carryOut(planSplit()); }
     void swapFrom(ObjectId other) { carryOut(planSwap(other)); }
-    void renumberHere() { carryOut(planRenumber()); }
     void deleteBefore();
     void deleteAfter();
 

@@ -19,8 +19,8 @@ void setTip(QAction& action, const QString& tip);
 /// The keys that work now, with the tooltip.
 void setKeys(QAction& action, const QList<QKeySequence>& keys);
 
-/// The keys of all commands as a person wants them: those that the commands were made with, or others, which are kept in
-/// the program's settings.
+/// The keys of all commands as a person wants them: those that the commands were made with, or others, which are kept
+/// in the program's settings.
 class KeyBindings : public QObject {
     Q_OBJECT
 

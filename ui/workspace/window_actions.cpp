@@ -82,11 +82,10 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     why = add(
         tr("&Why here?"),
         {"help-contextual", {QKeySequence(Qt::Key_W)}, QT_TR_NOOP("What decided about the place under the cursor")});
-    live_preview = addToggle(tr("Live &preview of parameters"),
-                             {nullptr,
-                              {QKeySequence(Qt::Key_P)},
-                              QT_TR_NOOP("Show the current frame with the parameters of the form")},
-                             true);
+    live_preview = addToggle(
+        tr("Live &preview of parameters"),
+        {nullptr, {QKeySequence(Qt::Key_P)}, QT_TR_NOOP("Show the current frame with the parameters of the form")},
+        true);
     compare = add(tr("&Compare A and B…"),
                   {nullptr,
                    {QKeySequence(tr("Ctrl+B"))},

@@ -79,8 +79,9 @@ OpenedClips openStoredRuns(const SweepSources& sources, std::vector<StoredRun> r
     for (std::size_t i = 0; i < runs.size(); ++i) {
         StoredRun& run = runs[i];
         if (signatureUpTo(run.options, SweepStage::motion) != signatureUpTo(options, SweepStage::motion))
-            opened.remarks.push_back("run " + std::to_string(run.record.id) +
-                                     " has other motion vectors than the parameters given would find, so they are computed again");
+            opened.remarks.push_back(
+                "run " + std::to_string(run.record.id) +
+                " has other motion vectors than the parameters given would find, so they are computed again");
         const auto open = opener(run.clip.sequence, run.clip.scale.frame_rate_hz);
         opened.add(std::move(run), open, sourceOf(sources, i), project, sources.evaluation.options);
     }

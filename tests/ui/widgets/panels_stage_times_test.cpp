@@ -38,6 +38,13 @@ std::vector<FrameSummary> wholeRun(int frames) {
     return run;
 }
 
+/// Waits until what the chart was given is in its picture.
+bool isDrawn(const StageTimesChart& chart) {
+    const bool refreshed = QTest::qWaitFor([&] { return !chart.refreshDue(); });
+    QCoreApplication::processEvents();  // the plot draws when the event loop is free
+    return refreshed;
+}
+
 }  // namespace
 
 class StageTimesTest : public QObject {
@@ -114,7 +121,7 @@ class StageTimesTest : public QObject {
         QCOMPARE(chart.data().size(), std::size_t{40});
         chart.setFrames({});
         QCOMPARE(chart.data().size(), std::size_t{0});
-        QTest::qWait(150);
+        QVERIFY(isDrawn(chart));
     }
 
     void aClickGoesToTheFrame() {
@@ -123,7 +130,7 @@ class StageTimesTest : public QObject {
         chart.setFrames(wholeRun(200));
         chart.show();
         QVERIFY(QTest::qWaitForWindowExposed(&chart));
-        QTest::qWait(150);
+        QVERIFY(isDrawn(chart));
         QSignalSpy activated(&chart, &StageTimesChart::frameActivated);
         auto* plot = chart.findChild<QWidget*>(QStringLiteral("plot"));
         QVERIFY(plot != nullptr);
@@ -165,7 +172,7 @@ class StageTimesTest : public QObject {
         chart.show();
         QVERIFY(QTest::qWaitForWindowExposed(&chart));
         auto* plot = chart.findChild<QWidget*>(QStringLiteral("plot"));
-        QTest::qWait(150);
+        QVERIFY(isDrawn(chart));
         QSignalSpy activated(&chart, &StageTimesChart::frameActivated);
         const QPoint place(plot->width() / 2, plot->height() / 2);
         QTest::mouseClick(plot, Qt::LeftButton, Qt::NoModifier, place);
@@ -178,7 +185,7 @@ class StageTimesTest : public QObject {
             QApplication::sendEvent(plot, &move);
         }
         QTest::mouseRelease(plot, Qt::LeftButton, Qt::NoModifier, place + QPoint(60, 0));
-        QTest::qWait(150);
+        QVERIFY(isDrawn(chart));
         QCOMPARE(activated.count(), 1);
         QTest::mouseClick(plot, Qt::LeftButton, Qt::NoModifier, place);
         QVERIFY(activated[1][0].toInt() < activated[0][0].toInt());
@@ -203,7 +210,7 @@ class StageTimesTest : public QObject {
             chart.setCurrentFrame(200);
             chart.show();
             QVERIFY(QTest::qWaitForWindowExposed(&chart));
-            QTest::qWait(200);
+            QVERIFY(isDrawn(chart));
             ui::test::keepPicture(chart, dark ? QStringLiteral("times_dark") : QStringLiteral("times_light"));
             for (int stage = 0; stage < kStageCount; ++stage) {
                 const QPalette palette = chart.palette();

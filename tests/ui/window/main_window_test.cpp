@@ -199,7 +199,7 @@ class MainWindowTest : public QObject {
         QVERIFY(window);
         window->docks().raise(DockId::stacks);
         StacksPanel& stacks = window->review().stacks();
-        QVERIFY(waitFor([&] { return stacks.explanation().contains(QStringLiteral("without")); }));
+        QVERIFY(waitFor([&] { return stacks.explanation().contains(QStringLiteral("no image stacking")); }));
         QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
         for (auto* button : stacks.findChildren<QAbstractButton*>())
             if (button->isVisible() && button->text().contains(QStringLiteral("stacking"))) button->click();

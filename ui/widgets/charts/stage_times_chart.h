@@ -37,6 +37,8 @@ class StageTimesChart : public QWidget {
 
     const StageTimesData& data() const { return data_; }
     QPixmap picture() const;
+    /// Whether it will be drawn again with what it was given last.
+    bool refreshDue() const { return refresh_scheduled_; }
     QString text() const { return data_.text(); }
 
  signals:
