@@ -28,22 +28,26 @@ class Lister : public ParameterVisitor {
  public:
     std::vector<Parameter> found;
 
-    void real(const std::string& name, double& value, double min, double max, const ParameterText& text) override {
-        found.push_back({name, ParameterKind::real, min, max, {}, text, textOf(value)});
+    void real(const std::string& name, const ParameterEffect& effect, double& value, double min, double max,
+              const ParameterText& text) override {
+        found.push_back({name, effect, ParameterKind::real, min, max, {}, text, textOf(value)});
     }
-    void integer(const std::string& name, int& value, int min, int max, const ParameterText& text) override {
-        found.push_back({name, ParameterKind::integer, double(min), double(max), {}, text, std::to_string(value)});
+    void integer(const std::string& name, const ParameterEffect& effect, int& value, int min, int max,
+                 const ParameterText& text) override {
+        found.push_back(
+            {name, effect, ParameterKind::integer, double(min), double(max), {}, text, std::to_string(value)});
     }
-    void flag(const std::string& name, bool& value, const ParameterText& text) override {
-        found.push_back({name, ParameterKind::flag, 0, 1, {}, text, value ? "true" : "false"});
+    void flag(const std::string& name, const ParameterEffect& effect, bool& value, const ParameterText& text) override {
+        found.push_back({name, effect, ParameterKind::flag, 0, 1, {}, text, value ? "true" : "false"});
     }
-    void choiceIndex(const std::string& name, int& index, const std::vector<std::string>& names,
-                     const ParameterText& text) override {
-        found.push_back({name, ParameterKind::choice, 0, double(names.size()) - 1, names, text,
+    void choice(const std::string& name, const ParameterEffect& effect, int& index,
+                const std::vector<std::string>& names, const ParameterText& text) override {
+        found.push_back({name, effect, ParameterKind::choice, 0, double(names.size()) - 1, names, text,
                          names.at(static_cast<std::size_t>(index))});
     }
-    void words(const std::string& name, std::string& value, const ParameterText& text) override {
-        found.push_back({name, ParameterKind::words, 0, 0, {}, text, value});
+    void words(const std::string& name, const ParameterEffect& effect, std::string& value,
+               const ParameterText& text) override {
+        found.push_back({name, effect, ParameterKind::words, 0, 0, {}, text, value});
     }
 };
 
@@ -53,34 +57,36 @@ class Setter : public ParameterVisitor {
     bool found = false;
     bool accepted = false;
 
-    void real(const std::string& name, double& value, double min, double max, const ParameterText&) override {
+    void real(const std::string& name, const ParameterEffect&, double& value, double min, double max,
+              const ParameterText&) override {
         double read = 0;
         if (!matches(name) || !readNumber(text_, read) || !std::isfinite(read) || read < min || read > max) return;
         value = read;
         accepted = true;
     }
-    void integer(const std::string& name, int& value, int min, int max, const ParameterText&) override {
+    void integer(const std::string& name, const ParameterEffect&, int& value, int min, int max,
+                 const ParameterText&) override {
         int read = 0;
         if (!matches(name) || !readNumber(text_, read) || read < min || read > max) return;
         value = read;
         accepted = true;
     }
-    void flag(const std::string& name, bool& value, const ParameterText&) override {
+    void flag(const std::string& name, const ParameterEffect&, bool& value, const ParameterText&) override {
         if (!matches(name)) return;
         const bool yes = text_ == "true" || text_ == "on" || text_ == "yes" || text_ == "1";
         const bool no = text_ == "false" || text_ == "off" || text_ == "no" || text_ == "0";
         if (yes || no) value = yes;
         accepted = yes || no;
     }
-    void choiceIndex(const std::string& name, int& index, const std::vector<std::string>& names,
-                     const ParameterText&) override {
+    void choice(const std::string& name, const ParameterEffect&, int& index, const std::vector<std::string>& names,
+                const ParameterText&) override {
         if (!matches(name)) return;
         const auto at = std::find(names.begin(), names.end(), text_);
         if (at == names.end()) return;
         index = static_cast<int>(at - names.begin());
         accepted = true;
     }
-    void words(const std::string& name, std::string& value, const ParameterText&) override {
+    void words(const std::string& name, const ParameterEffect&, std::string& value, const ParameterText&) override {
         if (!matches(name)) return;
         value = text_;
         accepted = true;

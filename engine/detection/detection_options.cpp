@@ -55,9 +55,11 @@ DetectionOptions DetectionOptions::thesis() {
 }
 
 void DetectionOptions::describe(ParameterVisitor& visitor) {
+    const ParameterDeclarer declare(visitor, ChainStage::detection);
+    const ParameterDeclarer deciding = declare.decisionOnly();
     std::vector<std::string> methods;
     for (const DetectionMethod known : allDetectionMethods()) methods.emplace_back(nameOf(known));
-    visitor.choice("detection.method", method, methods,
+    declare.choice("detection.method", method, methods,
                    {"",
                     "What finds objects in a search area: the motion cluster itself (baseline), segmentation by "
                     "gradients, relative connectivity, tophat transforms, stable regions, or edges and corners, a "
@@ -65,15 +67,15 @@ void DetectionOptions::describe(ParameterVisitor& visitor) {
                     "says about components and falling back holds for all "
                     "segmentations.",
                     "Teutsch §5.4, §7.4.1"});
-    visitor.real("detection.extend_along", extend_along, 1, 10,
+    declare.real("detection.extend_along", extend_along, 1, 10,
                  {"", "Search areas are motion clusters extended by this factor along the motion, to catch split ones.",
                   "Teutsch §5.4"});
-    visitor.real("detection.extend_across", extend_across, 1, 10,
+    declare.real("detection.extend_across", extend_across, 1, 10,
                  {"", "Search areas are motion clusters extended by this factor across the motion.", "Teutsch §5.4"});
-    visitor.real("detection.min_roi_length", min_roi_length_m, 0, 100,
+    declare.real("detection.min_roi_length", min_roi_length_m, 0, 100,
                  {"m", "A search area is at least this long.", ""});
-    visitor.real("detection.min_roi_width", min_roi_width_m, 0, 100, {"m", "A search area is at least this wide.", ""});
-    visitor.real(
+    declare.real("detection.min_roi_width", min_roi_width_m, 0, 100, {"m", "A search area is at least this wide.", ""});
+    deciding.real(
         "detection.cluster_margin", cluster_margin_px, 0, 20,
         {"px", "Where a cluster itself is the detection, its box is grown by this on every side of its vectors.", ""});
     gradient.describe(visitor);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/values/detection.h"
@@ -28,16 +27,13 @@ class Detector {
     /// none.
     virtual std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const = 0;
 
-    /// The part of `detect` that does not depend on what changesDecisionOnly() names, for detecting in the same area
-    /// many times. Null where there is no such part.
+    /// The part of `detect` that does not depend on parameters declared as decisionOnly(), for detecting in the same
+    /// area many times. Null where there is no such part.
     virtual std::unique_ptr<const PreparedArea> prepare(const MotionRoi&) const { return nullptr; }
     /// Exactly what `detect` gives. `prepared`: of the same area, by a detector whose other parameters are the same.
     virtual std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* /*prepared*/) const {
         return detect(roi);
     }
 };
-
-/// Whether a parameter of detection, such as "gradient.quantile", has no part in prepare().
-bool changesDecisionOnly(const std::string& parameter);
 
 }  // namespace eyrie

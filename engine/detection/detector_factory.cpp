@@ -1,6 +1,5 @@
 #include "detection/detector_factory.h"
 
-#include <set>
 #include <string>
 
 #include "core/error.h"
@@ -9,35 +8,6 @@
 #include "detection/sliding_window/sliding_window_detector.h"
 
 namespace eyrie {
-
-bool changesDecisionOnly(const std::string& parameter) {
-    static const std::set<std::string> late{
-        "detection.cluster_margin",
-        "gradient.quantile",
-        "gradient.min_box_area",
-        "gradient.need_support",
-        "gradient.support_share",
-        "gradient.handle_cut",
-        "gradient.core_margin",
-        "gradient.join_components",
-        "gradient.vehicle_length",
-        "gradient.vehicle_width",
-        "gradient.growth_along",
-        "gradient.growth_across",
-        "gradient.length_correction",
-        "gradient.width_correction",
-        "gradient.fall_back",
-        "gradient.fall_back_share",
-        "sliding_window.decision_threshold",
-        "sliding_window.overlap_threshold",
-        "sliding_window.need_support",
-        "sliding_window.support_share",
-        "sliding_window.fall_back",
-        "window_and_gradient.sure_decision",
-        "window_and_gradient.most_covered",
-    };
-    return late.count(parameter) > 0;
-}
 
 std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const SceneScale& scale) {
     switch (options.method) {

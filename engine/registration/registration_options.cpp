@@ -10,16 +10,17 @@ RegistrationOptions RegistrationOptions::thesis() {
 }
 
 void RegistrationOptions::describe(ParameterVisitor& visitor) {
+    const ParameterDeclarer declare(visitor, ChainStage::registration);
     corners.describe(visitor);
     tracking.describe(visitor);
     homography.describe(visitor);
-    visitor.integer(
+    declare.integer(
         "registration.recovery_frames", recovery_frames, 0, 100,
         {"frames",
          "After a frame that cannot be registered, the last good frame is tried again for this long, so that a "
          "black or blurred frame does not end all corner tracks.",
          ""});
-    visitor.flag(
+    declare.flag(
         "registration.feature_search", feature_search,
         {"", "Where no prediction fits, as after a jump, pictures are registered by features that look alike.", ""});
 }

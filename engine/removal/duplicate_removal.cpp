@@ -81,30 +81,31 @@ DuplicateRemovalOptions DuplicateRemovalOptions::thesis() {
 }
 
 void DuplicateRemovalOptions::describe(ParameterVisitor& visitor) {
-    visitor.choice(
+    const ParameterDeclarer declare(visitor, ChainStage::removal);
+    declare.choice(
         "duplicates.strategy", strategy, {"fuse", "suppress", "by_detector"},
         {"",
          "Duplicates are fused into their union, or the one with the higher score stays; by_detector: fused for "
          "segmentations, suppressed for the sliding window.",
          "Teutsch §5.5.1"});
-    visitor.choice(
+    declare.choice(
         "duplicates.measure", measure, {"containment", "overlap"},
         {"",
          "How the overlap of two boxes is measured: share of the smaller one inside the other, or intersection over "
          "union.",
          "Teutsch §5.5.1"});
-    visitor.real(
+    declare.real(
         "duplicates.threshold", threshold, 0.001, 1,
         {"", "Boxes that overlap at least this much are duplicates. Smaller: neighbours merge.", "Teutsch §5.5.1"});
-    visitor.real("duplicates.max_turn", max_turn_deg, 0, 180,
+    declare.real("duplicates.max_turn", max_turn_deg, 0, 180,
                  {"°", "Largest difference of the headings of duplicates.", "Teutsch §5.5.1"});
-    visitor.flag("duplicates.compare_speed", compare_speed,
+    declare.flag("duplicates.compare_speed", compare_speed,
                  {"", "Only detections that move alike are duplicates.", ""});
-    visitor.real("duplicates.velocity_floor", velocity_floor_px, 0, 10,
+    declare.real("duplicates.velocity_floor", velocity_floor_px, 0, 10,
                  {"px/frame", "Velocities of duplicates may always differ by this.", ""});
-    visitor.real("duplicates.velocity_share", velocity_share, 0, 1,
+    declare.real("duplicates.velocity_share", velocity_share, 0, 1,
                  {"", "Velocities of duplicates may differ by this share of the speed.", ""});
-    visitor.real("duplicates.growth_limit", growth_limit, 0, 100,
+    declare.real("duplicates.growth_limit", growth_limit, 0, 100,
                  {"",
                   "Where the union would be larger than this many times the larger box, that box stays as it is. 0: no "
                   "limit.",

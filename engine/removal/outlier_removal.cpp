@@ -53,25 +53,26 @@ OutlierRemovalOptions OutlierRemovalOptions::thesis() {
 }
 
 void OutlierRemovalOptions::describe(ParameterVisitor& visitor) {
-    visitor.integer("outliers.min_vectors", min_vectors, 0, 1000,
+    const ParameterDeclarer declare(visitor, ChainStage::removal);
+    declare.integer("outliers.min_vectors", min_vectors, 0, 1000,
                     {"vectors", "T_out: detections with fewer motion vectors inside are rejected.", "Teutsch §5.5.2"});
-    visitor.real("outliers.min_density_share", min_density_share, 0, 2,
+    declare.real("outliers.min_density_share", min_density_share, 0, 2,
                  {"",
                   "T_out is at least this share of the vectors expected on a car at the corner density of the frame. 0 "
                   "switches it off.",
                   ""});
-    visitor.integer("outliers.max_min_vectors", max_min_vectors, 0, 1000,
+    declare.integer("outliers.max_min_vectors", max_min_vectors, 0, 1000,
                     {"vectors", "However dense the corners are, that many vectors are enough.", ""});
-    visitor.real("outliers.vector_margin", vector_margin_px, 0, 10,
+    declare.real("outliers.vector_margin", vector_margin_px, 0, 10,
                  {"px", "Motion vectors up to this far outside a box count as inside: corners lie on outlines.",
                   "Teutsch §5.5.2"});
-    visitor.flag("outliers.compare_velocity", compare_velocity,
+    declare.flag("outliers.compare_velocity", compare_velocity,
                  {"", "Only vectors that move like the detection count as inside.", ""});
-    visitor.real("outliers.min_area", min_area_px, 0, 10000, {"px²", "Smaller boxes are rejected.", "Teutsch §5.4.1"});
-    visitor.real("outliers.min_length", min_length_m, 0, 100, {"m", "Shorter boxes are rejected; 0: no limit.", ""});
-    visitor.real("outliers.max_length", max_length_m, 0, 500, {"m", "Longer boxes are rejected; 0: no limit.", ""});
-    visitor.real("outliers.max_width", max_width_m, 0, 500, {"m", "Wider boxes are rejected; 0: no limit.", ""});
-    visitor.flag("outliers.inside_image", inside_image,
+    declare.real("outliers.min_area", min_area_px, 0, 10000, {"px²", "Smaller boxes are rejected.", "Teutsch §5.4.1"});
+    declare.real("outliers.min_length", min_length_m, 0, 100, {"m", "Shorter boxes are rejected; 0: no limit.", ""});
+    declare.real("outliers.max_length", max_length_m, 0, 500, {"m", "Longer boxes are rejected; 0: no limit.", ""});
+    declare.real("outliers.max_width", max_width_m, 0, 500, {"m", "Wider boxes are rejected; 0: no limit.", ""});
+    declare.flag("outliers.inside_image", inside_image,
                  {"", "Boxes that reach beyond the image are rejected.", "Teutsch §7.4.3"});
 }
 

@@ -61,8 +61,9 @@ struct Joined {
 /// Nothing when they are not parts of one vehicle.
 std::optional<Joined> unionOfParts(const Detection& a, const Detection& b, const FrameMotion& motion,
                                    const PartJoiningOptions& options, const Limits& limits) {
-    if (!similarVelocity(a.velocity, b.velocity, options.velocity_floor_px, options.velocity_share)) return {};
-    if (std::abs(turnBetween(a.box.heading, b.box.heading)) > radiansFromDegrees(options.max_turn_deg)) return {};
+    if (!similarVelocity(a.velocity, b.velocity, options.part_velocity_floor_px, options.part_velocity_share))
+        return {};
+    if (std::abs(turnBetween(a.box.heading, b.box.heading)) > radiansFromDegrees(options.part_max_turn_deg)) return {};
     const bool a_leads = a.box.area() >= b.box.area();
     const OrientedBox both = unionBox(a_leads ? a.box : b.box, a_leads ? b.box : a.box);
     const double widest = std::max(a.box.width, b.box.width);
@@ -83,42 +84,44 @@ std::optional<Joined> unionOfParts(const Detection& a, const Detection& b, const
 }  // namespace
 
 void PartJoiningOptions::describe(ParameterVisitor& visitor) {
-    visitor.flag("duplicates.join_parts", enabled,
+    const ParameterDeclarer declare(visitor, ChainStage::removal);
+    declare.flag("duplicates.join_parts", enabled,
                  {"",
                   "Join detections that move alike one behind the other and fit into one vehicle: front and rear of a "
                   "plain roof.",
                   ""});
-    visitor.real("duplicates.part_car_length", car_length_m, 0, 100,
+    declare.real("duplicates.part_car_length", part_car_length_m, 0, 100,
                  {"m", "Parts are joined when together they are no longer than this.", ""});
-    visitor.real("duplicates.part_length", part_length_m, 0, 100,
+    declare.real("duplicates.part_length", part_length_m, 0, 100,
                  {"m", "Two parts both shorter than this are joined up to the length of a long vehicle.", ""});
-    visitor.real("duplicates.part_vehicle_length", vehicle_length_m, 0, 100,
+    declare.real("duplicates.part_vehicle_length", part_vehicle_length_m, 0, 100,
                  {"m", "Longest vehicle that two short parts may make up.", ""});
-    visitor.real("duplicates.part_vehicle_width", vehicle_width_m, 0, 100,
+    declare.real("duplicates.part_vehicle_width", part_vehicle_width_m, 0, 100,
                  {"m", "Parts are not joined into anything wider than this.", ""});
-    visitor.real(
-        "duplicates.part_silhouette_gap", silhouette_gap_m, 0, 100,
+    declare.real(
+        "duplicates.part_silhouette_gap", part_silhouette_gap_m, 0, 100,
         {"m",
          "Detections are joined, complete ones too, where the silhouette of one vehicle reaches from one to the "
          "other without a larger gap. 0: never.",
          ""});
-    visitor.real("duplicates.part_silhouette_length", silhouette_length_m, 0, 100,
+    declare.real("duplicates.part_silhouette_length", part_silhouette_length_m, 0, 100,
                  {"m", "Longest vehicle that parts on one silhouette may make up.", ""});
-    visitor.real("duplicates.part_velocity_floor", velocity_floor_px, 0, 10,
+    declare.real("duplicates.part_velocity_floor", part_velocity_floor_px, 0, 10,
                  {"px/frame", "Velocities of parts may always differ by this.", ""});
-    visitor.real("duplicates.part_velocity_share", velocity_share, 0, 1,
+    declare.real("duplicates.part_velocity_share", part_velocity_share, 0, 1,
                  {"", "Velocities of parts may differ by this share of the speed.", ""});
-    visitor.real("duplicates.part_max_turn", max_turn_deg, 0, 180,
+    declare.real("duplicates.part_max_turn", part_max_turn_deg, 0, 180,
                  {"°", "Largest difference of the parts' headings.", ""});
 }
 
 std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameMotion& motion,
                                  const PartJoiningOptions& options, const SceneScale& scale, RemovalTrace* trace) {
     if (!options.enabled) return detections;
-    const double gap = scale.px(options.silhouette_gap_m);
-    const Limits limits{scale.px(options.car_length_m),        scale.px(options.part_length_m),
-                        scale.px(options.vehicle_length_m),    std::max(4.0, scale.px(options.vehicle_width_m)),
-                        scale.px(options.silhouette_length_m), gap > 0 ? std::max(kSmallestGap, gap) : 0};
+    const double gap = scale.px(options.part_silhouette_gap_m);
+    const Limits limits{
+        scale.px(options.part_car_length_m),        scale.px(options.part_length_m),
+        scale.px(options.part_vehicle_length_m),    std::max(4.0, scale.px(options.part_vehicle_width_m)),
+        scale.px(options.part_silhouette_length_m), gap > 0 ? std::max(kSmallestGap, gap) : 0};
     const double farthest = std::max({limits.vehicle_length, limits.car_length, limits.silhouette_length});
     const auto worth = [&](std::size_t i, std::size_t k) -> std::optional<double> {
         const Detection& a = detections[i];

@@ -14,15 +14,15 @@ namespace eyrie {
 /// come as two detections that move alike.
 struct PartJoiningOptions {
     bool enabled = true;
-    double car_length_m = 5.5;        ///< parts whose union is no longer than a car are joined
-    double part_length_m = 2.5;       ///< two parts shorter than this …
-    double vehicle_length_m = 13;     ///< … are joined up to the length of a bus
-    double vehicle_width_m = 3.2;     ///< largest width of the union
-    double silhouette_gap_m = 1.0;    ///< parts on one silhouette without a larger gap are joined …
-    double silhouette_length_m = 18;  ///< … up to this length
-    double velocity_floor_px = 0.04;  ///< px/frame the parts' velocities may differ by …
-    double velocity_share = 0.05;     ///< … or this share of the speed
-    double max_turn_deg = 20;         ///< largest difference of headings
+    double part_car_length_m = 5.5;        ///< parts whose union is no longer than a car are joined
+    double part_length_m = 2.5;            ///< two parts shorter than this …
+    double part_vehicle_length_m = 13;     ///< … are joined up to the length of a bus
+    double part_vehicle_width_m = 3.2;     ///< largest width of the union
+    double part_silhouette_gap_m = 1.0;    ///< parts on one silhouette without a larger gap are joined …
+    double part_silhouette_length_m = 18;  ///< … up to this length
+    double part_velocity_floor_px = 0.04;  ///< px/frame the parts' velocities may differ by …
+    double part_velocity_share = 0.05;     ///< … or this share of the speed
+    double part_max_turn_deg = 20;         ///< largest difference of headings
 
     void describe(ParameterVisitor& visitor);
 };

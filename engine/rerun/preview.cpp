@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "chain/chain.h"
+#include "chain/parameter_stage.h"
 #include "core/error.h"
 #include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
@@ -16,68 +17,11 @@ namespace {
 constexpr std::size_t kMostFrames = 160;  ///< kept in memory
 constexpr double kSameTrack = 0.3;        ///< overlap from which a previewed track is the run's
 
-PreviewStart startOf(const std::string& parameter) {
-    const std::string group = parameter.substr(0, parameter.find('.'));
-    if (group == "registration") return PreviewStart::registration;
-    // It says where clusters come from; motion vectors are the same for all.
-    if (group == "motion" && parameter != "motion.method") return PreviewStart::motion;
-    if (group == "motion" || group == "clustering" || group == "difference" || group == "stacking")
-        return PreviewStart::clustering;
-    if (group == "duplicates" || group == "outliers") return PreviewStart::removal;
-    if (group == "tracking") return PreviewStart::tracking;
-    if (group == "finishing") return PreviewStart::finishing;
-    return PreviewStart::detection;
-}
-
-/// The values of all parameters from `first` to `last`, as text.
-std::string textOf(const ChainOptions& options, PreviewStart first, PreviewStart last) {
-    std::string text;
-    for (const auto& [name, value] : parameterValues(options)) {
-        const PreviewStart start = startOf(name);
-        if (start >= first && start <= last) text.append(name).append("=").append(value).append("\n");
-    }
-    return text;
-}
-
 bool reachesBack(const ChainOptions& options) {
     return options.stacking.enabled || options.difference.method != MotionMethod::vectors;
 }
 
 }  // namespace
-
-const char* nameOf(PreviewStart start) {
-    switch (start) {
-        case PreviewStart::nothing:
-            return "nothing";
-        case PreviewStart::registration:
-            return "registration";
-        case PreviewStart::motion:
-            return "independent motion";
-        case PreviewStart::clustering:
-            return "clustering";
-        case PreviewStart::detection:
-            return "detection";
-        case PreviewStart::removal:
-            return "duplicates and outliers";
-        case PreviewStart::tracking:
-            return "tracking";
-        case PreviewStart::finishing:
-            break;
-    }
-    return "finishing";
-}
-
-PreviewStart firstDifference(const ChainOptions& a, const ChainOptions& b) {
-    const auto values_a = parameterValues(a);
-    const auto values_b = parameterValues(b);
-    PreviewStart first = PreviewStart::nothing;
-    for (std::size_t i = 0; i < values_a.size(); ++i) {
-        if (values_a[i].second == values_b[i].second) continue;
-        const PreviewStart start = startOf(values_a[i].first);
-        if (first == PreviewStart::nothing || start < first) first = start;
-    }
-    return first;
-}
 
 Preview::Preview(ReplaySource source) : source_(std::move(source)) {}
 
@@ -98,7 +42,7 @@ Preview::Known* Preview::known(FrameIndex frame) {
 }
 
 void Preview::makeWindows(const ChainOptions& options) {
-    const std::string registration = textOf(options, PreviewStart::registration, PreviewStart::registration);
+    const std::string registration = signatureUpTo(options, ChainStage::registration);
     if (windows_for_ == registration && window_) return;
     window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
     track_window_ = std::make_unique<MotionWindow>(options.registration, source_.scale);
@@ -113,8 +57,8 @@ void Preview::warmUp(FrameIndex frame, const std::stop_token& stop) {
 }
 
 bool Preview::prepareMotion(FrameIndex frame, const ChainOptions& options, int range, const std::stop_token& stop) {
-    const std::string wanted = textOf(options, PreviewStart::registration, PreviewStart::motion);
-    if (wanted == textOf(source_.options, PreviewStart::registration, PreviewStart::motion)) {
+    const std::string wanted = signatureUpTo(options, ChainStage::motion);
+    if (wanted == signatureUpTo(source_.options, ChainStage::motion)) {
         if (!motions_.empty()) frames_.clear();
         motions_.clear();
         motions_for_.clear();
@@ -144,13 +88,13 @@ const FrameMotion& Preview::motionOf(const Known& known) const {
 FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
     FrameResult result;
     result.motion = motionOf(known);
-    const std::string clusters_for = textOf(options, PreviewStart::registration, PreviewStart::clustering);
+    const std::string clusters_for = signatureUpTo(options, ChainStage::clustering);
     if (known.clusters_for != clusters_for) {
         known.clusters = MotionClustering(options.clustering, source_.scale).cluster(result.motion);
         known.clusters_for = clusters_for;
         known.found_for.clear();
     }
-    const std::string detector_for = textOf(options, PreviewStart::detection, PreviewStart::detection);
+    const std::string detector_for = signatureOf(options, ChainStage::detection, ChainStage::detection);
     if (known.found_for != detector_for) {
         if (!detector_ || detector_for_ != detector_for) {
             detector_ = makeDetector(options.detection, source_.scale);
@@ -189,7 +133,7 @@ cv::Mat Preview::looksOf(Known& known, const ChainOptions& options) {
 
 std::optional<PreviewedFrame> Preview::byReplay(FrameIndex frame, const ChainOptions& options,
                                                 const std::stop_token& stop) {
-    const std::string wanted = textOf(options, PreviewStart::registration, PreviewStart::finishing);
+    const std::string wanted = signatureUpTo(options, ChainStage::finishing);
     if (!replay_ || replay_for_ != wanted) {
         ReplaySource source = source_;
         source.options = options;
@@ -250,7 +194,7 @@ std::optional<PreviewedFrame> Preview::now(FrameIndex frame, const ChainOptions&
     }
     previewed.result.tracks =
         tracker.next(previewed.result.motion, previewed.result.detections, nullptr, looksOf(*known(frame), options));
-    previewed.tracks_final = previewed.start >= PreviewStart::tracking;
+    previewed.tracks_final = previewed.start >= ChainStage::tracking;
     if (const Known* present = known(frame)) adoptIds(previewed.result.tracks, present->stored.tracks);
     return previewed;
 }

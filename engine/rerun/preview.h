@@ -7,24 +7,18 @@
 #include <stop_token>
 #include <string>
 
+#include "core/chain_stage.h"
 #include "rerun/motion_window.h"
 #include "rerun/replay.h"
 
 namespace eyrie {
 
-/// Where other parameters begin to change what a run found.
-enum class PreviewStart { nothing, registration, motion, clustering, detection, removal, tracking, finishing };
-const char* nameOf(PreviewStart start);
-
-/// The first stage of the chain that differs between two sets of parameters.
-PreviewStart firstDifference(const ChainOptions& a, const ChainOptions& b);
-
 /// A frame as it would be with other parameters.
 struct PreviewedFrame {
     FrameResult result;  ///< tracks carry the ids of the run's tracks they lie on, others ids beyond those
-    PreviewStart start = PreviewStart::nothing;
-    bool tracks_final = false;  ///< the frames before were done with the same parameters, too
-    bool approximate = false;   ///< motion vectors were found anew over a short window, not over the whole run
+    ChainStage start = ChainStage::none;  ///< the first that the parameters change
+    bool tracks_final = false;            ///< the frames before were done with the same parameters, too
+    bool approximate = false;  ///< motion vectors were found anew over a short window, not over the whole run
 };
 
 /// Tries other parameters on single frames of a stored run. What the run stored of the stages before the first that

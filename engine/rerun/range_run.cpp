@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "chain/chain.h"
+#include "chain/parameter_stage.h"
 #include "chain/recording/classified_vehicles.h"
 #include "tracking/finishing/track_finishing.h"
 
@@ -16,15 +17,14 @@ constexpr int kLeadFrames = 40;  ///< for tracks to be confirmed and their filte
 /// What does one frame after the other: the whole chain, all behind motion vectors, or tracking alone.
 class Worker {
  public:
-    Worker(const ReplaySource& source, const ChainOptions& options, PreviewStart start)
+    Worker(const ReplaySource& source, const ChainOptions& options, ChainStage start)
         : source_(source), start_(start), options_(options) {
-        if (start_ >= PreviewStart::tracking) {
+        if (start_ >= ChainStage::tracking) {
             tracker_.emplace(options.tracking, source.scale);
             return;
         }
         half_.emplace(options, source.scale);
-        if (start_ <= PreviewStart::motion && start_ != PreviewStart::nothing)
-            motion_half_.emplace(options, source.scale);
+        if (start_ <= ChainStage::motion) motion_half_.emplace(options, source.scale);
     }
 
     /// Nothing when the run has no such frame.
@@ -45,7 +45,7 @@ class Worker {
 
  private:
     const ReplaySource& source_;
-    PreviewStart start_;
+    ChainStage start_;
     const ChainOptions& options_;
     std::optional<MotionHalf> motion_half_;
     std::optional<TrackHalf> half_;

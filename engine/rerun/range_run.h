@@ -7,8 +7,9 @@
 #include <stop_token>
 
 #include "chain/chain_run.h"
+#include "core/chain_stage.h"
 #include "core/labels/box_record.h"
-#include "rerun/preview.h"
+#include "rerun/replay.h"
 
 namespace eyrie {
 
@@ -16,7 +17,7 @@ namespace eyrie {
 struct RangeResult {
     /// Tracks are finished and have ids of their own.
     std::map<FrameIndex, std::shared_ptr<const FrameResult>> frames;
-    PreviewStart start = PreviewStart::nothing;  ///< what differs from the run first
+    ChainStage start = ChainStage::none;  ///< what differs from the run first
     bool exact = false;  ///< as a run with these parameters: nothing before the frames done can play a part
 };
 

@@ -36,31 +36,33 @@ std::vector<MotionCluster> cornersOf(std::vector<MotionCluster> clusters, const 
 }  // namespace
 
 void StackingOptions::describe(ParameterVisitor& v) {
-    v.flag("stacking.enabled", enabled,
-           {"", "Search stacked images of each object in place of the single frame.", "Teutsch §5.3"});
-    v.choice("stacking.initialisation", initialisation, {"detections", "k_means"},
-             {"", "What new stacks are started from: detections of the frame before, or k-means on motion vectors.",
-              "Teutsch §5.3.1"});
-    v.choice("stacking.arrangement", arrangement, {"accumulation", "circular_mean", "circular_median"},
-             {"", "How layers are kept and merged.", "Teutsch §5.3.3, eq. 5.1 and 5.2"});
-    v.integer("stacking.capacity", capacity, 2, 500,
-              {"layers", "Layers kept in a circular stack, H.", "Teutsch §7.3.4"});
-    v.integer("stacking.min_height", min_height, 1, 500,
-              {"layers", "Layers a stack needs before it is used, H_min.", "Teutsch §5.3.4"});
-    v.real("stacking.area_length", area_length_m, 5, 500,
-           {"m", "Length of the stack area along the motion.", "Teutsch §7.3.4: 345 px"});
-    v.real("stacking.area_width", area_width_m, 3, 200,
-           {"m", "Width of the stack area across the motion.", "Teutsch §7.3.4: 115 px"});
-    v.integer("stacking.neighbours", neighbours, 1, 25,
-              {"vectors", "Neighbours that vote for a new vector's stack, k.", "Teutsch §5.3.2"});
-    v.real(
+    const ParameterDeclarer declare(v, ChainStage::stacking);
+    declare.flag("stacking.enabled", enabled,
+                 {"", "Search stacked images of each object in place of the single frame.", "Teutsch §5.3"});
+    declare.choice(
+        "stacking.initialisation", initialisation, {"detections", "k_means"},
+        {"", "What new stacks are started from: detections of the frame before, or k-means on motion vectors.",
+         "Teutsch §5.3.1"});
+    declare.choice("stacking.arrangement", arrangement, {"accumulation", "circular_mean", "circular_median"},
+                   {"", "How layers are kept and merged.", "Teutsch §5.3.3, eq. 5.1 and 5.2"});
+    declare.integer("stacking.capacity", capacity, 2, 500,
+                    {"layers", "Layers kept in a circular stack, H.", "Teutsch §7.3.4"});
+    declare.integer("stacking.min_height", min_height, 1, 500,
+                    {"layers", "Layers a stack needs before it is used, H_min.", "Teutsch §5.3.4"});
+    declare.real("stacking.area_length", area_length_m, 5, 500,
+                 {"m", "Length of the stack area along the motion.", "Teutsch §7.3.4: 345 px"});
+    declare.real("stacking.area_width", area_width_m, 3, 200,
+                 {"m", "Width of the stack area across the motion.", "Teutsch §7.3.4: 115 px"});
+    declare.integer("stacking.neighbours", neighbours, 1, 25,
+                    {"vectors", "Neighbours that vote for a new vector's stack, k.", "Teutsch §5.3.2"});
+    declare.real(
         "stacking.max_speed_difference", max_speed_difference, 0.01, 2,
         {"", "A stack replaces a cluster only if their speeds differ by no more than this share.", "Teutsch §5.3.4"});
-    v.real("stacking.max_turn", max_turn_degrees, 1, 180,
-           {"degrees", "A stack replaces a cluster only if their directions differ by no more than this.",
-            "Teutsch §5.3.4"});
-    v.real("stacking.vehicle_length", vehicle_length_m, 1, 30,
-           {"m", "Length of a standard vehicle, from which the k of k-means follows.", "Teutsch §5.3.1"});
+    declare.real("stacking.max_turn", max_turn_degrees, 1, 180,
+                 {"degrees", "A stack replaces a cluster only if their directions differ by no more than this.",
+                  "Teutsch §5.3.4"});
+    declare.real("stacking.vehicle_length", vehicle_length_m, 1, 30,
+                 {"m", "Length of a standard vehicle, from which the k of k-means follows.", "Teutsch §5.3.1"});
 }
 
 StackingOptions StackingOptions::thesis() {

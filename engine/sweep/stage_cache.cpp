@@ -100,7 +100,7 @@ struct StageCache::Prepared {
 StageCache::StageCache(ClipFrames::Open open, FrameRange range, const SceneScale& scale, StageCacheOptions options)
     : frames_(std::move(open), range, options.frame_bytes), scale_(scale), options_(std::move(options)) {}
 
-void StageCache::tell(SweepStage stage, int done) const {
+void StageCache::tell(ChainStage stage, int done) const {
     if (progress_) progress_(stage, done, frames_.count());
 }
 
@@ -122,12 +122,12 @@ void StageCache::useStoredMotion(const ChainOptions& options, std::vector<FrameM
                       motion.front().frame == frames_.first() && motion.back().frame == frames_.last();
     if (!fits) throw Error(ErrorKind::internal, "the stored motion vectors are not those of the frames to be swept");
     const auto shared = std::make_shared<const Motion>(std::move(motion));
-    motion_.get(signatureUpTo(options, SweepStage::motion), [&] { return shared; });
+    motion_.get(signatureUpTo(options, ChainStage::motion), [&] { return shared; });
 }
 
 std::shared_ptr<StageCache::Motion> StageCache::computeMotion(const ChainOptions& options,
                                                               const std::stop_token& stop) {
-    count(SweepStage::motion);
+    count(ChainStage::motion);
     auto motion = std::make_shared<Motion>();
     motion->reserve(static_cast<std::size_t>(frames_.count()));
     // Decodes ahead while frames are registered.
@@ -147,13 +147,13 @@ std::shared_ptr<StageCache::Motion> StageCache::computeMotion(const ChainOptions
         leaveIf(stop);
         StageTimes times{};
         motion->push_back(half.next(reader.read(i), times));
-        tell(SweepStage::motion, i - frames_.first() + 1);
+        tell(ChainStage::motion, i - frames_.first() + 1);
     }
     return motion;
 }
 
 std::shared_ptr<const StageCache::Motion> StageCache::motion(const ChainOptions& options, const std::stop_token& stop) {
-    return motion_.get(signatureUpTo(options, SweepStage::motion), [&] { return computeMotion(options, stop); });
+    return motion_.get(signatureUpTo(options, ChainStage::motion), [&] { return computeMotion(options, stop); });
 }
 
 std::shared_ptr<StageCache::Clusters> StageCache::differenceClusters(const ChainOptions& options, const Motion& motion,
@@ -164,15 +164,15 @@ std::shared_ptr<StageCache::Clusters> StageCache::differenceClusters(const Chain
     for (const FrameMotion& frame : motion) {
         leaveIf(stop);
         clusters->push_back(difference.next(reader.read(frame.frame), frame).clusters);
-        tell(SweepStage::clustering, static_cast<int>(clusters->size()));
+        tell(ChainStage::clustering, static_cast<int>(clusters->size()));
     }
     return clusters;
 }
 
 std::shared_ptr<const StageCache::Clusters> StageCache::clusters(const ChainOptions& options, const Motion& motion,
                                                                  const std::stop_token& stop) {
-    return clusters_.get(signatureUpTo(options, SweepStage::clustering), [&]() -> std::shared_ptr<const Clusters> {
-        count(SweepStage::clustering);
+    return clusters_.get(signatureUpTo(options, ChainStage::clustering), [&]() -> std::shared_ptr<const Clusters> {
+        count(ChainStage::clustering);
         if (options.difference.method != MotionMethod::vectors) return differenceClusters(options, motion, stop);
         auto clusters = std::make_shared<Clusters>(motion.size());
         const MotionClustering clustering(options.clustering, scale_);
@@ -184,8 +184,8 @@ std::shared_ptr<const StageCache::Clusters> StageCache::clusters(const ChainOpti
 std::shared_ptr<const StageCache::Detections> StageCache::found(const ChainOptions& options, const Motion& motion,
                                                                 const std::stop_token& stop) {
     const auto clusters = this->clusters(options, motion, stop);
-    return found_.get(signatureUpTo(options, SweepStage::detection), [&] {
-        count(SweepStage::detection);
+    return found_.get(signatureUpTo(options, ChainStage::detection), [&] {
+        count(ChainStage::detection);
         const std::size_t frame_count = motion.size();
         // Tables are shared by all that agree in their parameters and only ever grow, hence the casts.
         const auto prepared =
@@ -231,28 +231,28 @@ std::shared_ptr<const StageCache::Detections> StageCache::found(const ChainOptio
 
 StageCache::Detections StageCache::detectionsByStacks(const ChainOptions& options, const Motion& motion,
                                                       const std::stop_token& stop) {
-    count(SweepStage::stacking);
+    count(ChainStage::stacking);
     Detections detections;
     TrackHalf half(options, scale_);
     ClipFrames::Reader reader = frames_.reader();
     for (const FrameMotion& frame : motion) {
         leaveIf(stop);
         detections.push_back(half.next(reader.read(frame.frame), frame, {}).detections);
-        tell(SweepStage::stacking, static_cast<int>(detections.size()));
+        tell(ChainStage::stacking, static_cast<int>(detections.size()));
     }
     return detections;
 }
 
 std::shared_ptr<const StageCache::Detected> StageCache::detected(const ChainOptions& options, const Motion& motion,
                                                                  const std::stop_token& stop) {
-    return detected_.get(signatureUpTo(options, SweepStage::removal), [&] {
+    return detected_.get(signatureUpTo(options, ChainStage::removal), [&] {
         auto detected = std::make_shared<Detected>();
         if (options.stacking.enabled) {
             // Stacks are started from the detections of the frame before: nothing behind can be done by itself.
             detected->frames = detectionsByStacks(options, motion, stop);
         } else {
             const auto found = this->found(options, motion, stop);
-            count(SweepStage::removal);
+            count(ChainStage::removal);
             detected->frames.resize(motion.size());
             const DuplicateRemovalOptions duplicates = duplicatesFor(options);
             forFrames(stop, [&](std::size_t i, ClipFrames::Reader&) {
@@ -268,8 +268,8 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const ChainOpti
 std::shared_ptr<const std::vector<TimedState>> StageCache::states(const ChainOptions& options, const Motion& motion,
                                                                   const Detections& detections,
                                                                   const std::stop_token& stop) {
-    return states_.get(signatureUpTo(options, SweepStage::tracking), [&] {
-        count(SweepStage::tracking);
+    return states_.get(signatureUpTo(options, ChainStage::tracking), [&] {
+        count(ChainStage::tracking);
         auto states = std::make_shared<std::vector<TimedState>>();
         Tracker tracker(options.tracking, scale_);
         ClipFrames::Reader reader = frames_.reader();
@@ -287,8 +287,8 @@ std::shared_ptr<const std::vector<TimedState>> StageCache::states(const ChainOpt
 std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& options, const Motion& motion,
                                                        const std::vector<std::vector<Detection>>& detections,
                                                        const std::vector<TimedState>& states) {
-    return tracks_.get(signatureUpTo(options, SweepStage::finishing), [&] {
-        count(SweepStage::finishing);
+    return tracks_.get(signatureUpTo(options, ChainStage::finishing), [&] {
+        count(ChainStage::finishing);
         auto boxes = std::make_shared<BoxesByFrame>();
         const auto placeOf = [&motion](FrameIndex frame) -> std::optional<std::size_t> {
             const auto found =

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "chain/chain_options.h"
+#include "chain/parameter_stage.h"
 #include "core/labels/box_record.h"
 #include "core/values/frame_result.h"
 #include "sweep/area_table.h"
 #include "sweep/clip_frames.h"
 #include "sweep/memo.h"
-#include "sweep/plan/parameter_stage.h"
 #include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
@@ -46,7 +46,7 @@ class StageCache {
 
     /// Told while a stage works through the frames of the clip one by one; from any thread, must be quick. Not to be
     /// changed while run() works.
-    using Progress = std::function<void(SweepStage stage, int done, int total)>;
+    using Progress = std::function<void(ChainStage stage, int done, int total)>;
     void tellProgress(Progress progress) { progress_ = std::move(progress); }
 
     /// Nothing when `stop` was requested meanwhile. Throws Error(input | parameter).
@@ -55,7 +55,7 @@ class StageCache {
     const ClipFrames& frames() const { return frames_; }
     const SceneScale& scale() const { return scale_; }
     /// How often each stage was computed for the whole clip so far.
-    int timesComputed(SweepStage stage) const { return computed_[static_cast<std::size_t>(stage)]; }
+    int timesComputed(ChainStage stage) const { return computed_[static_cast<std::size_t>(stage)]; }
     /// Search areas in which a detector worked, and those whose detections were known already.
     long areasSearched() const { return areas_searched_; }
     long areasKnown() const { return areas_known_; }
@@ -89,8 +89,8 @@ class StageCache {
     Detections detectionsByStacks(const ChainOptions& options, const Motion& motion, const std::stop_token& stop);
     void forFrames(const std::stop_token& stop,
                    const std::function<void(std::size_t, ClipFrames::Reader&)>& work) const;
-    void tell(SweepStage stage, int done) const;
-    void count(SweepStage stage) { ++computed_[static_cast<std::size_t>(stage)]; }
+    void tell(ChainStage stage, int done) const;
+    void count(ChainStage stage) { ++computed_[static_cast<std::size_t>(stage)]; }
 
     ClipFrames frames_;
     SceneScale scale_;
@@ -104,7 +104,7 @@ class StageCache {
     Memo<Detected> detected_{6};
     Memo<std::vector<TimedState>> states_{6};
     Memo<BoxesByFrame> tracks_{6};
-    std::array<std::atomic<int>, kSweepStageCount> computed_{};
+    std::array<std::atomic<int>, kChainStageCount> computed_{};
     std::atomic<long> areas_searched_{0};
     std::atomic<long> areas_known_{0};
 };

@@ -31,7 +31,7 @@ class Work {
 
     int run() {
         for (const SweepInput& input : inputs_) {
-            input.cache->tellProgress([this](SweepStage stage, int done, int total) { tellStage(stage, done, total); });
+            input.cache->tellProgress([this](ChainStage stage, int done, int total) { tellStage(stage, done, total); });
         }
         tell();
         const auto cores = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
@@ -73,7 +73,7 @@ class Work {
             if (!result) return std::nullopt;
             const int clip = static_cast<int>(c);
             // Detections are the same wherever only tracking changes.
-            const std::string same = std::to_string(c) + "\n" + signatureUpTo(options, SweepStage::removal);
+            const std::string same = std::to_string(c) + "\n" + signatureUpTo(options, ChainStage::removal);
             const auto detections = detections_.get(same, [&] {
                 return std::make_shared<const std::vector<SweepFigures>>(score(clip, *result->detections, false));
             });
@@ -115,7 +115,7 @@ class Work {
         tell();
     }
 
-    void tellStage(SweepStage stage, int done, int total) {
+    void tellStage(ChainStage stage, int done, int total) {
         const std::scoped_lock lock(mutex_);
         progress_.doing =
             std::string(nameOf(stage)) + ", frame " + std::to_string(done) + " of " + std::to_string(total);

@@ -66,16 +66,16 @@ MeasurementModel::MeasurementModel(const TrackerOptions& options, const SceneSca
       one_vehicle_(VehicleLimit::of(options, scale)),
       size_(std::hypot(options.size_noise_px, scale.px(options.size_noise_m))),
       heading_(radiansFromDegrees(options.heading_noise_deg)),
-      velocity_(scale.pxPerFrame(options.velocity_noise)),
+      velocity_(scale.pxPerFrame(options.velocity_noise_m_s)),
       velocity_floor_(options.velocity_noise_px),
       size_gate_(options.size_gate),
       slow_speed_sigmas_(options.slow_speed_sigmas),
       complete_at_border_(options.complete_at_border),
       adapt_size_(options.adapt_size),
       measure_velocity_(options.measure_velocity) {
-    process_.acceleration = std::max(0.004, scale.pxPerFrame(options.acceleration) / scale.frame_rate_hz);
+    process_.acceleration = std::max(0.004, scale.pxPerFrame(options.acceleration_m_s2) / scale.frame_rate_hz);
     process_.position = 0.05;
-    process_.size = std::max(0.01, scale.px(options.size_rate));
+    process_.size = std::max(0.01, scale.px(options.size_rate_m));
     process_.heading = radiansFromDegrees(options.turn_rate_deg) / scale.frame_rate_hz;
 }
 

@@ -58,7 +58,7 @@ TrackManager::TrackManager(const TrackerOptions& o, const SceneScale& scale)
       max_supported_(framesOf(o.max_supported_s, scale)),
       supported_hits_(o.supported_hits),
       split_patience_(o.split_patience),
-      stop_speed_(scale.pxPerFrame(o.stop_speed)),
+      stop_speed_(scale.pxPerFrame(o.stop_speed_m_s)),
       min_visible_(o.min_visible),
       suppress_duplicates_(o.suppress_duplicates),
       duplicate_overlap_(o.duplicate_overlap),

@@ -52,7 +52,7 @@ struct TrackerOptions {
     int confirm_window = 8;
     int max_missing_tentative = 2;
     double max_missing_s = 0.3;
-    double stop_speed = 2.0;
+    double stop_speed_m_s = 2.0;
     double max_stopped_s = 1.0;
     double max_leaving_s = 3.0;
     AppearanceUse appearance = AppearanceUse::none;
@@ -70,15 +70,15 @@ struct TrackerOptions {
     bool measure_velocity = true;
 
     // Its noise.
-    double acceleration = 4.0;
+    double acceleration_m_s2 = 4.0;
     double turn_rate_deg = 40;
-    double size_rate = 0.02;
+    double size_rate_m = 0.02;
     double position_noise_m = 0.12;
     double position_noise_px = 0.5;
     double size_noise_m = 0.4;
     double size_noise_px = 1.0;
     double heading_noise_deg = 4;
-    double velocity_noise = 0.4;
+    double velocity_noise_m_s = 0.4;
     double velocity_noise_px = 0.05;
     double slow_speed_sigmas = 5;
 

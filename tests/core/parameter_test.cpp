@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
 #include "core/error.h"
 
 namespace eyrie {
@@ -17,14 +19,28 @@ struct ExampleOptions {
     Method method = Method::gradient;
     std::string model;
 
-    void describe(ParameterVisitor& v) {
-        v.real("example.quantile", quantile, 0, 1, {"", "Share of pixels kept.", ""});
-        v.integer("example.height", height, 1, 500, {"layers", "Stack height.", ""});
-        v.flag("example.enabled", enabled, {"", "On or off.", ""});
-        v.choice("example.method", method, {"clusters", "gradient"}, {"", "Which.", ""});
-        v.words("example.model", model, {"", "A file.", ""});
+    void describe(ParameterVisitor& visitor) {
+        const ParameterDeclarer declare(visitor, ChainStage::detection);
+        declare.real("example.quantile", quantile, 0, 1, {"", "Share of pixels kept.", ""});
+        declare.integer("example.height", height, 1, 500, {"layers", "Stack height.", ""});
+        declare.flag("example.enabled", enabled, {"", "On or off.", ""});
+        declare.choice("example.method", method, {"clusters", "gradient"}, {"", "Which.", ""});
+        declare.decisionOnly().words("example.model", model, {"", "A file.", ""});
     }
 };
+
+template <class Visitor>
+concept DeclaresByItself = requires(Visitor& visitor, double& value) {
+    visitor.real("example.quantile", value, 0.0, 1.0, ParameterText{});
+}
+|| requires(Visitor& visitor, double& value) {
+    visitor.real("example.quantile", ParameterEffect{ChainStage::motion}, value, 0.0, 1.0, ParameterText{});
+};
+// A parameter without a stage does not compile: a visitor takes none, and a declarer needs a stage.
+static_assert(!DeclaresByItself<ParameterVisitor>);
+static_assert(DeclaresByItself<const ParameterDeclarer>);
+static_assert(!std::is_constructible_v<ParameterDeclarer, ParameterVisitor&>);
+static_assert(std::is_constructible_v<ParameterDeclarer, ParameterVisitor&, ChainStage>);
 
 std::string messageOf(const std::function<void()>& act) {
     try {
@@ -44,6 +60,14 @@ TEST(Parameter, listsValuesThatReadBackIdentically) {
     for (const auto& p : listParameters(describeOf(options))) setParameter(describeOf(copy), p.name, p.value);
     EXPECT_EQ(copy.quantile, options.quantile);
     EXPECT_EQ(copy.method, Method::gradient);
+}
+
+TEST(Parameter, carriesTheStageItWasDeclaredFor) {
+    ExampleOptions options;
+    for (const Parameter& parameter : listParameters(describeOf(options))) {
+        EXPECT_EQ(parameter.effect.stage, ChainStage::detection) << parameter.name;
+        EXPECT_EQ(parameter.effect.decision_only, parameter.name == "example.model") << parameter.name;
+    }
 }
 
 TEST(Parameter, takesAnyTextWhereOneIsWanted) {

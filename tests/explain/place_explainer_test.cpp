@@ -144,8 +144,8 @@ TEST(MotionWindow, reachesAsFarBackAsAreasLook) {
     IndependentMotionOptions options;
     options.sigma_factor = 1e6;
     options.silhouettes.enabled = false;
-    options.areas.few_corners = options.areas.max_corners = 1e6;
-    options.areas.gap_s = 14 / source.scale.frame_rate_hz;
+    options.areas.area_few_corners = options.areas.area_max_corners = 1e6;
+    options.areas.area_gap_s = 14 / source.scale.frame_rate_hz;
     const FrameIndex frame = 45;
     const auto vectorsFrom = [&](FrameIndex first) {
         MotionWindow window({}, source.scale);

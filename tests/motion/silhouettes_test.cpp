@@ -115,7 +115,7 @@ TEST(Silhouettes, NothingWhereNothingIsKnownOfTheGround) {
     const double reach = reachBehindFront(slow, slow.inferred());
     EXPECT_LT(reach, 24);
     SilhouetteOptions longer;
-    longer.frames = 39;
+    longer.silhouette_frames = 39;
     EXPECT_GT(reachBehindFront(slow, slow.inferred(longer)), reach + 5) << "a longer memory sees more of it";
     LorryScene creeping;
     creeping.velocity = {0.2, 0};
@@ -127,7 +127,7 @@ TEST(Silhouettes, NothingWhereNothingIsKnownOfTheGround) {
 
 TEST(Silhouettes, TooLargeOnesAreNotUsed) {
     SilhouetteOptions options;
-    options.max_length_m = 10;  // 33 px
+    options.silhouette_max_length_m = 10;  // 33 px
     EXPECT_TRUE(LorryScene{}.inferred(options).empty());
 }
 

@@ -63,24 +63,6 @@ void expectSameBoxes(const std::vector<TrackState>& a, const std::vector<TrackSt
         }));
 }
 
-TEST(Preview, firstDifferenceIsTheEarliestStage) {
-    ChainOptions a;
-    ChainOptions b;
-    EXPECT_EQ(firstDifference(a, b), PreviewStart::nothing);
-    b.tracking.min_overlap = 0.3;
-    EXPECT_EQ(firstDifference(a, b), PreviewStart::tracking);
-    b.outliers.min_vectors = 7;
-    EXPECT_EQ(firstDifference(a, b), PreviewStart::removal);
-    b.detection.gradient.quantile = 0.2;
-    EXPECT_EQ(firstDifference(a, b), PreviewStart::detection);
-    b.difference.method = MotionMethod::two_frame_difference;
-    EXPECT_EQ(firstDifference(a, b), PreviewStart::clustering);
-    b.motion.min_age = 7;
-    EXPECT_EQ(firstDifference(a, b), PreviewStart::motion);
-    b.registration.corners.spacing_m = 1;
-    EXPECT_EQ(firstDifference(a, b), PreviewStart::registration);
-}
-
 TEST(Preview, isWhatARunWithTheseParametersFinds) {
     Fixture run;
     const auto with = [](auto change) {
@@ -93,7 +75,7 @@ TEST(Preview, isWhatARunWithTheseParametersFinds) {
                                         with([](ChainOptions& o) { o.detection.method = DetectionMethod::gradient; }),
                                         with([](ChainOptions& o) { o.clustering.min_members = 12; }),
                                         with([](ChainOptions& o) { o.motion.min_speed_m_s = 9; }),
-                                        with([](ChainOptions& o) { o.registration.corners.spacing_m = 1; })}) {
+                                        with([](ChainOptions& o) { o.registration.corners.corner_spacing_m = 1; })}) {
         Preview preview(run.replaySource());
         const auto expected = run.runWith(options);
         const auto now = preview.now(30, options, 30, {});
@@ -109,7 +91,7 @@ TEST(Preview, isWhatARunWithTheseParametersFinds) {
         EXPECT_TRUE(whole->tracks_final);
         // The range reaches back to the first frame, so the tracks are those of a run, too; but only what lies behind
         // the motion vectors is done anew from the first frame on.
-        if (whole->start >= PreviewStart::clustering) expectSameBoxes(whole->result.tracks, expected[30].tracks);
+        if (whole->start >= ChainStage::clustering) expectSameBoxes(whole->result.tracks, expected[30].tracks);
     }
 }
 
@@ -125,7 +107,7 @@ TEST(Preview, doesOnlyWhatChanged) {
     ASSERT_TRUE(preview.now(30, options, 20, {}));
     EXPECT_EQ(run.frames_read, 1);
     const auto back = preview.now(30, ChainOptions(), 20, {});
-    EXPECT_EQ(back->start, PreviewStart::nothing);
+    EXPECT_EQ(back->start, ChainStage::none);
     expectSame(back->result, run.stored(30));
     options.motion.min_speed_m_s = 3;
     ASSERT_TRUE(preview.now(30, options, 0, {}));
@@ -160,7 +142,7 @@ TEST(Preview, tracksKeepTheIdsOfTheRun) {
     Fixture run;
     Preview preview(run.replaySource());
     ChainOptions options;
-    options.tracking.acceleration = 5;
+    options.tracking.acceleration_m_s2 = 5;
     const auto now = preview.now(35, options, 30, {});
     for (const TrackState& track : now->result.tracks) {
         for (const TrackState& stored : run.stored(35).tracks) {
@@ -178,7 +160,7 @@ TEST(Preview, stacksAndDifferencesReachBack) {
     Preview preview(run.replaySource());
     const auto now = preview.now(30, options, 10, {});
     ASSERT_TRUE(now);
-    EXPECT_EQ(now->start, PreviewStart::clustering);
+    EXPECT_EQ(now->start, ChainStage::clustering);
     EXPECT_FALSE(now->result.clusters.empty());
 }
 

@@ -111,7 +111,7 @@ TEST_F(RangeRun, APartLeadsUpToItsFirstFrameAndTellsHowFarItIs) {
                                    if (result) frames.push_back(result->motion.frame);
                                });
     ASSERT_TRUE(part);
-    EXPECT_EQ(part->start, PreviewStart::clustering);
+    EXPECT_EQ(part->start, ChainStage::clustering);
     EXPECT_EQ(frames, (std::vector<FrameIndex>{last - 3, last - 2, last - 1, last}));
     EXPECT_EQ(part->frames.size(), 4U);
     EXPECT_GT(told, 4);

@@ -134,7 +134,7 @@ TEST(StageCache, DoesOnlyWhatLiesBehindTheChange) {
     ChainOptions options = base();
     const auto times = [&] {
         std::vector<int> all;
-        for (int i = 1; i < kSweepStageCount; ++i) all.push_back(cache.timesComputed(static_cast<SweepStage>(i)));
+        for (int i = 1; i < kChainStageCount; ++i) all.push_back(cache.timesComputed(static_cast<ChainStage>(i)));
         return all;
     };
     // motion, clustering, stacking, detection, removal, tracking, finishing
@@ -176,9 +176,9 @@ TEST(StageCache, SeveralThreadsShareWhatTheyHaveInCommon) {
             });
         }
     }
-    EXPECT_EQ(cache.timesComputed(SweepStage::motion), 1);
-    EXPECT_EQ(cache.timesComputed(SweepStage::clustering), 1);
-    EXPECT_EQ(cache.timesComputed(SweepStage::detection), 3);
+    EXPECT_EQ(cache.timesComputed(ChainStage::motion), 1);
+    EXPECT_EQ(cache.timesComputed(ChainStage::clustering), 1);
+    EXPECT_EQ(cache.timesComputed(ChainStage::detection), 3);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(results[i]->tracks, results[i + 3]->tracks);
 }
 
@@ -198,7 +198,7 @@ TEST(StageCache, FramesThatDoNotFitIntoMemoryAreReadAgain) {
 TEST(StageCache, StopsAndGoesOn) {
     std::stop_source stop;
     StageCache cache(opener(), {}, kScale);
-    cache.tellProgress([&](SweepStage, int done, int) {
+    cache.tellProgress([&](ChainStage, int done, int) {
         if (done == 5) stop.request_stop();
     });
     EXPECT_FALSE(cache.run(base(), stop.get_token()).has_value());
@@ -220,7 +220,7 @@ TEST(StageCache, UsesTheMotionOfAStoredRun) {
     StageCache without(opener(), {4, 27}, kScale);
     const auto a = with.run(base(), {});
     const auto b = without.run(base(), {});
-    EXPECT_EQ(with.timesComputed(SweepStage::motion), 0);
+    EXPECT_EQ(with.timesComputed(ChainStage::motion), 0);
     ASSERT_FALSE(b->tracks->empty());
     ASSERT_EQ(a->tracks->size(), b->tracks->size());
     for (const auto& [frame, boxes] : *b->tracks) {

@@ -78,7 +78,7 @@ OpenedClips openStoredRuns(const SweepSources& sources, std::vector<StoredRun> r
     ProjectFile project = ProjectFile::open(sources.project, ProjectFile::Mode::read_only);
     for (std::size_t i = 0; i < runs.size(); ++i) {
         StoredRun& run = runs[i];
-        if (signatureUpTo(run.options, SweepStage::motion) != signatureUpTo(options, SweepStage::motion))
+        if (signatureUpTo(run.options, ChainStage::motion) != signatureUpTo(options, ChainStage::motion))
             opened.remarks.push_back(
                 "run " + std::to_string(run.record.id) +
                 " has other motion vectors than the parameters given would find, so they are computed again");

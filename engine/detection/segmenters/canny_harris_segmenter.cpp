@@ -7,20 +7,21 @@
 namespace eyrie {
 
 void CannyHarrisOptions::describe(ParameterVisitor& visitor) {
-    visitor.real("canny_harris.high", canny_high, 0.1, 1000,
+    const ParameterDeclarer declare(visitor, ChainStage::detection);
+    declare.real("canny_harris.high", high, 0.1, 1000,
                  {"grey", "Upper threshold of the edge detector, as height of a sharp step. Larger: fewer edges.",
                   "Teutsch §7.4.1"});
-    visitor.real("canny_harris.low_share", canny_low_share, 0.01, 1,
+    declare.real("canny_harris.low_share", low_share, 0.01, 1,
                  {"", "The lower threshold is this share of the upper one.", "Teutsch §7.4.1"});
-    visitor.real("canny_harris.corner_share", corner_share, 0.0001, 1,
+    declare.real("canny_harris.corner_share", corner_share, 0.0001, 1,
                  {"", "Corners have at least this share of the strongest Harris response in the search area.",
                   "Teutsch §7.4.1"});
-    visitor.real("canny_harris.link", link_m, 0.01, 50,
+    declare.real("canny_harris.link", link_m, 0.01, 50,
                  {"m", "Corners this close form a cluster, and edges this close belong to it; at least 3 px.",
                   "Teutsch §7.4.1"});
-    visitor.integer("canny_harris.min_corners", min_corners, 1, 1000,
+    declare.integer("canny_harris.min_corners", min_corners, 1, 1000,
                     {"", "Smaller clusters of corners are dropped.", "Teutsch §7.4.1"});
-    visitor.real("canny_harris.closing", closing_m, 0, 10,
+    declare.real("canny_harris.closing", closing_m, 0, 10,
                  {"m", "Diameter of the closing; at least 3 px.", "Teutsch §7.4.1"});
 }
 
@@ -69,9 +70,9 @@ cv::Mat CannyHarrisSegmenter::nearClusters(const cv::Mat& corners) const {
 
 cv::Mat CannyHarrisSegmenter::objectPixels(const MotionRoi& roi, DetectionTrace* trace) const {
     constexpr double kStepResponse = 4;  // of Sobel's 3×3 masks to a sharp step of height 1
-    const double high = options_.canny_high * kStepResponse;
+    const double high = options_.high * kStepResponse;
     cv::Mat edges;
-    cv::Canny(roi.image, edges, options_.canny_low_share * high, high, 3, true);
+    cv::Canny(roi.image, edges, options_.low_share * high, high, 3, true);
     edges &= roi.inside;
     const cv::Mat corners = cornersOf(roi);
     const cv::Mat clustered = (edges | corners) & nearClusters(corners);

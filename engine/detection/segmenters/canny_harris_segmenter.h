@@ -7,8 +7,8 @@ namespace eyrie {
 
 /// Parameters of segmentation by edges and corners (Cheng et al. 2012, after Teutsch §7.4.1; without its colours).
 struct CannyHarrisOptions {
-    double canny_high = 40;  ///< grey values of a sharp step
-    double canny_low_share = 0.4;
+    double high = 40;  ///< grey values of a sharp step
+    double low_share = 0.4;
     double corner_share = 0.02;  ///< a corner has at least this share of the strongest Harris response
     double link_m = 1.5;         ///< corners this close form a cluster; edges this close belong to it
     int min_corners = 3;         ///< of a cluster

@@ -41,66 +41,68 @@ GradientOptions GradientOptions::thesis(GradientMethod method) {
 }
 
 void GradientOptions::describe(ParameterVisitor& visitor) {
-    visitor.choice("gradient.method", method, {"lbp", "simple", "canny", "morphological"},
+    const ParameterDeclarer declare(visitor, ChainStage::detection);
+    const ParameterDeclarer deciding = declare.decisionOnly();
+    declare.choice("gradient.method", method, {"lbp", "simple", "canny", "morphological"},
                    {"",
                     "How the gradient is made: local binary patterns, plain differences, derivatives of a Gaussian, "
                     "or dilation minus erosion.",
                     "Teutsch §5.4.1"});
-    visitor.real(
+    deciding.real(
         "gradient.quantile", quantile, 0, 1,
         {"",
          "Share of the brightest gradient pixels that is kept. Larger: weaker edges count, neighbours merge. 0: the "
          "optimum of table 7.3 for the gradient in use.",
          "Teutsch §7.3.1, eq. 5.14"});
-    visitor.choice("gradient.quantile_area", quantile_area, {"roi", "box", "vectors"},
+    declare.choice("gradient.quantile_area", quantile_area, {"roi", "box", "vectors"},
                    {"",
                     "Pixels that choose the threshold: the whole search area, the box around the cluster's vectors, or "
                     "discs around them.",
                     ""});
-    visitor.real("gradient.quantile_margin", quantile_margin_m, 0, 20,
+    declare.real("gradient.quantile_margin", quantile_margin_m, 0, 20,
                  {"m", "How far around the vectors that area reaches; at least 1 px.", ""});
-    visitor.integer("gradient.lbp_radius_min", lbp_radius_min, 1, 16,
+    declare.integer("gradient.lbp_radius_min", lbp_radius_min, 1, 16,
                     {"px", "Smallest radius of the local binary patterns.", "Teutsch §5.4.1, eq. 5.13"});
-    visitor.integer("gradient.lbp_radius_max", lbp_radius_max, 1, 16,
+    declare.integer("gradient.lbp_radius_max", lbp_radius_max, 1, 16,
                     {"px", "Largest radius of the local binary patterns. Larger: less noise, wider boxes.",
                      "Teutsch §5.4.1, eq. 5.13"});
-    visitor.real("gradient.lbp_threshold", lbp_threshold, 0, 255,
+    declare.real("gradient.lbp_threshold", lbp_threshold, 0, 255,
                  {"grey", "A neighbour must be brighter than the centre by this. Larger: less noise, fewer weak edges.",
                   "Teutsch §5.4.1, eq. 5.7"});
-    visitor.real("gradient.canny_variance", canny_variance, 0.1, 25,
+    declare.real("gradient.canny_variance", canny_variance, 0.1, 25,
                  {"px²", "Variance of the Gaussian of the Canny gradient.", "Teutsch §5.4.1"});
-    visitor.integer("gradient.min_box_area", min_box_area_px, 1, 10000,
-                    {"px²", "Smaller boxes are dropped.", "Teutsch §5.4.1"});
-    visitor.flag("gradient.need_support", need_support,
-                 {"", "Keep only components that hold motion vectors of the cluster itself.", ""});
-    visitor.real("gradient.support_share", support_share, 0, 1,
-                 {"", "Components kept for their motion vectors hold at least this share of the cluster's.", ""});
-    visitor.flag(
+    deciding.integer("gradient.min_box_area", min_box_area_px, 1, 10000,
+                     {"px²", "Smaller boxes are dropped.", "Teutsch §5.4.1"});
+    deciding.flag("gradient.need_support", need_support,
+                  {"", "Keep only components that hold motion vectors of the cluster itself.", ""});
+    deciding.real("gradient.support_share", support_share, 0, 1,
+                  {"", "Components kept for their motion vectors hold at least this share of the cluster's.", ""});
+    deciding.flag(
         "gradient.handle_cut", handle_cut,
         {"", "Components cut by the edge of the search area (kerbs, walls) keep only their part near the vectors.",
          ""});
-    visitor.real("gradient.core_margin", core_margin_m, 0, 20, {"m", "How near that is; at least 1 px.", ""});
-    visitor.flag("gradient.join_components", join_components,
-                 {"",
-                  "Fuse components that fit into one vehicle together: roofs are plain, so front, rear and sides "
-                  "respond separately.",
-                  ""});
-    visitor.real("gradient.vehicle_length", vehicle_length_m, 0, 100, {"m", "Largest length of a fused box.", ""});
-    visitor.real("gradient.vehicle_width", vehicle_width_m, 0, 100, {"m", "Largest width of a fused box.", ""});
-    visitor.real("gradient.growth_along", growth_along_m, 0, 100,
-                 {"m", "A box ends at most this far ahead of and behind its motion vectors; 0: no limit.", ""});
-    visitor.real("gradient.growth_across", growth_across_m, 0, 100,
-                 {"m", "A box ends at most this far beside its motion vectors; 0: no limit.", ""});
-    visitor.real(
+    deciding.real("gradient.core_margin", core_margin_m, 0, 20, {"m", "How near that is; at least 1 px.", ""});
+    deciding.flag("gradient.join_components", join_components,
+                  {"",
+                   "Fuse components that fit into one vehicle together: roofs are plain, so front, rear and sides "
+                   "respond separately.",
+                   ""});
+    deciding.real("gradient.vehicle_length", vehicle_length_m, 0, 100, {"m", "Largest length of a fused box.", ""});
+    deciding.real("gradient.vehicle_width", vehicle_width_m, 0, 100, {"m", "Largest width of a fused box.", ""});
+    deciding.real("gradient.growth_along", growth_along_m, 0, 100,
+                  {"m", "A box ends at most this far ahead of and behind its motion vectors; 0: no limit.", ""});
+    deciding.real("gradient.growth_across", growth_across_m, 0, 100,
+                  {"m", "A box ends at most this far beside its motion vectors; 0: no limit.", ""});
+    deciding.real(
         "gradient.length_correction", length_correction, 0, 4,
         {"", "Boxes get shorter by this many largest LBP radii, since patterns respond beside an edge, too.", ""});
-    visitor.real("gradient.width_correction", width_correction, 0, 4,
-                 {"", "Boxes get narrower by this many largest LBP radii.", ""});
-    visitor.flag(
+    deciding.real("gradient.width_correction", width_correction, 0, 4,
+                  {"", "Boxes get narrower by this many largest LBP radii.", ""});
+    deciding.flag(
         "gradient.fall_back", fall_back,
         {"", "Deliver the box of the motion cluster where the segmentation does not explain its vectors.", ""});
-    visitor.real("gradient.fall_back_share", fall_back_share, 0, 1,
-                 {"", "Share of the cluster's vectors that the boxes must hold to explain it.", ""});
+    deciding.real("gradient.fall_back_share", fall_back_share, 0, 1,
+                  {"", "Share of the cluster's vectors that the boxes must hold to explain it.", ""});
 }
 
 }  // namespace eyrie

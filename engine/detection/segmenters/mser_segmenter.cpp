@@ -25,18 +25,19 @@ MserOptions MserOptions::thesis() {
 }
 
 void MserOptions::describe(ParameterVisitor& visitor) {
-    visitor.integer(
+    const ParameterDeclarer declare(visitor, ChainStage::detection);
+    declare.integer(
         "mser.delta", delta, 1, 127,
         {"grey", "Regions are stable over this many grey values. Larger: fewer, stronger regions.", "Teutsch §7.4.1"});
-    visitor.real("mser.max_variation", max_variation, 0.01, 10,
+    declare.real("mser.max_variation", max_variation, 0.01, 10,
                  {"", "Regions that grow by a larger share over that are not stable.", "Teutsch §7.4.1"});
-    visitor.real("mser.min_diversity", min_diversity, 0, 10,
+    declare.real("mser.min_diversity", min_diversity, 0, 10,
                  {"", "Of nested regions that differ less than this, one is kept.", "Teutsch §7.4.1"});
-    visitor.real("mser.min_area", min_area_m2, 0, 1000, {"m²", "Smaller regions are dropped.", "Teutsch §7.4.1"});
-    visitor.real("mser.max_area", max_area_m2, 0.01, 100000, {"m²", "Larger regions are dropped.", "Teutsch §7.4.1"});
-    visitor.real("mser.max_eccentricity", max_eccentricity, 0, 1,
+    declare.real("mser.min_area", min_area_m2, 0, 1000, {"m²", "Smaller regions are dropped.", "Teutsch §7.4.1"});
+    declare.real("mser.max_area", max_area_m2, 0.01, 100000, {"m²", "Larger regions are dropped.", "Teutsch §7.4.1"});
+    declare.real("mser.max_eccentricity", max_eccentricity, 0, 1,
                  {"", "Longer regions are dropped: 0 is a disc, 1 a line.", "Teutsch §7.4.1"});
-    visitor.flag("mser.keep_spanning", keep_spanning,
+    declare.flag("mser.keep_spanning", keep_spanning,
                  {"", "Regions that reach from edge to edge of the search area, ground as a rule, are kept, too.",
                   "Teutsch §7.4.1"});
 }

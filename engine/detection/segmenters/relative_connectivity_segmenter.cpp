@@ -32,19 +32,20 @@ RelativeConnectivityOptions RelativeConnectivityOptions::thesis() {
 }
 
 void RelativeConnectivityOptions::describe(ParameterVisitor& visitor) {
-    visitor.real("relative_connectivity.deviations", deviations, -5, 5,
+    const ParameterDeclarer declare(visitor, ChainStage::detection);
+    declare.real("relative_connectivity.deviations", deviations, -5, 5,
                  {"",
                   "Points of a line are brighter than the mean of the search area by this many deviations (a). Larger: "
                   "fewer points.",
                   "Teutsch §7.3.2"});
-    visitor.integer("relative_connectivity.min_points", min_points, 2, 100,
+    declare.integer("relative_connectivity.min_points", min_points, 2, 100,
                     {"", "A line has at least this many points (T_m).", "Teutsch §5.4.2, algorithm 1"});
-    visitor.real(
+    declare.real(
         "relative_connectivity.low", low, 1, 100000,
         {"", "Contours are at least this strong (T_l). Larger: fewer and shorter contours.", "Teutsch §7.3.2"});
-    visitor.real("relative_connectivity.high_factor", high_factor, 1, 100,
+    declare.real("relative_connectivity.high_factor", high_factor, 1, 100,
                  {"", "Somewhere a contour is this many times as strong as T_l (b).", "Teutsch §7.3.2"});
-    visitor.real("relative_connectivity.car_length", car_length_px, 0, 200,
+    declare.real("relative_connectivity.car_length", car_length_px, 0, 200,
                  {"px",
                   "Search areas are scaled until a car is this long, as T_l counts points and holds for one size of "
                   "vehicles. 0: never.",

@@ -22,17 +22,18 @@ TophatOtsuOptions TophatOtsuOptions::thesis() {
 }
 
 void TophatOtsuOptions::describe(ParameterVisitor& visitor) {
-    visitor.real("tophat_otsu.element", element_m, 0.1, 100,
+    const ParameterDeclarer declare(visitor, ChainStage::detection);
+    declare.real("tophat_otsu.element", element_m, 0.1, 100,
                  {"m",
                   "Diameter of the structuring element. Brighter and darker areas that are narrower than this in some "
                   "direction are found.",
                   "Teutsch §7.4.1"});
-    visitor.real("tophat_otsu.smoothing", smoothing_m, 0, 10,
+    declare.real("tophat_otsu.smoothing", smoothing_m, 0, 10,
                  {"m", "Diameter of the closing and opening that take away road markings first; at least 3 px.",
                   "Teutsch §7.4.1"});
-    visitor.real("tophat_otsu.min_contrast", min_contrast, 0, 255,
+    declare.real("tophat_otsu.min_contrast", min_contrast, 0, 255,
                  {"grey", "Otsu's threshold is raised to at least this.", ""});
-    visitor.real("tophat_otsu.joining", joining_m, 0, 10,
+    declare.real("tophat_otsu.joining", joining_m, 0, 10,
                  {"m", "Diameter of the closing that joins what was found; at least 3 px. 0: none.", ""});
 }
 

@@ -8,14 +8,16 @@
 namespace eyrie {
 
 void WindowAndGradientOptions::describe(ParameterVisitor& visitor) {
-    visitor.real("window_and_gradient.sure_decision", sure_decision, -1000, 1000,
-                 {"",
-                  "Windows with at least this decision value are vehicles; elsewhere gradients decide. Larger: more "
-                  "gradients.",
-                  ""});
-    visitor.real("window_and_gradient.most_covered", most_covered, 0, 1,
-                 {"", "Segments with more than this share inside such a window belong to its vehicle.", ""});
-    visitor.real(
+    const ParameterDeclarer declare(visitor, ChainStage::detection);
+    const ParameterDeclarer deciding = declare.decisionOnly();
+    deciding.real("window_and_gradient.sure_decision", sure_decision, -1000, 1000,
+                  {"",
+                   "Windows with at least this decision value are vehicles; elsewhere gradients decide. Larger: more "
+                   "gradients.",
+                   ""});
+    deciding.real("window_and_gradient.most_covered", most_covered, 0, 1,
+                  {"", "Segments with more than this share inside such a window belong to its vehicle.", ""});
+    declare.real(
         "window_and_gradient.rejection_margin", rejection_margin, -100, 1000,
         {"",
          "Windows are given up as soon as their sum lies this far below that of any training vehicle. Smaller: "

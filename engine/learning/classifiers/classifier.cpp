@@ -56,28 +56,29 @@ ClassifierOptions ClassifierOptions::thesis() {
 }
 
 void ClassifierOptions::describe(ParameterVisitor& visitor) {
-    visitor.integer(
+    const ParameterDeclarer declare(visitor, ChainStage::none);
+    declare.integer(
         "training.trees", trees, 1, 10000,
         {"trees", "Trees of AdaBoost and Random Forest. More are slower and rarely worse.", "Teutsch §7.3.3"});
-    visitor.real("training.feature_share", feature_share, 0.001, 1,
+    declare.real("training.feature_share", feature_share, 0.001, 1,
                  {"",
                   "Share of the features, drawn again for each tree, that AdaBoost may choose from. Less trains "
                   "faster and makes the trees more different.",
                   ""});
-    visitor.real("training.weight_trimming", weight_trimming, 0, 0.5,
+    declare.real("training.weight_trimming", weight_trimming, 0, 0.5,
                  {"",
                   "Samples with the smallest weights choose no splits of AdaBoost's trees as long as they hold no more "
                   "than this share of the whole weight together. 0: all samples choose.",
                   ""});
-    visitor.integer("training.weak_classifiers", weak_classifiers, 1, 10000,
+    declare.integer("training.weak_classifiers", weak_classifiers, 1, 10000,
                     {"", "Weak classifiers K of Random Naïve Bayes.", "Teutsch §5.4.3, algorithm 2"});
-    visitor.integer(
+    declare.integer(
         "training.weak_features", weak_features, 1, 64,
         {"", "Features F that each weak classifier of Random Naïve Bayes sees.", "Teutsch §5.4.3, algorithm 2"});
-    visitor.real(
+    declare.real(
         "training.max_weak_error", max_weak_error, 0.01, 1,
         {"", "Weak classifiers with a larger out-of-bag error are rejected (T_a).", "Teutsch §5.4.3, algorithm 2"});
-    visitor.integer("training.folds", folds, 2, 10,
+    declare.integer("training.folds", folds, 2, 10,
                     {"", "Parts of the cross validation that chooses the SVM's C and gamma.", "Teutsch §7.3.3"});
 }
 

@@ -164,30 +164,31 @@ class Trainer {
 }  // namespace
 
 void TrainingOptions::describe(ParameterVisitor& visitor) {
-    visitor.integer("training.seed", seed, 0, 1'000'000'000,
+    const ParameterDeclarer declare(visitor, ChainStage::none);
+    declare.integer("training.seed", seed, 0, 1'000'000'000,
                     {"", "Seed of everything drawn at random; the same seed gives the same model.", ""});
-    visitor.integer("training.hard_negative_rounds", hard_negative_rounds, 0, 20,
+    declare.integer("training.hard_negative_rounds", hard_negative_rounds, 0, 20,
                     {"rounds",
                      "How often the samples that the model wrongly takes for vehicles are added and it is trained "
                      "again. More: fewer false alarms.",
                      ""});
-    visitor.real("training.others_per_vehicle", others_per_vehicle, 0.01, 100,
+    declare.real("training.others_per_vehicle", others_per_vehicle, 0.01, 100,
                  {"", "Samples of background per sample of a vehicle in the first round.", "Teutsch §7.2"});
-    visitor.real("training.hard_others_per_vehicle", hard_others_per_vehicle, 0, 100,
+    declare.real("training.hard_others_per_vehicle", hard_others_per_vehicle, 0, 100,
                  {"", "Samples of background that each further round adds, per sample of a vehicle.", ""});
-    visitor.flag("training.duplicates", duplicates,
+    declare.flag("training.duplicates", duplicates,
                  {"", "Whether samples that are nearly equal to others are used, too.", ""});
-    visitor.flag(
+    declare.flag(
         "training.mirrored", mirrored,
         {"", "Whether vehicles are shown mirrored, too: sides exchanged, front and rear exchanged, both.", ""});
-    visitor.integer("training.varied_copies", varied_copies, 0, 20,
+    declare.integer("training.varied_copies", varied_copies, 0, 20,
                     {"", "Copies of each vehicle with another contrast.", ""});
-    visitor.integer("training.misfit_copies", misfit_copies, 0, 20,
+    declare.integer("training.misfit_copies", misfit_copies, 0, 20,
                     {"",
                      "Samples of background made of each vehicle by pushing it aside in its window, which teaches "
                      "where a vehicle ends.",
                      ""});
-    visitor.real("training.contrast_change", contrast_change, 0, 0.95,
+    declare.real("training.contrast_change", contrast_change, 0, 0.95,
                  {"", "How much the copies' contrast differs at most: 0.4 means 60 % to 140 %.", ""});
     classifier_options.describe(visitor);
 }

@@ -20,55 +20,56 @@ MotionClusteringOptions MotionClusteringOptions::thesis() {
 }
 
 void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
-    visitor.real("clustering.along", along_m, 0.1, 50,
+    const ParameterDeclarer declare(visitor, ChainStage::clustering);
+    declare.real("clustering.along", along_m, 0.1, 50,
                  {"m",
                   "Motion vectors are linked up to this distance along their motion. Larger: long vehicles stay "
                   "whole, vehicles one behind the other merge.",
                   "Teutsch §4.2"});
-    visitor.real("clustering.across", across_m, 0.1, 50,
+    declare.real("clustering.across", across_m, 0.1, 50,
                  {"m", "Motion vectors are linked up to this distance across their motion. Larger: lanes merge.",
                   "Teutsch §4.2"});
-    visitor.real("clustering.roof_length", roof_length_m, 0, 50,
+    declare.real("clustering.roof_length", roof_length_m, 0, 50,
                  {"m",
                   "Up to this distance along their motion, vectors that move twice as alike are linked when no "
                   "standing corner lies between them: front and rear of a plain roof. 0: off.",
                   ""});
-    visitor.real("clustering.min_distance", min_distance_px, 0, 100,
+    declare.real("clustering.min_distance", min_distance_px, 0, 100,
                  {"px", "Lowest linkage distance, whatever the ground sampling distance.", ""});
-    visitor.real("clustering.velocity_share", velocity_share, 0, 1,
+    declare.real("clustering.velocity_share", velocity_share, 0, 1,
                  {"",
                   "Linked vectors may differ in velocity by this share of their speed. About 0.03 for oblique views, "
                   "0.08 for turning vehicles.",
                   ""});
-    visitor.real("clustering.velocity_floor", velocity_floor_px, 0, 5,
+    declare.real("clustering.velocity_floor", velocity_floor_px, 0, 5,
                  {"px/frame", "Linked vectors may always differ in velocity by this.", ""});
-    visitor.real("clustering.velocity_noise_factor", velocity_noise_factor, 0, 10,
+    declare.real("clustering.velocity_noise_factor", velocity_noise_factor, 0, 10,
                  {"",
                   "Linked vectors may always differ in velocity by this many deviations of the background's residual "
                   "speed, too.",
                   ""});
-    visitor.real("clustering.velocity_noise_limit", velocity_noise_limit_px, 0, 5,
+    declare.real("clustering.velocity_noise_limit", velocity_noise_limit_px, 0, 5,
                  {"px/frame", "The background's noise does not raise the allowed difference beyond this.", ""});
-    visitor.integer("clustering.min_members", min_members, 1, 1000, {"vectors", "Smaller clusters are dropped.", ""});
-    visitor.real("clustering.min_density_share", min_density_share, 0, 2,
+    declare.integer("clustering.min_members", min_members, 1, 1000, {"vectors", "Smaller clusters are dropped.", ""});
+    declare.real("clustering.min_density_share", min_density_share, 0, 2,
                  {"",
                   "Clusters with fewer than this share of the vectors expected on a car, at the corner density of the "
                   "frame, are dropped. 0 switches it off.",
                   ""});
-    visitor.integer("clustering.max_min_members", max_min_members, 1, 1000,
+    declare.integer("clustering.max_min_members", max_min_members, 1, 1000,
                     {"vectors", "However dense the corners are, that many vectors are enough for a cluster.", ""});
-    visitor.real("clustering.margin", margin_px, 0, 20,
+    declare.real("clustering.margin", margin_px, 0, 20,
                  {"px", "The box around the members is grown by this on every side.", ""});
-    visitor.real(
+    declare.real(
         "clustering.split_width", split_width_m, 0, 500,
         {"m",
          "Clusters wider than this are linked again, more and more tightly, until they fall into single vehicles. "
          "0: never.",
          ""});
-    visitor.real("clustering.split_length", split_length_m, 0, 500,
+    declare.real("clustering.split_length", split_length_m, 0, 500,
                  {"m", "Clusters longer than this, too. Small values cut trucks. 0: never.", ""});
-    visitor.real("clustering.max_length", max_length_m, 0, 500, {"m", "Longer clusters are dropped; 0: no limit.", ""});
-    visitor.real("clustering.max_width", max_width_m, 0, 500, {"m", "Wider clusters are dropped; 0: no limit.", ""});
+    declare.real("clustering.max_length", max_length_m, 0, 500, {"m", "Longer clusters are dropped; 0: no limit.", ""});
+    declare.real("clustering.max_width", max_width_m, 0, 500, {"m", "Wider clusters are dropped; 0: no limit.", ""});
 }
 
 }  // namespace eyrie

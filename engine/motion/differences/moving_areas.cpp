@@ -152,41 +152,42 @@ std::vector<cv::Point2d> spread(const DifferingArea& area, double spacing) {
 }  // namespace
 
 void MovingAreaOptions::describe(ParameterVisitor& visitor) {
-    visitor.flag("motion.areas", enabled,
+    const ParameterDeclarer declare(visitor, ChainStage::motion);
+    declare.flag("motion.areas", enabled,
                  {"",
                   "Where registered pictures differ and corners starve, as on vehicles of few pixels, measure the "
                   "motion of the whole area that differs.",
                   "Teutsch §2.2, eq. 2.2"});
-    visitor.real("motion.area_max_corners", max_corners, 0, 10000,
+    declare.real("motion.area_max_corners", area_max_corners, 0, 10000,
                  {"",
                   "Only while fewer corners than this lie on a car at their mean density. Larger: also where vehicles "
                   "carry more corners, with more false areas.",
                   ""});
-    visitor.real(
-        "motion.area_few_corners", few_corners, 0, 10000,
+    declare.real(
+        "motion.area_few_corners", area_few_corners, 0, 10000,
         {"", "Where a car carries at least this many corners, areas are used only if they agree very well.", ""});
-    visitor.real("motion.area_gap", gap_s, 0.01, 10,
+    declare.real("motion.area_gap", area_gap_s, 0.01, 10,
                  {"s", "Time between the three pictures that are compared. Longer: slower vehicles.", ""});
-    visitor.real(
-        "motion.area_noise_factor", noise_factor, 0, 100,
+    declare.real(
+        "motion.area_noise_factor", area_noise_factor, 0, 100,
         {"", "Pixels differ where the difference exceeds this many deviations of the frame's own differences.", ""});
-    visitor.real("motion.area_contrast", min_contrast, 0, 255,
+    declare.real("motion.area_contrast", area_contrast, 0, 255,
                  {"grey", "Pixels differ where the difference exceeds this, too.", ""});
-    visitor.real("motion.area_min_size", min_area_m2, 0, 1000, {"m²", "Smaller areas are left out.", ""});
-    visitor.integer("motion.area_min_size_px", min_area_px, 1, 100000,
+    declare.real("motion.area_min_size", area_min_size_m2, 0, 1000, {"m²", "Smaller areas are left out.", ""});
+    declare.integer("motion.area_min_size_px", area_min_size_px, 1, 100000,
                     {"px²", "Areas of fewer pixels are left out, whatever the scale.", ""});
-    visitor.real("motion.area_max_length", max_length_m, 0.1, 1000, {"m", "Longer areas are left out.", ""});
-    visitor.real(
-        "motion.area_min_shift", min_shift_px, 0, 50,
+    declare.real("motion.area_max_length", area_max_length_m, 0.1, 1000, {"m", "Longer areas are left out.", ""});
+    declare.real(
+        "motion.area_min_shift", area_min_shift_px, 0, 50,
         {"px", "Areas that moved less between two of the pictures may be misregistered and are left out.", ""});
-    visitor.real("motion.area_min_correlation", min_correlation, -1, 1,
+    declare.real("motion.area_min_correlation", area_min_correlation, -1, 1,
                  {"", "Lowest correlation of an area's pixels with where they went and where they came from.", ""});
-    visitor.real("motion.area_sure_correlation", sure_correlation, -1, 1,
+    declare.real("motion.area_sure_correlation", area_sure_correlation, -1, 1,
                  {"", "The same where a car carries motion.area_few_corners corners or more.", ""});
 }
 
 int MovingAreaOptions::gapFrames(const SceneScale& scale) const {
-    return std::clamp(cvRound(gap_s * scale.frame_rate_hz), 1, 30);
+    return std::clamp(cvRound(area_gap_s * scale.frame_rate_hz), 1, 30);
 }
 
 MovingAreas::MovingAreas(const MovingAreaOptions& options, const SceneScale& scale)
@@ -229,12 +230,12 @@ std::vector<DifferingArea> MovingAreas::differingAreas() const {
     cv::absdiff(smoothed(now), before, difference);
     cv::absdiff(before, long_before, earlier_difference);
     cv::min(difference, earlier_difference, difference);
-    const double threshold = std::max(options_.noise_factor * noiseOf(difference), options_.min_contrast);
+    const double threshold = std::max(options_.area_noise_factor * noiseOf(difference), options_.area_contrast);
     const cv::Mat differs = (difference > threshold) & in_before & in_long_before;
     const double half_px_per_m = scale_.px(1) / 2;
     const int fewest =
-        std::max(options_.min_area_px / 4, cvRound(options_.min_area_m2 * half_px_per_m * half_px_per_m));
-    return areasOf(differs, fewest, scale_.px(options_.max_length_m) / 2);
+        std::max(options_.area_min_size_px / 4, cvRound(options_.area_min_size_m2 * half_px_per_m * half_px_per_m));
+    return areasOf(differs, fewest, scale_.px(options_.area_max_length_m) / 2);
 }
 
 std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, double min_correlation) const {
@@ -260,9 +261,9 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double m
     std::vector<MotionVector> inferred;
     if (!options_.enabled || frames_.count() < 2 * gap_) return inferred;
     const double corners_on_car = cornersOnCar(motion, scale_);
-    if (corners_on_car >= options_.max_corners) return inferred;
+    if (corners_on_car >= options_.area_max_corners) return inferred;
     const double min_correlation =
-        corners_on_car < options_.few_corners ? options_.min_correlation : options_.sure_correlation;
+        corners_on_car < options_.area_few_corners ? options_.area_min_correlation : options_.area_sure_correlation;
     const cv::Size size = frames_.newest().size();
     for (const int back : {gap_, 2 * gap_}) {
         const Homography path = frames_.pathTo(back);
@@ -275,7 +276,7 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double m
         for (int i = range.start; i < range.end; ++i) {
             const auto at = static_cast<std::size_t>(i);
             const auto shift = shiftOf(areas[at], min_correlation);
-            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.min_shift_px, min_speed * gap_))
+            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift_px, min_speed * gap_))
                 shifts[at] = shift;
         }
     });

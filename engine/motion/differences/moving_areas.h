@@ -15,17 +15,17 @@ namespace eyrie {
 /// Parameters of moving areas.
 struct MovingAreaOptions {
     bool enabled = true;
-    double max_corners = 6;          ///< on a car at the mean density; with more of them corners do without
-    double few_corners = 3;          ///< … and from so many on areas must be sure
-    double gap_s = 0.12;             ///< time between the pictures that are compared
-    double noise_factor = 8;         ///< pixels move from this many deviations of the frame's own differences on …
-    double min_contrast = 6;         ///< … and from this difference on, grey values
-    double min_area_m2 = 1;          ///< smaller areas are no vehicle …
-    int min_area_px = 8;             ///< … whatever the scale
-    double max_length_m = 20;        ///< longer ones neither
-    double min_shift_px = 1.5;       ///< between two of the pictures; smaller shifts may be misregistration
-    double min_correlation = 0.8;    ///< of an area's pixels with where they went …
-    double sure_correlation = 0.93;  ///< … where corners nearly suffice
+    double area_max_corners = 6;        ///< on a car at the mean density; with more of them corners do without
+    double area_few_corners = 3;        ///< … and from so many on areas must be sure
+    double area_gap_s = 0.12;           ///< time between the pictures that are compared
+    double area_noise_factor = 8;       ///< pixels move from this many deviations of the frame's own differences on …
+    double area_contrast = 6;           ///< … and from this difference on, grey values
+    double area_min_size_m2 = 1;        ///< smaller areas are no vehicle …
+    int area_min_size_px = 8;           ///< … whatever the scale
+    double area_max_length_m = 20;      ///< longer ones neither
+    double area_min_shift_px = 1.5;     ///< between two of the pictures; smaller shifts may be misregistration
+    double area_min_correlation = 0.8;  ///< of an area's pixels with where they went …
+    double area_sure_correlation = 0.93;  ///< … where corners nearly suffice
 
     /// Frames between two of the three pictures that are compared.
     int gapFrames(const SceneScale& scale) const;

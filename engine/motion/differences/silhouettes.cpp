@@ -181,35 +181,36 @@ class Silhouettes::Past {
 };
 
 void SilhouetteOptions::describe(ParameterVisitor& visitor) {
-    visitor.flag(
+    const ParameterDeclarer declare(visitor, ChainStage::motion);
+    declare.flag(
         "motion.silhouettes", enabled,
         {"",
          "Infer the motion of plain roofs, which have no corners, where the picture differs from the ground as "
          "it was before the vehicle came.",
          ""});
-    visitor.integer(
-        "motion.silhouette_frames", frames, 4, 200,
+    declare.integer(
+        "motion.silhouette_frames", silhouette_frames, 4, 200,
         {"frames",
          "How long the ground is remembered. Longer: silhouettes of slower and longer vehicles; more memory "
          "and more changes of light.",
          ""});
-    visitor.real("motion.silhouette_contrast", contrast, 1, 255,
+    declare.real("motion.silhouette_contrast", silhouette_contrast, 1, 255,
                  {"grey", "A vehicle differs from the ground under it by at least this.", ""});
-    visitor.real("motion.silhouette_noise_factor", noise_factor, 0, 50,
+    declare.real("motion.silhouette_noise_factor", silhouette_noise_factor, 0, 50,
                  {"",
                   "A vehicle differs from the ground under it by at least this many times the spread of the ground's "
                   "brightness over time.",
                   ""});
-    visitor.real("motion.silhouette_min_speed", min_speed_m_s, 0, 50,
+    declare.real("motion.silhouette_min_speed", silhouette_min_speed_m_s, 0, 50,
                  {"m/s", "Slower vehicles get no silhouette.", ""});
-    visitor.real("motion.silhouette_max_length", max_length_m, 1, 200,
+    declare.real("motion.silhouette_max_length", silhouette_max_length_m, 1, 200,
                  {"m", "Longer silhouettes are no single vehicle and are not used.", ""});
-    visitor.real("motion.silhouette_max_width", max_width_m, 1, 50,
+    declare.real("motion.silhouette_max_width", silhouette_max_width_m, 1, 50,
                  {"m", "Wider silhouettes are not used either.", ""});
 }
 
 Silhouettes::Silhouettes(const SilhouetteOptions& options, const SceneScale& scale)
-    : options_(options), scale_(scale), frames_(options.frames), next_id_(kFirstOfSilhouettes) {}
+    : options_(options), scale_(scale), frames_(options.silhouette_frames), next_id_(kFirstOfSilhouettes) {}
 
 void Silhouettes::add(const Frame& frame, const Registration& registration) {
     if (!options_.enabled) return;
@@ -246,9 +247,9 @@ std::vector<MotionVector> Silhouettes::infer(const std::vector<MotionVector>& ve
 std::vector<cv::Point2d> Silhouettes::outlineAround(const VectorGroup& group, const std::vector<cv::Point2d>& corners,
                                                     const Past& past) const {
     const double speed = std::hypot(group.velocity.x, group.velocity.y);
-    if (corners.size() < kFewestCorners || !(speed >= scale_.pxPerFrame(options_.min_speed_m_s))) return {};
-    const double max_length = scale_.px(options_.max_length_m);
-    const double max_width = scale_.px(options_.max_width_m) + kTolerancePx;
+    if (corners.size() < kFewestCorners || !(speed >= scale_.pxPerFrame(options_.silhouette_min_speed_m_s))) return {};
+    const double max_length = scale_.px(options_.silhouette_max_length_m);
+    const double max_width = scale_.px(options_.silhouette_max_width_m) + kTolerancePx;
     const double ahead = kFrontPx + scale_.px(kFrontM);
     // Longer than what is allowed, to see what is too long.
     const Lattice lattice(group, std::max(1.0, scale_.px(kCell)), ahead, ahead + max_length + 2 * kTolerancePx,
@@ -267,7 +268,7 @@ std::vector<cv::Point2d> Silhouettes::outlineAround(const VectorGroup& group, co
         const double share = brightness / std::max(1, ground->median);
         const bool shadow = share > kShadowDarkest && share < kShadowBrightest;
         return !shadow && std::abs(brightness - ground->median) >
-                              std::max(options_.contrast, options_.noise_factor * ground->spread);
+                              std::max(options_.silhouette_contrast, options_.silhouette_noise_factor * ground->spread);
     };
     const std::vector<Lattice::Cell> region = grown(lattice, corners, is_vehicle);
     if (region.size() < kFewestCells) return {};

@@ -15,12 +15,12 @@ namespace eyrie {
 /// Parameters of silhouettes.
 struct SilhouetteOptions {
     bool enabled = true;
-    int frames = 28;          ///< pictures kept to see the ground before a vehicle came
-    double contrast = 16;     ///< grey values by which a vehicle differs from the ground under it …
-    double noise_factor = 4;  ///< … and times the spread of the ground's own brightness over time
-    double min_speed_m_s = 2.5;
-    double max_length_m = 18;  ///< larger silhouettes are no single vehicle
-    double max_width_m = 3.4;
+    int silhouette_frames = 28;          ///< pictures kept to see the ground before a vehicle came
+    double silhouette_contrast = 16;     ///< grey values by which a vehicle differs from the ground under it …
+    double silhouette_noise_factor = 4;  ///< … and times the spread of the ground's own brightness over time
+    double silhouette_min_speed_m_s = 2.5;
+    double silhouette_max_length_m = 18;  ///< larger silhouettes are no single vehicle
+    double silhouette_max_width_m = 3.4;
 
     void describe(ParameterVisitor& visitor);
 };

@@ -19,42 +19,43 @@ IndependentMotionOptions IndependentMotionOptions::thesis() {
 }
 
 void IndependentMotionOptions::describe(ParameterVisitor& visitor) {
-    visitor.integer("motion.min_age", min_age, 1, 30,
+    const ParameterDeclarer declare(visitor, ChainStage::motion);
+    declare.integer("motion.min_age", min_age, 1, 30,
                     {"frames",
                      "A corner counts once it has been tracked this long. Larger: fewer false vectors, later "
                      "detections.",
                      "Teutsch §4.2"});
-    visitor.integer("motion.baseline", baseline, 1, 60,
+    declare.integer("motion.baseline", baseline, 1, 60,
                     {"frames",
                      "The velocity is the displacement over this many frames, end points only, as far as the "
                      "corner is that old. Larger: less noise, but turning vehicles lag.",
                      ""});
-    visitor.real("motion.min_speed", min_speed_m_s, 0, 50,
+    declare.real("motion.min_speed", min_speed_m_s, 0, 50,
                  {"m/s", "Corners that move slower belong to the background.", "Teutsch §4.2"});
-    visitor.real("motion.min_speed_px", min_speed_px, 0, 10,
+    declare.real("motion.min_speed_px", min_speed_px, 0, 10,
                  {"px/frame", "Lowest speed threshold, whatever the ground sampling distance.", ""});
-    visitor.real("motion.sigma_factor", sigma_factor, 0, 20,
+    declare.real("motion.sigma_factor", sigma_factor, 0, 20,
                  {"",
                   "The speed must also exceed this many deviations of the background's residual speed, measured in "
                   "every frame. 0 switches it off.",
                   ""});
-    visitor.real("motion.max_speed", max_speed_m_s, 0, 500,
+    declare.real("motion.max_speed", max_speed_m_s, 0, 500,
                  {"m/s",
                   "Faster corners are tracking errors. Used where the ground sampling distance is known; 0: no "
                   "limit.",
                   ""});
-    visitor.flag("motion.follow_turns", follow_turns,
+    declare.flag("motion.follow_turns", follow_turns,
                  {"",
                   "A velocity over the baseline lags by half of it. Where the path clearly bends, extrapolate the "
                   "velocity to the present.",
                   ""});
-    visitor.flag("motion.find_slow", find_slow,
+    declare.flag("motion.find_slow", find_slow,
                  {"", "Test corners that seem to stand still again over a longer baseline.", ""});
-    visitor.integer("motion.slow_baseline", slow_baseline, 2, 60,
+    declare.integer("motion.slow_baseline", slow_baseline, 2, 60,
                     {"frames", "Displacement of slow corners is measured over this many frames.", ""});
-    visitor.integer("motion.slow_min_age", slow_min_age, 2, 60,
+    declare.integer("motion.slow_min_age", slow_min_age, 2, 60,
                     {"frames", "A corner must have been tracked this long for the slow test.", ""});
-    visitor.real("motion.slow_min_speed", slow_min_speed_m_s, 0, 50, {"m/s", "Lowest speed in the slow test.", ""});
+    declare.real("motion.slow_min_speed", slow_min_speed_m_s, 0, 50, {"m/s", "Lowest speed in the slow test.", ""});
     shadow.describe(visitor);
     silhouettes.describe(visitor);
     areas.describe(visitor);

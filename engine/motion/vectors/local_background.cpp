@@ -8,18 +8,20 @@
 namespace eyrie {
 
 void LocalBackgroundOptions::describe(ParameterVisitor& visitor) {
-    visitor.flag("motion.local_background", enabled,
+    const ParameterDeclarer declare(visitor, ChainStage::motion);
+    declare.flag("motion.local_background", enabled,
                  {"",
                   "Subtract the median residual velocity of the corners around. Helps against parallax, harms large "
                   "vehicles.",
                   ""});
-    visitor.real("motion.local_background_cell", cell_m, 1, 200, {"m", "Side of the cells; at least 24 px.", ""});
-    visitor.integer("motion.local_background_min_corners", min_corners, 1, 1000,
+    declare.real("motion.local_background_cell", local_background_cell_m, 1, 200,
+                 {"m", "Side of the cells; at least 24 px.", ""});
+    declare.integer("motion.local_background_min_corners", local_background_min_corners, 1, 1000,
                     {"", "Cells with fewer corners are not corrected.", ""});
 }
 
 LocalBackground::LocalBackground(const LocalBackgroundOptions& options, const SceneScale& scale)
-    : options_(options), cell_(std::max(24.0, scale.px(options.cell_m))) {}
+    : options_(options), cell_(std::max(24.0, scale.px(options.local_background_cell_m))) {}
 
 void LocalBackground::prepare(cv::Size image) {
     grid_ = {std::max(1, static_cast<int>(std::ceil(image.width / cell_))),
@@ -41,7 +43,7 @@ void LocalBackground::add(cv::Point2f position, cv::Point2d velocity) {
 
 void LocalBackground::finish() {
     for (Cell& cell : cells_) {
-        if (static_cast<int>(cell.x.size()) < options_.min_corners) continue;
+        if (static_cast<int>(cell.x.size()) < options_.local_background_min_corners) continue;
         cell.median = {upperMedianOf(cell.x), upperMedianOf(cell.y)};
     }
 }

@@ -11,8 +11,8 @@ namespace eyrie {
 /// Parameters of the local background correction.
 struct LocalBackgroundOptions {
     bool enabled = false;
-    double cell_m = 15;    ///< side of a cell
-    int min_corners = 12;  ///< a cell with fewer is not corrected
+    double local_background_cell_m = 15;    ///< side of a cell
+    int local_background_min_corners = 12;  ///< a cell with fewer is not corrected
 
     void describe(ParameterVisitor& visitor);
 };

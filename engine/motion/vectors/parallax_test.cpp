@@ -35,19 +35,20 @@ cv::Vec3d lineOf(cv::Point2d p, cv::Point2d v) {
 }  // namespace
 
 void ParallaxTestOptions::describe(ParameterVisitor& visitor) {
-    visitor.flag(
+    const ParameterDeclarer declare(visitor, ChainStage::motion);
+    declare.flag(
         "motion.parallax_test", enabled,
         {"",
          "Corners that move along epipolar lines, no faster than roofs and trees of this scene seem to, do not "
          "count as moving.",
          ""});
-    visitor.real(
-        "motion.parallax_factor", factor, 0.5, 20,
+    declare.real(
+        "motion.parallax_factor", parallax_factor, 0.5, 20,
         {"",
          "Up to this many times the scene's usual parallax a corner may be a standing one. Larger: fewer false "
          "alarms on high buildings, slow vehicles along the flight are lost.",
          ""});
-    visitor.real("motion.parallax_agreement", agreement, 0.3, 1,
+    declare.real("motion.parallax_agreement", parallax_agreement, 0.3, 1,
                  {"", "Share of the background's residuals that must agree on an epipole.", ""});
 }
 
@@ -125,7 +126,7 @@ void ParallaxTest::finish(double sigma) {
         best = better;
         best_support = better_support;
     }
-    if (best_support < options_.agreement * static_cast<double>(strong.size())) return;
+    if (best_support < options_.parallax_agreement * static_cast<double>(strong.size())) return;
     epipole_ = best;
 
     std::array<std::vector<double>, 2> sides;
@@ -140,7 +141,7 @@ void ParallaxTest::finish(double sigma) {
         const auto usual =
             sides[side].begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(sides[side].size() - 1));
         std::nth_element(sides[side].begin(), usual, sides[side].end());
-        limits_[side] = options_.factor * *usual;
+        limits_[side] = options_.parallax_factor * *usual;
     }
 }
 

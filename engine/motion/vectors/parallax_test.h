@@ -12,8 +12,8 @@ namespace eyrie {
 /// Parameters of the parallax test.
 struct ParallaxTestOptions {
     bool enabled = true;
-    double factor = 2.0;     ///< of the usual parallax, up to which a corner may be a standing one
-    double agreement = 0.6;  ///< share of the strong residuals that must point along epipolar lines
+    double parallax_factor = 2.0;     ///< of the usual parallax, up to which a corner may be a standing one
+    double parallax_agreement = 0.6;  ///< share of the strong residuals that must point along epipolar lines
 
     void describe(ParameterVisitor& visitor);
 };

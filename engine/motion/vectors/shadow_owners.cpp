@@ -33,9 +33,9 @@ bool standsApart(const VectorGroup& shadow, const VectorGroup& owner, const std:
 
 ShadowOwners::ShadowOwners(const ShadowTestOptions& options, const SceneScale& scale)
     : scale_(scale),
-      reach_(scale.px(options.reach_m) + 1),
-      owner_length_(scale.px(options.owner_length_m)),
-      owner_width_(scale.px(options.owner_width_m)),
+      reach_(scale.px(options.shadow_reach_m) + 1),
+      owner_length_(scale.px(options.shadow_owner_length_m)),
+      owner_width_(scale.px(options.shadow_owner_width_m)),
       shadow_linkage_(std::max(kSmallestLinkage, scale.px(1.2))) {}
 
 std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vectors,

@@ -14,41 +14,43 @@ constexpr int kLitRun = 2;              ///< half pixels of lit ground that are 
 }  // namespace
 
 void ShadowTestOptions::describe(ParameterVisitor& visitor) {
-    visitor.flag(
+    const ParameterDeclarer declare(visitor, ChainStage::motion);
+    declare.flag(
         "motion.shadow_test", enabled,
         {"", "Leave out corners that look like the outline of a moving shadow. Helps by day, not at night.", ""});
-    visitor.real("motion.shadow_darkest", darkest, 0, 1,
+    declare.real("motion.shadow_darkest", shadow_darkest, 0, 1,
                  {"", "A shadow is at least this share of the ground's brightness.", ""});
-    visitor.real("motion.shadow_brightest", brightest, 0, 1,
+    declare.real("motion.shadow_brightest", shadow_brightest, 0, 1,
                  {"", "A shadow is at most this share of the ground's brightness.", ""});
-    visitor.real("motion.shadow_bright_near", bright_near, 0.5, 5,
+    declare.real("motion.shadow_bright_near", shadow_bright_near, 0.5, 5,
                  {"", "A corner with anything brighter than this share of the ground near it is on a vehicle.", ""});
-    visitor.real("motion.shadow_radius", radius_m, 0, 5, {"m", "What counts as near a corner; at least 2 px.", ""});
-    visitor.real("motion.shadow_ground", ground_m, 1, 100,
+    declare.real("motion.shadow_radius", shadow_radius_m, 0, 5,
+                 {"m", "What counts as near a corner; at least 2 px.", ""});
+    declare.real("motion.shadow_ground", shadow_ground_m, 1, 100,
                  {"m", "Side of the window whose median is the ground's brightness.", ""});
-    visitor.real("motion.shadow_lit", lit, 0, 5,
+    declare.real("motion.shadow_lit", shadow_lit, 0, 5,
                  {"",
                   "Where the ground between a shadow and its vehicle reaches this share of its usual brightness, the "
                   "dark thing is a vehicle of its own. 5: never.",
                   ""});
-    visitor.real("motion.shadow_min_brightness", min_brightness, 0, 255,
+    declare.real("motion.shadow_min_brightness", shadow_min_brightness, 0, 255,
                  {"grey", "Where the ground is darker than this (night), the test is not used.", ""});
-    visitor.real("motion.shadow_reach", reach_m, 0, 100,
+    declare.real("motion.shadow_reach", shadow_reach_m, 0, 100,
                  {"m",
                   "A shadow ends at most this far from a vehicle that moves like it; what looks like a shadow but lies "
                   "elsewhere is a dark vehicle. Larger for a low sun.",
                   ""});
-    visitor.real("motion.shadow_owner_length", owner_length_m, 0, 100,
+    declare.real("motion.shadow_owner_length", shadow_owner_length_m, 0, 100,
                  {"m", "Motion vectors own a shadow when they spread over at least this length.", ""});
-    visitor.real("motion.shadow_owner_width", owner_width_m, 0, 100,
+    declare.real("motion.shadow_owner_width", shadow_owner_width_m, 0, 100,
                  {"m", "Motion vectors own a shadow when they spread over at least this width, too.", ""});
 }
 
 ShadowTest::ShadowTest(const ShadowTestOptions& options, const SceneScale& scale)
     : options_(options),
-      radius_(std::clamp(static_cast<int>(std::lround(scale.px(options.radius_m))), 2, 8)),
+      radius_(std::clamp(static_cast<int>(std::lround(scale.px(options.shadow_radius_m))), 2, 8)),
       block_(std::clamp(static_cast<int>(std::lround(scale.px(1.0))), 3, 16)) {
-    const int cells = static_cast<int>(std::lround(scale.px(options.ground_m) / block_));
+    const int cells = static_cast<int>(std::lround(scale.px(options.shadow_ground_m) / block_));
     window_ = std::clamp(cells / 2 * 2 + 1, 3, 61);
 }
 
@@ -80,8 +82,9 @@ bool ShadowTest::litUpTo(const OrientedBox& vehicle, cv::Point2f corner) const {
         const cv::Point pixel(cvRound(place.x), cvRound(place.y));
         if (!cv::Rect(0, 0, gray_.cols, gray_.rows).contains(pixel)) continue;
         const double brightness = gray_.at<uchar>(pixel);
-        if (brightness > options_.bright_near * ground) return false;  // the vehicle, beyond the box of its corners
-        run = brightness >= options_.lit * ground ? run + 1 : 0;
+        if (brightness > options_.shadow_bright_near * ground)
+            return false;  // the vehicle, beyond the box of its corners
+        run = brightness >= options_.shadow_lit * ground ? run + 1 : 0;
         if (run >= kLitRun) return true;
     }
     return false;
@@ -94,7 +97,7 @@ bool ShadowTest::isShadow(cv::Point2f corner) const {
                           cv::Rect(0, 0, gray_.cols, gray_.rows);
     if (near.width < 3 || near.height < 3) return false;
     const double ground = groundAt(corner);
-    if (ground < options_.min_brightness) return false;
+    if (ground < options_.shadow_min_brightness) return false;
 
     // Means of 2×2 pixels, so that a noisy pixel decides nothing.
     int darkest = 4 * 255;
@@ -108,8 +111,8 @@ bool ShadowTest::isShadow(cv::Point2f corner) const {
             brightest = std::max(brightest, sum);
         }
     }
-    return darkest >= 4 * options_.darkest * ground && darkest <= 4 * options_.brightest * ground &&
-           brightest <= 4 * options_.bright_near * ground;
+    return darkest >= 4 * options_.shadow_darkest * ground && darkest <= 4 * options_.shadow_brightest * ground &&
+           brightest <= 4 * options_.shadow_bright_near * ground;
 }
 
 }  // namespace eyrie

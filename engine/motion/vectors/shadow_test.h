@@ -11,16 +11,16 @@ namespace eyrie {
 /// Parameters of the shadow test.
 struct ShadowTestOptions {
     bool enabled = true;
-    double darkest = 0.3;         ///< share of the ground's brightness; darker is no cast shadow
-    double brightest = 0.75;      ///< a shadow is darker than this share of the ground's brightness
-    double bright_near = 1.2;     ///< anything brighter than this near the corner belongs to a vehicle
-    double radius_m = 0.7;        ///< what counts as near
-    double ground_m = 12;         ///< side of the window whose median is the ground's brightness
-    double lit = 0.85;            ///< ground at least this bright between shadow and vehicle parts them
-    double min_brightness = 60;   ///< grey values; on darker ground (night) the test is not used
-    double reach_m = 2.5;         ///< a shadow ends at most this far from its vehicle; farther dark things are vehicles
-    double owner_length_m = 2.2;  ///< vectors that own a shadow spread over at least this length …
-    double owner_width_m = 0.9;   ///< … and width
+    double shadow_darkest = 0.3;        ///< share of the ground's brightness; darker is no cast shadow
+    double shadow_brightest = 0.75;     ///< a shadow is darker than this share of the ground's brightness
+    double shadow_bright_near = 1.2;    ///< anything brighter than this near the corner belongs to a vehicle
+    double shadow_radius_m = 0.7;       ///< what counts as near
+    double shadow_ground_m = 12;        ///< side of the window whose median is the ground's brightness
+    double shadow_lit = 0.85;           ///< ground at least this bright between shadow and vehicle parts them
+    double shadow_min_brightness = 60;  ///< grey values; on darker ground (night) the test is not used
+    double shadow_reach_m = 2.5;  ///< a shadow ends at most this far from its vehicle; farther dark things are vehicles
+    double shadow_owner_length_m = 2.2;  ///< vectors that own a shadow spread over at least this length …
+    double shadow_owner_width_m = 0.9;   ///< … and width
 
     void describe(ParameterVisitor& visitor);
 };

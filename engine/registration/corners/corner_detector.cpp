@@ -167,42 +167,44 @@ void appendCandidates(const std::vector<StrengthPeak>& peaks, cv::Size size, con
 }  // namespace
 
 void CornerOptions::describe(ParameterVisitor& visitor) {
-    visitor.real(
-        "registration.corner_spacing", spacing_m, 0.05, 20,
+    const ParameterDeclarer declare(visitor, ChainStage::registration);
+    declare.real(
+        "registration.corner_spacing", corner_spacing_m, 0.05, 20,
         {"m", "Distance between corners. Smaller: more motion vectors on each vehicle, more time.", "Teutsch §4.2"});
-    visitor.real("registration.min_corner_distance", min_distance_px, 1.5, 50,
+    declare.real("registration.min_corner_distance", min_corner_distance_px, 1.5, 50,
                  {"px", "Corners are never closer than this, however coarse the picture.", ""});
-    visitor.integer(
+    declare.integer(
         "registration.max_corners", max_corners, 100, 50000,
         {"",
          "Largest number of corners tracked at a time; above it they are thinned out evenly, least near moving ones.",
          ""});
-    visitor.real(
-        "registration.corner_deviation", max_deviation_px, 0.05, 5,
+    declare.real(
+        "registration.corner_deviation", corner_deviation_px, 0.05, 5,
         {"px",
          "A corner is strong enough when the picture's noise moves it by no more than this standard deviation. "
          "Larger: weaker corners too.",
          "Förstner and Gülch 1987"});
-    visitor.real(
+    declare.real(
         "registration.min_roundness", min_roundness, 0, 0.95,
         {"", "0 accepts points on edges as corners, 1 only texture without a direction.", "Förstner and Gülch 1987"});
-    visitor.flag("registration.favour_movers", favour_movers,
+    declare.flag("registration.favour_movers", favour_movers,
                  {"",
                   "Where vehicles were seen to move, corners stay as dense as they can be, whatever the largest number "
                   "of corners.",
                   ""});
-    visitor.integer("registration.tensor_window", tensor_window, 3, 7,
+    declare.integer("registration.tensor_window", tensor_window, 3, 7,
                     {"px", "Side of the window over which the structure tensor is summed; even numbers round up.", ""});
 }
 
 CornerDetector::CornerDetector(const CornerOptions& options, const SceneScale& scale)
-    : options_(options), spacing_px_(std::clamp(scale.px(options.spacing_m), options.min_distance_px, 64.0)) {}
+    : options_(options),
+      spacing_px_(std::clamp(scale.px(options.corner_spacing_m), options.min_corner_distance_px, 64.0)) {}
 
 std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
                                                 const CornerSurroundings& surroundings) const {
     StrengthLimits limits;
     limits.window_radius = options_.tensor_window / 2;
-    const double ratio = surroundings.noise / options_.max_deviation_px;
+    const double ratio = surroundings.noise / options_.corner_deviation_px;
     limits.min_strength = static_cast<float>(ratio * ratio);
     limits.min_roundness = static_cast<float>(options_.min_roundness);
     limits.margin = std::max(surroundings.margin, limits.window_radius + 3);

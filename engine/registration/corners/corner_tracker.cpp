@@ -162,29 +162,30 @@ bool storePatch(CornerSet& set, TrackedCorner& corner, const PaddedPicture& pict
 }  // namespace
 
 void TrackingOptions::describe(ParameterVisitor& visitor) {
-    visitor.real(
+    const ParameterDeclarer declare(visitor, ChainStage::registration);
+    declare.real(
         "registration.window", window_m, 0.1, 20,
         {"m",
          "Side of the window that is tracked, a third to a half of a car's width; 5 … 15 px. Larger windows are "
          "less noisy but drag corners off small vehicles.",
          "Teutsch §4.2"});
-    visitor.real("registration.max_residual", max_residual, 0.02, 2,
+    declare.real("registration.max_residual", max_residual, 0.02, 2,
                  {"", "A corner is lost when its grey levels differ by more than this share of its own contrast.", ""});
-    visitor.real("registration.max_speed", max_speed_mps, 1, 500,
+    declare.real("registration.max_speed", max_speed_mps, 1, 500,
                  {"m/s", "Nothing on the ground is faster; a corner that seems to be is lost.", ""});
-    visitor.real(
+    declare.real(
         "registration.max_jerk", max_jerk_px, 0.2, 50,
         {"px/frame",
          "A corner whose motion over the ground changes by more than this (and half its speed) in one frame has "
          "slipped and is lost.",
          ""});
-    visitor.integer(
+    declare.integer(
         "registration.patch_life", patch_life, 1, 10000,
         {"frames",
          "A corner is compared with the patch stored this many frames ago at most. Longer: less drift; 1: from "
          "frame to frame.",
          ""});
-    visitor.real("registration.patch_deformation", patch_deformation_px, 0.01, 5,
+    declare.real("registration.patch_deformation", patch_deformation_px, 0.01, 5,
                  {"px", "The patch is turned and scaled with the picture whenever this moves its border by more.", ""});
 }
 

@@ -159,15 +159,16 @@ bool homographyThrough(const Correspondences& p, const std::size_t* at, Homograp
 }  // namespace
 
 void HomographyOptions::describe(ParameterVisitor& visitor) {
-    visitor.real(
+    const ParameterDeclarer declare(visitor, ChainStage::registration);
+    declare.real(
         "registration.inlier_distance", inlier_distance_px, 0.1, 10,
         {"px",
          "Largest residual with which a corner counts as background. The true limit is five times the measured "
          "deviation where that is less.",
          ""});
-    visitor.integer("registration.min_inliers", min_inliers, 6, 10000,
+    declare.integer("registration.min_inliers", min_inliers, 6, 10000,
                     {"", "Fewer agreeing corners than this, and a frame counts as not registered.", ""});
-    visitor.real("registration.min_inlier_share", min_inlier_share, 0.05, 0.95,
+    declare.real("registration.min_inlier_share", min_inlier_share, 0.05, 0.95,
                  {"",
                   "A smaller share of agreeing corners than this, and a frame counts as not registered; of less than "
                   "300 agreeing "

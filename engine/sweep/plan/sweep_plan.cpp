@@ -6,7 +6,6 @@
 #include "core/error.h"
 #include "detection/detector_factory.h"
 #include "evaluation/evaluate.h"
-#include "sweep/plan/parameter_stage.h"
 
 namespace eyrie {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "chain/parameter_stage.h"
 #include "io/tables/number_text.h"
-#include "sweep/plan/parameter_stage.h"
 
 namespace eyrie {
 namespace {
@@ -55,7 +55,7 @@ int distanceFromMiddle(const SweepPlan& plan, const BestPoint& best) {
 SweepCriterion usualCriterion(const SweepPlan& plan) {
     SweepCriterion criterion;
     criterion.tracks = std::all_of(plan.axes.begin(), plan.axes.end(), [](const SweepAxis& axis) {
-        return firstStageOf(axis.name) >= SweepStage::tracking;
+        return firstStageOf(axis.name) >= ChainStage::tracking;
     });
     return criterion;
 }

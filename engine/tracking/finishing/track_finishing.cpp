@@ -79,77 +79,87 @@ void trimPredictedEnd(TrackPath& path, const GroundMotion& ground, double stop_s
 }  // namespace
 
 void FinishingOptions::describe(ParameterVisitor& v) {
-    v.flag("finishing.keep_tentative", keep_tentative,
-           {"", "A confirmed track's states from before its confirmation belong to the result.", "Teutsch §7.1.2"});
-    v.flag("finishing.trim_predicted", trim_predicted,
-           {"", "Cut the end of a track that was predicted only, unless it left the image.", ""});
-    v.real("finishing.stop_speed", stop_speed, 0, 50,
-           {"m/s", "An object that was lost while slower than this stands: its predicted end is kept.", ""});
-    v.real("finishing.join_gap", join_gap_s, 0, 60,
-           {"s", "Longest gap over which two fragments become one track. 0: never joined.", ""});
-    v.real("finishing.join_distance_m", join_distance_m, 0, 100,
-           {"m",
-            "Largest distance between where a fragment is expected and where the next one starts; grows with the "
-            "gap.",
-            ""});
-    v.real("finishing.join_distance_px", join_distance_px, 0, 500, {"px", "Pixel floor of join_distance_m.", ""});
-    v.flag("finishing.constant_size", constant_size,
-           {"", "Vehicles keep their size on the ground: replace it by its median over size_window.", ""});
-    v.real("finishing.size_window", size_window_s, 0, 3600,
-           {"s", "Window of that median. Short windows follow changes of the view, long ones are steadier.", ""});
-    v.flag("finishing.smooth_path", smooth_path,
-           {"", "Smooth centres and headings by fits over frames before and after.", ""});
-    v.real("finishing.smooth_window", smooth_window_s, 0, 60, {"s", "Width of those fits. Wide ones cut corners.", ""});
-    v.integer(
+    const ParameterDeclarer declare(v, ChainStage::finishing);
+    declare.flag(
+        "finishing.keep_tentative", keep_tentative,
+        {"", "A confirmed track's states from before its confirmation belong to the result.", "Teutsch §7.1.2"});
+    declare.flag("finishing.trim_predicted", trim_predicted,
+                 {"", "Cut the end of a track that was predicted only, unless it left the image.", ""});
+    declare.real("finishing.stop_speed", stop_speed_m_s, 0, 50,
+                 {"m/s", "An object that was lost while slower than this stands: its predicted end is kept.", ""});
+    declare.real("finishing.join_gap", join_gap_s, 0, 60,
+                 {"s", "Longest gap over which two fragments become one track. 0: never joined.", ""});
+    declare.real("finishing.join_distance_m", join_distance_m, 0, 100,
+                 {"m",
+                  "Largest distance between where a fragment is expected and where the next one starts; grows with the "
+                  "gap.",
+                  ""});
+    declare.real("finishing.join_distance_px", join_distance_px, 0, 500, {"px", "Pixel floor of join_distance_m.", ""});
+    declare.flag("finishing.constant_size", constant_size,
+                 {"", "Vehicles keep their size on the ground: replace it by its median over size_window.", ""});
+    declare.real("finishing.size_window", size_window_s, 0, 3600,
+                 {"s", "Window of that median. Short windows follow changes of the view, long ones are steadier.", ""});
+    declare.flag("finishing.smooth_path", smooth_path,
+                 {"", "Smooth centres and headings by fits over frames before and after.", ""});
+    declare.real("finishing.smooth_window", smooth_window_s, 0, 60,
+                 {"s", "Width of those fits. Wide ones cut corners.", ""});
+    declare.integer(
         "finishing.extend_back", extend_back, 0, 100,
         {"frames", "Extend a track back to where its motion vectors began, before they were old enough to count.", ""});
-    v.real("finishing.extend_entry", extend_entry_s, 0, 60,
-           {"s", "Longest extension of a track back to the border of the image where it came in.", ""});
-    v.real("finishing.trace_back", trace_back_s, 0, 60,
-           {"s",
-            "Follow a track back in time by single motion vectors, by at most this long: vehicles that start slowly or "
-            "hardly stand out show some before they are detected. 0: never.",
-            ""});
-    v.real("finishing.from_rest", from_rest_s, 0, 60,
-           {"s",
-            "A track that begins slowly and gathers speed is carried back to where the vehicle stood and stands there, "
-            "in all by at most this long. 0: never.",
-            ""});
-    v.real("finishing.min_length", min_length_m, 0, 100,
-           {"m", "Tracks whose boxes stay shorter are not vehicles. Used where the ground sampling distance is known.",
-            ""});
-    v.real("finishing.min_width", min_width_m, 0, 100, {"m", "The same for the width.", ""});
-    v.real("finishing.max_sharing", max_sharing, 0, 1,
-           {"",
-            "Two tracks that on average share more than this of the smaller box are one vehicle: the one detected "
-            "less often gives way. 1: never.",
-            ""});
-    v.flag("finishing.drop_shadows", drop_shadows,
-           {"",
-            "Tracks that drive beside a vehicle as if fixed to it and were detected less than half as often are its "
-            "shadow and are dropped.",
-            ""});
-    v.real("finishing.min_detected", min_detected, 0, 1,
-           {"",
-            "Tracks detected in less than this share of their frames, not counting predicted ones, and in less than "
-            "0.4 s altogether, are dropped. 0: none.",
-            ""});
-    v.real("finishing.standing_height", standing_height, 0, 0.9,
-           {"",
-            "A track that goes along the camera's flow no faster than a standing thing of this share of the flight "
-            "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped. 0: "
-            "never.",
-            ""});
-    v.real(
+    declare.real("finishing.extend_entry", extend_entry_s, 0, 60,
+                 {"s", "Longest extension of a track back to the border of the image where it came in.", ""});
+    declare.real(
+        "finishing.trace_back", trace_back_s, 0, 60,
+        {"s",
+         "Follow a track back in time by single motion vectors, by at most this long: vehicles that start slowly or "
+         "hardly stand out show some before they are detected. 0: never.",
+         ""});
+    declare.real(
+        "finishing.from_rest", from_rest_s, 0, 60,
+        {"s",
+         "A track that begins slowly and gathers speed is carried back to where the vehicle stood and stands there, "
+         "in all by at most this long. 0: never.",
+         ""});
+    declare.real(
+        "finishing.min_length", min_length_m, 0, 100,
+        {"m", "Tracks whose boxes stay shorter are not vehicles. Used where the ground sampling distance is known.",
+         ""});
+    declare.real("finishing.min_width", min_width_m, 0, 100, {"m", "The same for the width.", ""});
+    declare.real(
+        "finishing.max_sharing", max_sharing, 0, 1,
+        {"",
+         "Two tracks that on average share more than this of the smaller box are one vehicle: the one detected "
+         "less often gives way. 1: never.",
+         ""});
+    declare.flag(
+        "finishing.drop_shadows", drop_shadows,
+        {"",
+         "Tracks that drive beside a vehicle as if fixed to it and were detected less than half as often are its "
+         "shadow and are dropped.",
+         ""});
+    declare.real(
+        "finishing.min_detected", min_detected, 0, 1,
+        {"",
+         "Tracks detected in less than this share of their frames, not counting predicted ones, and in less than "
+         "0.4 s altogether, are dropped. 0: none.",
+         ""});
+    declare.real(
+        "finishing.standing_height", standing_height, 0, 0.9,
+        {"",
+         "A track that goes along the camera's flow no faster than a standing thing of this share of the flight "
+         "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped. 0: "
+         "never.",
+         ""});
+    declare.real(
         "finishing.standing_depth", standing_depth, 0, 0.9,
         {"", "The same against the flow: over relief the plane of the registration may lie above the ground. 0: never.",
          ""});
-    v.real("finishing.min_score", min_score, 0, 1,
-           {"",
-            "Tracks with a lower probability of being a moving vehicle, gathered along their life, are dropped. "
-            "Needs a method with a classifier. 0: none; larger: fewer false tracks, unsure vehicles are lost.",
-            ""});
-    v.flag(
+    declare.real("finishing.min_score", min_score, 0, 1,
+                 {"",
+                  "Tracks with a lower probability of being a moving vehicle, gathered along their life, are dropped. "
+                  "Needs a method with a classifier. 0: none; larger: fewer false tracks, unsure vehicles are lost.",
+                  ""});
+    declare.flag(
         "finishing.join_parts", join_parts,
         {"",
          "Tracks that drive right behind each other as if fixed are one long vehicle. Used where the ground sampling "
@@ -281,7 +291,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
             std::erase_if(path.states,
                           [](const TimedPathState& s) { return s.second.status == TrackStatus::tentative; });
         }
-        if (options.trim_predicted) trimPredictedEnd(path, ground, scale.pxPerFrame(options.stop_speed));
+        if (options.trim_predicted) trimPredictedEnd(path, ground, scale.pxPerFrame(options.stop_speed_m_s));
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);

@@ -32,7 +32,7 @@ struct FrameMotionSummary {
 struct FinishingOptions {
     bool keep_tentative = true;
     bool trim_predicted = true;
-    double stop_speed = 2.0;
+    double stop_speed_m_s = 2.0;
     double join_gap_s = 1.0;
     double join_distance_m = 1.5;
     double join_distance_px = 3;

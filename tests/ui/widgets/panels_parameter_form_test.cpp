@@ -30,11 +30,12 @@ struct Options {
     Method method = Method::gradient;
 
     void describe(ParameterVisitor& visitor) {
-        visitor.real("motion.min_speed", min_speed, 0, 10, {"m/s", "Slowest motion that counts.", "Teutsch §5.2"});
-        visitor.integer("stacking.layers", layers, 1, 500, {"layers", "Height of the image stack.", "Teutsch §5.3"});
-        visitor.real("motion.link_radius", radius, 0.5, 1e6, {"m", "Corners closer than this are linked.", ""});
-        visitor.flag("removal.fuse", fuse, {"", "Duplicates are fused by union.", "Teutsch §5.5.1"});
-        visitor.choice("detection.method", method, {"clusters", "gradient", "none"},
+        const ParameterDeclarer declare(visitor, ChainStage::none);
+        declare.real("motion.min_speed", min_speed, 0, 10, {"m/s", "Slowest motion that counts.", "Teutsch §5.2"});
+        declare.integer("stacking.layers", layers, 1, 500, {"layers", "Height of the image stack.", "Teutsch §5.3"});
+        declare.real("motion.link_radius", radius, 0.5, 1e6, {"m", "Corners closer than this are linked.", ""});
+        declare.flag("removal.fuse", fuse, {"", "Duplicates are fused by union.", "Teutsch §5.5.1"});
+        declare.choice("detection.method", method, {"clusters", "gradient", "none"},
                        {"", "How objects are outlined.", ""});
     }
 };

@@ -1,0 +1,73 @@
+#include "chain/parameter_stage.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace eyrie {
+namespace {
+
+TEST(ParameterStage, EveryDeclaredParameterBelongsToAStage) {
+    ChainOptions options;
+    ChainStage last = ChainStage::registration;
+    for (const Parameter& parameter : listParameters(describeOf(options))) {
+        ChainStage stage = last;
+        ASSERT_NO_THROW(stage = firstStageOf(parameter.name)) << parameter.name;
+        EXPECT_GE(stage, last) << parameter.name << " is declared behind a later stage";
+        last = stage;
+    }
+    EXPECT_EQ(last, ChainStage::finishing);
+    EXPECT_EQ(firstStageOf("motion.method"), ChainStage::clustering);  // not where its group begins
+    EXPECT_EQ(firstStageOf("difference.gap"), ChainStage::clustering);
+    EXPECT_EQ(firstStageOf("motion.min_speed"), ChainStage::motion);
+}
+
+TEST(ParameterStage, NamesThatBelongToNoStageAreDefects) {
+    EXPECT_THROW(firstStageOf("magic.wand"), Error);
+    EXPECT_THROW(firstStageOf("motion"), Error);
+    EXPECT_THROW(firstStageOf(""), Error);
+}
+
+TEST(ParameterStage, SignaturesChangeFromTheFirstStageOn) {
+    ChainOptions options;
+    ChainOptions changed;
+    changed.detection.gradient.quantile = 0.2;
+    EXPECT_EQ(signatureUpTo(options, ChainStage::stacking), signatureUpTo(changed, ChainStage::stacking));
+    EXPECT_NE(signatureUpTo(options, ChainStage::detection), signatureUpTo(changed, ChainStage::detection));
+    EXPECT_NE(signatureUpTo(options, ChainStage::finishing), signatureUpTo(changed, ChainStage::finishing));
+    EXPECT_EQ(preparationSignature(options), preparationSignature(changed));
+    EXPECT_NE(areaSignature(options), areaSignature(changed));
+    changed = {};
+    changed.clustering.along_m = 9;
+    EXPECT_EQ(areaSignature(options), areaSignature(changed));
+    changed = {};
+    changed.detection.extend_along = 3;
+    EXPECT_NE(preparationSignature(options), preparationSignature(changed));
+    changed = {};
+    changed.motion.max_speed_m_s = 20;
+    EXPECT_NE(areaSignature(options), areaSignature(changed));
+    EXPECT_NE(preparationSignature(options), preparationSignature(changed));
+}
+
+TEST(ParameterStage, TheFirstDifferenceIsThatOfTheEarliestStage) {
+    ChainOptions a;
+    ChainOptions b;
+    EXPECT_EQ(firstDifference(a, b), ChainStage::none);
+    b.tracking.min_overlap = 0.3;
+    EXPECT_EQ(firstDifference(a, b), ChainStage::tracking);
+    b.outliers.min_vectors = 7;
+    EXPECT_EQ(firstDifference(a, b), ChainStage::removal);
+    b.detection.gradient.quantile = 0.2;
+    EXPECT_EQ(firstDifference(a, b), ChainStage::detection);
+    b.stacking.enabled = !b.stacking.enabled;
+    EXPECT_EQ(firstDifference(a, b), ChainStage::stacking);
+    b.difference.method = MotionMethod::two_frame_difference;
+    EXPECT_EQ(firstDifference(a, b), ChainStage::clustering);
+    b.motion.min_age = 7;
+    EXPECT_EQ(firstDifference(a, b), ChainStage::motion);
+    b.registration.corners.corner_spacing_m = 1;
+    EXPECT_EQ(firstDifference(a, b), ChainStage::registration);
+}
+
+}  // namespace
+}  // namespace eyrie
