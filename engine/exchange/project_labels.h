@@ -4,7 +4,7 @@
 
 #include "annotation/keyframes/camera_motion.h"
 #include "core/labels/annotation.h"
-#include "formats/label_file.h"
+#include "formats/label_stream.h"
 #include "store/runs/run_store.h"
 
 /// Labels and runs of a project in the words of the formats.
@@ -20,5 +20,10 @@ CameraMotion cameraMotionOf(const RunStore& store, int sequence_id);
 LabelFile labelsOf(const AnnotationSet& annotations, const SequenceRecord& sequence, const CameraMotion& camera);
 /// Tracks of a run, or its detections.
 LabelFile labelsOf(const RunStore& store, const RunRecord& run, bool detections);
+
+/// The same frame by frame. `annotations`, `camera` and `store` must outlive the result; of a run that may be written
+/// meanwhile a Snapshot is to be held.
+LabelStream labelStreamOf(const AnnotationSet& annotations, const SequenceRecord& sequence, const CameraMotion& camera);
+LabelStream labelStreamOf(const RunStore& store, const RunRecord& run, bool detections);
 
 }  // namespace eyrie

@@ -26,7 +26,11 @@ struct LabelFormat {
     LabelFormatInfo info;
     bool needs_id = false;
     LabelFile (*read)(const std::filesystem::path&, const ImportOptions&) = nullptr;
+    /// One of the two writes, where the format is written at all; the first needs one frame of boxes at a time.
+    void (*write_frames)(const LabelStream&, const std::filesystem::path&, const ExportOptions&,
+                         ExportReport&) = nullptr;
     void (*write)(const LabelFile&, const std::filesystem::path&, const ExportOptions&, ExportReport&) = nullptr;
+    bool isWritten() const { return write_frames != nullptr || write != nullptr; }
     bool (*fits)(const FileHead&) = nullptr;
     /// The files of an export, where they are not just the one that was named.
     std::vector<ExportFile> (*files)(const std::filesystem::path&, const ExportOptions&) = nullptr;

@@ -11,12 +11,17 @@ namespace eyrie {
 /// Ids for boxes that have none: above all that are in use, or, above the largest there is, the lowest that are free.
 class FreeNumbers {
  public:
+    FreeNumbers() = default;
     explicit FreeNumbers(const LabelBoxes& boxes) {
         for (const auto& [frame, records] : boxes) {
             for (const LabelBox& record : records)
-                if (record.id) used_.insert(*record.id);
+                if (record.id) use(*record.id);
         }
-        highest_ = used_.empty() ? 0 : std::max(0, *used_.rbegin());
+    }
+    /// Nobody may ask for the next one before all that are used are known.
+    void use(int id) {
+        used_.insert(id);
+        highest_ = std::max(highest_, id);
     }
     int next() {
         if (highest_ < std::numeric_limits<int>::max()) return ++highest_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -10,81 +11,154 @@
 namespace eyrie {
 namespace {
 
-/// Gives ids of their own to boxes that have none, or one that another box of the frame has.
-int numberBoxes(LabelBoxes& boxes) {
-    FreeNumbers free_numbers(boxes);
-    int numbered = 0;
-    for (auto& [frame, records] : boxes) {
+/// The box cut at the image's border; nothing where it lies within.
+std::optional<OrientedBox> cutAtBorder(const OrientedBox& box, cv::Size size) {
+    const BoxEdges e = edgesOf(box, 0);
+    const double left = std::clamp(e.left, 0.0, double(size.width));
+    const double top = std::clamp(e.top, 0.0, double(size.height));
+    const double right = std::clamp(e.left + e.width, 0.0, double(size.width));
+    const double bottom = std::clamp(e.top + e.height, 0.0, double(size.height));
+    const double moved = std::abs(left - e.left) + std::abs(top - e.top) + std::abs(right - e.left - e.width) +
+                         std::abs(bottom - e.top - e.height);
+    if (moved < 1e-6) return std::nullopt;
+    return boxFromEdges({left, top, right - left, bottom - top}, 0);
+}
+
+/// What is to happen to boxes on their way into a format, and what is known of them before.
+class Preparation {
+ public:
+    Preparation(bool needs_id, std::optional<cv::Size> clip_at) : needs_id_(needs_id), clip_at_(clip_at) {}
+
+    /// All frames must be surveyed before the first is prepared.
+    void survey(const std::vector<LabelBox>& in_frame) {
+        constexpr double kHeading = 0.005;  // half a degree is no heading that anybody set
         std::set<int> taken;
-        for (LabelBox& record : records) {
-            if (record.id && taken.insert(*record.id).second) continue;
-            record.id = free_numbers.next();
-            ++numbered;
-        }
-    }
-    return numbered;
-}
-
-/// Cuts upright boxes at the image's border.
-int clipBoxes(LabelBoxes& boxes, cv::Size size) {
-    int cut = 0;
-    for (auto& [frame, records] : boxes) {
-        for (LabelBox& record : records) {
-            const BoxEdges e = edgesOf(record.box, 0);
-            const double left = std::clamp(e.left, 0.0, double(size.width));
-            const double top = std::clamp(e.top, 0.0, double(size.height));
-            const double right = std::clamp(e.left + e.width, 0.0, double(size.width));
-            const double bottom = std::clamp(e.top + e.height, 0.0, double(size.height));
-            const double moved = std::abs(left - e.left) + std::abs(top - e.top) + std::abs(right - e.left - e.width) +
-                                 std::abs(bottom - e.top - e.height);
-            if (moved < 1e-6) continue;
-            record.box = boxFromEdges({left, top, right - left, bottom - top}, 0);
-            ++cut;
-        }
-    }
-    return cut;
-}
-
-/// What the format has no place for, before anything format-specific.
-void reportLosses(const LabelFile& labels, const Carries& carries, ExportReport& report) {
-    constexpr double kHeading = 0.005;  // half a degree is no heading that anybody set
-    int turned = 0, headings = 0, ids = 0, classes = 0, occluded = 0, ignored = 0, scores = 0, velocities = 0;
-    for (const auto& [frame, records] : labels.boxes) {
-        for (const LabelBox& record : records) {
-            ++report.boxes;
+        for (const LabelBox& record : in_frame) {
+            ++boxes_;
             const bool is_turned = isTurned(record.box);
-            turned += is_turned;
-            headings += !is_turned && std::abs(std::sin(record.box.heading / 2)) > kHeading;
-            ids += record.id.has_value();
-            classes += !record.object_class.empty();
-            occluded += record.occlusion != Occlusion::none;
-            ignored += record.ignore;
-            scores += record.score != 1;
-            velocities += record.velocity != cv::Point2d(0, 0);
+            turned_ += is_turned;
+            headings_ += !is_turned && std::abs(std::sin(record.box.heading / 2)) > kHeading;
+            with_id_ += record.id.has_value();
+            classes_ += !record.object_class.empty();
+            occluded_ += record.occlusion != Occlusion::none;
+            ignored_ += record.ignore;
+            scores_ += record.score != 1;
+            velocities_ += record.velocity != cv::Point2d(0, 0);
+            if (clip_at_) clipped_ += cutAtBorder(record.box, *clip_at_).has_value();
+            if (!needs_id_) continue;
+            if (record.id) free_numbers_.use(*record.id);
+            numbered_ += !record.id || !taken.insert(*record.id).second;
         }
     }
-    if (!carries.rotation) {
-        report.add(LossKind::rotation, turned, "lost their rotation: the enclosing upright boxes were written");
-        report.add(LossKind::heading, headings, "lost their heading");
+
+    /// What the format has no place for, before anything format-specific, and what is changed.
+    void report(const Carries& carries, ExportReport& report) const {
+        report.boxes = boxes_;
+        if (!carries.rotation) {
+            report.add(LossKind::rotation, turned_, "lost their rotation: the enclosing upright boxes were written");
+            report.add(LossKind::heading, headings_, "lost their heading");
+        }
+        if (!carries.id) report.add(LossKind::id, with_id_, "lost their id");
+        if (!carries.object_class) report.add(LossKind::class_name, classes_, "lost their class");
+        if (!carries.occlusion) report.add(LossKind::occlusion, occluded_, "are occluded, which was not kept");
+        if (!carries.ignore)
+            report.add(LossKind::ignore, ignored_, "are ignored, which was not kept: they count there");
+        if (!carries.score) report.add(LossKind::score, scores_, "lost their score");
+        report.add(LossKind::velocity, velocities_, "lost their velocity");
+        report.add(LossKind::id, numbered_, "had no id of their own in a frame and got one");
+        report.add(LossKind::clipped, clipped_, "were cut at the image's border");
     }
-    if (!carries.id) report.add(LossKind::id, ids, "lost their id");
-    if (!carries.object_class) report.add(LossKind::class_name, classes, "lost their class");
-    if (!carries.occlusion) report.add(LossKind::occlusion, occluded, "are occluded, which was not kept");
-    if (!carries.ignore) report.add(LossKind::ignore, ignored, "are ignored, which was not kept: they count there");
-    if (!carries.score) report.add(LossKind::score, scores, "lost their score");
-    report.add(LossKind::velocity, velocities, "lost their velocity");
-}
+
+    bool changesNothing() const { return numbered_ == 0 && clipped_ == 0; }
+
+    /// Goes through frames in their order, with ids of its own for boxes that have none, or one that another box of the
+    /// frame has.
+    class Pass {
+     public:
+        explicit Pass(const Preparation& preparation)
+            : preparation_(preparation), free_numbers_(preparation.free_numbers_) {}
+        void apply(std::vector<LabelBox>& in_frame) {
+            std::set<int> taken;
+            for (LabelBox& record : in_frame) {
+                const bool named = record.id && taken.insert(*record.id).second;
+                if (preparation_.needs_id_ && !named) record.id = free_numbers_.next();
+                if (!preparation_.clip_at_) continue;
+                if (const auto cut = cutAtBorder(record.box, *preparation_.clip_at_)) record.box = *cut;
+            }
+        }
+
+     private:
+        const Preparation& preparation_;
+        FreeNumbers free_numbers_;
+    };
+
+    /// `preparation` must outlive the result.
+    static VisitFrames prepared(const VisitFrames& frames, const Preparation& preparation) {
+        if (preparation.changesNothing()) return frames;
+        return [frames, &preparation](const FrameVisitor& visitor) {
+            Pass pass(preparation);
+            std::vector<LabelBox> in_frame;
+            frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
+                in_frame = records;
+                pass.apply(in_frame);
+                visitor(frame, in_frame);
+            });
+        };
+    }
+
+ private:
+    bool needs_id_;
+    std::optional<cv::Size> clip_at_;
+    FreeNumbers free_numbers_;
+    int boxes_ = 0;
+    int turned_ = 0;
+    int headings_ = 0;
+    int with_id_ = 0;
+    int classes_ = 0;
+    int occluded_ = 0;
+    int ignored_ = 0;
+    int scores_ = 0;
+    int velocities_ = 0;
+    int numbered_ = 0;
+    int clipped_ = 0;
+};
 
 const LabelFormat& formatToWrite(const std::string& format) {
     const auto& table = formatTable();
     const auto known =
         std::find_if(table.begin(), table.end(), [&](const LabelFormat& entry) { return entry.info.name == format; });
-    if (known != table.end() && known->write) return *known;
+    if (known != table.end() && known->isWritten()) return *known;
     std::string names;
     for (const LabelFormat& entry : table) {
-        if (entry.write) names += (names.empty() ? "" : ", ") + entry.info.name;
+        if (entry.isWritten()) names += (names.empty() ? "" : ", ") + entry.info.name;
     }
     throw Error(ErrorKind::parameter, "format \"" + format + "\" cannot be written; there are " + names);
+}
+
+/// What is known of the labels, as the options would have it.
+void describe(LabelFile& about, const ExportOptions& options) {
+    if (options.image_size) about.image_size = options.image_size;
+    if (options.frame_count) about.frame_count = options.frame_count;
+    if (options.frame_rate_hz) about.frame_rate_hz = options.frame_rate_hz;
+}
+
+/// `about` must be described.
+Preparation preparationFor(const LabelFormat& format, const LabelFile& about, const VisitFrames& frames,
+                           const std::filesystem::path& path, const ExportOptions& options, ExportReport& report) {
+    const Carries& carries = format.info.carries;
+    std::optional<cv::Size> clip_at;
+    if (options.clip.value_or(false) && !carries.rotation)
+        clip_at = neededSize(about.image_size, path, "cutting boxes at the border");
+    Preparation preparation(format.needs_id, clip_at);
+    frames([&](FrameIndex, const std::vector<LabelBox>& in_frame) { preparation.survey(in_frame); });
+    report.format = format.info.name;
+    preparation.report(carries, report);
+    return preparation;
+}
+
+ExportOptions withValidNames(ExportOptions options) {
+    options.sequence = validUtf8(options.sequence);  // names of files may be anything
+    return options;
 }
 
 }  // namespace
@@ -114,23 +188,36 @@ ExportReport writeLabels(LabelFile labels, const std::filesystem::path& path, co
                          const ExportOptions& options) {
     const LabelFormat& known = formatToWrite(format);
     ExportReport report;
-    report.format = format;
-    if (options.image_size) labels.image_size = options.image_size;
-    if (options.frame_count) labels.frame_count = options.frame_count;
-    if (options.frame_rate_hz) labels.frame_rate_hz = options.frame_rate_hz;
+    describe(labels, options);
     std::erase_if(labels.boxes, [](const auto& entry) { return entry.second.empty(); });
-    const Carries& carries = known.info.carries;
-    reportLosses(labels, carries, report);
-    if (known.needs_id) {
-        report.add(LossKind::id, numberBoxes(labels.boxes), "had no id of their own in a frame and got one");
+    LabelBoxes boxes = std::exchange(labels.boxes, {});
+    const VisitFrames frames = framesOf(boxes);
+    const Preparation preparation = preparationFor(known, labels, frames, path, options, report);
+    if (known.write_frames) {
+        const LabelStream stream{std::move(labels), Preparation::prepared(frames, preparation)};
+        known.write_frames(stream, path, withValidNames(options), report);
+    } else {
+        labels.boxes = std::move(boxes);
+        Preparation::Pass pass(preparation);
+        for (auto& [frame, records] : labels.boxes) pass.apply(records);
+        known.write(labels, path, withValidNames(options), report);
     }
-    if (options.clip.value_or(false) && !carries.rotation) {
-        const cv::Size size = neededSize(labels.image_size, path, "cutting boxes at the border");
-        report.add(LossKind::clipped, clipBoxes(labels.boxes, size), "were cut at the image's border");
+    return report;
+}
+
+ExportReport writeLabels(const LabelStream& labels, const std::filesystem::path& path, const std::string& format,
+                         const ExportOptions& options) {
+    const LabelFormat& known = formatToWrite(format);
+    ExportReport report;
+    LabelStream stream{labels.about, labels.frames};
+    describe(stream.about, options);
+    const Preparation preparation = preparationFor(known, stream.about, labels.frames, path, options, report);
+    stream.frames = Preparation::prepared(labels.frames, preparation);
+    if (known.write_frames) {
+        known.write_frames(stream, path, withValidNames(options), report);
+    } else {
+        known.write(collected(stream), path, withValidNames(options), report);
     }
-    ExportOptions valid = options;
-    valid.sequence = validUtf8(options.sequence);  // names of files may be anything
-    known.write(labels, path, valid, report);
     return report;
 }
 

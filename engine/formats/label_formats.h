@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/label_file.h"
+#include "formats/label_stream.h"
 #include "io/file_kind.h"
 
 /// Import and export of labels in every format that peers use; columns and conventions of each are told beside its
@@ -114,6 +115,10 @@ std::vector<ExportFile> filesToWrite(const std::filesystem::path& path, const st
 /// Writes labels and says what the format could not carry. Existing folders of labels are refused, existing files
 /// replaced whole. Throws Error(output), and Error(parameter) for an unknown format or a missing option.
 ExportReport writeLabels(LabelFile labels, const std::filesystem::path& path, const std::string& format,
+                         const ExportOptions& options = {});
+/// The same for labels frame by frame, which are gone through several times. Formats of one text with a line a box hold
+/// no more than a frame of them; CVAT, which goes by object, some 50 bytes a box; the others hold all.
+ExportReport writeLabels(const LabelStream& labels, const std::filesystem::path& path, const std::string& format,
                          const ExportOptions& options = {});
 
 }  // namespace eyrie

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -52,16 +53,12 @@ bool writeAll(int file, std::string_view bytes) {
     return true;
 }
 
-/// Writes into a device, a pipe or an own descriptor.
-void writeInPlace(const std::filesystem::path& path, std::string_view bytes) {
+/// A device, a pipe or an own descriptor, to be written into as it is; −1 and errno where that fails.
+int openInPlace(const std::filesystem::path& path) {
     const int own = ownDescriptor(path);
-    if (own >= 0) std::fflush(nullptr);  // what was printed before comes before
-    const int file = own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 3) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0) failToWrite(path, errno);
-    const bool written = writeAll(file, bytes);
-    const int reason = errno;
-    if (::close(file) != 0 && written) failToWrite(path, errno);
-    if (!written) failToWrite(path, reason);
+    if (own < 0) return ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    std::fflush(nullptr);  // what was printed before comes before
+    return ::fcntl(own, F_DUPFD_CLOEXEC, 3);
 }
 
 }  // namespace
@@ -105,28 +102,60 @@ std::filesystem::path temporaryBeside(const std::filesystem::path& path) {
 }
 
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes, Durability durability) {
+    AtomicFileWriter file(path, durability);
+    file.write(bytes);
+    file.finish();
+}
+
+AtomicFileWriter::AtomicFileWriter(std::filesystem::path path, Durability durability)
+    : path_(std::move(path)), durability_(durability) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) failToWrite(path, EISDIR);
-    const bool stream = std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
-    if (stream || isOwnStream(path)) return writeInPlace(path, bytes);
-    const std::filesystem::path target = throughLinks(path);
-    const std::filesystem::path aside = temporaryBeside(target);
-    const int file = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0) failToWrite(path, errno);
-    bool written = writeAll(file, bytes);
-    if (written && durability == Durability::synchronised) written = ::fsync(file) == 0;
-    int reason = errno;
-    if (::close(file) != 0 && written) {
-        written = false;
-        reason = errno;
+    if (std::filesystem::is_directory(path_, ignored)) failToWrite(path_, EISDIR);
+    const bool stream = std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored);
+    if (stream || isOwnStream(path_)) {
+        file_ = openInPlace(path_);
+    } else {
+        target_ = throughLinks(path_);
+        aside_ = temporaryBeside(target_);
+        file_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     }
-    if (written && ::rename(aside.c_str(), target.c_str()) != 0) {
-        written = false;
-        reason = errno;
+    if (file_ < 0) failToWrite(path_, errno);
+}
+
+AtomicFileWriter::~AtomicFileWriter() {
+    if (file_ < 0) return;
+    ::close(file_);
+    if (!aside_.empty()) ::unlink(aside_.c_str());
+}
+
+void AtomicFileWriter::fail(int reason) {
+    if (file_ >= 0) ::close(std::exchange(file_, -1));
+    if (!aside_.empty()) ::unlink(aside_.c_str());
+    failToWrite(path_, reason);
+}
+
+void AtomicFileWriter::put(std::string_view bytes) {
+    if (!writeAll(file_, bytes)) fail(errno);
+}
+
+void AtomicFileWriter::write(std::string_view bytes) {
+    constexpr std::size_t kWorthACall = 1 << 16;
+    if (waiting_.size() + bytes.size() < kWorthACall) {
+        waiting_ += bytes;
+        return;
     }
-    if (written) return;
-    ::unlink(aside.c_str());
-    failToWrite(path, reason);
+    put(waiting_);
+    waiting_.clear();
+    put(bytes);
+}
+
+void AtomicFileWriter::finish() {
+    put(waiting_);
+    waiting_.clear();
+    const bool in_place = aside_.empty();
+    if (!in_place && durability_ == Durability::synchronised && ::fsync(file_) != 0) fail(errno);
+    if (::close(std::exchange(file_, -1)) != 0) fail(errno);
+    if (!in_place && ::rename(aside_.c_str(), target_.c_str()) != 0) fail(errno);
 }
 
 void checkReadableFile(const std::filesystem::path& path) {

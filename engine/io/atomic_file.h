@@ -16,6 +16,30 @@ enum class Durability { synchronised, left_to_system };
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes,
                          Durability durability = Durability::synchronised);
 
+/// The same for a file that is made bit by bit, so that it need not be held whole. What was there stays until finish();
+/// without that nothing has happened. Devices and pipes get each bit as it comes.
+class AtomicFileWriter {
+ public:
+    explicit AtomicFileWriter(std::filesystem::path path, Durability durability = Durability::synchronised);
+    ~AtomicFileWriter();
+    AtomicFileWriter(const AtomicFileWriter&) = delete;
+    AtomicFileWriter& operator=(const AtomicFileWriter&) = delete;
+
+    void write(std::string_view bytes);
+    void finish();
+
+ private:
+    void put(std::string_view bytes);
+    [[noreturn]] void fail(int reason);
+
+    std::filesystem::path path_;
+    std::filesystem::path target_;
+    std::filesystem::path aside_;  ///< empty: written in place
+    Durability durability_;
+    int file_ = -1;
+    std::string waiting_;
+};
+
 /// Whether a name stands for a stream that this process has open: /dev/stdout, /dev/fd/3 and the like.
 bool isOwnStream(const std::filesystem::path& path);
 

@@ -12,6 +12,7 @@
 #include "cli/project_runs.h"
 #include "core/error.h"
 #include "exchange/project_labels.h"
+#include "store/database/snapshot.h"
 #include "store/labels/annotation_store.h"
 
 namespace eyrie::cli {
@@ -33,52 +34,60 @@ struct ExportArguments {
     bool keep = false;
 };
 
-/// What is to be exported; names the sequence after its video where nobody did.
-LabelFile gathered(const ExportArguments& arguments, ExportOptions& options) {
-    std::string source = arguments.from;
-    LabelFile labels;
-    if (!arguments.from.empty()) {
-        labels = readLabels(arguments.from, arguments.from_labels.format, importOptionsOf(arguments.from_labels));
-        const MotSequence described = describedBeside(arguments.from);
-        if (!labels.image_size && !arguments.from_labels.size.empty())
-            labels.image_size = parseSize(arguments.from_labels.size);
-        if (!labels.image_size) labels.image_size = described.image_size;
-        if (!labels.frame_count) labels.frame_count = described.frame_count;
-        if (!labels.frame_rate_hz) labels.frame_rate_hz = described.frame_rate_hz;
-    } else {
-        ProjectFile project = openForReading(arguments.project);
-        if (arguments.labels) {
-            const SequenceRecord sequence = chosenSequence(project, arguments.sequence);
-            source = sequence.path;
-            const AnnotationSet annotations = readAnnotations(project, sequence.id);
-            if (annotations.objects.empty())
-                throw Error(ErrorKind::project, arguments.project + ": nobody has labelled " + sequence.path +
-                                                    " yet; without --labels the tracks of a run are exported");
-            labels = labelsOf(annotations, sequence, cameraMotionOf(RunStore(project), sequence.id));
-        } else {
-            const RunStore store(project);
-            const RunRecord run = chosenRun(store, arguments.project, arguments.run);
-            source = run.sequence.path;
-            labels = labelsOf(store, run, arguments.detections);
-        }
-    }
-    if (options.sequence.empty()) options.sequence = std::filesystem::path(source).stem().string();
-    if (options.sequence.empty()) options.sequence = "sequence";
-    return labels;
-}
-
-void exportLabels(const ExportArguments& arguments) {
+/// Writes and tells; `source` names the sequence where nobody did. The names of some files follow from what is
+/// exported, so that they are checked only now; nothing was written before.
+template <class Labels>
+void writeAndTell(const ExportArguments& arguments, Labels&& labels, const LabelFile& about,
+                  const std::string& source) {
     ExportOptions options = arguments.options;
     if (arguments.clip) options.clip = true;
     if (arguments.keep) options.clip = false;
-    // The names of some files follow from what is exported, which is read quickly; nothing is written before.
-    LabelFile labels = gathered(arguments, options);
-    const std::vector<std::string> notes = labels.notes;
-    std::vector<std::filesystem::path> inputs(labels.further_files.begin(), labels.further_files.end());
+    if (options.sequence.empty()) options.sequence = std::filesystem::path(source).stem().string();
+    if (options.sequence.empty()) options.sequence = "sequence";
+    const std::vector<std::string> notes = about.notes;
+    std::vector<std::filesystem::path> inputs(about.further_files.begin(), about.further_files.end());
     inputs.insert(inputs.end(), {arguments.project, arguments.from});
     arguments.outputs.check(outputFiles(arguments.out, arguments.format, options), inputs);
-    std::fputs(reportText(writeLabels(std::move(labels), arguments.out, arguments.format, options)).c_str(), stdout);
+    std::fputs(reportText(writeLabels(std::forward<Labels>(labels), arguments.out, arguments.format, options)).c_str(),
+               stdout);
     for (const std::string& note : notes) std::printf("  note        %s\n", note.c_str());
+}
+
+void exportFile(const ExportArguments& arguments) {
+    LabelFile labels = readLabels(arguments.from, arguments.from_labels.format, importOptionsOf(arguments.from_labels));
+    const MotSequence described = describedBeside(arguments.from);
+    if (!labels.image_size && !arguments.from_labels.size.empty())
+        labels.image_size = parseSize(arguments.from_labels.size);
+    if (!labels.image_size) labels.image_size = described.image_size;
+    if (!labels.frame_count) labels.frame_count = described.frame_count;
+    if (!labels.frame_rate_hz) labels.frame_rate_hz = described.frame_rate_hz;
+    writeAndTell(arguments, std::move(labels), labels, arguments.from);
+}
+
+void exportAnnotations(const ExportArguments& arguments, ProjectFile& project) {
+    const SequenceRecord sequence = chosenSequence(project, arguments.sequence);
+    const AnnotationSet annotations = readAnnotations(project, sequence.id);
+    if (annotations.objects.empty())
+        throw Error(ErrorKind::project, arguments.project + ": nobody has labelled " + sequence.path +
+                                            " yet; without --labels the tracks of a run are exported");
+    const CameraMotion camera = cameraMotionOf(RunStore(project), sequence.id);
+    const LabelStream labels = labelStreamOf(annotations, sequence, camera);
+    writeAndTell(arguments, labels, labels.about, sequence.path);
+}
+
+void exportRun(const ExportArguments& arguments, ProjectFile& project) {
+    const RunStore store(project);
+    const RunRecord run = chosenRun(store, arguments.project, arguments.run);
+    const Snapshot unchanging(project);
+    const LabelStream labels = labelStreamOf(store, run, arguments.detections);
+    writeAndTell(arguments, labels, labels.about, run.sequence.path);
+}
+
+void exportLabels(const ExportArguments& arguments) {
+    if (!arguments.from.empty()) return exportFile(arguments);
+    ProjectFile project = openForReading(arguments.project);
+    if (arguments.labels) return exportAnnotations(arguments, project);
+    exportRun(arguments, project);
 }
 
 }  // namespace

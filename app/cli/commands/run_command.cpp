@@ -267,8 +267,12 @@ int run(const RunArguments& arguments) {
                                                   : goOn(arguments, *choice.run, *source, project, interrupt);
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     const RunStore store(file);
-    if (!arguments.tracks_csv.empty()) writeResultCsv(arguments.tracks_csv, store.trackBoxes(record.id));
-    if (!arguments.detections_csv.empty()) writeResultCsv(arguments.detections_csv, store.detectionBoxes(record.id));
+    if (!arguments.tracks_csv.empty())
+        writeResultCsv(arguments.tracks_csv,
+                       [&](const BoxVisitor& visitor) { store.visitTrackBoxes(record.id, visitor); });
+    if (!arguments.detections_csv.empty())
+        writeResultCsv(arguments.detections_csv,
+                       [&](const BoxVisitor& visitor) { store.visitDetectionBoxes(record.id, visitor); });
     if (!arguments.timing.empty()) writeTiming(arguments.timing, summary);
     std::fputs(
         summaryText(source->info(), record, summary, factsOf(file, record), store.tracks(record.id), project).c_str(),

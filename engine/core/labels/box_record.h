@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,6 +27,11 @@ struct BoxRecord {
 
 /// All boxes of a file, by frame.
 using BoxesByFrame = std::map<FrameIndex, std::vector<BoxRecord>>;
+
+/// Takes boxes one by one, each with its frame.
+using BoxVisitor = std::function<void(FrameIndex, const BoxRecord&)>;
+/// Hands boxes over one by one, in ascending frames, so that they need not all be held at once.
+using VisitBoxes = std::function<void(const BoxVisitor&)>;
 
 /// Whether all boxes lie along the image's axes, so that there may be no headings in them.
 bool allUpright(const BoxesByFrame& boxes);

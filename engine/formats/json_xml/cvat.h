@@ -18,7 +18,7 @@ inline constexpr const char* kOcclusionAttribute = "occlusion";
 LabelFile readCvat(const std::filesystem::path& path, const ImportOptions& options);
 
 /// Writes every frame; keyframes are as few as CVAT's interpolation allows within 0.02 px and 0.02°.
-void writeCvat(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
+void writeCvat(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions& options,
                ExportReport& report);
 
 }  // namespace eyrie

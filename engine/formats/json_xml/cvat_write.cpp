@@ -39,6 +39,39 @@ Written writtenOf(const LabelBox& record) {
     return written;
 }
 
+/// What is kept of an object: a row of frames would need more than one box of each to be at hand.
+struct ObjectBoxes {
+    std::vector<Written> boxes;
+    std::map<std::string, int> votes;  ///< for its class
+
+    std::map<std::string, int>::const_iterator winner() const {
+        return std::max_element(votes.begin(), votes.end(),
+                                [](const auto& a, const auto& b) { return a.second < b.second; });
+    }
+    std::string className() const { return winner()->first.empty() ? "object" : winner()->first; }
+    int otherClass() const { return static_cast<int>(boxes.size()) - winner()->second; }
+};
+
+struct Gathered {
+    std::map<int, ObjectBoxes> tracks;
+    int frames = 1;  ///< that the task has
+};
+
+Gathered gather(const LabelStream& labels) {
+    Gathered gathered;
+    gathered.frames = std::max(1, labels.about.frame_count.value_or(0));
+    labels.frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
+        gathered.frames = std::max(gathered.frames, frame + 1);
+        for (const LabelBox& record : records) {
+            if (!record.id) continue;
+            ObjectBoxes& object = gathered.tracks[*record.id];
+            ++object.votes[record.object_class];
+            object.boxes.push_back(writtenOf(record));
+        }
+    });
+    return gathered;
+}
+
 /// Whether the boxes between two keyframes are what CVAT makes of the keyframes.
 bool interpolates(const std::vector<Written>& boxes, std::size_t from, std::size_t to) {
     const Written& a = boxes[from];
@@ -77,20 +110,21 @@ void chooseKeyframes(std::vector<Written>& boxes, std::size_t first, std::size_t
     }
 }
 
-void addBoxLine(std::string& text, const Written& box, bool outside) {
-    text += "    <box frame=\"" + std::to_string(box.frame) + "\" keyframe=\"" + (box.keyframe ? "1" : "0") +
-            "\" outside=\"" + (outside ? "1" : "0") + "\" occluded=\"" +
-            (box.occlusion == Occlusion::none ? "0" : "1") + "\"";
+std::string boxText(const Written& box, bool outside) {
+    std::string text = "    <box frame=\"" + std::to_string(box.frame) + "\" keyframe=\"" + (box.keyframe ? "1" : "0") +
+                       "\" outside=\"" + (outside ? "1" : "0") + "\" occluded=\"" +
+                       (box.occlusion == Occlusion::none ? "0" : "1") + "\"";
     const char* names[] = {" xtl=\"", " ytl=\"", " xbr=\"", " ybr=\""};
     for (std::size_t i = 0; i < 4; ++i) text += names[i] + fixedText(box.edges[i], kCvatDecimals) + "\"";
     if (box.degrees != 0) text += " rotation=\"" + fixedText(box.degrees, kCvatDecimals) + "\"";
     text += std::string(" z_order=\"0\">\n      <attribute name=\"") + cvat::kIgnoreAttribute + "\">" +
             (box.ignore ? "true" : "false") + "</attribute>\n      <attribute name=\"" + cvat::kOcclusionAttribute +
             "\">" + (box.occlusion == Occlusion::fully ? "fully" : "partly") + "</attribute>\n    </box>\n";
+    return text;
 }
 
-/// Adds the boxes of a track, of which there may be a million; answers how many are keyframes.
-int addTrack(std::string& text, std::vector<Written> boxes, FrameIndex stop) {
+/// Writes the boxes of a track, of which there may be a million; answers how many are keyframes.
+int writeTrack(AtomicFileWriter& file, std::vector<Written> boxes, FrameIndex stop) {
     std::size_t begin = 0;
     for (std::size_t k = 0; k < boxes.size(); ++k) {
         if (k + 1 < boxes.size() && boxes[k + 1].frame == boxes[k].frame + 1) continue;
@@ -99,21 +133,21 @@ int addTrack(std::string& text, std::vector<Written> boxes, FrameIndex stop) {
     }
     int keyframes = 0;
     for (std::size_t k = 0; k < boxes.size(); ++k) {
-        addBoxLine(text, boxes[k], false);
+        file.write(boxText(boxes[k], false));
         keyframes += boxes[k].keyframe;
         const bool gap = k + 1 == boxes.size() || boxes[k + 1].frame != boxes[k].frame + 1;
         if (!gap || boxes[k].frame >= stop) continue;
         Written end = boxes[k];
         ++end.frame;
         end.keyframe = true;
-        addBoxLine(text, end, true);
+        file.write(boxText(end, true));
         ++keyframes;
     }
     return keyframes;
 }
 
-std::string metaText(const LabelFile& labels, const std::set<std::string>& classes, const std::string& name) {
-    const int frames = std::max(1, framesToWrite(labels));
+std::string metaText(int frames, const std::optional<cv::Size>& image_size, const std::set<std::string>& classes,
+                     const std::string& name) {
     std::string text = "  <meta>\n    <task>\n      <name>" + markupEscaped(name) + "</name>\n      <size>" +
                        std::to_string(frames) +
                        "</size>\n      <mode>interpolation</mode>\n"
@@ -131,9 +165,9 @@ std::string metaText(const LabelFile& labels, const std::set<std::string>& class
                 "<values>partly\nfully</values></attribute>\n          </attributes>\n        </label>\n";
     }
     text += "      </labels>\n";
-    if (labels.image_size) {
-        text += "      <original_size>\n        <width>" + std::to_string(labels.image_size->width) +
-                "</width>\n        <height>" + std::to_string(labels.image_size->height) +
+    if (image_size) {
+        text += "      <original_size>\n        <width>" + std::to_string(image_size->width) +
+                "</width>\n        <height>" + std::to_string(image_size->height) +
                 "</height>\n      </original_size>\n";
     }
     return text + "    </task>\n  </meta>\n";
@@ -145,7 +179,7 @@ LabelFormat described() {
     format.info.carries = {.rotation = true, .id = true, .object_class = true, .occlusion = true, .ignore = true};
     format.needs_id = true;
     format.read = readCvat;
-    format.write = writeCvat;
+    format.write_frames = writeCvat;
     format.fits = [](const FileHead& head) {
         return head.text.find("<annotations") != std::string::npos && head.text.find('<') < 200;
     };
@@ -154,35 +188,28 @@ LabelFormat described() {
 
 }  // namespace
 
-void writeCvat(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
+void writeCvat(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions& options,
                ExportReport& report) {
-    const FrameIndex stop = std::max(1, framesToWrite(labels)) - 1;
+    const Gathered gathered = gather(labels);
     std::set<std::string> classes;
-    std::string tracks;
     int other_class = 0, keyframes = 0;
-    for (const auto& [id, track] : boxesById(labels.boxes)) {
-        std::map<std::string, int> votes;
-        std::vector<Written> boxes;
-        for (const LabelBox* record : track) {
-            ++votes[record->object_class];
-            boxes.push_back(writtenOf(*record));
-        }
-        const auto most = std::max_element(votes.begin(), votes.end(),
-                                           [](const auto& a, const auto& b) { return a.second < b.second; });
-        other_class += static_cast<int>(track.size()) - most->second;
-        const std::string name = most->first.empty() ? "object" : most->first;
-        classes.insert(name);
-        tracks +=
-            "  <track id=\"" + std::to_string(id) + "\" label=\"" + markupEscaped(name) + "\" source=\"manual\">\n";
-        keyframes += addTrack(tracks, std::move(boxes), stop);
-        tracks += "  </track>\n";
+    for (const auto& [id, track] : gathered.tracks) {
+        classes.insert(track.className());
+        other_class += track.otherClass();
     }
-    classes.insert(labels.classes.begin(), labels.classes.end());
+    classes.insert(labels.about.classes.begin(), labels.about.classes.end());
     classes.erase("");
-    tracks.insert(0, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<annotations>\n  <version>1.1</version>\n" +
-                         metaText(labels, classes, options.sequence));
-    tracks += "</annotations>\n";
-    writeFileAtomically(path, tracks);
+    AtomicFileWriter file(path);
+    file.write("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<annotations>\n  <version>1.1</version>\n" +
+               metaText(gathered.frames, labels.about.image_size, classes, options.sequence));
+    for (const auto& [id, track] : gathered.tracks) {
+        file.write("  <track id=\"" + std::to_string(id) + "\" label=\"" + markupEscaped(track.className()) +
+                   "\" source=\"manual\">\n");
+        keyframes += writeTrack(file, track.boxes, gathered.frames - 1);
+        file.write("  </track>\n");
+    }
+    file.write("</annotations>\n");
+    file.finish();
     report.files.push_back(path);
     report.add(LossKind::class_name, other_class, "have another class than most of their track, which took that one");
     report.notes.push_back(counted(keyframes, "keyframe", "keyframes") + " reproduce all boxes within 0.02 px");

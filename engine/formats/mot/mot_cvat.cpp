@@ -27,47 +27,48 @@ bool hasFrameZero(const fs::path& file) {
 }
 
 /// Classes by name, numbered from 1.
-std::map<std::string, int> classNumbers(const LabelBoxes& boxes) {
+std::map<std::string, int> classNumbers(const VisitFrames& frames) {
     std::map<std::string, int> numbers;
-    for (const auto& [frame, records] : boxes) {
-        for (const LabelBox& record : records) {
+    frames([&](FrameIndex, const std::vector<LabelBox>& records) {
+        for (const LabelBox& record : records)
             numbers[record.object_class.empty() ? kUnnamed : record.object_class] = 0;
-        }
-    }
+    });
     int next = 1;
     for (auto& [name, number] : numbers) number = next++;
     return numbers;
 }
 
-void writeForCvat(const LabelFile& labels, const fs::path& path, const ExportOptions& options, ExportReport& report) {
+void writeForCvat(const LabelStream& labels, const fs::path& path, const ExportOptions& options, ExportReport& report) {
     const fs::path folder = path / "gt";
     makeTextFolder(folder);
     const double first_pixel_edge = options.first_pixel_edge.value_or(0);
-    const std::map<std::string, int> numbers = classNumbers(labels.boxes);
+    const std::map<std::string, int> numbers = classNumbers(labels.frames);
     int lowest = 1, unnamed = 0, fully = 0;
-    for (const auto& [frame, records] : labels.boxes) {
+    labels.frames([&](FrameIndex, const std::vector<LabelBox>& records) {
         for (const LabelBox& record : records) lowest = std::min(lowest, record.id.value_or(1));
-    }
-    std::string text, list;
-    for (const auto& [frame, records] : labels.boxes) {
+    });
+    AtomicFileWriter file(folder / "gt.txt");
+    labels.frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
         for (const LabelBox& record : records) {
             const BoxEdges e = edgesOf(record.box, first_pixel_edge);
-            text += std::to_string(frame + 1) + ',' + std::to_string(record.id.value_or(1) + (1 - lowest));
+            std::string text = std::to_string(frame + 1) + ',' + std::to_string(record.id.value_or(1) + (1 - lowest));
             for (const double value : {e.left, e.top, e.width, e.height}) text += ',' + fixedText(value, 3);
             text += std::string(record.ignore ? ",0," : ",1,") +
                     std::to_string(numbers.at(record.object_class.empty() ? kUnnamed : record.object_class)) +
                     (record.occlusion == Occlusion::none ? ",1\n" : ",0\n");
+            file.write(text);
             unnamed += record.object_class.empty();
             fully += record.occlusion == Occlusion::fully;
         }
-    }
+    });
+    file.finish();
+    std::string list;
     for (const auto& [name, number] : numbers) list += name + '\n';
     if (!list.empty()) list.pop_back();
-    writeFileAtomically(folder / "gt.txt", text);
     writeFileAtomically(folder / kList, list);
     report.files.push_back(folder / "gt.txt");
     report.files.push_back(folder / kList);
-    writeOrientedSidecar(labels, path / "gt.txt", report);
+    writeOrientedSidecar(labels.frames, path / "gt.txt", report);
     report.add(LossKind::class_name, unnamed, "have no class and became \"object\"");
     report.add(LossKind::occlusion, fully, "fully occluded became occluded, as CVAT has one degree only");
     if (lowest < 1) report.notes.push_back("ids were raised by " + std::to_string(1 - lowest) + ": they count from 1");
@@ -112,7 +113,7 @@ LabelFormat motCvatFormat() {
     format.info.title = "MOTChallenge of CVAT and datumaro";
     format.info.folder = true;
     format.info.extensions.clear();
-    format.write = writeForCvat;
+    format.write_frames = writeForCvat;
     format.files = [](const fs::path& path, const ExportOptions&) {
         return std::vector<ExportFile>{{orientedSidecar(path / "gt.txt")}};
     };

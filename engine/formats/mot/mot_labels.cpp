@@ -61,24 +61,24 @@ void reportClasses(const MotLosses& losses, ExportReport& report) {
     report.add(LossKind::class_name, losses.classes, "have a class that MOTChallenge has no number for");
 }
 
-void writeTruth(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
+void writeTruth(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions& options,
                 ExportReport& report) {
     MotWriteOptions write;
     write.pixels = pixelsOf(options.first_pixel_edge);
-    reportClasses(writeMotTruth(path, labels.boxes, write), report);
+    reportClasses(writeMotTruth(path, labels.frames, write), report);
     report.files.push_back(path);
-    writeOrientedSidecar(labels, path, report);
+    writeOrientedSidecar(labels.frames, path, report);
     if (!options.first_pixel_edge) {
         report.notes.push_back(
             "pixels count from 1, as the benchmark has it; CVAT and datumaro count from 0 and take format mot-cvat");
     }
 }
 
-void writeResult(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
+void writeResult(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions& options,
                  ExportReport& report) {
     MotWriteOptions write;
     write.pixels = pixelsOf(options.first_pixel_edge);
-    writeMotResult(path, plainBoxes(labels.boxes), write);
+    writeMotResult(path, labels.frames, write);
     report.files.push_back(path);
 }
 
@@ -96,10 +96,10 @@ std::filesystem::path orientedSidecar(const std::filesystem::path& path) {
     return sidecar.replace_extension(".oriented.csv");
 }
 
-void writeOrientedSidecar(const LabelFile& labels, const std::filesystem::path& path, ExportReport& report) {
+void writeOrientedSidecar(const VisitFrames& frames, const std::filesystem::path& path, ExportReport& report) {
     if (report.lost(LossKind::rotation) == 0) return;
     const std::filesystem::path sidecar = orientedSidecar(path);
-    writeGroundTruthCsv(sidecar, plainBoxes(labels.boxes));
+    writeGroundTruthCsv(sidecar, plainBoxes(frames));
     report.files.push_back(sidecar);
     report.notes.push_back("the exact boxes are in " + sidecar.string());
 }
@@ -110,7 +110,7 @@ LabelFormat motFormat() {
     format.info.carries = {.id = true, .object_class = true, .occlusion = true, .ignore = true};
     format.needs_id = true;
     format.read = readTruth;
-    format.write = writeTruth;
+    format.write_frames = writeTruth;
     format.files = [](const std::filesystem::path& path, const ExportOptions&) {
         return std::vector<ExportFile>{{path}, {orientedSidecar(path)}};
     };
@@ -126,7 +126,7 @@ LabelFormat motResultFormat() {
     format.info = {"mot-result", "MOTChallenge result", {"txt"}, false, true, true, {}};
     format.info.carries = {.id = true, .score = true};
     format.read = readResult;
-    format.write = writeResult;
+    format.write_frames = writeResult;
     format.fits = [](const FileHead& head) {
         return columnsOf(head) == 6 || columnsOf(head) == 7 || columnsOf(head) == 10;
     };

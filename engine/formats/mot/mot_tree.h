@@ -6,7 +6,7 @@
 namespace eyrie {
 
 /// Beside upright text, our own table with the exact boxes where any was turned: gt.txt → gt.oriented.csv.
-void writeOrientedSidecar(const LabelFile& labels, const std::filesystem::path& path, ExportReport& report);
+void writeOrientedSidecar(const VisitFrames& frames, const std::filesystem::path& path, ExportReport& report);
 
 /// Where that lies.
 std::filesystem::path orientedSidecar(const std::filesystem::path& path);

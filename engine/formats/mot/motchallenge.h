@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/labels/box_record.h"
-#include "formats/label_file.h"
+#include "formats/label_stream.h"
 
 namespace eyrie {
 
@@ -62,9 +62,11 @@ MotLosses writeMotTruth(const std::filesystem::path& file, const BoxesByFrame& b
                         const MotWriteOptions& options = {});
 MotLosses writeMotTruth(const std::filesystem::path& file, const LabelBoxes& boxes,
                         const MotWriteOptions& options = {});
+MotLosses writeMotTruth(const std::filesystem::path& file, const VisitFrames& frames, const MotWriteOptions& options);
 /// Writes a result; boxes without id get −1.
 MotLosses writeMotResult(const std::filesystem::path& file, const BoxesByFrame& boxes,
                          const MotWriteOptions& options = {});
+MotLosses writeMotResult(const std::filesystem::path& file, const VisitFrames& frames, const MotWriteOptions& options);
 
 /// What seqinfo.ini says of a sequence; empty where it says nothing.
 struct MotSequence {

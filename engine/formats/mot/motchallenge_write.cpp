@@ -17,13 +17,14 @@ std::string boxColumns(const BoxRecord& record, const MotWriteOptions& options, 
 }
 
 /// Writes the lines that `columns` makes of the boxes; the file appears whole or not at all.
-template <class Boxes, class Columns>
-void writeLines(const std::filesystem::path& file, const Boxes& boxes, const Columns& columns) {
-    std::string text;
-    for (const auto& [frame, records] : boxes) {
-        for (const auto& record : records) text += std::to_string(frame + 1) + ',' + columns(record) + '\n';
-    }
-    writeFileAtomically(file, text);
+template <class Columns>
+void writeLines(const std::filesystem::path& path, const VisitFrames& frames, const Columns& columns) {
+    AtomicFileWriter file(path);
+    frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
+        for (const LabelBox& record : records)
+            file.write(std::to_string(frame + 1) + ',' + columns(frame, record) + '\n');
+    });
+    file.finish();
 }
 
 }  // namespace
@@ -33,15 +34,16 @@ MotLosses writeMotTruth(const std::filesystem::path& file, const BoxesByFrame& b
 }
 
 MotLosses writeMotTruth(const std::filesystem::path& file, const LabelBoxes& boxes, const MotWriteOptions& options) {
-    for (const auto& [frame, records] : boxes) {
-        for (const BoxRecord& record : records) {
-            if (record.id) continue;
+    return writeMotTruth(file, framesOf(boxes), options);
+}
+
+MotLosses writeMotTruth(const std::filesystem::path& file, const VisitFrames& frames, const MotWriteOptions& options) {
+    MotLosses losses;
+    writeLines(file, frames, [&](FrameIndex frame, const LabelBox& record) {
+        if (!record.id) {
             throw Error(ErrorKind::input, file.string() + ": a box of frame " + std::to_string(frame) +
                                               " has no id, which MOTChallenge ground truth needs");
         }
-    }
-    MotLosses losses;
-    writeLines(file, boxes, [&](const LabelBox& record) {
         MotClass known = motFromClass(record.object_class);
         if (options.every_class_one && !record.ignore) known = {1, record.object_class == "person"};
         if (options.ignored_distract && record.ignore) known = {8, record.object_class == "other"};
@@ -55,8 +57,13 @@ MotLosses writeMotTruth(const std::filesystem::path& file, const LabelBoxes& box
 }
 
 MotLosses writeMotResult(const std::filesystem::path& file, const BoxesByFrame& boxes, const MotWriteOptions& options) {
+    const LabelBoxes labels = labelBoxes(boxes);
+    return writeMotResult(file, framesOf(labels), options);
+}
+
+MotLosses writeMotResult(const std::filesystem::path& file, const VisitFrames& frames, const MotWriteOptions& options) {
     MotLosses losses;
-    writeLines(file, boxes, [&](const BoxRecord& record) {
+    writeLines(file, frames, [&](FrameIndex, const LabelBox& record) {
         if (!record.object_class.empty()) ++losses.classes;
         return std::to_string(record.id.value_or(-1)) + "," + boxColumns(record, options, losses) + "," +
                fixedText(record.score, 6) + ",-1,-1,-1";

@@ -142,7 +142,7 @@ void writeTree(const LabelFile& labels, const fs::path& root, const ExportOption
         report.add(
             LossKind::other, cutBehindEnd(dense.boxes, places.seqinfo),
             "lie behind the last frame of the sequence's ground truth and were left out, as TrackEval refuses them");
-        writeMotResult(places.result, plainBoxes(dense.boxes), write);
+        writeMotResult(places.result, framesOf(dense.boxes), write);
         report.files.push_back(places.result);
     } else {
         makeFolder(places.truth.parent_path());
@@ -153,7 +153,7 @@ void writeTree(const LabelFile& labels, const fs::path& root, const ExportOption
         report.add(LossKind::class_name, losses.classes,
                    "became class 1, the only one that TrackEval scores (ignored ones 8)");
         report.files.push_back(places.truth);
-        writeOrientedSidecar(labels, places.truth, report);
+        writeOrientedSidecar(framesOf(labels.boxes), places.truth, report);
         writeFileAtomically(places.seqinfo, seqinfo(labels, pathWord(options.sequence)));
         report.files.push_back(places.seqinfo);
         listSequence(places.seqmap, pathWord(options.sequence), report);

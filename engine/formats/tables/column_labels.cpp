@@ -187,11 +187,11 @@ LabelFile readColumns(const std::filesystem::path& path, const ImportOptions& op
 }
 
 /// Numbers for classes: "class 7" keeps its own, others take their place among all.
-std::map<std::string, int> classNumbers(const LabelFile& labels) {
+std::map<std::string, int> numbersOfClasses(const VisitFrames& frames) {
     std::map<std::string, int> numbers;
-    for (const auto& [frame, records] : labels.boxes) {
+    frames([&](FrameIndex, const std::vector<LabelBox>& records) {
         for (const LabelBox& record : records) numbers[record.object_class] = 0;
-    }
+    });
     int next = 0;
     std::set<int> taken;
     for (auto& [name, number] : numbers) {
@@ -209,25 +209,24 @@ std::map<std::string, int> classNumbers(const LabelFile& labels) {
 
 class TableWriter {
  public:
-    TableWriter(const LabelFile& labels, const ExportOptions& options)
+    TableWriter(const LabelStream& labels, const ExportOptions& options)
         : labels_(labels),
           columns_(parseColumns(options.columns)),
           first_frame_(options.first_frame_number.value_or(0)),
           first_pixel_edge_(options.first_pixel_edge.value_or(0)),
-          class_numbers_(classNumbers(labels)) {}
+          class_numbers_(columns_.has(Column::class_number) ? numbersOfClasses(labels.frames)
+                                                            : std::map<std::string, int>()) {}
 
-    std::string text() {
-        std::string lines;
-        for (const auto& [frame, records] : labels_.boxes) {
+    void write(AtomicFileWriter& file) const {
+        labels_.frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
             if (columns_.repeated.empty()) {
-                for (const LabelBox& record : records) lines += joined({&record}, frame);
+                for (const LabelBox& record : records) file.write(joined({&record}, frame));
             } else {
                 std::vector<const LabelBox*> all;
                 for (const LabelBox& record : records) all.push_back(&record);
-                lines += joined(all, frame);
+                file.write(joined(all, frame));
             }
-        }
-        return lines;
+        });
     }
     const ColumnTemplate& columns() const { return columns_; }
     const std::map<std::string, int>& classNumbersUsed() const { return class_numbers_; }
@@ -256,12 +255,13 @@ class TableWriter {
         const bool headed = columns_.has(Column::heading);
         const BoxEdges e = edgesOf(headed ? OrientedBox{box.centre, box.length, box.width, 0} : box, first_pixel_edge_);
         const auto px = [](double value) { return fixedText(value, 4); };
-        const auto named = labels_.image_names.find(frame);
+        const auto& names = labels_.about.image_names;
+        const auto named = names.find(frame);
         switch (column) {
             case Column::frame:
                 return std::to_string(frame + first_frame_);
             case Column::image:
-                return word(named == labels_.image_names.end() ? numberedName(frame) + ".png" : named->second);
+                return word(named == names.end() ? numberedName(frame) + ".png" : named->second);
             case Column::id:
                 return std::to_string(record.id.value_or(-1));
             case Column::class_name:
@@ -300,22 +300,24 @@ class TableWriter {
         return "0";
     }
 
-    const LabelFile& labels_;
+    const LabelStream& labels_;
     ColumnTemplate columns_;
     int first_frame_;
     double first_pixel_edge_;
     std::map<std::string, int> class_numbers_;
 };
 
-void writeColumns(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
+void writeColumns(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions& options,
                   ExportReport& report) {
     if (options.columns.empty()) {
         throw Error(ErrorKind::parameter,
                     "format columns needs to know them: --columns frame,id,cname,x1,y1,x2,y2 or the like");
     }
-    TableWriter writer(labels, options);
+    const TableWriter writer(labels, options);
     const ColumnTemplate& columns = writer.columns();
-    writeFileAtomically(path, writer.text());
+    AtomicFileWriter file(path);
+    writer.write(file);
+    file.finish();
     report.files.push_back(path);
     const std::map<LossKind, bool> carried{
         {LossKind::rotation, columns.has(Column::heading)},
@@ -342,7 +344,7 @@ LabelFormat columnsFormat() {
     LabelFormat format;
     format.info = {"columns", "Own columns (as DarkLabel)", {"txt", "csv"}, false, true, true, {}};
     format.read = readColumns;
-    format.write = writeColumns;
+    format.write_frames = writeColumns;
     return format;
 }
 

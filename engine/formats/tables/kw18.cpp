@@ -50,19 +50,22 @@ void writeKw18(const LabelFile& labels, const std::filesystem::path& path, const
         "# 1:Track-id 2:Track-length 3:Frame-number 4-5:Tracking-plane-loc(x,y) 6-7:velocity(x,y) 8-9:Image-loc(x,y) "
         "10-13:Img-bbox(TL_x,TL_y,BR_x,BR_y) 14:Area 15-17:World-loc(x,y,z) 18:timestamp";
     text += scored ? " 19:confidence\n" : "\n";
+    AtomicFileWriter file(path);
+    file.write(text);
     const double rate = labels.frame_rate_hz.value_or(25);
     const auto number = [](double value) { return ' ' + fixedText(value, kKw18Decimals); };
     for (const auto& [id, track] : tracks) {
         for (const LabelBox* record : track) {
             const BoxEdges e = edgesOf(record->box, 0);
-            text += std::to_string(id) + ' ' + std::to_string(track.size()) + ' ' + std::to_string(record->frame) +
-                    " 0 0" + number(record->velocity.x) + number(record->velocity.y) + number(e.left + e.width / 2) +
-                    number(e.top + e.height / 2) + number(e.left) + number(e.top) + number(e.left + e.width) +
-                    number(e.top + e.height) + number(e.width * e.height) + " 0 0 0 " +
-                    fixedText(record->frame / rate, 6) + (scored ? ' ' + fixedText(record->score, 6) : "") + '\n';
+            text = std::to_string(id) + ' ' + std::to_string(track.size()) + ' ' + std::to_string(record->frame) +
+                   " 0 0" + number(record->velocity.x) + number(record->velocity.y) + number(e.left + e.width / 2) +
+                   number(e.top + e.height / 2) + number(e.left) + number(e.top) + number(e.left + e.width) +
+                   number(e.top + e.height) + number(e.width * e.height) + " 0 0 0 " +
+                   fixedText(record->frame / rate, 6) + (scored ? ' ' + fixedText(record->score, 6) : "") + '\n';
+            file.write(text);
         }
     }
-    writeFileAtomically(path, text);
+    file.finish();
     report.files.push_back(path);
     std::erase_if(report.losses, [](const ExportLoss& loss) { return loss.kind == LossKind::velocity; });
     if (!labels.frame_rate_hz) report.notes.push_back("times count 25 frames a second, as no frame rate is known");

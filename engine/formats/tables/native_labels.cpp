@@ -18,15 +18,15 @@ LabelFile readNative(const std::filesystem::path& path, const ImportOptions&) {
     return labels;
 }
 
-void writeNative(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions&,
+void writeNative(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions&,
                  ExportReport& report) {
-    writeGroundTruthCsv(path, plainBoxes(labels.boxes));
+    writeGroundTruthCsv(path, plainBoxes(labels.frames));
     report.files.push_back(path);
 }
 
-void writeNativeResult(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions&,
+void writeNativeResult(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions&,
                        ExportReport& report) {
-    writeResultCsv(path, plainBoxes(labels.boxes));
+    writeResultCsv(path, plainBoxes(labels.frames));
     report.files.push_back(path);
     std::erase_if(report.losses, [](const ExportLoss& loss) { return loss.kind == LossKind::velocity; });
 }
@@ -38,7 +38,7 @@ LabelFormat nativeFormat() {
     format.info = {"native", "Eyrie ground truth (CSV)", {"csv"}, false, true, true, {}};
     format.info.carries = {.rotation = true, .id = true, .object_class = true, .ignore = true};
     format.read = readNative;
-    format.write = writeNative;
+    format.write_frames = writeNative;
     format.fits = [](const FileHead& head) { return hasHeader(head, nullptr) && !hasHeader(head, "score"); };
     return format;
 }
@@ -48,7 +48,7 @@ LabelFormat nativeResultFormat() {
     format.info = {"native-result", "Eyrie result (CSV)", {"csv"}, false, true, true, {}};
     format.info.carries = {.rotation = true, .id = true, .object_class = true, .score = true};
     format.read = readNative;
-    format.write = writeNativeResult;
+    format.write_frames = writeNativeResult;
     format.fits = [](const FileHead& head) { return hasHeader(head, "score"); };
     return format;
 }

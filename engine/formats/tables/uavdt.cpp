@@ -130,14 +130,15 @@ bool reachesBeyond(const OrientedBox& box, cv::Size image) {
     return e.left < 0 || e.top < 0 || e.left + e.width > image.width || e.top + e.height > image.height;
 }
 
-void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptions&, ExportReport& report) {
-    std::string plain, whole, areas;
+void writeUavdt(const LabelStream& labels, const fs::path& path, const ExportOptions&, ExportReport& report) {
+    AtomicFileWriter plain(textOf(path, kPlain)), whole(textOf(path, kWhole)), areas(textOf(path, kIgnore));
+    const std::optional<cv::Size>& image = labels.about.image_size;
     int rounded = 0, strange = 0, fully = 0, partly = 0, beyond = 0, objects = 0, classes_of_areas = 0;
-    for (const auto& [frame, records] : labels.boxes) {
+    labels.frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
         for (const LabelBox& record : records) {
             const std::string begin = beginning(frame, *record.id, record.box, rounded);
             if (record.ignore) {
-                areas += begin + "1,-1,-1\n";
+                areas.write(begin + "1,-1,-1\n");
                 classes_of_areas += !record.object_class.empty();
                 continue;
             }
@@ -147,19 +148,16 @@ void writeUavdt(const LabelFile& labels, const fs::path& path, const ExportOptio
             ++objects;
             fully += record.occlusion == Occlusion::fully;
             partly += record.occlusion == Occlusion::partly;
-            beyond += labels.image_size && reachesBeyond(record.box, *labels.image_size);
+            beyond += image && reachesBeyond(record.box, *image);
             const char* occlusion = record.occlusion == Occlusion::none     ? "1"
                                     : record.occlusion == Occlusion::partly ? "3"
                                                                             : "2";
-            plain += begin + "1,1,-1\n";
-            whole += begin + "1," + occlusion + ',' + std::to_string(category == 0 ? 1 : category) + '\n';
+            plain.write(begin + "1,1,-1\n");
+            whole.write(begin + "1," + occlusion + ',' + std::to_string(category == 0 ? 1 : category) + '\n');
         }
-    }
-    for (const auto& [ending, text] : {std::pair{kPlain, plain}, {kWhole, whole}, {kIgnore, areas}}) {
-        const fs::path file = textOf(path, ending);
-        writeFileAtomically(file, text);
-        report.files.push_back(file);
-    }
+    });
+    for (AtomicFileWriter* file : {&plain, &whole, &areas}) file->finish();
+    for (const char* ending : {kPlain, kWhole, kIgnore}) report.files.push_back(textOf(path, ending));
     report.add(LossKind::rounded, rounded, "were rounded to whole pixels");
     report.add(LossKind::class_name, strange, "have a class that UAVDT does not know and became cars");
     report.add(LossKind::class_name, classes_of_areas, "are ignored and lost their class and id");
@@ -178,7 +176,7 @@ LabelFormat uavdtFormat() {
     format.info.carries = {.id = true, .object_class = true, .occlusion = true, .ignore = true};
     format.needs_id = true;
     format.read = readUavdt;
-    format.write = writeUavdt;
+    format.write_frames = writeUavdt;
     format.files = uavdtFiles;
     format.fits = [](const FileHead& head) {
         return !head.folder && stemOf(head.path) && !head.lines.empty() &&

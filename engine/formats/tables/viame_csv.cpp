@@ -206,15 +206,17 @@ void writeViame(const LabelFile& labels, const std::filesystem::path& path, cons
     if (labels.frame_rate_hz)
         for (const char* key : {"fps", "Fps"})
             text += std::string("# metadata,") + key + ": " + shortestText(*labels.frame_rate_hz) + '\n';
+    AtomicFileWriter file(path);
+    file.write(text);
     for (const auto& [id, track] : boxesById(labels.boxes)) {
         for (const LabelBox* record : track) {
             const OrientedBox& box = record->box;
             const double turn = wrapPi(box.heading);
             const BoxEdges e = edgesOf({box.centre, box.length, box.width, 0}, 0);
             const auto name = labels.image_names.find(record->frame);
-            text += std::to_string(id) + ',' +
-                    (name == labels.image_names.end() ? numberedName(record->frame) : csvField(name->second)) + ',' +
-                    std::to_string(record->frame);
+            text = std::to_string(id) + ',' +
+                   (name == labels.image_names.end() ? numberedName(record->frame) : csvField(name->second)) + ',' +
+                   std::to_string(record->frame);
             for (const double value : {e.left, e.top, e.left + e.width, e.top + e.height, record->score}) {
                 text += ',' + fixedText(value, 4);
             }
@@ -226,10 +228,10 @@ void writeViame(const LabelFile& labels, const std::filesystem::path& path, cons
             if (record->occlusion == Occlusion::partly) text += ",(atr) occluded partly";
             if (record->occlusion == Occlusion::fully) text += ",(atr) occluded fully";
             if (record->ignore) text += ",(atr) ignore true";
-            text += '\n';
+            file.write(text + '\n');
         }
     }
-    writeFileAtomically(path, text);
+    file.finish();
     report.files.push_back(path);
     if (report.boxes > 0) {
         report.notes.push_back("rotations are DIVE's attribute \"rotation\": other readers see the unrotated boxes");

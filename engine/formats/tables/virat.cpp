@@ -42,7 +42,7 @@ int typeOf(const std::string& object_class, bool& exact) {
 
 void writeVirat(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions&,
                 ExportReport& report) {
-    std::string text;
+    AtomicFileWriter file(path);
     int strange = 0;
     for (const auto& [id, track] : boxesById(labels.boxes)) {
         for (const LabelBox* record : track) {
@@ -50,12 +50,13 @@ void writeVirat(const LabelFile& labels, const std::filesystem::path& path, cons
             bool exact = true;
             const int type = typeOf(record->object_class, exact);
             strange += !exact;
-            text += std::to_string(id) + ' ' + std::to_string(track.size()) + ' ' + std::to_string(record->frame);
+            std::string text =
+                std::to_string(id) + ' ' + std::to_string(track.size()) + ' ' + std::to_string(record->frame);
             for (const double value : {e.left, e.top, e.width, e.height}) text += ' ' + fixedText(value, 3);
-            text += ' ' + std::to_string(type) + '\n';
+            file.write(text + ' ' + std::to_string(type) + '\n');
         }
     }
-    writeFileAtomically(path, text);
+    file.finish();
     report.files.push_back(path);
     report.add(LossKind::class_name, strange, "have a class that VIRAT does not know and took the nearest type");
 }

@@ -67,11 +67,11 @@ LabelFile readVisDrone(const std::filesystem::path& path, const ImportOptions&) 
     return labels;
 }
 
-void writeVisDrone(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions&,
+void writeVisDrone(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions&,
                    ExportReport& report) {
-    std::string text;
+    AtomicFileWriter file(path);
     int rounded = 0, strange = 0, areas = 0;
-    for (const auto& [frame, records] : labels.boxes) {
+    labels.frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
         for (const LabelBox& record : records) {
             const BoxEdges e = edgesOf(record.box, 0);
             const long left = std::lround(e.left), top = std::lround(e.top);
@@ -83,13 +83,13 @@ void writeVisDrone(const LabelFile& labels, const std::filesystem::path& path, c
             const int category = record.ignore ? kIgnoredRegion : categoryOf(record.object_class, exact);
             areas += record.ignore && !record.object_class.empty();
             strange += !exact;
-            text += std::to_string(frame + 1) + ',' + std::to_string(*record.id) + ',' + std::to_string(left) + ',' +
-                    std::to_string(top) + ',' + std::to_string(right - left) + ',' + std::to_string(bottom - top) +
-                    (record.ignore ? ",0," : ",1,") + std::to_string(category) + ",0," +
-                    std::to_string(static_cast<int>(record.occlusion)) + '\n';
+            file.write(std::to_string(frame + 1) + ',' + std::to_string(*record.id) + ',' + std::to_string(left) + ',' +
+                       std::to_string(top) + ',' + std::to_string(right - left) + ',' + std::to_string(bottom - top) +
+                       (record.ignore ? ",0," : ",1,") + std::to_string(category) + ",0," +
+                       std::to_string(static_cast<int>(record.occlusion)) + '\n');
         }
-    }
-    writeFileAtomically(path, text);
+    });
+    file.finish();
     report.files.push_back(path);
     report.add(LossKind::rounded, rounded, "were rounded to whole pixels");
     report.add(LossKind::class_name, areas, "are ignored and became ignored areas, without class and id");
@@ -117,7 +117,7 @@ LabelFormat visDroneFormat() {
     format.info.carries = {.id = true, .object_class = true, .occlusion = true, .ignore = true};
     format.needs_id = true;
     format.read = readVisDrone;
-    format.write = writeVisDrone;
+    format.write_frames = writeVisDrone;
     format.fits = looksLikeVisDrone;
     return format;
 }

@@ -36,21 +36,23 @@ LabelFile readVivid(const std::filesystem::path& path, const ImportOptions&) {
     return labels;
 }
 
-void writeVivid(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions&,
+void writeVivid(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions&,
                 ExportReport& report) {
-    std::string text = "image,frame,id,x,y,w,h\n";
-    for (const auto& [frame, records] : labels.boxes) {
-        const auto named = labels.image_names.find(frame);
+    AtomicFileWriter file(path);
+    file.write("image,frame,id,x,y,w,h\n");
+    const auto& names = labels.about.image_names;
+    labels.frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
+        const auto named = names.find(frame);
         const std::string name =
-            named == labels.image_names.end() ? "frame" + numberedName(frame) + ".jpg" : csvField(named->second);
+            named == names.end() ? "frame" + numberedName(frame) + ".jpg" : csvField(named->second);
         for (const LabelBox& record : records) {
             const BoxEdges e = edgesOf(record.box, 0);
-            text += name + ',' + std::to_string(frame) + ',' + std::to_string(*record.id) + ',' + fixedText(e.left, 3) +
-                    ',' + fixedText(e.top, 3) + ',' + (record.ignore ? "-" : "") + fixedText(e.width, 3) + ',' +
-                    fixedText(e.height, 3) + '\n';
+            file.write(name + ',' + std::to_string(frame) + ',' + std::to_string(*record.id) + ',' +
+                       fixedText(e.left, 3) + ',' + fixedText(e.top, 3) + ',' + (record.ignore ? "-" : "") +
+                       fixedText(e.width, 3) + ',' + fixedText(e.height, 3) + '\n');
         }
-    }
-    writeFileAtomically(path, text);
+    });
+    file.finish();
     report.files.push_back(path);
 }
 
@@ -62,7 +64,7 @@ LabelFormat vividFormat() {
     format.info.carries = {.id = true, .ignore = true};
     format.needs_id = true;
     format.read = readVivid;
-    format.write = writeVivid;
+    format.write_frames = writeVivid;
     format.fits = [](const FileHead& head) {
         if (head.lines.size() < 2 || !leadingNumbers(head.lines[0], ',').empty()) return false;
         const std::string& line = head.lines[1];

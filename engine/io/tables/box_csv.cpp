@@ -40,6 +40,15 @@ bool parseIgnore(const CsvReader& csv) {
     return value == 1;
 }
 
+/// `boxes` must outlive the result.
+VisitBoxes oneByOne(const BoxesByFrame& boxes) {
+    return [&boxes](const BoxVisitor& visitor) {
+        for (const auto& [frame, records] : boxes) {
+            for (const BoxRecord& record : records) visitor(frame, record);
+        }
+    };
+}
+
 double sizeIn(const CsvReader& csv, const char* column) {
     const double size = csv.real(column);
     if (size < 0) csv.refuse(column, "a length in px, 0 or more");
@@ -91,20 +100,31 @@ BoxesByFrame readBoxCsv(const std::filesystem::path& path) {
 }
 
 void writeResultCsv(const std::filesystem::path& path, const BoxesByFrame& boxes) {
-    std::string text = "frame,id,x,y,length,width,heading,class,score,vx,vy,origin\n";
-    for (const auto& [frame, records] : boxes)
-        for (const BoxRecord& record : records)
-            text += beginningOf(frame, record) + ',' + fixedText(record.score, kFineDecimals) + ',' +
-                    fixedText(record.velocity.x, kFineDecimals) + ',' + fixedText(record.velocity.y, kFineDecimals) +
-                    ',' + csvField(record.origin) + '\n';
-    writeFileAtomically(path, text);
+    writeResultCsv(path, oneByOne(boxes));
 }
 
 void writeGroundTruthCsv(const std::filesystem::path& path, const BoxesByFrame& boxes) {
-    std::string text = "frame,id,x,y,length,width,heading,class,ignore\n";
-    for (const auto& [frame, records] : boxes)
-        for (const BoxRecord& record : records) text += beginningOf(frame, record) + (record.ignore ? ",1\n" : ",0\n");
-    writeFileAtomically(path, text);
+    writeGroundTruthCsv(path, oneByOne(boxes));
+}
+
+void writeResultCsv(const std::filesystem::path& path, const VisitBoxes& boxes) {
+    AtomicFileWriter file(path);
+    file.write("frame,id,x,y,length,width,heading,class,score,vx,vy,origin\n");
+    boxes([&](FrameIndex frame, const BoxRecord& record) {
+        file.write(beginningOf(frame, record) + ',' + fixedText(record.score, kFineDecimals) + ',' +
+                   fixedText(record.velocity.x, kFineDecimals) + ',' + fixedText(record.velocity.y, kFineDecimals) +
+                   ',' + csvField(record.origin) + '\n');
+    });
+    file.finish();
+}
+
+void writeGroundTruthCsv(const std::filesystem::path& path, const VisitBoxes& boxes) {
+    AtomicFileWriter file(path);
+    file.write("frame,id,x,y,length,width,heading,class,ignore\n");
+    boxes([&](FrameIndex frame, const BoxRecord& record) {
+        file.write(beginningOf(frame, record) + (record.ignore ? ",1\n" : ",0\n"));
+    });
+    file.finish();
 }
 
 }  // namespace eyrie

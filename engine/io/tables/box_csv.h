@@ -18,5 +18,8 @@ BoxesByFrame readBoxCsv(const std::filesystem::path& path);
 /// Lengths with 4 decimals. Throws Error(output); the file is either complete or as it was before.
 void writeResultCsv(const std::filesystem::path& path, const BoxesByFrame& boxes);
 void writeGroundTruthCsv(const std::filesystem::path& path, const BoxesByFrame& boxes);
+/// The same for boxes one by one; those of a frame follow each other.
+void writeResultCsv(const std::filesystem::path& path, const VisitBoxes& boxes);
+void writeGroundTruthCsv(const std::filesystem::path& path, const VisitBoxes& boxes);
 
 }  // namespace eyrie

@@ -132,10 +132,9 @@ bool orderByStamps(Scan& scan) {
     return true;
 }
 
-void orderByDecoding(const std::filesystem::path& path, VideoIndex& index, Progress& progress) {
+void orderByDecoding(const std::filesystem::path& path, VideoIndex& index, VideoDecoder& decoder, Progress& progress) {
     std::vector<std::int32_t> shown;
     std::unordered_set<std::int32_t> seen;
-    VideoDecoder decoder(path, index);
     decoder.startAt(index.firstStart());
     while (const AVFrame* picture = decoder.next()) {
         const int packet = decoder.packetOf(*picture);
@@ -146,8 +145,7 @@ void orderByDecoding(const std::filesystem::path& path, VideoIndex& index, Progr
 }
 
 /// Leaves out the frames before the first and behind the last one that the decoder delivers.
-void trimToDecodable(const std::filesystem::path& path, VideoIndex& index) {
-    VideoDecoder decoder(path, index);
+void trimToDecodable(VideoIndex& index, VideoDecoder& decoder) {
     std::vector<FrameIndex> frame_of = index.framesOfPackets();
     decoder.startAt(index.firstStart());
     const AVFrame* picture = decoder.next();
@@ -196,8 +194,7 @@ void placeInTime(VideoIndex& index) {
     }
 }
 
-cv::Size firstPictureSize(const std::filesystem::path& path, const VideoIndex& index) {
-    VideoDecoder decoder(path, index);
+cv::Size firstPictureSize(const VideoIndex& index, VideoDecoder& decoder) {
     decoder.startAt(index.firstStart());
     const AVFrame* picture = decoder.next();
     return picture == nullptr ? cv::Size() : cv::Size(picture->width, picture->height);
@@ -223,13 +220,14 @@ VideoIndex buildVideoIndex(const std::filesystem::path& path, const IndexProgres
     progress.at(path, 0);
     Scan scan = scanPackets(path, progress);
     VideoIndex& index = scan.index;
+    VideoDecoder decoder(path, index);
     if (scan.order_is_known && orderByStamps(scan)) {
-        trimToDecodable(path, index);
+        trimToDecodable(index, decoder);
     } else {
         Progress decoding(report, stop);
-        orderByDecoding(path, index, decoding);
+        orderByDecoding(path, index, decoder, decoding);
     }
-    if (!index.shown.empty()) index.coded_size = firstPictureSize(path, index);
+    if (!index.shown.empty()) index.coded_size = firstPictureSize(index, decoder);
     if (index.coded_size.empty())
         throw Error(ErrorKind::input,
                     path.string() + ": no picture of the video can be decoded; the file may be damaged or cut off");

@@ -116,6 +116,9 @@ class RunStore {
     /// The run's result as boxes: every state of the confirmed tracks, or the kept detections (id empty).
     BoxesByFrame trackBoxes(int run_id) const;
     BoxesByFrame detectionBoxes(int run_id) const;
+    /// The same one by one, ordered by frame.
+    void visitTrackBoxes(int run_id, const BoxVisitor& visitor) const;
+    void visitDetectionBoxes(int run_id, const BoxVisitor& visitor) const;
 
     /// Replaces all track states of a run, and what was left out of them, in one transaction (used once, when the
     /// tracks of a run are finished).

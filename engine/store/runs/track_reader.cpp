@@ -86,26 +86,30 @@ void RunStore::visitTrackStates(int run_id, const StateVisitor& visitor) const {
     });
 }
 
-BoxesByFrame RunStore::trackBoxes(int run_id) const {
-    return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
+void RunStore::visitTrackBoxes(int run_id, const BoxVisitor& visitor) const {
+    guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(), std::string("SELECT frame, ") + kTrackStateColumns +
                                                              " FROM track_state WHERE run_id = ?1 AND track_id IN "
                                                              "(SELECT id FROM track WHERE run_id = ?1 AND confirmed) "
                                                              "ORDER BY frame, track_id");
         statement.bind(1, run_id);
-        BoxesByFrame boxes;
-        for (const TrackFrame& track : readStates(statement)) {
+        visitStates(statement, [&](FrameIndex frame, const TrackState& state) {
             BoxRecord record;
-            record.frame = track.frame;
-            record.id = track.state.id;
-            record.box = track.state.box;
-            record.score = track.state.score;
-            record.velocity = track.state.velocity;
-            record.origin = nameOf(track.state.origin);
-            boxes[track.frame].push_back(std::move(record));
-        }
-        return boxes;
+            record.frame = frame;
+            record.id = state.id;
+            record.box = state.box;
+            record.score = state.score;
+            record.velocity = state.velocity;
+            record.origin = nameOf(state.origin);
+            visitor(frame, record);
+        });
     });
+}
+
+BoxesByFrame RunStore::trackBoxes(int run_id) const {
+    BoxesByFrame boxes;
+    visitTrackBoxes(run_id, [&](FrameIndex frame, const BoxRecord& record) { boxes[frame].push_back(record); });
+    return boxes;
 }
 
 std::vector<OrientedBox> RunStore::vehicleBoxes(int run_id, FrameIndex frame) const {
@@ -121,13 +125,12 @@ std::vector<OrientedBox> RunStore::vehicleBoxes(int run_id, FrameIndex frame) co
     });
 }
 
-BoxesByFrame RunStore::detectionBoxes(int run_id) const {
-    return guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
+void RunStore::visitDetectionBoxes(int run_id, const BoxVisitor& visitor) const {
+    guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(),
                                     "SELECT frame, x, y, length, width, heading_rad, vx, vy, score FROM detection "
                                     "WHERE run_id = ? AND rejection = 'none' ORDER BY frame, number");
         statement.bind(1, run_id);
-        BoxesByFrame boxes;
         while (statement.executeStep()) {
             RowReader row(statement);
             BoxRecord record;
@@ -136,10 +139,15 @@ BoxesByFrame RunStore::detectionBoxes(int run_id) const {
             record.velocity = row.point();
             record.score = row.real();
             record.origin = nameOf(StateOrigin::detected);
-            boxes[record.frame].push_back(std::move(record));
+            visitor(record.frame, record);
         }
-        return boxes;
     });
+}
+
+BoxesByFrame RunStore::detectionBoxes(int run_id) const {
+    BoxesByFrame boxes;
+    visitDetectionBoxes(run_id, [&](FrameIndex frame, const BoxRecord& record) { boxes[frame].push_back(record); });
+    return boxes;
 }
 
 }  // namespace eyrie
