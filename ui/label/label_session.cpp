@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "exchange/project_labels.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -12,7 +11,7 @@ namespace {
 constexpr int kReread_ms = 2000;
 }
 
-/// Labels as they were read on the other thread.
+/// Labels as they were read in the background.
 struct LabelSession::Opened {
     std::unique_ptr<ProjectFile> project;
     std::unique_ptr<AnnotationStore> store;
@@ -47,25 +46,21 @@ void LabelSession::refreshOpen() {
     sequence_.size = video->size;
     sequence_.frame_count = video->frame_count;
     sequence_.frame_rate_hz = video->frame_rate_hz;
-    thread_.post([this, ticket = ++ticket_, path = project_path_, sequence = sequence_](const std::stop_token&) {
-        try {
-            auto opened = std::make_shared<Opened>();
-            opened->project = std::make_unique<ProjectFile>(ProjectFile::open(path));
-            opened->sequence_id = ensureSequence(*opened->project, sequence);
-            opened->store = std::make_unique<AnnotationStore>(*opened->project, opened->sequence_id);
-            queuedCall(this, [this, ticket, opened] { adopt(ticket, opened); });
-        } catch (const std::exception& error) {
-            queuedCall(this, [this, text = QString::fromUtf8(error.what())] {
-                project_path_.clear();
-                emit problem(text);
-            });
-        }
+    const auto work = [this, path = project_path_, sequence = sequence_](const BackgroundTask& task) {
+        auto opened = std::make_shared<Opened>();
+        opened->project = std::make_unique<ProjectFile>(ProjectFile::open(path));
+        opened->sequence_id = ensureSequence(*opened->project, sequence);
+        opened->store = std::make_unique<AnnotationStore>(*opened->project, opened->sequence_id);
+        task.tell([this, opened] { adopt(opened); });
+    };
+    labels_query_.ask(work, [this](const QString& text) {
+        project_path_.clear();
+        emit problem(text);
     });
     readCamera();
 }
 
-void LabelSession::adopt(int ticket, const std::shared_ptr<Opened>& opened) {
-    if (ticket != ticket_) return;
+void LabelSession::adopt(const std::shared_ptr<Opened>& opened) {
     project_ = std::move(opened->project);
     store_ = std::move(opened->store);
     sequence_.id = opened->sequence_id;
@@ -89,34 +84,33 @@ void LabelSession::refreshReadOnly() {
 
 void LabelSession::readCamera() {
     if (!wanted_ || session_.project().empty()) return;
-    thread_.post([this, ticket = ++camera_ticket_, path = session_.project(), run = session_.currentRun(),
-                  video = sequence_.path](const std::stop_token&) {
+    const auto work = [this, path = session_.project(), run = session_.currentRun(),
+                       video = sequence_.path](const BackgroundTask& task) {
         auto camera = std::make_shared<CameraMotion>();
-        QString failure;
-        try {
-            ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
-            const RunStore store(project);
-            if (run) {
-                *camera = CameraMotion::fromRegistrations(store.registrations(*run));
-            } else {
-                for (const SequenceRecord& sequence : sequencesOf(project))
-                    if (sequence.path == video) *camera = cameraMotionOf(store, sequence.id);
-            }
-        } catch (const std::exception& error) {
-            failure = QString::fromUtf8(error.what());
+        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+        const RunStore store(project);
+        if (run) {
+            *camera = CameraMotion::fromRegistrations(store.registrations(*run));
+        } else {
+            for (const SequenceRecord& sequence : sequencesOf(project))
+                if (sequence.path == video) *camera = cameraMotionOf(store, sequence.id);
         }
-        queuedCall(this, [this, ticket, camera, failure] {
-            if (ticket != camera_ticket_) return;
-            if (!failure.isEmpty()) emit problem(failure);
-            camera_ = camera;
-            wasChanged();
-        });
+        task.tell([this, camera] { adoptCamera(camera); });
+    };
+    camera_query_.ask(work, [this](const QString& failure) {
+        emit problem(failure);
+        adoptCamera(std::make_shared<CameraMotion>());
     });
 }
 
+void LabelSession::adoptCamera(const std::shared_ptr<const CameraMotion>& camera) {
+    camera_ = camera;
+    wasChanged();
+}
+
 void LabelSession::close() {
-    ++ticket_;
-    ++camera_ticket_;
+    labels_query_.cancel();
+    camera_query_.cancel();
     project_path_.clear();
     const bool was_open = store_ != nullptr;
     store_.reset();

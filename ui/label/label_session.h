@@ -10,13 +10,13 @@
 #include "annotation/keyframes/camera_motion.h"
 #include "annotation/review/attention.h"
 #include "annotation/review/review_state.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/project_session.h"
 #include "store/labels/annotation_store.h"
 
 namespace eyrie::ui {
 
-/// The labels of the video shown: read on another thread as soon as they are wanted, changed on the window's own, where
+/// The labels of the video shown: read in the background as soon as they are wanted, changed on the window's own, where
 /// an edit takes a few milliseconds. Knows how the camera moved from the run shown, and which objects are selected.
 class LabelSession : public QObject {
     Q_OBJECT
@@ -95,8 +95,9 @@ class LabelSession : public QObject {
  private:
     struct Opened;
     void refreshOpen();
-    void adopt(int ticket, const std::shared_ptr<Opened>& opened);
+    void adopt(const std::shared_ptr<Opened>& opened);
     void readCamera();
+    void adoptCamera(const std::shared_ptr<const CameraMotion>& camera);
     void refreshReadOnly();
     void close();
     void wasChanged();
@@ -106,8 +107,6 @@ class LabelSession : public QObject {
 
     ProjectSession& session_;
     bool wanted_ = false;
-    int ticket_ = 0;
-    int camera_ticket_ = 0;
     std::filesystem::path project_path_;  ///< of the labels open or on their way
     SequenceRecord sequence_;
     std::unique_ptr<ProjectFile> project_;
@@ -121,7 +120,8 @@ class LabelSession : public QObject {
     std::set<ObjectId> selection_;
     QTimer reread_;  ///< what another window changes is read now and then
     std::string drawn_class_ = "car";
-    TaskThread thread_;  ///< last: stops before the rest goes
+    BackgroundQuery labels_query_;
+    BackgroundQuery camera_query_;  ///< last: both stop before the rest goes
 };
 
 }  // namespace eyrie::ui

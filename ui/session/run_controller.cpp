@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "chain/scale_estimation.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -17,22 +16,14 @@ RunController::RunController(QObject* parent) : QObject(parent) {
     connect(&poll_, &QTimer::timeout, this, &RunController::fetch);
 }
 
-RunController::~RunController() {
-    thread_.request_stop();
-    if (thread_.joinable()) thread_.join();
-}
+RunController::~RunController() = default;
 
 void RunController::start(RunRequest request) {
     if (running()) return;
     poll_.start();
-    feed_ = std::make_shared<LiveFeed>(request.trail_length, [this] { queuedCall(this, [this] { fetch(); }); });
-    thread_ = std::jthread([this, request = std::move(request), feed = feed_](const std::stop_token& stop) {
-        work(request, *feed, stop);
-    });
-}
-
-void RunController::stop() {
-    thread_.request_stop();
+    feed_ = std::make_shared<LiveFeed>(request.trail_length, [this] { query_.tell([this] { fetch(); }); });
+    run_ = query_.post(
+        [this, request = std::move(request), feed = feed_](const BackgroundTask& task) { work(request, *feed, task); });
 }
 
 std::optional<ViewFrame> RunController::takeFrame() {
@@ -43,7 +34,8 @@ std::vector<FrameSummary> RunController::takeSummaries() {
     return feed_ ? feed_->takeSummaries() : std::vector<FrameSummary>();
 }
 
-void RunController::work(const RunRequest& request, LiveFeed& feed, const std::stop_token& stop) {
+void RunController::work(const RunRequest& request, LiveFeed& feed, const BackgroundTask& task) {
+    const std::stop_token& stop = task.stop();
     RunSummary summary;
     int run_id = 0;
     try {
@@ -52,7 +44,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const std::s
             const ResumedRun resumed = resumedRun(request.project, request.resume_run, *source);
             RunRecorder recorder(request.project, resumed, &feed);
             run_id = resumed.run.id;
-            queuedCall(this, [this, record = resumed.run] { emit started(record); });
+            task.tell([this, record = resumed.run] { emit started(record); });
             summary = ChainRun(resumed.options, resumed.run.scale)
                           .run(*source, resumed.range(), recorder, stop, true, resumed.start);
             recorder.finish(summary);
@@ -65,7 +57,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const std::s
             RunRecorder recorder(request.project, record, request.options, &feed);
             run_id = recorder.runId();
             record.id = run_id;
-            queuedCall(this, [this, record] { emit started(record); });
+            task.tell([this, record] { emit started(record); });
             summary = ChainRun(request.options, scale).run(*source, request.range, recorder, stop, true);
             recorder.finish(summary);
         }
@@ -74,7 +66,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const std::s
         summary.message = error.what();
     }
     feed.flush();
-    queuedCall(this, [this, summary, run_id] { end(summary, run_id); });
+    task.tell([this, summary, run_id] { end(summary, run_id); });
 }
 
 void RunController::fetch() {
@@ -87,7 +79,6 @@ void RunController::fetch() {
 void RunController::end(const RunSummary& summary, int run_id) {
     fetch();
     poll_.stop();
-    thread_.join();
     feed_.reset();
     emit finished(summary, run_id);
 }

@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
-#include <thread>
 
 #include "chain/chain_options.h"
 #include "chain/chain_run.h"
+#include "session/background/background_query.h"
 #include "session/live_feed.h"
 #include "session/project/media.h"
 
@@ -28,7 +28,7 @@ struct RunRequest {
     int resume_run = 0;  ///< > 0: goes on with this run of the project; options, scale, range and name are the run's
 };
 
-/// The only object of the window that starts the engine. One run at a time, on its own thread; what it finds goes into
+/// The only object of the window that starts the engine. One run at a time, in the background; what it finds goes into
 /// the project there. Signals arrive on the thread of this object.
 class RunController : public QObject {
     Q_OBJECT
@@ -39,11 +39,11 @@ class RunController : public QObject {
     ~RunController() override;
 
     bool running() const { return feed_ != nullptr; }
-    bool stopping() const { return running() && thread_.get_stop_token().stop_requested(); }
+    bool stopping() const { return running() && run_.stop_requested(); }
     /// Returns at once. Nothing happens while a run works.
     void start(RunRequest request);
     /// Returns at once; finished() follows.
-    void stop();
+    void stop() { run_.request_stop(); }
 
     /// For receivers of frameAvailable(): the newest frame, unless it was fetched before.
     std::optional<ViewFrame> takeFrame();
@@ -58,13 +58,14 @@ class RunController : public QObject {
     void finished(const RunSummary& summary, int run_id);
 
  private:
-    void work(const RunRequest& request, LiveFeed& feed, const std::stop_token& stop);
+    void work(const RunRequest& request, LiveFeed& feed, const BackgroundTask& task);
     void fetch();
     void end(const RunSummary& summary, int run_id);
 
     QTimer poll_;                     ///< fetches what a run that hangs on a frame has not told yet
     std::shared_ptr<LiveFeed> feed_;  ///< exists while a run works
-    std::jthread thread_;
+    std::stop_source run_;
+    BackgroundQuery query_;  ///< last: ends the run before the rest goes
 };
 
 }  // namespace eyrie::ui

@@ -224,7 +224,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     rememberView();
     settings_.setGeometry(saveGeometry());
     settings_.setValue(kWorkspaces, workspaces_->state());
-    session_.stopRun();  // the run's own thread finishes storing while the program goes down
+    session_.stopRun();  // it finishes storing while the program goes down
     event->accept();
 }
 

@@ -1,10 +1,8 @@
 #include <QTest>
-#include <barrier>
-#include <future>
+#include <thread>
 
 #include "session/background/lru_cache.h"
 #include "session/background/mailbox.h"
-#include "session/background/task_thread.h"
 #include "session/live_feed.h"
 
 namespace eyrie::ui {
@@ -53,41 +51,6 @@ class ThreadsTest : public QObject {
             }
         writer.join();
         QCOMPARE(told, taken);
-    }
-
-    void newestTaskReplacesOneThatHasNotBegun() {
-        std::vector<int> done;
-        std::barrier<> gate(2);
-        std::promise<void> end;
-        TaskThread thread;
-        thread.post([&](const std::stop_token&) { gate.arrive_and_wait(); });
-        thread.postIdle([&](const std::stop_token&) {
-            done.push_back(0);
-            end.set_value();
-        });
-        for (int i = 1; i <= 3; ++i) thread.postNewest([&, i](const std::stop_token&) { done.push_back(i); });
-        thread.post([&](const std::stop_token&) { done.push_back(10); });
-        gate.arrive_and_wait();
-        end.get_future().wait();
-        QCOMPARE(done, (std::vector<int>{10, 3, 0}));  // ordinary before newest before idle
-    }
-
-    void destructionStopsTheTaskAtWorkAndDropsTheOthers() {
-        std::atomic<bool> stopped = false;
-        std::atomic<bool> second = false;
-        {
-            std::promise<void> begun;
-            TaskThread thread;
-            thread.post([&](const std::stop_token& stop) {
-                begun.set_value();
-                while (!stop.stop_requested()) std::this_thread::yield();
-                stopped = true;
-            });
-            thread.post([&](const std::stop_token&) { second = true; });
-            begun.get_future().wait();
-        }
-        QVERIFY(stopped);
-        QVERIFY(!second);
     }
 
     void theCacheForgetsWhatWasUsedLongestAgo() {

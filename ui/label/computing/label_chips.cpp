@@ -6,7 +6,6 @@
 #include <set>
 
 #include "annotation/keyframes/interpolation.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -50,27 +49,17 @@ LabelChip cutChip(const cv::Mat& gray, const OrientedBox& box) {
 LabelChips::LabelChips(ProjectSession& session, LabelSession& labels, QObject* parent)
     : QObject(parent), session_(session), labels_(labels) {}
 
-LabelChips::~LabelChips() {
-    request_.request_stop();
-}
-
-void LabelChips::cancel() {
-    ++ticket_;
-    request_.request_stop();
-}
-
 void LabelChips::request(ObjectId id) {
     cancel();
     const LabelledObject* object = labels_.object(id);
     if (object == nullptr || !session_.media()) return;
-    request_ = {};
-    thread_.postNewest([this, ticket = ticket_, object = *object, media = *session_.media(),
-                        camera = labels_.sharedCamera(), request = request_.get_token()](const std::stop_token& stop) {
+    query_.ask([this, object = *object, media = *session_.media(),
+                camera = labels_.sharedCamera()](const BackgroundTask& task) {
         std::vector<LabelChip> chips;
         try {
-            const auto source = media.open({}, request);
+            const auto source = media.open({}, task.stop());
             for (const FrameIndex frame : chipFrames(object, kMostChips)) {
-                if (request.stop_requested() || stop.stop_requested()) return;
+                if (task.stop().stop_requested()) return;
                 const LabelledBox box = boxAt(object, frame, *camera);
                 if (!box.visible()) continue;
                 LabelChip chip = cutChip(source->read(frame, false).gray, box.box);
@@ -81,9 +70,7 @@ void LabelChips::request(ObjectId id) {
         } catch (const std::exception&) {
             // A picture that cannot be read is told by the canvas; what was cut out so far is shown.
         }
-        queuedCall(this, [this, ticket, id = object.id, chips = std::move(chips)] {
-            if (ticket == ticket_) emit ready(id, chips);
-        });
+        task.tell([this, id = object.id, chips = std::move(chips)] { emit ready(id, chips); });
     });
 }
 

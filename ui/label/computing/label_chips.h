@@ -2,7 +2,6 @@
 
 #include <QObject>
 #include <opencv2/core/mat.hpp>
-#include <stop_token>
 #include <vector>
 
 #include "label/label_session.h"
@@ -17,7 +16,7 @@ struct LabelChip {
     cv::Size2d box;  ///< length and width in the chip, px
 };
 
-/// Cuts an object out of frames spread over its life, on its own thread. Of several wishes the newest wins.
+/// Cuts an object out of frames spread over its life, in the background. Of several wishes the newest wins.
 class LabelChips : public QObject {
     Q_OBJECT
 
@@ -26,11 +25,10 @@ class LabelChips : public QObject {
 
     /// Both must outlive it.
     LabelChips(ProjectSession& session, LabelSession& labels, QObject* parent = nullptr);
-    ~LabelChips() override;
 
     /// Answers with ready().
     void request(ObjectId object);
-    void cancel();
+    void cancel() { query_.cancel(); }
 
  signals:
     void ready(ObjectId object, const std::vector<LabelChip>& chips);
@@ -38,9 +36,7 @@ class LabelChips : public QObject {
  private:
     ProjectSession& session_;
     LabelSession& labels_;
-    int ticket_ = 0;
-    std::stop_source request_;
-    TaskThread thread_;  ///< last: stops before the rest goes
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 /// The frames of an object that are shown: all keyframes while they are few, else evenly spread ones.

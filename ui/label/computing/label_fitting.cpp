@@ -8,7 +8,6 @@
 #include "annotation/edits/object_pieces.h"
 #include "annotation/review/proposals.h"
 #include "session/background/lru_cache.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -41,14 +40,6 @@ LabelFitting::LabelFitting(ProjectSession& session, LabelSession& labels, QObjec
     connect(&labels_, &LabelSession::closed, this, &LabelFitting::stop);
 }
 
-LabelFitting::~LabelFitting() {
-    request_.request_stop();
-}
-
-void LabelFitting::stop() {
-    request_.request_stop();
-}
-
 void LabelFitting::start() {
     if (working_ || !labels_.selected() || !session_.media() || !labels_.mayEdit()) return;
     std::vector<LabelledObject> objects;
@@ -62,48 +53,37 @@ void LabelFitting::start() {
         return;
     }
     working_ = true;
-    request_ = {};
-    emit workingChanged(true);
-    thread_.post([this, ticket = ++ticket_, objects = std::move(objects), media = *session_.media(),
-                  camera = labels_.sharedCamera(), request = request_.get_token()](const std::stop_token& stop) {
+    const auto work = [this, objects = std::move(objects), media = *session_.media(),
+                       camera = labels_.sharedCamera()](const BackgroundTask& task) {
         std::vector<Fitted> fitted;
-        QString failure;
-        try {
-            std::stop_source either;
-            const std::stop_callback on_request(request, [&] { either.request_stop(); });
-            const std::stop_callback on_end(stop, [&] { either.request_stop(); });
-            const auto source = media.open({}, either.get_token());
-            LruCache<FrameIndex, cv::Mat> kept(kFittingBudget_bytes);
-            const GrayFrames frames = [&](FrameIndex frame) {
-                if (const cv::Mat* known = kept.find(frame)) return *known;
-                cv::Mat picture;
-                try {
-                    picture = source->read(frame, false).gray.clone();
-                } catch (const std::exception&) {
-                    return cv::Mat();  // compared with others, then
-                }
-                kept.put(frame, picture, picture.total());
-                return picture;
-            };
-            for (const LabelledObject& object : objects) {
-                PictureFit fit = fittedToPictures(object, *camera, frames, {}, either.get_token());
-                if (either.stop_requested()) break;
-                fitted.push_back({object, std::move(fit)});
+        const auto source = media.open({}, task.stop());
+        LruCache<FrameIndex, cv::Mat> kept(kFittingBudget_bytes);
+        const GrayFrames frames = [&](FrameIndex frame) {
+            if (const cv::Mat* known = kept.find(frame)) return *known;
+            cv::Mat picture;
+            try {
+                picture = source->read(frame, false).gray.clone();
+            } catch (const std::exception&) {
+                return cv::Mat();  // compared with others, then
             }
-        } catch (const std::exception& error) {
-            failure = QString::fromUtf8(error.what());
+            kept.put(frame, picture, picture.total());
+            return picture;
+        };
+        for (const LabelledObject& object : objects) {
+            PictureFit fit = fittedToPictures(object, *camera, frames, {}, task.stop());
+            if (task.stop().stop_requested()) break;
+            fitted.push_back({object, std::move(fit)});
         }
-        queuedCall(this, [this, ticket, fitted = std::move(fitted), failure] {
-            if (ticket != ticket_) return;
-            working_ = false;
-            emit workingChanged(false);
-            if (!failure.isEmpty()) emit labels_.problem(failure);
-            take(fitted);
-        });
-    });
+        task.tell([this, fitted = std::move(fitted)] { take(fitted, {}); });
+    };
+    fitting_ = query_.post(work, [this](const QString& failure) { take({}, failure); });
+    emit workingChanged(true);
 }
 
-void LabelFitting::take(const std::vector<Fitted>& fitted) {
+void LabelFitting::take(const std::vector<Fitted>& fitted, const QString& failure) {
+    working_ = false;
+    emit workingChanged(false);
+    if (!failure.isEmpty()) emit labels_.problem(failure);
     std::vector<LabelledObject> changed;
     int frames = 0;
     int sure = 0;

@@ -16,10 +16,10 @@ class LabelFitting : public QObject {
  public:
     /// Both must outlive it.
     LabelFitting(ProjectSession& session, LabelSession& labels, QObject* parent = nullptr);
-    ~LabelFitting() override;
 
     void start();
-    void stop();
+    /// What is done by then is taken.
+    void stop() { fitting_.request_stop(); }
     bool working() const { return working_; }
 
  signals:
@@ -30,14 +30,13 @@ class LabelFitting : public QObject {
         LabelledObject before;
         PictureFit fit;
     };
-    void take(const std::vector<Fitted>& fitted);
+    void take(const std::vector<Fitted>& fitted, const QString& failure);
 
     ProjectSession& session_;
     LabelSession& labels_;
     bool working_ = false;
-    int ticket_ = 0;
-    std::stop_source request_;
-    TaskThread thread_;  ///< last: stops before the rest goes
+    std::stop_source fitting_;
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

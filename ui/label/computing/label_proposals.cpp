@@ -7,7 +7,6 @@
 #include "annotation/edits/identity_edits.h"
 #include "annotation/keyframes/interpolation.h"
 #include "label/label_classes.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -38,7 +37,7 @@ bool livesIn(const Proposal& proposal, FrameIndex frame) {
 LabelProposals::LabelProposals(ProjectSession& session, LabelSession& labels, QObject* parent)
     : QObject(parent), session_(session), labels_(labels) {
     const auto forget = [this] {
-        ++ticket_;
+        query_.cancel();
         working_ = false;
         run_.reset();
         proposals_.clear();
@@ -68,26 +67,22 @@ void LabelProposals::read() {
     if (working_ || !labels_.isOpen() || !session_.currentRun() || run_ == session_.currentRun()) return;
     working_ = true;
     run_ = session_.currentRun();
-    thread_.post([this, ticket = ++ticket_, path = session_.project(), run = *run_, labelled = labels_.annotations(),
-                  camera = labels_.sharedCamera(), tolerance = tolerance_px_](const std::stop_token& stop) {
-        std::vector<Proposal> proposals;
-        QString failure;
-        try {
-            ProposalOptions options;
-            options.reduction.tolerance_px = tolerance;
-            proposals = proposeTracks(tracksOf(path, run, stop), labelled, *camera, options);
-        } catch (const std::exception& error) {
-            failure = QString::fromUtf8(error.what());
-        }
+    const auto work = [this, path = session_.project(), run = *run_, labelled = labels_.annotations(),
+                       camera = labels_.sharedCamera(), tolerance = tolerance_px_](const BackgroundTask& task) {
+        ProposalOptions options;
+        options.reduction.tolerance_px = tolerance;
+        auto proposals = proposeTracks(tracksOf(path, run, task.stop()), labelled, *camera, options);
         std::erase_if(proposals, [](const Proposal& p) { return p.object.keyframes.empty(); });
-        queuedCall(this, [this, ticket, proposals = std::move(proposals), failure] {
-            if (ticket != ticket_) return;
-            working_ = false;
-            if (!failure.isEmpty()) emit labels_.problem(failure);
-            proposals_ = proposals;
-            emit changed();
-        });
-    });
+        task.tell([this, proposals = std::move(proposals)] { adopt(proposals, {}); });
+    };
+    query_.ask(work, [this](const QString& failure) { adopt({}, failure); });
+}
+
+void LabelProposals::adopt(const std::vector<Proposal>& proposals, const QString& failure) {
+    working_ = false;
+    if (!failure.isEmpty()) emit labels_.problem(failure);
+    proposals_ = proposals;
+    emit changed();
 }
 
 bool LabelProposals::isPending(const Proposal& proposal) const {
@@ -158,7 +153,7 @@ void LabelProposals::forgetSelected(TrackId track) {
 void LabelProposals::setTolerance(double px) {
     if (tolerance_px_ == px) return;
     tolerance_px_ = px;
-    ++ticket_;
+    query_.cancel();
     working_ = false;
     run_.reset();
     // Those taken stay what they are.

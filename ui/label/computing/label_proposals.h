@@ -60,6 +60,7 @@ class LabelProposals : public QObject {
 
  private:
     void read();
+    void adopt(const std::vector<Proposal>& proposals, const QString& failure);
     bool isPending(const Proposal& proposal) const;
     void forgetSelected(TrackId track);
     std::vector<ObjectId> take(const std::vector<TrackId>& tracks, FrameIndex first, FrameIndex last);
@@ -68,14 +69,13 @@ class LabelProposals : public QObject {
     LabelSession& labels_;
     bool shown_ = false;
     bool working_ = false;
-    int ticket_ = 0;
     std::optional<int> run_;  ///< whose tracks were read
     std::vector<Proposal> proposals_;
     std::map<TrackId, ObjectId> taken_;
     std::set<TrackId> rejected_;
     std::vector<TrackId> selection_;
     double tolerance_px_ = ReductionOptions().tolerance_px;
-    TaskThread thread_;  ///< last: stops before the rest goes
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

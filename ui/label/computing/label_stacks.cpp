@@ -5,7 +5,6 @@
 
 #include "annotation/keyframes/interpolation.h"
 #include "session/background/lru_cache.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -57,14 +56,11 @@ LabelStacks::LabelStacks(ProjectSession& session, LabelSession& labels, QObject*
     connect(&due_, &QTimer::timeout, this, &LabelStacks::begin);
 }
 
-LabelStacks::~LabelStacks() {
-    request_.request_stop();
-}
+LabelStacks::~LabelStacks() = default;
 
 void LabelStacks::cancel() {
-    ++ticket_;
     due_.stop();
-    request_.request_stop();
+    query_.cancel();
 }
 
 void LabelStacks::request(ObjectId object, FrameIndex frame) {
@@ -77,13 +73,8 @@ void LabelStacks::request(ObjectId object, FrameIndex frame) {
 void LabelStacks::begin() {
     const LabelledObject* object = labels_.object(object_);
     if (object == nullptr || !session_.media()) return;
-    request_ = {};
-    thread_.postNewest([this, ticket = ticket_, object = *object, frame = frame_, media = *session_.media(),
-                        camera = labels_.sharedCamera(), pictures = pictures_,
-                        request = request_.get_token()](const std::stop_token& stop) {
-        std::stop_source either;
-        const std::stop_callback on_request(request, [&] { either.request_stop(); });
-        const std::stop_callback on_end(stop, [&] { either.request_stop(); });
+    query_.ask([this, object = *object, frame = frame_, media = *session_.media(), camera = labels_.sharedCamera(),
+                pictures = pictures_](const BackgroundTask& task) {
         const GrayFrames gray = [&](FrameIndex index) {
             try {
                 return pictures->gray(media, index);
@@ -91,12 +82,9 @@ void LabelStacks::begin() {
                 return cv::Mat();  // the canvas tells of pictures that cannot be read
             }
         };
-        const ObjectStack stack = stackObject(livedOn(object, frame, gray, *camera, either.get_token()), frame, *camera,
-                                              gray, {}, either.get_token());
-        if (either.stop_requested()) return;
-        queuedCall(this, [this, ticket, id = object.id, stack] {
-            if (ticket == ticket_) emit ready(id, stack);
-        });
+        const ObjectStack stack =
+            stackObject(livedOn(object, frame, gray, *camera, task.stop()), frame, *camera, gray, {}, task.stop());
+        task.tell([this, id = object.id, stack] { emit ready(id, stack); });
     });
 }
 

@@ -3,14 +3,13 @@
 #include <QObject>
 #include <QTimer>
 #include <memory>
-#include <stop_token>
 
 #include "annotation/pictures/object_stack.h"
 #include "label/label_session.h"
 
 namespace eyrie::ui {
 
-/// Makes the image stack of the selected object for the frame shown, on its own thread, a moment after they were asked
+/// Makes the image stack of the selected object for the frame shown, in the background, a moment after they were asked
 /// for. Of several wishes the newest wins; pictures read are kept for the next ones.
 class LabelStacks : public QObject {
     Q_OBJECT
@@ -35,11 +34,9 @@ class LabelStacks : public QObject {
     LabelSession& labels_;
     ObjectId object_ = 0;
     FrameIndex frame_ = 0;
-    int ticket_ = 0;
     QTimer due_;
-    std::stop_source request_;
-    std::shared_ptr<Pictures> pictures_;  ///< for the thread alone
-    TaskThread thread_;                   ///< last: stops before the rest goes
+    std::shared_ptr<Pictures> pictures_;  ///< in the background only
+    BackgroundQuery query_;               ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

@@ -8,7 +8,6 @@
 #include "annotation/keyframes/keyframe_reduction.h"
 #include "annotation/review/proposals.h"
 #include "label/label_editor.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -19,14 +18,6 @@ constexpr double kTolerance_px = 1;
 LabelTracking::LabelTracking(ProjectSession& session, LabelSession& labels, QObject* parent)
     : QObject(parent), session_(session), labels_(labels) {
     connect(&labels_, &LabelSession::closed, this, &LabelTracking::stop);
-}
-
-LabelTracking::~LabelTracking() {
-    request_.request_stop();
-}
-
-void LabelTracking::stop() {
-    request_.request_stop();
 }
 
 void LabelTracking::start(int direction) {
@@ -44,39 +35,31 @@ void LabelTracking::start(int direction) {
         return;
     }
     working_ = true;
-    request_ = {};
+    const auto ended_with = [this, id = object->id, from, box = *box](const FollowResult& result,
+                                                                      const QString& failure) {
+        working_ = false;
+        emit workingChanged(false);
+        if (!failure.isEmpty()) emit labels_.problem(failure);
+        take(id, from, box, result);
+    };
+    const auto work = [this, ended_with, media = *session_.media(), box = *box, from, last,
+                       camera = labels_.sharedCamera()](const BackgroundTask& task) {
+        const auto source = media.open({}, task.stop());
+        const GrayFrames frames = [&](FrameIndex frame) {
+            try {
+                return source->read(frame, false).gray;
+            } catch (const std::exception&) {
+                return cv::Mat();
+            }
+        };
+        const FollowProgress progress = [&](const FollowedBox& followed) {
+            if (followed.frame % 5 == 0) task.tell([this, frame = followed.frame] { emit advanced(frame); });
+        };
+        const FollowResult result = followBox(box, from, last, frames, *camera, {}, progress, task.stop());
+        task.tell([ended_with, result] { ended_with(result, {}); });
+    };
+    tracking_ = query_.post(work, [ended_with](const QString& failure) { ended_with({}, failure); });
     emit workingChanged(true);
-    thread_.post([this, ticket = ++ticket_, id = object->id, media = *session_.media(), box = *box, from, last,
-                  camera = labels_.sharedCamera(), request = request_.get_token()](const std::stop_token& stop) {
-        FollowResult result;
-        QString failure;
-        try {
-            std::stop_source either;
-            const std::stop_callback on_request(request, [&] { either.request_stop(); });
-            const std::stop_callback on_end(stop, [&] { either.request_stop(); });
-            const auto source = media.open({}, either.get_token());
-            const GrayFrames frames = [&](FrameIndex frame) {
-                try {
-                    return source->read(frame, false).gray;
-                } catch (const std::exception&) {
-                    return cv::Mat();
-                }
-            };
-            const FollowProgress progress = [this](const FollowedBox& followed) {
-                if (followed.frame % 5 == 0) queuedCall(this, [this, frame = followed.frame] { emit advanced(frame); });
-            };
-            result = followBox(box, from, last, frames, *camera, {}, progress, either.get_token());
-        } catch (const std::exception& error) {
-            failure = QString::fromUtf8(error.what());
-        }
-        queuedCall(this, [this, ticket, id, from, box, result, failure] {
-            if (ticket != ticket_) return;
-            working_ = false;
-            emit workingChanged(false);
-            if (!failure.isEmpty()) emit labels_.problem(failure);
-            take(id, from, box, result);
-        });
-    });
 }
 
 void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, const FollowResult& result) {

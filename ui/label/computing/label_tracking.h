@@ -16,11 +16,11 @@ class LabelTracking : public QObject {
  public:
     /// Both must outlive it.
     LabelTracking(ProjectSession& session, LabelSession& labels, QObject* parent = nullptr);
-    ~LabelTracking() override;
 
     /// From the frame shown; `direction` 1 or −1.
     void start(int direction);
-    void stop();
+    /// What is sure by then is taken.
+    void stop() { tracking_.request_stop(); }
     bool working() const { return working_; }
 
  signals:
@@ -36,9 +36,8 @@ class LabelTracking : public QObject {
     ProjectSession& session_;
     LabelSession& labels_;
     bool working_ = false;
-    int ticket_ = 0;
-    std::stop_source request_;
-    TaskThread thread_;  ///< last: stops before the rest goes
+    std::stop_source tracking_;
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

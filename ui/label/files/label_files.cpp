@@ -19,7 +19,6 @@
 #include "exchange/label_import.h"
 #include "label/files/label_files_text.h"
 #include "label/label_classes.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -127,26 +126,19 @@ void LabelImportDialog::read() {
     report_.reset();
     setBusy(true);
     text_->setPlainText(tr("Reading …"));
-    thread_.postNewest([this, ticket = ++ticket_, path = path_,
-                        format = format_->currentData().toString().toStdString(), options = options(),
-                        present = labels_.annotations(), camera = labels_.sharedCamera(),
-                        within = 1 + tolerance_->value(),
-                        loose = link_->isChecked() ? LooseBoxes::link : LooseBoxes::single](const std::stop_token&) {
-        try {
-            LabelFile labels = readLabels(path, format, options);
-            const LabelReport report = reportOn(labels);
-            gatherLooseBoxes(labels, loose);
-            const auto doubles = static_cast<int>(alreadyLabelled(labels, present, *camera, within).size());
-            queuedCall(this, [this, ticket, report, doubles] {
-                if (ticket == ticket_) showReport(report, doubles);
-            });
-        } catch (const std::exception& error) {
-            queuedCall(this, [this, ticket, text = QString::fromUtf8(error.what())] {
-                if (ticket != ticket_) return;
-                text_->setPlainText(text);
-                emit fileRead();
-            });
-        }
+    const auto work = [this, path = path_, format = format_->currentData().toString().toStdString(),
+                       options = options(), present = labels_.annotations(), camera = labels_.sharedCamera(),
+                       within = 1 + tolerance_->value(),
+                       loose = link_->isChecked() ? LooseBoxes::link : LooseBoxes::single](const BackgroundTask& task) {
+        LabelFile labels = readLabels(path, format, options);
+        const LabelReport report = reportOn(labels);
+        gatherLooseBoxes(labels, loose);
+        const auto doubles = static_cast<int>(alreadyLabelled(labels, present, *camera, within).size());
+        task.tell([this, report, doubles] { showReport(report, doubles); });
+    };
+    query_.ask(work, [this](const QString& text) {
+        text_->setPlainText(text);
+        emit fileRead();
     });
 }
 
@@ -244,24 +236,14 @@ void LabelImportDialog::accept() {
     setEnabled(false);
     text_->setPlainText(tr("Choosing keyframes …"));
     // Nobody else changes labels while this dialog is up, so the store may hand out ids on the other thread.
-    thread_.post([this, path = path_, format = report_->format, with_classes, store = labels_.store(),
-                  sequence = labels_.sequence(), camera = labels_.sharedCamera(), tolerance = tolerance_->value(),
-                  doubles = add_doubles_->isChecked() ? Doubles::add : Doubles::skip,
-                  loose = link_->isChecked() ? LooseBoxes::link : LooseBoxes::single](const std::stop_token&) {
-        LabelImport planned;
-        QString failure;
-        try {
-            planned = planImport(readLabels(path, format, with_classes), sequence, *camera, *store, tolerance, doubles,
-                                 loose);
-        } catch (const std::exception& error) {
-            failure = QString::fromUtf8(error.what());
-        }
-        queuedCall(this, [this, planned, failure] {
+    const auto work = [this, path = path_, format = report_->format, with_classes, store = labels_.store(),
+                       sequence = labels_.sequence(), camera = labels_.sharedCamera(), tolerance = tolerance_->value(),
+                       doubles = add_doubles_->isChecked() ? Doubles::add : Doubles::skip,
+                       loose = link_->isChecked() ? LooseBoxes::link : LooseBoxes::single](const BackgroundTask& task) {
+        const LabelImport planned =
+            planImport(readLabels(path, format, with_classes), sequence, *camera, *store, tolerance, doubles, loose);
+        task.tell([this, planned] {
             setEnabled(true);
-            if (!failure.isEmpty()) {
-                text_->setPlainText(failure);
-                return;
-            }
             if (planned.edit.empty() || !labels_.apply(planned.edit)) {
                 text_->setPlainText(tr("Nothing was imported.\n") + lines(planned.notes));
                 setBusy(false);
@@ -274,6 +256,10 @@ void LabelImportDialog::accept() {
             for (const std::string& note : planned.notes) summary_ += QLatin1Char('\n') + QString::fromStdString(note);
             QDialog::accept();
         });
+    };
+    query_.post(work, [this](const QString& failure) {
+        setEnabled(true);
+        text_->setPlainText(failure);
     });
 }
 

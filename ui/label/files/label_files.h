@@ -6,7 +6,7 @@
 
 #include "formats/label_formats.h"
 #include "label/label_session.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 
 class QCheckBox;
 class QComboBox;
@@ -59,7 +59,6 @@ class LabelImportDialog : public QDialog {
     LabelSession& labels_;
     std::filesystem::path path_;
     std::optional<LabelReport> report_;
-    int ticket_ = 0;
     QString summary_;
     QComboBox* format_;
     QLineEdit* columns_;
@@ -71,7 +70,7 @@ class LabelImportDialog : public QDialog {
     QCheckBox* link_;
     QPlainTextEdit* text_;
     QDialogButtonBox* buttons_;
-    TaskThread thread_;  ///< last: stops before the rest goes
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 /// Labels to a file in any format; afterwards says what the format could not carry.
@@ -94,6 +93,7 @@ class LabelExportDialog : public QDialog {
  private:
     void browse();
     void showFormat();
+    void showEnd(const QString& text, bool fine);
 
     LabelSession& labels_;
     QComboBox* format_;
@@ -103,8 +103,8 @@ class LabelExportDialog : public QDialog {
     QCheckBox* clip_;
     QPlainTextEdit* text_;
     QPushButton* export_;
-    QString agreed_;     ///< the target that somebody agreed to replace
-    TaskThread thread_;  ///< last: stops before the rest goes
+    QString agreed_;         ///< the target that somebody agreed to replace
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

@@ -16,7 +16,6 @@
 #include "io/output_files.h"
 #include "label/files/label_files.h"
 #include "label/files/label_files_text.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -103,6 +102,12 @@ QString LabelExportDialog::report() const {
     return text_->toPlainText();
 }
 
+void LabelExportDialog::showEnd(const QString& text, bool fine) {
+    export_->setEnabled(true);
+    text_->setPlainText(text);
+    emit finishedExport(fine);
+}
+
 void LabelExportDialog::startExport() {
     if (target_->text().trimmed().isEmpty()) browse();
     if (target_->text().trimmed().isEmpty()) return;
@@ -115,44 +120,33 @@ void LabelExportDialog::startExport() {
     const bool agreed = std::exchange(agreed_, {}) == target;
     export_->setEnabled(false);
     text_->setPlainText(tr("Writing …"));
-    thread_.post([this, set = labels_.annotations(), sequence = labels_.sequence(), camera = labels_.sharedCamera(),
-                  path = std::filesystem::path(target.toStdString()), project = labels_.projectPath(), target, agreed,
-                  format = format_->currentData().toString().toStdString(), options](const std::stop_token&) {
-        QString text;
-        bool fine = false;
-        try {
-            std::vector<OutputFile> files;
-            for (const ExportFile& file : filesToWrite(path, format, options))
-                files.push_back({file.path, file.kind, file.grows, true});
-            const auto replaced = filesToReplace(files, {project, sequence.path});
-            if (!replaced.empty() && !agreed) {
-                queuedCall(this, [this, target, names = QString::fromStdString(shortList(replaced))] {
-                    agreed_ = target;
-                    export_->setEnabled(true);
-                    text_->setPlainText(tr("%1 would be replaced. Name another file, or press Export again to replace "
-                                           "what is there.")
-                                            .arg(names));
-                    emit finishedExport(false);
-                });
-                return;
-            }
-            const ExportReport report = writeLabels(labelsOf(set, sequence, *camera), path, format, options);
-            text = tr("Wrote %1 boxes.\n").arg(report.boxes);
-            for (const auto& file : report.files) text += QString::fromStdString(file.string()) + QLatin1Char('\n');
-            text += report.losses.empty() ? tr("Nothing was lost.\n") : tr("What the format could not hold:\n");
-            for (const ExportLoss& loss : report.losses)
-                text += QStringLiteral("• %1\n").arg(QString::fromStdString(loss.remark));
-            text += lines(report.notes);
-            fine = true;
-        } catch (const std::exception& error) {
-            text = QString::fromUtf8(error.what());
+    const auto work = [this, set = labels_.annotations(), sequence = labels_.sequence(),
+                       camera = labels_.sharedCamera(), path = std::filesystem::path(target.toStdString()),
+                       project = labels_.projectPath(), target, agreed,
+                       format = format_->currentData().toString().toStdString(), options](const BackgroundTask& task) {
+        std::vector<OutputFile> files;
+        for (const ExportFile& file : filesToWrite(path, format, options))
+            files.push_back({file.path, file.kind, file.grows, true});
+        const auto replaced = filesToReplace(files, {project, sequence.path});
+        if (!replaced.empty() && !agreed) {
+            task.tell([this, target, names = QString::fromStdString(shortList(replaced))] {
+                agreed_ = target;
+                showEnd(tr("%1 would be replaced. Name another file, or press Export again to replace what is there.")
+                            .arg(names),
+                        false);
+            });
+            return;
         }
-        queuedCall(this, [this, text, fine] {
-            export_->setEnabled(true);
-            text_->setPlainText(text);
-            emit finishedExport(fine);
-        });
-    });
+        const ExportReport report = writeLabels(labelsOf(set, sequence, *camera), path, format, options);
+        QString text = tr("Wrote %1 boxes.\n").arg(report.boxes);
+        for (const auto& file : report.files) text += QString::fromStdString(file.string()) + QLatin1Char('\n');
+        text += report.losses.empty() ? tr("Nothing was lost.\n") : tr("What the format could not hold:\n");
+        for (const ExportLoss& loss : report.losses)
+            text += QStringLiteral("• %1\n").arg(QString::fromStdString(loss.remark));
+        text += lines(report.notes);
+        task.tell([this, text] { showEnd(text, true); });
+    };
+    query_.post(work, [this](const QString& failure) { showEnd(failure, false); });
 }
 
 }  // namespace eyrie::ui

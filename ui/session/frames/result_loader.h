@@ -7,7 +7,7 @@
 #include <stop_token>
 
 #include "canvas/view_frame.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/project/media.h"
 
 namespace eyrie::ui {
@@ -25,7 +25,7 @@ struct OpenedVideo {
     double gsd_m_per_px = 0;             ///< 0: the video does not tell
 };
 
-/// Fetches frames for review on its own thread: pictures from the video, results from the store (by its own
+/// Fetches frames for review in the background: pictures from the video, results from the store (by its own
 /// connection). Of several requests the newest wins; frames ahead are prepared while nothing else is to do. Signals
 /// arrive on the thread of this object.
 class ResultLoader : public QObject {
@@ -44,8 +44,6 @@ class ResultLoader : public QObject {
     void useRun(std::optional<RunReference> run, int trail_length);
     /// Answers with frameLoaded(), unless a newer request comes first. `direction` −1, 0 or 1 says what to read ahead.
     void request(FrameIndex frame, int direction);
-    /// The thread that does the work, for tests that it is not the window's.
-    std::thread::id workerId() const { return thread_.id(); }
 
  signals:
     void openingProgress(double share);
@@ -60,7 +58,7 @@ class ResultLoader : public QObject {
     class Worker;
     std::unique_ptr<Worker> worker_;
     std::stop_source opening_;
-    TaskThread thread_;  ///< last: stops before the worker goes
+    BackgroundQuery query_;  ///< last: stops before the worker goes
 };
 
 }  // namespace eyrie::ui

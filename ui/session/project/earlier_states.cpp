@@ -2,10 +2,10 @@
 
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <thread>
 
 #include "core/error.h"
-#include "session/background/queued_call.h"
 #include "store/backup/project_restore.h"
 #include "store/health/project_contents.h"
 
@@ -17,10 +17,6 @@ using Clock = std::chrono::steady_clock;
 /// The loaders of this window close their connections as soon as what they do at the moment is done.
 constexpr auto kPatience = std::chrono::seconds(10);
 constexpr auto kPause = std::chrono::milliseconds(50);
-
-QString textOf(const std::exception& error) {
-    return QString::fromUtf8(error.what());
-}
 
 /// Restores as soon as nobody has the project open any more.
 BackupResult restoreWhenFree(const std::filesystem::path& project, const ProjectBackup& backup,
@@ -41,60 +37,51 @@ BackupResult restoreWhenFree(const std::filesystem::path& project, const Project
 EarlierStates::EarlierStates(QObject* parent) : QObject(parent) {}
 
 void EarlierStates::keepIfDue(const std::filesystem::path& project) {
-    thread_.post([this, project](const std::stop_token& stop) {
-        const BackupResult result = backUpIfDue(project, {.stop = stop});
+    query_.post([this, project](const BackgroundTask& task) {
+        const BackupResult result = backUpIfDue(project, {.stop = task.stop()});
         if (result.notice.empty()) return;
-        queuedCall(this, [this, text = QString::fromStdString(result.notice)] { emit notice(text); });
+        task.tell([this, text = QString::fromStdString(result.notice)] { emit notice(text); });
     });
 }
 
 void EarlierStates::list(const std::filesystem::path& project) {
-    thread_.post([this, project](const std::stop_token& stop) {
-        try {
-            std::vector<EarlierState> states;
-            const ProjectContents present = contentsOf(project);
-            for (const ProjectBackup& backup : listBackups(project)) {
-                if (stop.stop_requested()) return;
-                EarlierState state{backup, {}};
-                try {
-                    for (const std::string& line : differencesInWords(present, contentsOf(backup.path)))
-                        state.differences << QString::fromStdString(line);
-                } catch (const std::exception& error) {
-                    state.differences << textOf(error);
-                }
-                states.push_back(std::move(state));
+    const auto work = [this, project](const BackgroundTask& task) {
+        std::vector<EarlierState> states;
+        const ProjectContents present = contentsOf(project);
+        for (const ProjectBackup& backup : listBackups(project)) {
+            if (task.stop().stop_requested()) return;
+            EarlierState state{backup, {}};
+            try {
+                for (const std::string& line : differencesInWords(present, contentsOf(backup.path)))
+                    state.differences << QString::fromStdString(line);
+            } catch (const std::exception& error) {
+                state.differences << QString::fromUtf8(error.what());
             }
-            queuedCall(this, [this, states] { emit listed(states); });
-        } catch (const std::exception& error) {
-            queuedCall(this, [this, text = textOf(error)] { emit failed(text); });
+            states.push_back(std::move(state));
         }
-    });
+        task.tell([this, states] { emit listed(states); });
+    };
+    query_.post(work, std::bind_front(&EarlierStates::failed, this));
 }
 
 void EarlierStates::restore(const std::filesystem::path& project, const ProjectBackup& backup) {
-    thread_.post([this, project, backup](const std::stop_token& stop) {
-        try {
-            const BackupResult result = restoreWhenFree(project, backup, stop);
-            if (result.outcome == BackupOutcome::stopped) return;
-            if (result.outcome == BackupOutcome::by_others)
-                throw Error(ErrorKind::project, "another program keeps the present state of " + project.string() +
-                                                    " at this moment; restore again when it is done");
-            queuedCall(this, [this, project] { emit restored(project); });
-        } catch (const std::exception& error) {
-            queuedCall(this, [this, text = textOf(error)] { emit failed(text); });
-        }
-    });
+    const auto work = [this, project, backup](const BackgroundTask& task) {
+        const BackupResult result = restoreWhenFree(project, backup, task.stop());
+        if (result.outcome == BackupOutcome::stopped) return;
+        if (result.outcome == BackupOutcome::by_others)
+            throw Error(ErrorKind::project, "another program keeps the present state of " + project.string() +
+                                                " at this moment; restore again when it is done");
+        task.tell([this, project] { emit restored(project); });
+    };
+    query_.post(work, std::bind_front(&EarlierStates::failed, this));
 }
 
 void EarlierStates::restoreAsNew(const ProjectBackup& backup, const std::filesystem::path& fresh) {
-    thread_.post([this, backup, fresh](const std::stop_token& stop) {
-        try {
-            if (!eyrie::restoreAsNew(backup, fresh, {.stop = stop})) return;
-            queuedCall(this, [this, fresh] { emit restored(fresh); });
-        } catch (const std::exception& error) {
-            queuedCall(this, [this, text = textOf(error)] { emit failed(text); });
-        }
-    });
+    const auto work = [this, backup, fresh](const BackgroundTask& task) {
+        if (eyrie::restoreAsNew(backup, fresh, {.stop = task.stop()}))
+            task.tell([this, fresh] { emit restored(fresh); });
+    };
+    query_.post(work, std::bind_front(&EarlierStates::failed, this));
 }
 
 }  // namespace eyrie::ui

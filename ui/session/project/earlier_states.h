@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "store/backup/project_backup.h"
 
 namespace eyrie::ui {
@@ -16,7 +16,7 @@ struct EarlierState {
     QStringList differences;  ///< a line each, for people
 };
 
-/// Keeps, lists and restores earlier states of projects on its own thread. Signals arrive on the thread of this object.
+/// Keeps, lists and restores earlier states of projects in the background. Signals arrive on the thread of this object.
 class EarlierStates : public QObject {
     Q_OBJECT
 
@@ -41,7 +41,7 @@ class EarlierStates : public QObject {
     void notice(const QString& message);
 
  private:
-    TaskThread thread_;
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

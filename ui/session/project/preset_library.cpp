@@ -4,8 +4,6 @@
 #include <exception>
 #include <utility>
 
-#include "session/background/queued_call.h"
-
 namespace eyrie::ui {
 
 PresetLibrary::PresetLibrary(const std::filesystem::path& folder, QObject* parent) : QObject(parent), store_(folder) {
@@ -16,7 +14,7 @@ PresetLibrary::PresetLibrary(const std::filesystem::path& folder, QObject* paren
 }
 
 void PresetLibrary::useProject(const std::filesystem::path& project) {
-    thread_.post([this, project](const std::stop_token&) { store_.useProject(project); });
+    query_.post([this, project](const BackgroundTask&) { store_.useProject(project); });
     refresh();
 }
 
@@ -44,28 +42,28 @@ std::vector<PresetLibrary::Preset> PresetLibrary::read(const PresetStore& store)
 }
 
 void PresetLibrary::post(Work work, QObject* receiver, Answer answer) {
-    thread_.post(
-        [this, work = std::move(work), guard = QPointer(receiver), answer = std::move(answer)](const std::stop_token&) {
-            std::string name;
-            QString problem;
-            std::vector<Preset> presets;
-            try {
-                if (work) name = work(store_);
-            } catch (const std::exception& error) {
-                problem = QString::fromUtf8(error.what());
-            }
-            try {
-                presets = read(store_);
-            } catch (const std::exception& error) {
-                if (problem.isEmpty()) problem = QString::fromUtf8(error.what());
-            }
-            queuedCall(this, [this, guard, answer, name = QString::fromStdString(name), problem,
-                              presets = std::move(presets)]() mutable {
-                if (!presets.empty()) presets_ = std::move(presets);
-                emit changed();
-                if (answer && guard) answer(name, problem);
-            });
+    query_.post([this, work = std::move(work), guard = QPointer(receiver),
+                 answer = std::move(answer)](const BackgroundTask& task) {
+        std::string name;
+        QString problem;
+        std::vector<Preset> presets;
+        try {
+            if (work) name = work(store_);
+        } catch (const std::exception& error) {
+            problem = QString::fromUtf8(error.what());
+        }
+        try {
+            presets = read(store_);
+        } catch (const std::exception& error) {
+            if (problem.isEmpty()) problem = QString::fromUtf8(error.what());
+        }
+        task.tell([this, guard, answer, name = QString::fromStdString(name), problem,
+                   presets = std::move(presets)]() mutable {
+            if (!presets.empty()) presets_ = std::move(presets);
+            emit changed();
+            if (answer && guard) answer(name, problem);
         });
+    });
 }
 
 void PresetLibrary::save(const std::string& name, const ChainOptions& options, QObject* receiver, Answer answer) {

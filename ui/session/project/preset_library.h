@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/project/preset_store.h"
 
 namespace eyrie::ui {
 
 /// The presets as the window knows them: a copy in memory of what a PresetStore holds. Files and projects are read and
-/// written on its own thread.
+/// written in the background, one after the other.
 class PresetLibrary : public QObject {
     Q_OBJECT
 
@@ -58,8 +58,8 @@ class PresetLibrary : public QObject {
     static std::vector<Preset> read(const PresetStore& store);
 
     std::vector<Preset> presets_;
-    PresetStore store_;  ///< on the thread only
-    TaskThread thread_;  ///< last: stops before the rest goes
+    PresetStore store_;      ///< in the background only
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

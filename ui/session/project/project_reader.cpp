@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <utility>
 
 #include "chain/recording/run_resume.h"
 #include "core/error.h"
-#include "session/background/queued_call.h"
 #include "session/project/project_copy.h"
 #include "session/project/project_location.h"
 #include "store/database/change_watch.h"
@@ -15,7 +15,7 @@
 
 namespace eyrie::ui {
 
-/// What lives on the reader's thread.
+/// What is used in the background alone.
 class ProjectReader::Worker {
  public:
     explicit Worker(ProjectReader& owner) : owner_(owner) {}
@@ -58,9 +58,7 @@ class ProjectReader::Worker {
     }
 
     void readLists() {
-        guarded([this](RunStore&) {
-            queuedCall(&owner_, [owner = &owner_, lists = lists()] { emit owner->read(lists); });
-        });
+        guarded([this](RunStore&) { tell([this, lists = lists()] { emit owner_.read(lists); }); });
     }
 
     void readListsIfChanged() {
@@ -77,24 +75,21 @@ class ProjectReader::Worker {
             data->frames = store.frameSummaries(run_id);
             data->tracks = store.tracks(run_id);
             data->facts = factsOf(*project_, data->record);
-            queuedCall(&owner_, [owner = &owner_, data = std::shared_ptr<const RunData>(std::move(data))] {
-                emit owner->runRead(data);
-            });
+            tell([this, data = std::shared_ptr<const RunData>(std::move(data))] { emit owner_.runRead(data); });
         });
     }
 
     void readFacts(int run_id) {
         guarded([this, run_id](RunStore& store) {
             const RunRecord run = runOf(store, run_id);
-            queuedCall(&owner_,
-                       [owner = &owner_, run, facts = factsOf(*project_, run)] { emit owner->factsRead(run, facts); });
+            tell([this, run, facts = factsOf(*project_, run)] { emit owner_.factsRead(run, facts); });
         });
     }
 
     void readTrack(int run_id, TrackId track) {
         guarded([this, run_id, track](RunStore& store) {
-            queuedCall(&owner_, [owner = &owner_, run_id, track, states = store.trackStates(run_id, track)] {
-                emit owner->trackRead(run_id, track, states);
+            tell([this, run_id, track, states = store.trackStates(run_id, track)] {
+                emit owner_.trackRead(run_id, track, states);
             });
         });
     }
@@ -102,7 +97,7 @@ class ProjectReader::Worker {
     void saveCopy(const std::filesystem::path& target) {
         guarded([this, &target](RunStore&) {
             copyProject(*project_, target);
-            queuedCall(&owner_, [owner = &owner_, target] { emit owner->copied(target); });
+            tell([this, target] { emit owner_.copied(target); });
         });
     }
 
@@ -112,7 +107,7 @@ class ProjectReader::Worker {
             ProjectFile copy = ProjectFile::open(target);
             close();
             adopt(std::move(copy));
-            queuedCall(&owner_, [owner = &owner_, lists = lists()] { emit owner->movedTo(lists); });
+            tell([this, lists = lists()] { emit owner_.movedTo(lists); });
         });
     }
 
@@ -130,14 +125,15 @@ class ProjectReader::Worker {
             RunStore store(*project_);
             work(store);
         } catch (const std::exception& error) {
-            queuedCall(&owner_,
-                       [owner = &owner_, message = QString::fromUtf8(error.what())] { emit owner->failed(message); });
+            tell([this, message = QString::fromUtf8(error.what())] { emit owner_.failed(message); });
         }
     }
 
     ProjectFile& project() { return *project_; }
 
  private:
+    void tell(std::function<void()> call) { owner_.query_.tell(std::move(call)); }
+
     void adopt(ProjectFile&& project) {
         project_ = std::make_unique<ProjectFile>(std::move(project));
         watch_ = std::make_unique<ChangeWatch>(*project_);
@@ -177,14 +173,12 @@ class ProjectReader::Worker {
     void tellOpened() {
         ProjectLists opened = lists();
         opened.notice = project_->notice();
-        queuedCall(&owner_, [owner = &owner_, opened = std::move(opened)] { emit owner->opened(opened); });
+        tell([this, opened = std::move(opened)] { emit owner_.opened(opened); });
     }
 
     void openFailed(const std::filesystem::path& path, const std::exception& error) {
         project_.reset();
-        queuedCall(&owner_, [owner = &owner_, path, message = QString::fromUtf8(error.what())] {
-            emit owner->openFailed(path, message);
-        });
+        tell([this, path, message = QString::fromUtf8(error.what())] { emit owner_.openFailed(path, message); });
     }
 
     ProjectReader& owner_;
@@ -199,7 +193,7 @@ ProjectReader::~ProjectReader() = default;
 
 template <class Work>
 void ProjectReader::post(Work work) {
-    thread_.post([worker = worker_.get(), work = std::move(work)](const std::stop_token&) { work(*worker); });
+    query_.post([worker = worker_.get(), work = std::move(work)](const BackgroundTask&) { work(*worker); });
 }
 
 void ProjectReader::open(const std::filesystem::path& project) {
@@ -224,7 +218,8 @@ void ProjectReader::readListsIfChanged() {
 }
 
 void ProjectReader::readRun(int run_id) {
-    thread_.postNewest([worker = worker_.get(), run_id](const std::stop_token&) { worker->readRun(run_id); });
+    query_.ask([worker = worker_.get(), run_id](const BackgroundTask&) { worker->readRun(run_id); }, {},
+               BackgroundQuery::Former::finish);
 }
 
 void ProjectReader::readFacts(int run_id) {

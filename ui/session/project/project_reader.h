@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "io/video/frame_source.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/run_data.h"
 
 namespace eyrie::ui {
@@ -21,7 +21,8 @@ struct ProjectLists {
     std::string notice;                     ///< for people, when it was opened; else empty
 };
 
-/// Reads and edits the lists of a project on its own thread. Signals arrive on the thread of this object.
+/// Reads and edits the lists of a project in the background, one after the other. Signals arrive on the thread of this
+/// object.
 class ProjectReader : public QObject {
     Q_OBJECT
 
@@ -80,7 +81,7 @@ class ProjectReader : public QObject {
     template <class Work>
     void post(Work work);
     std::unique_ptr<Worker> worker_;
-    TaskThread thread_;  ///< last: stops before the worker goes
+    BackgroundQuery query_;  ///< last: stops before the worker goes
 };
 
 }  // namespace eyrie::ui

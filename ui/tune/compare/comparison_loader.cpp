@@ -1,12 +1,12 @@
 #include "tune/compare/comparison_loader.h"
 
 #include <exception>
+#include <functional>
 #include <utility>
 
 #include "canvas/image_convert.h"
 #include "io/video/frame_cache.h"
 #include "rerun/replay.h"
-#include "session/background/queued_call.h"
 #include "session/frames/stored_frames.h"
 #include "tune/compare/comparison_computation.h"
 #include "tune/compare/computed_frames.h"
@@ -34,7 +34,7 @@ struct SideFrames {
 
 }  // namespace
 
-/// What lives on the loader's thread.
+/// What is used in the background alone.
 class ComparisonLoader::Worker {
  public:
     explicit Worker(ComparisonLoader& owner) : owner_(owner) {}
@@ -59,54 +59,37 @@ class ComparisonLoader::Worker {
             FrameCacheOptions options;
             options.max_bytes = kSidePictureBudget;
             pictures_ = std::make_unique<FrameCache>(std::move(source), options);
-        } catch (const std::exception& error) {
-            report(error, stop);
+        } catch (const std::exception&) {
+            if (!stop.stop_requested()) throw;
         }
     }
 
-    void load(FrameIndex frame, const std::stop_token& stop) {
-        if (!first_.open() || !second_.open() || stop.stop_requested()) return;
+    void load(FrameIndex frame, const BackgroundTask& task) {
+        if (!first_.open() || !second_.open() || task.stop().stop_requested()) return;
         ViewFrame one;
         one.index = frame;
-        try {
-            const bool has_picture = pictures_ && frame < pictures_->info().frame_count;
-            if (has_picture) pictures_->tryGet(frame);  // decoded on its own thread while results are read here
-            ViewFrame other = one;
-            first_.addTo(one);
-            second_.addTo(other);
-            if (has_picture) {
-                const auto picture = pictures_->get(frame);
-                one.image = imageForDisplay(picture->colour.empty() ? picture->gray : picture->colour);
-                one.time_us = other.time_us = pictures_->timeOf(frame);
-                other.image = one.image;
-            }
-            queuedCall(&owner_, [owner = &owner_, one = std::move(one), other = std::move(other), stop] {
-                if (!stop.stop_requested()) emit owner->loaded(one, other);
-            });
-            readAhead(frame + 1, kSideReadAhead);
-        } catch (const std::exception& error) {
-            report(error, stop);
+        const bool has_picture = pictures_ && frame < pictures_->info().frame_count;
+        if (has_picture) pictures_->tryGet(frame);  // decoded on its own thread while results are read here
+        ViewFrame other = one;
+        first_.addTo(one);
+        second_.addTo(other);
+        if (has_picture) {
+            const auto picture = pictures_->get(frame);
+            one.image = imageForDisplay(picture->colour.empty() ? picture->gray : picture->colour);
+            one.time_us = other.time_us = pictures_->timeOf(frame);
+            other.image = one.image;
         }
+        task.tell([this, one = std::move(one), other = std::move(other)] { emit owner_.loaded(one, other); });
+        readAhead(frame + 1, kSideReadAhead);
     }
 
  private:
     void readAhead(FrameIndex frame, int left) {
         if (left == 0) return;
-        owner_.thread_.postIdle([this, frame, left](const std::stop_token&) {
-            try {
-                if (!first_.open() || !second_.open()) return;
-                if (!first_.prepare(frame) || !second_.prepare(frame)) return;
-            } catch (const std::exception&) {
-                return;  // told when the frame is asked for
-            }
-            readAhead(frame + 1, left - 1);
-        });
-    }
-
-    void report(const std::exception& error, const std::stop_token& stop) {
-        if (stop.stop_requested()) return;
-        queuedCall(&owner_,
-                   [owner = &owner_, message = QString::fromUtf8(error.what())] { emit owner->failed(message); });
+        owner_.query_.whenIdle([this, frame, left](const BackgroundTask&) {
+            if (!first_.open() || !second_.open()) return;
+            if (first_.prepare(frame) && second_.prepare(frame)) readAhead(frame + 1, left - 1);
+        });  // what is wrong with a frame is told when it is asked for
     }
 
     ComparisonLoader& owner_;
@@ -118,46 +101,37 @@ class ComparisonLoader::Worker {
 ComparisonLoader::ComparisonLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
 
 ComparisonLoader::~ComparisonLoader() {
-    cancel();
+    cancel();  // of both, before either is waited for
 }
 
 void ComparisonLoader::cancel() {
-    pair_.request_stop();
+    opening_.request_stop();
+    query_.cancel();
+    comparing_.cancel();
 }
 
 void ComparisonLoader::usePair(const ComparisonPair& pair) {
     cancel();
-    pair_ = std::stop_source();
-    const std::stop_token stop = pair_.get_token();
     ComputedPair computed;
     if (pair.first.options) computed.first = std::make_shared<ComputedFrames>(kTrailLength);
     if (pair.second.options) computed.second = std::make_shared<ComputedFrames>(kTrailLength);
-    thread_.post(
-        [worker = worker_.get(), pair, computed, stop](const std::stop_token&) { worker->open(pair, computed, stop); });
-    comparing_.postNewest([this, pair, computed, stop](const std::stop_token&) {
-        try {
-            const auto tell = [this, stop](int done, int total) {
-                queuedCall(this, [this, stop, done, total] {
-                    if (!stop.stop_requested()) emit this->computed(done, total);
-                });
-            };
-            auto comparison = std::make_shared<const SideComparison>(compareSides(pair, computed, stop, tell));
-            if (stop.stop_requested()) return;
-            queuedCall(this, [this, comparison = std::move(comparison), stop] {
-                if (!stop.stop_requested()) emit compared(comparison);
-            });
-        } catch (const std::exception& error) {
-            queuedCall(this, [this, stop, message = QString::fromUtf8(error.what())] {
-                if (!stop.stop_requested()) emit failed(message);
-            });
-        }
-    });
+    opening_ = query_.post([worker = worker_.get(), pair,
+                            computed](const BackgroundTask& task) { worker->open(pair, computed, task.stop()); },
+                           std::bind_front(&ComparisonLoader::failed, this));
+    const auto compare = [this, pair, computed](const BackgroundTask& task) {
+        const auto tell = [&](int done, int total) {
+            task.tell([this, done, total] { emit this->computed(done, total); });
+        };
+        auto comparison = std::make_shared<const SideComparison>(compareSides(pair, computed, task.stop(), tell));
+        task.tell([this, comparison = std::move(comparison)] { emit compared(comparison); });
+    };
+    comparing_.ask(compare, std::bind_front(&ComparisonLoader::failed, this));
 }
 
 void ComparisonLoader::request(FrameIndex frame) {
-    thread_.postNewest([worker = worker_.get(), frame, stop = pair_.get_token()](const std::stop_token&) {
-        worker->load(frame, stop);
-    });
+    if (opening_.stop_requested()) return;  // no pair is shown
+    query_.ask([worker = worker_.get(), frame](const BackgroundTask& task) { worker->load(frame, task); },
+               std::bind_front(&ComparisonLoader::failed, this), BackgroundQuery::Former::finish);
 }
 
 }  // namespace eyrie::ui

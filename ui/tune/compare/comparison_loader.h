@@ -9,7 +9,7 @@
 #include "canvas/view_frame.h"
 #include "chain/chain_run.h"
 #include "evaluation/comparison/result_difference.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/project/media.h"
 #include "tune/compare/live_preview.h"
 
@@ -40,7 +40,7 @@ struct SideComparison {
     bool exact = true;  ///< computed sides are what whole runs with their parameters would be
 };
 
-/// Reads or computes the frames of two sides together, and compares them, on its own threads. Of several frames asked
+/// Reads or computes the frames of two sides together, and compares them, in the background. Of several frames asked
 /// for the newest wins. Signals arrive on the thread of this object.
 class ComparisonLoader : public QObject {
     Q_OBJECT
@@ -66,9 +66,9 @@ class ComparisonLoader : public QObject {
  private:
     class Worker;
     std::unique_ptr<Worker> worker_;
-    std::stop_source pair_;
-    TaskThread comparing_;
-    TaskThread thread_;  ///< last: stops before the worker goes
+    std::stop_source opening_;
+    BackgroundQuery comparing_;
+    BackgroundQuery query_;  ///< last: stops before the worker goes
 };
 
 }  // namespace eyrie::ui

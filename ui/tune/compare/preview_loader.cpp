@@ -3,8 +3,6 @@
 #include <exception>
 #include <utility>
 
-#include "session/background/queued_call.h"
-
 namespace eyrie::ui {
 
 namespace {
@@ -12,61 +10,60 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPreviewProgressInterval = std::chrono::milliseconds(120);
 }  // namespace
 
-/// What lives on the loader's thread.
+/// What is used in the background alone.
 class PreviewLoader::Worker {
  public:
     explicit Worker(PreviewLoader& owner) : owner_(owner) {}
 
     void useRun(std::optional<ReplayRun> run) {
-        preview_.reset();
-        open_.reset();
+        close();
         run_ = std::move(run);
     }
 
     void load(FrameIndex frame, const ChainOptions& options, int range, Clock::time_point wished,
-              const std::stop_token& run_stop, const std::stop_token& wish_stop) {
-        if (!run_ || run_stop.stop_requested()) return;
+              const std::stop_token& tracks_stop, const BackgroundTask& task) {
+        if (!run_ || task.stop().stop_requested()) return;
         try {
-            if (!open(run_stop)) return;
-            auto first = preview_->now(frame, options, range, run_stop);
+            if (!open(task.stop())) return;
+            auto first = preview_->now(frame, options, range, task.stop());
             if (!first) return;
             const bool final = first->tracks_final || range == 0;
             const double waited_ms = std::chrono::duration<double, std::milli>(Clock::now() - wished).count();
-            publish(frame, std::move(*first), final ? 0 : range, waited_ms);
-            if (final || wish_stop.stop_requested()) return;
+            publish(frame, std::move(*first), final ? 0 : range, waited_ms, task);
+            if (final || tracks_stop.stop_requested()) return;
             Clock::time_point told = Clock::now();
-            auto whole = preview_->withTracks(frame, options, range, wish_stop, [&](int left) {
+            auto whole = preview_->withTracks(frame, options, range, tracks_stop, [&](int left) {
                 if (Clock::now() - told < kPreviewProgressInterval) return;
                 told = Clock::now();
-                queuedCall(&owner_, [owner = &owner_, frame, left] { emit owner->tracksProgress(frame, left); });
+                task.tell([this, frame, left] { emit owner_.tracksProgress(frame, left); });
             });
-            if (whole && !wish_stop.stop_requested()) publish(frame, std::move(*whole), 0, waited_ms);
-        } catch (const std::exception& error) {
-            if (run_stop.stop_requested()) return;
-            preview_.reset();  // opened anew with the next wish
-            open_.reset();
-            queuedCall(&owner_, [owner = &owner_, frame, message = QString::fromUtf8(error.what())] {
-                emit owner->failed(frame, message);
-            });
+            if (whole && !tracks_stop.stop_requested()) publish(frame, std::move(*whole), 0, waited_ms, task);
+        } catch (const std::exception&) {
+            close();  // opened anew with the next wish
+            throw;
         }
     }
 
-    void warmUp(FrameIndex frame, const std::stop_token& run_stop, const std::stop_token& warm_stop) {
-        if (!run_ || run_stop.stop_requested() || warm_stop.stop_requested()) return;
+    void warmUp(FrameIndex frame, const std::stop_token& stop) {
+        if (!run_ || stop.stop_requested()) return;
         try {
-            if (open(run_stop)) preview_->warmUp(frame, warm_stop);
+            if (open(stop)) preview_->warmUp(frame, stop);
         } catch (const std::exception&) {
-            preview_.reset();  // the first wish says what is wrong
-            open_.reset();
+            close();  // the first wish says what is wrong
         }
     }
 
  private:
+    void close() {
+        preview_.reset();
+        open_.reset();
+    }
+
     /// False when it was stopped.
-    bool open(const std::stop_token& run_stop) {
+    bool open(const std::stop_token& stop) {
         if (preview_) return true;
-        open_ = std::make_unique<OpenRun>(*run_, run_stop);
-        if (run_stop.stop_requested()) {  // perhaps half open
+        open_ = std::make_unique<OpenRun>(*run_, stop);
+        if (stop.stop_requested()) {  // perhaps half open
             open_.reset();
             return false;
         }
@@ -74,15 +71,13 @@ class PreviewLoader::Worker {
         return true;
     }
 
-    void publish(FrameIndex frame, PreviewedFrame previewed, int left, double waited_ms) {
+    void publish(FrameIndex frame, PreviewedFrame previewed, int left, double waited_ms, const BackgroundTask& task) {
         auto view = std::make_shared<PreviewView>();
         view->frame = frame;
         view->previewed = std::move(previewed);
         view->frames_left = left;
         view->milliseconds = waited_ms;
-        queuedCall(&owner_, [owner = &owner_, view = std::shared_ptr<const PreviewView>(std::move(view))] {
-            emit owner->previewed(view);
-        });
+        task.tell([this, view = std::shared_ptr<const PreviewView>(std::move(view))] { emit owner_.previewed(view); });
     }
 
     PreviewLoader& owner_;
@@ -94,36 +89,33 @@ class PreviewLoader::Worker {
 PreviewLoader::PreviewLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
 
 PreviewLoader::~PreviewLoader() {
-    cancel();
+    tracks_.request_stop();
 }
 
 void PreviewLoader::useRun(std::optional<ReplayRun> run) {
     cancel();
-    thread_.post([worker = worker_.get(), run = std::move(run)](const std::stop_token&) { worker->useRun(run); });
+    query_.post([worker = worker_.get(), run = std::move(run)](const BackgroundTask&) { worker->useRun(run); });
 }
 
 void PreviewLoader::warmUp(FrameIndex frame) {
-    warm_.request_stop();
-    warm_ = std::stop_source();
-    if (run_.stop_requested()) run_ = std::stop_source();
-    thread_.postIdle([worker = worker_.get(), frame, run = run_.get_token(),
-                      warm = warm_.get_token()](const std::stop_token&) { worker->warmUp(frame, run, warm); });
+    query_.whenIdle(
+        [worker = worker_.get(), frame](const BackgroundTask& task) { worker->warmUp(frame, task.stop()); });
 }
 
 void PreviewLoader::request(FrameIndex frame, const ChainOptions& options, int range) {
-    warm_.request_stop();
-    wish_.request_stop();
-    wish_ = std::stop_source();
-    if (run_.stop_requested()) run_ = std::stop_source();
-    thread_.postNewest(
-        [worker = worker_.get(), frame, options, range, wished = Clock::now(), run = run_.get_token(),
-         wish = wish_.get_token()](const std::stop_token&) { worker->load(frame, options, range, wished, run, wish); });
+    tracks_.request_stop();
+    tracks_ = std::stop_source();
+    const auto work = [worker = worker_.get(), frame, options, range, wished = Clock::now(),
+                       tracks = tracks_.get_token()](const BackgroundTask& task) {
+        worker->load(frame, options, range, wished, tracks, task);
+    };
+    query_.ask(
+        work, [this, frame](const QString& message) { emit failed(frame, message); }, BackgroundQuery::Former::finish);
 }
 
 void PreviewLoader::cancel() {
-    run_.request_stop();
-    wish_.request_stop();
-    warm_.request_stop();
+    tracks_.request_stop();
+    query_.cancel();
 }
 
 }  // namespace eyrie::ui

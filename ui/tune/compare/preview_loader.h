@@ -7,7 +7,7 @@
 #include <stop_token>
 
 #include "rerun/preview.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/frames/open_run.h"
 
 namespace eyrie::ui {
@@ -20,7 +20,7 @@ struct PreviewView {
     double milliseconds = 0;  ///< from the wish to the first answer
 };
 
-/// Computes previews on its own thread. Every wish that begins to be worked on is answered at once, so that dragging a
+/// Computes previews in the background. Every wish that begins to be worked on is answered at once, so that dragging a
 /// slider shows something all the time; of those that wait the newest wins. The tracks, which need the frames before,
 /// follow unless a newer wish comes. Signals arrive on the thread of this object.
 class PreviewLoader : public QObject {
@@ -47,10 +47,8 @@ class PreviewLoader : public QObject {
  private:
     class Worker;
     std::unique_ptr<Worker> worker_;
-    std::stop_source run_;   ///< everything of a run
-    std::stop_source wish_;  ///< the tracks of one wish
-    std::stop_source warm_;  ///< what is done before there is a wish
-    TaskThread thread_;      ///< last: stops before the worker goes
+    std::stop_source tracks_;  ///< of one wish
+    BackgroundQuery query_;    ///< last: stops before the worker goes
 };
 
 }  // namespace eyrie::ui

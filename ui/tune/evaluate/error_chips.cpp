@@ -5,8 +5,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "session/background/queued_call.h"
-
 namespace eyrie::ui {
 
 namespace {
@@ -42,35 +40,30 @@ QImage errorChip(const cv::Mat& gray, const OrientedBox& box, int height_px) {
 
 void ErrorChips::setMedia(std::optional<Media> media) {
     media_ = std::move(media);
-    ++ticket_;
-    request_.request_stop();
+    query_.cancel();
 }
 
 void ErrorChips::request(std::vector<ChipWish> wishes) {
-    ++ticket_;
-    request_.request_stop();
-    request_ = std::stop_source();
+    query_.cancel();
     if (!media_ || wishes.empty()) return;
     std::sort(wishes.begin(), wishes.end(), [](const ChipWish& a, const ChipWish& b) {
         return a.frame != b.frame ? a.frame < b.frame : a.id < b.id;
     });
-    thread_.postNewest([this, ticket = ticket_, media = *media_, wishes = std::move(wishes),
-                        stop = request_.get_token()](const std::stop_token& end) {
+    query_.ask([this, media = *media_, wishes = std::move(wishes)](const BackgroundTask& task) {
         try {
             if (!source_ || source_of_ != media.identity) {
                 source_.reset();
-                source_ = media.open({}, stop);
+                source_ = media.open({}, task.stop());
                 source_of_ = media.identity;
             }
             cv::Mat gray;
             FrameIndex shown = -1;
             for (const ChipWish& wish : wishes) {
-                if (stop.stop_requested() || end.stop_requested()) return;
+                if (task.stop().stop_requested()) return;
                 if (wish.frame != shown) gray = source_->read(wish.frame, false).gray;
                 shown = wish.frame;
-                queuedCall(this, [this, ticket, id = wish.id, chip = errorChip(gray, wish.box, wish.height_px)] {
-                    if (ticket == ticket_) emit ready(id, chip);
-                });
+                task.tell(
+                    [this, id = wish.id, chip = errorChip(gray, wish.box, wish.height_px)] { emit ready(id, chip); });
             }
         } catch (const std::exception&) {
             // A picture that cannot be read is told by the canvas; the list works without chips.

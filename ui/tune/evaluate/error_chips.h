@@ -3,11 +3,10 @@
 #include <QImage>
 #include <QObject>
 #include <map>
-#include <stop_token>
 #include <vector>
 
 #include "core/geometry/oriented_box.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/project/media.h"
 
 namespace eyrie::ui {
@@ -20,14 +19,13 @@ struct ChipWish {
     int height_px = 36;  ///< of the chip, screen px
 };
 
-/// Cuts small pictures of errors out of the video on its own thread: the box upright as in the video, with its
+/// Cuts small pictures of errors out of the video in the background: the box upright as in the video, with its
 /// surroundings. Of several lists of wishes the newest wins. Signals arrive on the thread of this object.
 class ErrorChips : public QObject {
     Q_OBJECT
 
  public:
     explicit ErrorChips(QObject* parent = nullptr) : QObject(parent) {}
-    ~ErrorChips() override { request_.request_stop(); }
 
     /// Another video, or none; wishes that are left are dropped.
     void setMedia(std::optional<Media> media);
@@ -39,11 +37,9 @@ class ErrorChips : public QObject {
 
  private:
     std::optional<Media> media_;
-    int ticket_ = 0;
-    std::stop_source request_;
-    std::unique_ptr<FrameSource> source_;  ///< used by the thread only
+    std::unique_ptr<FrameSource> source_;  ///< in the background only
     std::string source_of_;                ///< likewise
-    TaskThread thread_;                    ///< last: stops before the rest goes
+    BackgroundQuery query_;                ///< last: stops before the rest goes
 };
 
 /// The surroundings of a box, about three boxes wide, with the box drawn in.

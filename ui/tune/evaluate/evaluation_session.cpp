@@ -5,7 +5,6 @@
 #include <exception>
 
 #include "core/error.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -35,13 +34,8 @@ EvaluationOptions storedWishes() {
     return wishes;
 }
 
-class EvaluationSession::Worker {
- public:
-    RunEvaluator evaluator;
-};
-
 EvaluationSession::EvaluationSession(ProjectSession& session, QObject* parent)
-    : QObject(parent), session_(session), worker_(std::make_unique<Worker>()) {
+    : QObject(parent), session_(session), evaluator_(std::make_unique<RunEvaluator>()) {
     settings_.wishes = storedWishes();
     soon_.setSingleShot(true);
     soon_.setInterval(kSettle_ms);
@@ -60,9 +54,7 @@ EvaluationSession::EvaluationSession(ProjectSession& session, QObject* parent)
     });
 }
 
-EvaluationSession::~EvaluationSession() {
-    request_.request_stop();
-}
+EvaluationSession::~EvaluationSession() = default;
 
 void EvaluationSession::readTruthOfProject() {
     settings_.truth_file = QSettings().value(truthKey(session_.project())).toString().toStdString();
@@ -124,28 +116,17 @@ void EvaluationSession::refresh() {
         return;
     }
     stale_ = false;
-    request_.request_stop();
-    request_ = std::stop_source();
     asked_at_ms_ = QDateTime::currentMSecsSinceEpoch();
     setWorking(true);
-    thread_.postNewest(
-        [this, ticket = ++ticket_, wish = request(), request_stop = request_.get_token()](const std::stop_token& end) {
-            if (end.stop_requested()) return;
-            std::shared_ptr<const RunEvaluation> evaluation;
-            QString obstacle;
-            try {
-                evaluation = worker_->evaluator.evaluate(wish, request_stop);
-                if (!evaluation) return;  // a newer wish is on its way
-            } catch (const std::exception& error) {
-                obstacle = QString::fromUtf8(error.what());
-            }
-            queuedCall(this, [this, ticket, evaluation, obstacle] { adopt(ticket, evaluation, obstacle); });
-        });
+    const auto work = [this, wish = request()](const BackgroundTask& task) {
+        const auto evaluation = evaluator_->evaluate(wish, task.stop());
+        if (evaluation) task.tell([this, evaluation] { adopt(evaluation, {}); });
+    };
+    query_.ask(work, [this](const QString& obstacle) { adopt(nullptr, obstacle); });
 }
 
 void EvaluationSession::forget() {
-    ++ticket_;
-    request_.request_stop();
+    query_.cancel();
     stale_ = true;
     const bool had = evaluation_ != nullptr || !obstacle_.isEmpty();
     evaluation_.reset();
@@ -159,9 +140,7 @@ void EvaluationSession::forget() {
     if (selected) emit selectionChanged();
 }
 
-void EvaluationSession::adopt(int ticket, const std::shared_ptr<const RunEvaluation>& evaluation,
-                              const QString& obstacle) {
-    if (ticket != ticket_) return;
+void EvaluationSession::adopt(const std::shared_ptr<const RunEvaluation>& evaluation, const QString& obstacle) {
     const auto before = evaluation_;
     evaluation_ = evaluation;
     obstacle_ = obstacle;

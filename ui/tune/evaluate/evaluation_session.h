@@ -5,12 +5,11 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "canvas/layers/verdict_mark.h"
 #include "diagnosis/run_evaluation.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/project_session.h"
 
 namespace eyrie::ui {
@@ -28,7 +27,7 @@ struct EvaluationSettings {
 /// What counts, as was chosen last; every dock that measures goes by it.
 EvaluationOptions storedWishes();
 
-/// The evaluation of the run shown, computed on its own thread as long as somebody looks: anew when the run, the
+/// The evaluation of the run shown, computed in the background as long as somebody looks: anew when the run, the
 /// settings or the labels change. Holds which error is looked at. Signals arrive on the thread of this object.
 class EvaluationSession : public QObject {
     Q_OBJECT
@@ -73,12 +72,11 @@ class EvaluationSession : public QObject {
     void selectionChanged();
 
  private:
-    class Worker;
     void refreshLater();
     void refresh();
     void forget();
     void readTruthOfProject();
-    void adopt(int ticket, const std::shared_ptr<const RunEvaluation>& evaluation, const QString& obstacle);
+    void adopt(const std::shared_ptr<const RunEvaluation>& evaluation, const QString& obstacle);
     void keepSelection(const std::shared_ptr<const RunEvaluation>& before);
     void setWorking(bool working);
 
@@ -87,7 +85,6 @@ class EvaluationSession : public QObject {
     bool wanted_ = false;
     bool stale_ = true;  ///< something changed since the last answer was asked for
     bool working_ = false;
-    int ticket_ = 0;
     qint64 asked_at_ms_ = 0;
     double took_ms_ = 0;
     std::shared_ptr<const RunEvaluation> evaluation_;
@@ -96,9 +93,8 @@ class EvaluationSession : public QObject {
     QString obstacle_;
     std::optional<std::size_t> selected_;
     QTimer soon_;
-    std::stop_source request_;
-    std::unique_ptr<Worker> worker_;
-    TaskThread thread_;  ///< last: stops before the worker goes
+    std::unique_ptr<RunEvaluator> evaluator_;  ///< in the background only
+    BackgroundQuery query_;                    ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

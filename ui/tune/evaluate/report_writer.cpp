@@ -19,7 +19,6 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/output_files.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -171,40 +170,35 @@ void ReportWriter::write(const std::filesystem::path& path, std::shared_ptr<cons
                          std::optional<Media> media, const std::filesystem::path& project) {
     if (working_ || !evaluation) return;
     working_ = true;
-    request_ = std::stop_source();
-    thread_.post([this, path, project, evaluation = std::move(evaluation), media = std::move(media),
-                  stop = request_.get_token()](const std::stop_token&) {
-        QString failure;
+    const auto work = [this, path, project, evaluation = std::move(evaluation),
+                       media = std::move(media)](const BackgroundTask& task) {
+        const bool pdf = QFileInfo(QString::fromStdString(path.string()))
+                             .suffix()
+                             .compare(QStringLiteral("pdf"), Qt::CaseInsensitive) == 0;
+        filesToReplace({{path, pdf ? FileKind::pdf : FileKind::html}}, {project, evaluation->run.sequence.path});
+        std::unique_ptr<FrameSource> pixels;
         try {
-            const bool pdf = QFileInfo(QString::fromStdString(path.string()))
-                                 .suffix()
-                                 .compare(QStringLiteral("pdf"), Qt::CaseInsensitive) == 0;
-            filesToReplace({{path, pdf ? FileKind::pdf : FileKind::html}}, {project, evaluation->run.sequence.path});
-            std::unique_ptr<FrameSource> pixels;
-            try {
-                if (media) pixels = media->open({}, stop);
-            } catch (const std::exception&) {
-                // Without the video the report has no chips.
-            }
-            ReportOptions options;
-            options.made_utc = QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString();
-            const auto tell = [this](double share) { queuedCall(this, [this, share] { emit progress(share); }); };
-            const EvaluationReportFile report = makeEvaluationReport(*evaluation, pixels.get(), options, tell, stop);
-            if (stop.stop_requested()) return;
-            if (pdf)
-                writePdfReport(path, report);
-            else
-                writeHtmlReport(path, report);
-        } catch (const std::exception& error) {
-            failure = QString::fromUtf8(error.what());
+            if (media) pixels = media->open({}, task.stop());
+        } catch (const std::exception&) {
+            // Without the video the report has no chips.
         }
-        queuedCall(this, [this, path, failure] {
+        ReportOptions options;
+        options.made_utc = QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString();
+        const auto tell = [&](double share) { task.tell([this, share] { emit progress(share); }); };
+        const EvaluationReportFile report = makeEvaluationReport(*evaluation, pixels.get(), options, tell, task.stop());
+        if (task.stop().stop_requested()) return;
+        if (pdf)
+            writePdfReport(path, report);
+        else
+            writeHtmlReport(path, report);
+        task.tell([this, path] {
             working_ = false;
-            if (failure.isEmpty())
-                emit written(path);
-            else
-                emit failed(failure);
+            emit written(path);
         });
+    };
+    query_.post(work, [this](const QString& failure) {
+        working_ = false;
+        emit failed(failure);
     });
 }
 

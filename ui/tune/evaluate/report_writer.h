@@ -3,23 +3,21 @@
 #include <QObject>
 #include <filesystem>
 #include <memory>
-#include <stop_token>
 
 #include "diagnosis/run_evaluation.h"
 #include "report/evaluation_report.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/project/media.h"
 
 namespace eyrie::ui {
 
-/// Writes the report of an evaluation on its own thread: PDF where the name ends so, else HTML. Signals arrive on the
+/// Writes the report of an evaluation in the background: PDF where the name ends so, else HTML. Signals arrive on the
 /// thread of this object.
 class ReportWriter : public QObject {
     Q_OBJECT
 
  public:
     explicit ReportWriter(QObject* parent = nullptr) : QObject(parent) {}
-    ~ReportWriter() override { request_.request_stop(); }
 
     /// `media`: the video, for chips; without it there are none. `project` holds the run and is not overwritten, as
     /// nothing else is but another report. Answers with written() or failed(); one at a time.
@@ -34,8 +32,7 @@ class ReportWriter : public QObject {
 
  private:
     bool working_ = false;
-    std::stop_source request_;
-    TaskThread thread_;  ///< last: stops before the rest goes
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 /// The same as a PDF file, A4. Throws Error(output). May be called on any thread.

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "explain/place_explainer.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -12,7 +11,7 @@ namespace {
 constexpr double kShownAround = 1.3;  ///< corners are shown in the area times this
 }
 
-/// What lives on the loader's thread.
+/// What is used in the background alone.
 class ExplanationLoader::Worker {
  public:
     explicit Worker(ExplanationLoader& owner) : owner_(owner) {}
@@ -23,7 +22,8 @@ class ExplanationLoader::Worker {
         run_ = std::move(run);
     }
 
-    void explain(FrameIndex frame, const OrientedBox& area, const std::stop_token& stop) {
+    void explain(FrameIndex frame, const OrientedBox& area, const BackgroundTask& task) {
+        const std::stop_token& stop = task.stop();
         if (!run_ || stop.stop_requested()) return;
         try {
             if (!explainer_) {
@@ -45,15 +45,12 @@ class ExplanationLoader::Worker {
                 for (const CornerVerdict& corner : *corners)
                     if (around.contains(corner.position)) view->corners.push_back(corner);
             }
-            queuedCall(&owner_, [owner = &owner_, view = std::shared_ptr<const ExplanationView>(std::move(view))] {
-                emit owner->explained(view);
+            task.tell([this, view = std::shared_ptr<const ExplanationView>(std::move(view))] {
+                emit owner_.explained(view);
             });
-        } catch (const std::exception& error) {
+        } catch (const std::exception&) {
             useRun(std::move(run_));  // opened anew with the next question
-            if (stop.stop_requested()) return;
-            queuedCall(&owner_, [owner = &owner_, frame, message = QString::fromUtf8(error.what())] {
-                emit owner->failed(frame, message);
-            });
+            throw;
         }
     }
 
@@ -66,21 +63,17 @@ class ExplanationLoader::Worker {
 
 ExplanationLoader::ExplanationLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
 
-ExplanationLoader::~ExplanationLoader() {
-    cancel();
-}
+ExplanationLoader::~ExplanationLoader() = default;
 
 void ExplanationLoader::useRun(std::optional<ReplayRun> run) {
     cancel();
-    thread_.post([worker = worker_.get(), run = std::move(run)](const std::stop_token&) { worker->useRun(run); });
+    query_.post([worker = worker_.get(), run = std::move(run)](const BackgroundTask&) { worker->useRun(run); });
 }
 
 void ExplanationLoader::ask(FrameIndex frame, const OrientedBox& area) {
-    cancel();
-    question_ = std::stop_source();
-    thread_.postNewest([worker = worker_.get(), frame, area, stop = question_.get_token()](const std::stop_token&) {
-        worker->explain(frame, area, stop);
-    });
+    query_.ask(
+        [worker = worker_.get(), frame, area](const BackgroundTask& task) { worker->explain(frame, area, task); },
+        [this, frame](const QString& message) { emit failed(frame, message); });
 }
 
 }  // namespace eyrie::ui

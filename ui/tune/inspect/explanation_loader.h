@@ -3,10 +3,9 @@
 #include <QObject>
 #include <memory>
 #include <optional>
-#include <stop_token>
 
 #include "explain/explanation.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/frames/open_run.h"
 
 namespace eyrie::ui {
@@ -19,7 +18,7 @@ struct ExplanationView {
     CornerVerdicts corners;  ///< on the corners in and around the area
 };
 
-/// Explains places of a stored run on its own thread. Of several questions the newest wins. Signals arrive on the
+/// Explains places of a stored run in the background. Of several questions the newest wins. Signals arrive on the
 /// thread of this object.
 class ExplanationLoader : public QObject {
     Q_OBJECT
@@ -32,7 +31,7 @@ class ExplanationLoader : public QObject {
     void useRun(std::optional<ReplayRun> run);
     /// Answers with explained() or failed(), unless a newer question comes first.
     void ask(FrameIndex frame, const OrientedBox& area);
-    void cancel() { question_.request_stop(); }
+    void cancel() { query_.cancel(); }
 
  signals:
     void explained(const std::shared_ptr<const ExplanationView>& view);
@@ -41,8 +40,7 @@ class ExplanationLoader : public QObject {
  private:
     class Worker;
     std::unique_ptr<Worker> worker_;
-    std::stop_source question_;
-    TaskThread thread_;  ///< last: stops before the worker goes
+    BackgroundQuery query_;  ///< last: stops before the worker goes
 };
 
 }  // namespace eyrie::ui

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "detection/segmenters/segmentation_views.h"
-#include "session/background/queued_call.h"
 
 namespace eyrie::ui {
 
@@ -21,7 +20,7 @@ GeneralSegmentation generalSegmentation(const MotionRoi& roi, const SceneScale& 
 
 }  // namespace
 
-/// What lives on the loader's thread.
+/// What is used in the background alone.
 class ReplayLoader::Worker {
  public:
     explicit Worker(ReplayLoader& owner) : owner_(owner) {}
@@ -32,7 +31,8 @@ class ReplayLoader::Worker {
         run_ = std::move(run);
     }
 
-    void load(const ReplayWish& wish, const std::stop_token& stop) {
+    void load(const ReplayWish& wish, const BackgroundTask& task) {
+        const std::stop_token& stop = task.stop();
         if (!run_ || stop.stop_requested()) return;
         try {
             if (!replay_) {
@@ -47,18 +47,15 @@ class ReplayLoader::Worker {
             const ReplayedFrame* frame = replay_->at(wish.frame, stop);
             if (stop.stop_requested()) return;
             if (frame == nullptr) throw Error(ErrorKind::project, "the run has no such frame");
-            publish(wish, *frame);
-        } catch (const std::exception& error) {
+            publish(wish, *frame, task);
+        } catch (const std::exception&) {
             useRun(std::move(run_));  // opened anew with the next wish
-            if (stop.stop_requested()) return;
-            queuedCall(&owner_, [owner = &owner_, wish, message = QString::fromUtf8(error.what())] {
-                emit owner->failed(wish.frame, message);
-            });
+            throw;
         }
     }
 
  private:
-    void publish(const ReplayWish& wish, const ReplayedFrame& frame) {
+    void publish(const ReplayWish& wish, const ReplayedFrame& frame, const BackgroundTask& task) {
         auto view = std::make_shared<ReplayView>();
         view->wish = wish;
         view->options = replay_->options();
@@ -70,17 +67,14 @@ class ReplayLoader::Worker {
         view->traces = replay_->trace(wish.cluster);
         if (wish.general_segmentation && !view->traces.empty())
             view->general = generalSegmentation(view->traces.front().roi, replay_->scale());
-        queuedCall(&owner_, [owner = &owner_, view = std::shared_ptr<const ReplayView>(std::move(view))] {
-            emit owner->replayed(view);
-        });
+        task.tell([this, view = std::shared_ptr<const ReplayView>(std::move(view))] { emit owner_.replayed(view); });
     }
 
     void tell(FrameIndex frame) {
         const auto now = std::chrono::steady_clock::now();
         if (frame >= wanted_ || now - told_ < kReplayProgressInterval) return;
         told_ = now;
-        queuedCall(&owner_,
-                   [owner = &owner_, wanted = wanted_, left = wanted_ - frame] { emit owner->working(wanted, left); });
+        owner_.query_.tell([this, wanted = wanted_, left = wanted_ - frame] { emit owner_.working(wanted, left); });
     }
 
     ReplayLoader& owner_;
@@ -93,25 +87,16 @@ class ReplayLoader::Worker {
 
 ReplayLoader::ReplayLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
 
-ReplayLoader::~ReplayLoader() {
-    cancel();
-}
+ReplayLoader::~ReplayLoader() = default;
 
 void ReplayLoader::useRun(std::optional<ReplayRun> run) {
     cancel();
-    thread_.post([worker = worker_.get(), run = std::move(run)](const std::stop_token&) { worker->useRun(run); });
+    query_.post([worker = worker_.get(), run = std::move(run)](const BackgroundTask&) { worker->useRun(run); });
 }
 
 void ReplayLoader::request(const ReplayWish& wish) {
-    cancel();
-    request_ = std::stop_source();
-    thread_.postNewest([worker = worker_.get(), wish, stop = request_.get_token()](const std::stop_token&) {
-        worker->load(wish, stop);
-    });
-}
-
-void ReplayLoader::cancel() {
-    request_.request_stop();
+    query_.ask([worker = worker_.get(), wish](const BackgroundTask& task) { worker->load(wish, task); },
+               [this, frame = wish.frame](const QString& message) { emit failed(frame, message); });
 }
 
 }  // namespace eyrie::ui

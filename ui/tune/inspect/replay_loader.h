@@ -3,11 +3,10 @@
 #include <QObject>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "rerun/replay.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/frames/open_run.h"
 
 namespace eyrie::ui {
@@ -40,7 +39,7 @@ struct ReplayView {
     std::optional<GeneralSegmentation> general;
 };
 
-/// Replays frames of a stored run on its own thread. Of several wishes the newest wins; one that is being worked on is
+/// Replays frames of a stored run in the background. Of several wishes the newest wins; one that is being worked on is
 /// given up, what it has done so far is kept. Signals arrive on the thread of this object.
 class ReplayLoader : public QObject {
     Q_OBJECT
@@ -54,7 +53,7 @@ class ReplayLoader : public QObject {
     /// Answers with replayed() or failed(), unless a newer request comes first.
     void request(const ReplayWish& wish);
     /// Gives up what is being worked on.
-    void cancel();
+    void cancel() { query_.cancel(); }
 
  signals:
     /// So many frames before the wanted one are still to be done.
@@ -65,8 +64,7 @@ class ReplayLoader : public QObject {
  private:
     class Worker;
     std::unique_ptr<Worker> worker_;
-    std::stop_source request_;
-    TaskThread thread_;  ///< last: stops before the worker goes
+    BackgroundQuery query_;  ///< last: stops before the worker goes
 };
 
 }  // namespace eyrie::ui

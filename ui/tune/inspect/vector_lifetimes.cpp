@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
+#include <functional>
 
-#include "session/background/queued_call.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_store.h"
 
@@ -86,27 +85,22 @@ VectorLives VectorLifeCounter::sumOf(const std::vector<Life>& all) {
 }
 
 void VectorLivesReader::read(const RunReference& run) {
-    request_.request_stop();
-    request_ = std::stop_source();
-    thread_.postNewest([this, run, stop = request_.get_token()](const std::stop_token& end) {
-        try {
-            ProjectFile project = ProjectFile::open(run.project);
-            const RunStore store(project);
-            const auto record = store.run(run.run_id);
-            if (!record) return;
-            auto counter = std::make_shared<VectorLifeCounter>();
-            for (FrameIndex frame = record->first_frame; frame < record->first_frame + record->frames_done; ++frame) {
-                if (stop.stop_requested() || end.stop_requested()) return;
-                if (const auto result = store.frameResult(run.run_id, frame)) counter->add(*result);
-            }
-            counter->finish();
-            queuedCall(this, [this, id = run.run_id, lives = std::shared_ptr<const VectorLifeCounter>(counter)] {
-                emit readDone(id, lives);
-            });
-        } catch (const std::exception& error) {
-            queuedCall(this, [this, message = QString::fromUtf8(error.what())] { emit failed(message); });
+    const auto work = [this, run](const BackgroundTask& task) {
+        ProjectFile project = ProjectFile::open(run.project);
+        const RunStore store(project);
+        const auto record = store.run(run.run_id);
+        if (!record) return;
+        auto counter = std::make_shared<VectorLifeCounter>();
+        for (FrameIndex frame = record->first_frame; frame < record->first_frame + record->frames_done; ++frame) {
+            if (task.stop().stop_requested()) return;
+            if (const auto result = store.frameResult(run.run_id, frame)) counter->add(*result);
         }
-    });
+        counter->finish();
+        task.tell([this, id = run.run_id, lives = std::shared_ptr<const VectorLifeCounter>(counter)] {
+            emit readDone(id, lives);
+        });
+    };
+    query_.ask(work, std::bind_front(&VectorLivesReader::failed, this));
 }
 
 }  // namespace eyrie::ui

@@ -5,11 +5,10 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "core/values/frame_result.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/frames/result_loader.h"
 
 namespace eyrie::ui {
@@ -51,14 +50,13 @@ class VectorLifeCounter {
     std::vector<float> speeds_;
 };
 
-/// Reads lives and speeds of a stored run on its own thread. The newest request wins. Signals arrive on the thread of
+/// Reads lives and speeds of a stored run in the background. The newest request wins. Signals arrive on the thread of
 /// this object.
 class VectorLivesReader : public QObject {
     Q_OBJECT
 
  public:
     explicit VectorLivesReader(QObject* parent = nullptr) : QObject(parent) {}
-    ~VectorLivesReader() override { request_.request_stop(); }
 
     void read(const RunReference& run);
 
@@ -67,8 +65,7 @@ class VectorLivesReader : public QObject {
     void failed(const QString& message);
 
  private:
-    std::stop_source request_;
-    TaskThread thread_;  ///< last: stops before the rest goes
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

@@ -4,11 +4,12 @@
 #include <unistd.h>
 
 #include <exception>
+#include <functional>
+#include <thread>
 #include <utility>
 
 #include "chain/recording/run_recorder.h"
 #include "core/error.h"
-#include "session/background/queued_call.h"
 #include "sweep/sweep_lock.h"
 #include "tune/sweep/swept_runs.h"
 
@@ -34,9 +35,7 @@ SweepSession::SweepSession(ProjectSession& session, QObject* parent) : QObject(p
     connect(&session_, &ProjectSession::projectChanged, this, &SweepSession::projectChanged);
 }
 
-SweepSession::~SweepSession() {
-    stop_.request_stop();
-}
+SweepSession::~SweepSession() = default;
 
 void SweepSession::projectChanged() {
     stop_.request_stop();
@@ -51,54 +50,43 @@ void SweepSession::projectChanged() {
 void SweepSession::refreshList() {
     const std::filesystem::path project = session_.project();
     if (project.empty()) return;
-    reader_.post([this, project](const std::stop_token&) {
-        std::vector<SweepRecord> found;
-        QString problem;
-        try {
-            ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
-            found = SweepStore(file).sweeps();
-        } catch (const std::exception& error) {
-            problem = QString::fromUtf8(error.what());
-        }
-        queuedCall(this, [this, project, found = std::move(found), problem] {
-            if (project != session_.project()) return;
-            if (!problem.isEmpty()) emit failed(problem);
-            sweeps_ = found;
-            emit sweepsChanged();
-            if (selected_ == 0 && !sweeps_.empty()) select(sweeps_.back().id);
-        });
-    });
+    const auto adopt = [this, project](const std::vector<SweepRecord>& found, const QString& problem) {
+        if (project != session_.project()) return;
+        if (!problem.isEmpty()) emit failed(problem);
+        sweeps_ = found;
+        emit sweepsChanged();
+        if (selected_ == 0 && !sweeps_.empty()) select(sweeps_.back().id);
+    };
+    const auto work = [project, adopt](const BackgroundTask& task) {
+        ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+        task.tell([adopt, found = SweepStore(file).sweeps()] { adopt(found, {}); });
+    };
+    reader_.post(work, [adopt](const QString& problem) { adopt({}, problem); });
 }
 
 void SweepSession::select(int sweep_id) {
     selected_ = sweep_id;
     if (running_ && growing_ && growing_->id == sweep_id) return;  // it is shown as it grows
     const std::filesystem::path project = session_.project();
-    reader_.postNewest([this, project, sweep_id](const std::stop_token&) {
-        try {
-            ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
-            const auto table = std::make_shared<const SweepTable>(readSweep(file, sweep_id));
-            queuedCall(this, [this, project, table] {
-                if (project != session_.project() || selected_ != table->id) return;
-                table_ = table;
-                emit tableChanged();
-            });
-        } catch (const std::exception& error) {
-            queuedCall(this, [this, text = QString::fromUtf8(error.what())] { emit failed(text); });
-        }
-    });
+    const auto work = [this, project, sweep_id](const BackgroundTask& task) {
+        ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+        const auto table = std::make_shared<const SweepTable>(readSweep(file, sweep_id));
+        task.tell([this, project, table] {
+            if (project != session_.project() || selected_ != table->id) return;
+            table_ = table;
+            emit tableChanged();
+        });
+    };
+    reader_.ask(work, std::bind_front(&SweepSession::failed, this));
 }
 
 void SweepSession::remove(int sweep_id) {
     const std::filesystem::path project = session_.project();
-    reader_.post([this, project, sweep_id](const std::stop_token&) {
-        try {
-            ProjectFile file = ProjectFile::open(project);
-            SweepStore(file).remove(sweep_id);
-        } catch (const std::exception& error) {
-            queuedCall(this, [this, text = QString::fromUtf8(error.what())] { emit failed(text); });
-        }
-    });
+    const auto work = [project, sweep_id](const BackgroundTask&) {
+        ProjectFile file = ProjectFile::open(project);
+        SweepStore(file).remove(sweep_id);
+    };
+    reader_.post(work, std::bind_front(&SweepSession::failed, this));
     if (selected_ == sweep_id) {
         selected_ = 0;
         table_.reset();
@@ -131,14 +119,19 @@ void SweepSession::cancel() {
 }
 
 void SweepSession::begin(Job job) {
-    stop_ = std::stop_source();
     running_ = true;
     progress_ = {};
     progress_.doing = tr("reading the run").toStdString();
+    stop_ = worker_.post([this, job = std::move(job)](const BackgroundTask& task) {
+        // A thread keeps the priority that it was given, and so do those that it starts.
+        std::jthread([&] {
+            setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+            work(job, task);
+        }).join();
+    });
     pulse_.start();
     emit runningChanged(true);
     emit progressed(progress_);
-    worker_.post([this, job = std::move(job), stop = stop_.get_token()](const std::stop_token&) { work(job, stop); });
 }
 
 /// Opens what a stored sweep was begun over, and its plan.
@@ -166,11 +159,10 @@ OpenedRuns SweepSession::openResumed(const Job& job, SweepPlan& plan, const std:
     return opened;
 }
 
-void SweepSession::work(const Job& job, const std::stop_token& stop) {
+void SweepSession::work(const Job& job, const BackgroundTask& task) {
+    const std::stop_token& stop = task.stop();
     QString problem;
     bool whole = false;
-    // This thread does nothing but sweeps; those that it starts inherit its priority.
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     try {
         SweepPlan plan;
         OpenedRuns opened;
@@ -199,7 +191,7 @@ void SweepSession::work(const Job& job, const std::stop_token& stop) {
         auto growing = std::make_shared<SweepTable>(readSweep(file, id));
         std::vector<int> positions = workOrder(plan);
         std::erase_if(positions, [&](int position) { return growing->points.contains(position); });
-        queuedCall(this, [this, growing] {
+        task.tell([this, growing] {
             growing_ = growing;
             selected_ = growing->id;
             table_ = growing_;
@@ -220,7 +212,7 @@ void SweepSession::work(const Job& job, const std::stop_token& stop) {
     } catch (const std::exception& error) {
         if (!stop.stop_requested()) problem = QString::fromUtf8(error.what());
     }
-    queuedCall(this, [this, whole, problem] { ended(whole, problem); });
+    task.tell([this, whole, problem] { ended(whole, problem); });
 }
 
 void SweepSession::take() {

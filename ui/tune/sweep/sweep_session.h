@@ -9,7 +9,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 #include "session/project_session.h"
 #include "sweep/results/sweep_best.h"
 
@@ -70,7 +70,7 @@ class SweepSession : public QObject {
     struct Job;
     void begin(Job job);
     static OpenedRuns openResumed(const Job& job, SweepPlan& plan, const std::stop_token& stop);
-    void work(const Job& job, const std::stop_token& stop);
+    void work(const Job& job, const BackgroundTask& task);
     void projectChanged();
     void refreshList();
     void take();
@@ -93,8 +93,8 @@ class SweepSession : public QObject {
     std::vector<SweepPoint> new_points_;
     std::optional<SweepProgress> new_progress_;
 
-    TaskThread reader_;
-    TaskThread worker_;  ///< last: stops before the rest goes
+    BackgroundQuery reader_;
+    BackgroundQuery worker_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

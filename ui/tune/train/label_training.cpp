@@ -12,7 +12,6 @@
 #include "io/output_files.h"
 #include "learning/training/background_mining.h"
 #include "learning/training/labelled_frames.h"
-#include "session/background/queued_call.h"
 #include "session/project/media.h"
 #include "store/labels/annotation_store.h"
 
@@ -140,15 +139,19 @@ QString holdOut(std::vector<LabelledSequence> all, std::vector<LabelledImage>& t
 void LabelTraining::start(const TrainingWish& wish) {
     if (running_) return;
     running_ = true;
-    stop_ = std::stop_source();
-    thread_.post([this, wish, stop = stop_.get_token()](const std::stop_token&) { work(wish, stop); });
+    stop_ = query_.post([this, wish](const BackgroundTask& task) { work(wish, task); },
+                        [this](const QString& message) {
+                            running_ = false;
+                            emit failed(message);
+                        });
 }
 
-void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) {
-    const auto end = [this](auto tell) {
-        queuedCall(this, [this, tell] {
+void LabelTraining::work(const TrainingWish& wish, const BackgroundTask& task) {
+    const std::stop_token& stop = task.stop();
+    const auto end = [&](auto say) {
+        task.tell([this, say] {
             running_ = false;
-            tell();
+            say();
         });
     };
     auto told = std::chrono::steady_clock::time_point{};
@@ -156,44 +159,40 @@ void LabelTraining::work(const TrainingWish& wish, const std::stop_token& stop) 
         const auto now = std::chrono::steady_clock::now();
         if (now - told < kTrainingProgressInterval) return;
         told = now;
-        queuedCall(this, [this, phase, share] { emit progress(phase, share); });
+        task.tell([this, phase, share] { emit progress(phase, share); });
     };
-    try {
-        const QString replaced = whatIsReplaced(wish);
-        if (!replaced.isEmpty() && !wish.replace) return end([this, replaced] { emit replacementNeeded(replaced); });
-        auto sequences = readProjects(wish, say, stop);
-        if (stop.stop_requested()) return end([this] { emit stopped(); });
-        if (sequences.empty())
-            throw Error(ErrorKind::input,
-                        "these projects have no labelled vehicles; label some (Ctrl+2), or import ground truth");
-        std::vector<LabelledImage> train;
-        std::vector<LabelledImage> test;
-        auto report = std::make_shared<TrainingReport>();
-        report->held_out = holdOut(std::move(sequences), train, test);
-        const auto seed = static_cast<std::uint64_t>(wish.options.seed);
-        const SampleSet samples = samplesFromImages(train, seed);
-        const SampleSet held_out = samplesFromImages(test, seed + 100'000);
-        report->samples = countsOf(samples);
-        report->held_out += QStringLiteral(" – ") + countsOf(held_out);
-        TrainingRecord record;
-        record.data = describeSources(samples);
-        TrainingWatch watch;
-        watch.stop = stop;
-        watch.progress = [&](const TrainingProgress& step) { say(QString::fromStdString(step.phase), step.share); };
-        std::uint64_t round = 0;
-        const auto more = [&](const VehicleModel& model, int wanted) {
-            return mineBackground(model, train, typicalVehicle(), wanted, seed + 1000 * ++round, watch);
-        };
-        const auto model = trainModel(samples, wish.options, record, watch, more);
-        if (!model || stop.stop_requested()) return end([this] { emit stopped(); });
-        saveModel(*model, wish.file);
-        report->file = wish.file;
-        report->own = rocOf(*model, held_out);
-        report->shipped = rocOf(loadModel(modelLocation({})), held_out);
-        end([this, report] { emit finished(report); });
-    } catch (const std::exception& error) {
-        end([this, message = QString::fromUtf8(error.what())] { emit failed(message); });
-    }
+    const QString replaced = whatIsReplaced(wish);
+    if (!replaced.isEmpty() && !wish.replace) return end([this, replaced] { emit replacementNeeded(replaced); });
+    auto sequences = readProjects(wish, say, stop);
+    if (stop.stop_requested()) return end([this] { emit stopped(); });
+    if (sequences.empty())
+        throw Error(ErrorKind::input,
+                    "these projects have no labelled vehicles; label some (Ctrl+2), or import ground truth");
+    std::vector<LabelledImage> train;
+    std::vector<LabelledImage> test;
+    auto report = std::make_shared<TrainingReport>();
+    report->held_out = holdOut(std::move(sequences), train, test);
+    const auto seed = static_cast<std::uint64_t>(wish.options.seed);
+    const SampleSet samples = samplesFromImages(train, seed);
+    const SampleSet held_out = samplesFromImages(test, seed + 100'000);
+    report->samples = countsOf(samples);
+    report->held_out += QStringLiteral(" – ") + countsOf(held_out);
+    TrainingRecord record;
+    record.data = describeSources(samples);
+    TrainingWatch watch;
+    watch.stop = stop;
+    watch.progress = [&](const TrainingProgress& step) { say(QString::fromStdString(step.phase), step.share); };
+    std::uint64_t round = 0;
+    const auto more = [&](const VehicleModel& model, int wanted) {
+        return mineBackground(model, train, typicalVehicle(), wanted, seed + 1000 * ++round, watch);
+    };
+    const auto model = trainModel(samples, wish.options, record, watch, more);
+    if (!model || stop.stop_requested()) return end([this] { emit stopped(); });
+    saveModel(*model, wish.file);
+    report->file = wish.file;
+    report->own = rocOf(*model, held_out);
+    report->shipped = rocOf(loadModel(modelLocation({})), held_out);
+    end([this, report] { emit finished(report); });
 }
 
 }  // namespace eyrie::ui

@@ -8,7 +8,7 @@
 
 #include "evaluation/measures/roc.h"
 #include "learning/training/trainer.h"
-#include "session/background/task_thread.h"
+#include "session/background/background_query.h"
 
 namespace eyrie::ui {
 
@@ -30,14 +30,13 @@ struct TrainingReport {
     RocCurve shipped;  ///< of the model that comes with the program, on the same samples
 };
 
-/// Trains a classifier from the labels of projects on its own thread. Whole sequences are held out for the test; of a
+/// Trains a classifier from the labels of projects in the background. Whole sequences are held out for the test; of a
 /// single sequence, its end. Signals arrive on the thread of this object.
 class LabelTraining : public QObject {
     Q_OBJECT
 
  public:
     explicit LabelTraining(QObject* parent = nullptr) : QObject(parent) {}
-    ~LabelTraining() override { stop_.request_stop(); }
 
     bool running() const { return running_; }
     /// Answers with finished(), failed() or stopped(). Nothing happens while one works.
@@ -53,11 +52,11 @@ class LabelTraining : public QObject {
     void stopped();
 
  private:
-    void work(const TrainingWish& wish, const std::stop_token& stop);
+    void work(const TrainingWish& wish, const BackgroundTask& task);
 
     bool running_ = false;
     std::stop_source stop_;
-    TaskThread thread_;  ///< last: stops before the rest goes
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui
