@@ -193,8 +193,7 @@ TEST_F(BoxCsv, HeadersThatDoNotDo) {
                 HasSubstr(":1: column width is missing"));
     EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { read("frame,x,y,length,width,heading,x\n"); }),
                 HasSubstr("column x is there twice"));
-    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { read(std::string("\0\1\2\3", 4)); }),
-                HasSubstr("not text"));
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { read(std::string("\0\1\2\3", 4)); }), HasSubstr("not text"));
     EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { readBoxCsv(folder_ / "none.csv"); }), HasSubstr("none.csv"));
     EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { readBoxCsv(folder_.path()); }), HasSubstr("is a folder"));
 }
