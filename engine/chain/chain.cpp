@@ -43,6 +43,12 @@ std::vector<StackView> TrackHalf::stackViews(const Frame& frame, StackPictures p
     return stacker_ ? stacker_->views(frame, pictures) : std::vector<StackView>{};
 }
 
+ClusteringTrace TrackHalf::clustering(const FrameMotion& motion) const {
+    ClusteringTrace trace;
+    if (!difference_) clustering_.cluster(motion, &trace);
+    return trace;
+}
+
 std::vector<SearchTrace> TrackHalf::trace(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
                                           int index) const {
     std::vector<SearchTrace> traces;

@@ -53,6 +53,9 @@ class TrackHalf {
     std::vector<StackView> stackViews(const Frame& frame, StackPictures pictures) const;
     /// What the difference images of the last frame showed; null where clusters come from motion vectors.
     const DifferenceResult* differences() const { return difference_ ? &last_difference_ : nullptr; }
+    /// Looks once more at what clustering did with these motion vectors; empty where clusters come from difference
+    /// images.
+    ClusteringTrace clustering(const FrameMotion& motion) const;
     /// What duplicate removal did in the last frame.
     const RemovalTrace& removal() const { return removal_; }
     /// Looks once more at what was searched for one cluster of the last frame; several where several stacks fit it.

@@ -36,9 +36,17 @@ std::vector<int> clustersIn(const OrientedBox& box, const FrameResult& result) {
 
 }  // namespace
 
-BoxFacts factsAt(const OrientedBox& box, const FrameResult& result, const ChainOptions& options,
-                 const SceneScale& scale, bool upright) {
+void FrameFacts::judgeClustering(BoxFacts& facts, const std::vector<int>& vectors) {
+    facts.by_differences = options_.difference.method != MotionMethod::vectors;
+    if (facts.by_differences || vectors.empty() || !facts.clusters.empty()) return;
+    const MotionClustering clustering(options_.clustering, scale_);
+    if (!clustering_) clustering.cluster(result_.motion, &clustering_.emplace());
+    facts.clustering = clustering.verdictOn(vectors, result_.motion, *clustering_);
+}
+
+BoxFacts FrameFacts::at(const OrientedBox& box) {
     BoxFacts facts;
+    const FrameResult& result = result_;
     const FrameMotion& motion = result.motion;
     facts.registration = motion.registration.state;
     facts.failure = motion.registration.failure;
@@ -47,8 +55,11 @@ BoxFacts factsAt(const OrientedBox& box, const FrameResult& result, const ChainO
         const Homography& step = motion.registration.current_from_previous;
         facts.flow = step.apply(box.centre) - box.centre;
     }
-    for (const MotionVector& vector : motion.motion_vectors) {
+    std::vector<int> vectors;
+    for (std::size_t i = 0; i < motion.motion_vectors.size(); ++i) {
+        const MotionVector& vector = motion.motion_vectors[i];
         if (!box.contains(vector.position, kMargin)) continue;
+        vectors.push_back(static_cast<int>(i));
         ++facts.motion_vectors;
         facts.velocity += cv::Point2d(vector.velocity);
     }
@@ -56,10 +67,10 @@ BoxFacts factsAt(const OrientedBox& box, const FrameResult& result, const ChainO
     facts.corners = facts.motion_vectors +
                     static_cast<int>(std::count_if(motion.stationary_corners.begin(), motion.stationary_corners.end(),
                                                    [&](const cv::Point2f& p) { return box.contains(p, kMargin); }));
-    facts.vectors_needed = MotionClustering(options.clustering, scale).minMembersFor(motion);
     facts.clusters = clustersIn(box, result);
+    judgeClustering(facts, vectors);
 
-    const auto shown = [upright](const OrientedBox& one) { return upright ? one.upright() : one; };
+    const auto shown = [this](const OrientedBox& one) { return upright_ ? one.upright() : one; };
     const OrientedBox place = shown(box);
     for (std::size_t i = 0; i < result.detections.size(); ++i) {
         const Detection& detection = result.detections[i];

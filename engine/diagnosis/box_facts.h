@@ -2,10 +2,12 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "chain/chain_options.h"
 #include "core/values/frame_result.h"
+#include "motion/clusters/clustering_trace.h"
 
 namespace eyrie {
 
@@ -22,10 +24,11 @@ struct BoxFacts {
     cv::Size image;               ///< px
     cv::Point2d flow;             ///< px, how the ground moves through the image at the place since the frame before
 
-    int corners = 0;            ///< in the box, standing and moving
-    int motion_vectors = 0;     ///< in the box
-    cv::Point2d velocity;       ///< px/frame, mean of the motion vectors in the box
-    int vectors_needed = 0;     ///< for a cluster in this frame
+    int corners = 0;               ///< in the box, standing and moving
+    int motion_vectors = 0;        ///< in the box
+    cv::Point2d velocity;          ///< px/frame, mean of the motion vectors in the box
+    ClusteringVerdict clustering;  ///< on the motion vectors in the box, where none of them is in a cluster
+    bool by_differences = false;   ///< clusters come from difference images instead
     std::vector<int> clusters;  /**< indices of the clusters with motion vectors or moving points in the box, those with
                                    most first */
     std::vector<int> covering;  ///< indices of the kept detections that cover half of the box or more
@@ -39,8 +42,21 @@ struct BoxFacts {
     NearBox confirmed;                      ///< the confirmed or coasting one
 };
 
-/// Looks the place up. `upright`: enclosing upright boxes are compared, as in the evaluation.
-BoxFacts factsAt(const OrientedBox& box, const FrameResult& result, const ChainOptions& options,
-                 const SceneScale& scale, bool upright = false);
+/// Looks places of one frame up. `upright`: enclosing upright boxes are compared, as in the evaluation.
+class FrameFacts {
+ public:
+    FrameFacts(FrameResult result, const ChainOptions& options, const SceneScale& scale, bool upright)
+        : result_(std::move(result)), options_(options), scale_(scale), upright_(upright) {}
+    BoxFacts at(const OrientedBox& box);
+
+ private:
+    void judgeClustering(BoxFacts& facts, const std::vector<int>& vectors);
+
+    FrameResult result_;
+    const ChainOptions& options_;
+    SceneScale scale_;
+    bool upright_;
+    std::optional<ClusteringTrace> clustering_;  ///< made when it is asked for
+};
 
 }  // namespace eyrie

@@ -165,12 +165,12 @@ class Diagnoser::FrameLookup {
             if (same(known.box, box)) return &copies_.emplace_back(known.facts);
         if (!read_) {
             read_ = true;
-            result_ = owner_.source_.frame_result(frame_);
+            const DiagnosisSource& source = owner_.source_;
+            if (auto result = source.frame_result(frame_))
+                facts_.emplace(std::move(*result), source.options, source.scale, owner_.upright_);
         }
-        if (!result_) return nullptr;
-        const DiagnosisSource& source = owner_.source_;
-        const BoxFacts& facts =
-            copies_.emplace_back(factsAt(box, *result_, source.options, source.scale, owner_.upright_));
+        if (!facts_) return nullptr;
+        const BoxFacts& facts = copies_.emplace_back(facts_->at(box));
         owner_.known_[frame_].push_back({box, facts});
         return &facts;
     }
@@ -179,7 +179,7 @@ class Diagnoser::FrameLookup {
     Diagnoser& owner_;
     FrameIndex frame_;
     bool read_ = false;
-    std::optional<FrameResult> result_;
+    std::optional<FrameFacts> facts_;
     std::list<BoxFacts> copies_;  ///< the known ones move when more are added
 };
 

@@ -85,6 +85,34 @@ CauseHere rejectedAs(const BoxFacts& facts) {
     return {};
 }
 
+/// What clustering told of motion vectors that are in no cluster.
+CauseHere notClustered(const BoxFacts& facts) {
+    const ClusteringVerdict& verdict = facts.clustering;
+    const std::string vectors = std::to_string(facts.motion_vectors) + " motion vectors";
+    if (facts.by_differences)
+        return {MistakeCause::not_clustered, vectors + ", but the difference image shows nothing (motion.method)"};
+    const std::string linked = std::to_string(verdict.group.size());
+    const std::string size = number(verdict.value, 1) + " px";
+    const std::string by = " (" + verdict.parameter + ")";
+    switch (verdict.refusal) {
+        case ClusterRefusal::too_few:
+            return {MistakeCause::too_few_vectors,
+                    linked + " motion vectors, " + std::to_string(verdict.needed) + " make a cluster" + by};
+        case ClusterRefusal::not_linked:
+            return {MistakeCause::not_clustered, vectors + ", but only " + linked + " are linked" + by};
+        case ClusterRefusal::split_off:
+            return {MistakeCause::not_clustered, "left over when a cluster of " + size + " was split" + by};
+        case ClusterRefusal::too_long:
+            return {MistakeCause::not_clustered, "linked motion vectors are " + size + " long" + by};
+        case ClusterRefusal::too_wide:
+            return {MistakeCause::not_clustered, "linked motion vectors are " + size + " wide" + by};
+        case ClusterRefusal::not_finite:
+        case ClusterRefusal::none:
+            break;
+    }
+    return {MistakeCause::not_clustered, vectors};
+}
+
 /// What the stages before tracking tell of a missed object.
 CauseHere stageThatLost(const BoxFacts& facts, const MistakeEvidence& evidence) {
     const double needed = evidence.min_overlap;
@@ -102,13 +130,7 @@ CauseHere stageThatLost(const BoxFacts& facts, const MistakeEvidence& evidence) 
     if (facts.registration == RegistrationState::failed) return {MistakeCause::unregistered, describe(facts.failure)};
     if (!facts.clusters.empty())
         return {MistakeCause::not_detected, std::to_string(facts.motion_vectors) + " motion vectors in a cluster"};
-    if (facts.motion_vectors > 0) {
-        const std::string text = std::to_string(facts.motion_vectors) + " motion vectors, " +
-                                 std::to_string(facts.vectors_needed) + " make a cluster";
-        return {
-            facts.motion_vectors < facts.vectors_needed ? MistakeCause::too_few_vectors : MistakeCause::not_clustered,
-            text};
-    }
+    if (facts.motion_vectors > 0) return notClustered(facts);
     if (evidence.frames_in_view < evidence.frames_needed)
         return {MistakeCause::too_new, "came into view " + std::to_string(evidence.frames_in_view) +
                                            " frames before, corners are judged after " +
@@ -296,8 +318,8 @@ const char* explanationOf(MistakeCause cause) {
         case MistakeCause::too_few_vectors:
             return "Too few motion vectors for a cluster (clustering.min_members, clustering.min_density_share).";
         case MistakeCause::not_clustered:
-            return "Its motion vectors lie too far apart or move too differently (clustering.along, "
-                   "clustering.across).";
+            return "Its motion vectors lie too far apart, move too differently or are together too large for a cluster "
+                   "(clustering.along, clustering.across and others).";
         case MistakeCause::not_detected:
             return "It was clustered, but segmentation or classifier found no box there (detection.*).";
         case MistakeCause::removed_duplicate:

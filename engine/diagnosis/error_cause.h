@@ -18,7 +18,7 @@ enum class MistakeCause {
     no_corners,          ///< no corner in the box
     too_slow,            ///< corners, but none moved fast enough
     too_few_vectors,     ///< motion vectors, but too few for a cluster
-    not_clustered,       ///< enough motion vectors, but outside each other's linkage distance
+    not_clustered,       ///< enough motion vectors, but not linked, or linked to something too large
     not_detected,        ///< a cluster, but segmentation or classifier found no box
     removed_duplicate,   ///< detected, but fused into another detection
     removed_outlier,     ///< detected, but with too few motion vectors in the box

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "chain/chain.h"
+#include "motion/clusters/clustering_trace.h"
 #include "motion/vectors/corner_verdict.h"
 #include "removal/removal_trace.h"
 #include "tracking/tracking_trace.h"
@@ -36,6 +37,7 @@ struct PlaceEvidence {
     FrameResult result;                     ///< the frame as the run found it; tracks are the run's finished ones
     std::optional<CornerVerdicts> corners;  ///< on all corners of the frame; nothing: not looked at
     std::vector<SearchTrace> searches;      ///< of the search areas near the place
+    ClusteringTrace clustering;             ///< of the whole frame; empty where clusters come from difference images
     RemovalTrace removal;                   ///< of the whole frame
     std::optional<TrackingTrace> tracking;  ///< nothing: not looked at
     std::vector<TrackState> unfinished;     ///< tracks before they were finished; for `tracking`

@@ -43,6 +43,7 @@ bool PlaceExplainer::gather(FrameIndex frame, const std::stop_token& stop) {
     evidence_.result = replayed->result;
     evidence_.result.tracks = stored->tracks;
     evidence_.result.dropped = stored->dropped;
+    evidence_.clustering = replay_.clustering();
     evidence_.removal = replay_.removal();
     const int reach = MotionWindow::reachFor(source_.options.motion, source_.scale);
     if (!window_.cover(std::max(0, frame - reach), frame, source_.pixels, stop)) return false;

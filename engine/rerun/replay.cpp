@@ -83,6 +83,10 @@ std::vector<StackView> Replay::stacks(StackPictures pictures) const {
     return present_valid_ ? half_.stackViews(present_.frame, pictures) : std::vector<StackView>{};
 }
 
+ClusteringTrace Replay::clustering() const {
+    return present_valid_ ? half_.clustering(present_.result.motion) : ClusteringTrace{};
+}
+
 std::vector<SearchTrace> Replay::trace(int cluster) const {
     const auto& clusters = present_.result.clusters;
     if (!present_valid_ || cluster < 0 || cluster >= static_cast<int>(clusters.size())) return {};

@@ -49,6 +49,8 @@ class Replay {
     std::vector<StackView> stacks(StackPictures pictures) const;
     /// The steps of the detection in one cluster of the frame that `at` answered last.
     std::vector<SearchTrace> trace(int cluster) const;
+    /// What clustering did in the frame that `at` answered last; empty where clusters come from difference images.
+    ClusteringTrace clustering() const;
     /// What duplicate removal did in the frame that `at` answered last.
     const RemovalTrace& removal() const { return half_.removal(); }
 

@@ -150,12 +150,16 @@ TEST_F(Causes, aMissWithTooFewMotionVectors) {
     addVectors(stored[20], 2, 50);
     const auto miss = missedCar();
     EXPECT_EQ(miss.cause, MistakeCause::too_few_vectors);
-    EXPECT_EQ(miss.text, "2 motion vectors, 3 make a cluster");
+    EXPECT_EQ(miss.text, "2 motion vectors, 3 make a cluster (clustering.min_members)");
 }
 
 TEST_F(Causes, aMissWhoseMotionVectorsWereNotLinked) {
     addVectors(stored[20], 4, 50);
-    EXPECT_EQ(missedCar().cause, MistakeCause::not_clustered);
+    for (MotionVector& vector : stored.frames[20].motion.motion_vectors)
+        if (vector.id > 1) vector.velocity.x += 0.5F * static_cast<float>(vector.id);
+    const auto miss = missedCar();
+    EXPECT_EQ(miss.cause, MistakeCause::not_clustered);
+    EXPECT_EQ(miss.text, "4 motion vectors, but only 2 are linked (clustering.velocity_share)");
 }
 
 TEST_F(Causes, aMissThatTheDetectorMade) {

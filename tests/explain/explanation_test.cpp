@@ -55,6 +55,12 @@ ChainOptions plainOptions() {
     return options;
 }
 
+/// With what clustering reports of the frame.
+Explanation explained(PlaceEvidence evidence, const ChainOptions& options, const SceneScale& scale) {
+    MotionClustering(options.clustering, scale).cluster(evidence.result.motion, &evidence.clustering);
+    return explain(evidence, options, scale);
+}
+
 /// The place with four vectors of one car in one cluster, which was searched.
 PlaceEvidence clusteredPlace() {
     PlaceEvidence evidence = emptyPlace();
@@ -102,7 +108,7 @@ TEST(Explanation, frameThatCouldNotBeRegistered) {
     PlaceEvidence evidence = emptyPlace();
     evidence.result.motion.registration.state = RegistrationState::failed;
     evidence.result.motion.registration.failure = {.fault = RegistrationFault::too_few_agree, .count = 12, .of = 40};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_FALSE(told.found);
     EXPECT_EQ(told.parameter, "registration.min_inliers");
     EXPECT_THAT(told.sentence, HasSubstr("too few corners agree (12 of 40)"));
@@ -111,11 +117,11 @@ TEST(Explanation, frameThatCouldNotBeRegistered) {
 
 TEST(Explanation, placeWithoutCorners) {
     PlaceEvidence evidence = emptyPlace();
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "registration.corner_deviation");
     EXPECT_EQ(told.setting, "0.5 px");
     evidence.result.motion.corner_count = 11'990;
-    EXPECT_EQ(explain(evidence, plainOptions(), scaleOfTests()).parameter, "registration.max_corners");
+    EXPECT_EQ(explained(evidence, plainOptions(), scaleOfTests()).parameter, "registration.max_corners");
 }
 
 TEST(Explanation, cornersTooYoungForTheirSpeedToBeKnown) {
@@ -125,7 +131,7 @@ TEST(Explanation, cornersTooYoungForTheirSpeedToBeKnown) {
     corner.baseline = 0;
     corner.parameter = "motion.min_age";
     evidence.corners = CornerVerdicts{corner};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "motion.min_age");
     EXPECT_EQ(told.sentence,
               "The oldest corner here has been tracked for 3 frames, 5 are needed: motion.min_age = 5 "
@@ -142,7 +148,7 @@ TEST(Explanation, cornersSlowerThanTheThreshold) {
     slower.id = 2;
     slower.speed = 0.04;
     evidence.corners = CornerVerdicts{corner, slower};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "motion.min_speed");
     // 0.1 px/frame · 0.25 m/px · 25 frames/s = 0.625 m/s.
     EXPECT_EQ(told.sentence,
@@ -155,22 +161,22 @@ TEST(Explanation, cornersThatParallaxOrAShadowExplains) {
     evidence.corners =
         CornerVerdicts{cornerAt(1, 98, 100, CornerFate::parallax), cornerAt(2, 102, 100, CornerFate::slow)};
     evidence.corners->front().parameter = "motion.parallax_factor";
-    EXPECT_EQ(explain(evidence, plainOptions(), scaleOfTests()).parameter, "motion.parallax_factor");
+    EXPECT_EQ(explained(evidence, plainOptions(), scaleOfTests()).parameter, "motion.parallax_factor");
     evidence.corners = CornerVerdicts{cornerAt(1, 98, 100, CornerFate::shadow)};
-    EXPECT_EQ(explain(evidence, plainOptions(), scaleOfTests()).parameter, "motion.shadow_test");
+    EXPECT_EQ(explained(evidence, plainOptions(), scaleOfTests()).parameter, "motion.shadow_test");
 }
 
 TEST(Explanation, tooFewVectorsForACluster) {
     PlaceEvidence evidence = emptyPlace();
     evidence.result.motion.motion_vectors = {vectorAt(1, 98, 100), vectorAt(2, 102, 100)};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.sentence, "2 motion vectors, 3 are needed: clustering.min_members = 3 vectors.");
     ChainOptions by_density = plainOptions();
     // 1000 corners in 1000 × 500 px give 0.002 per px²; a car of 18 × 7.2 px has 0.2592 of them, far below 3.
     by_density.clustering.min_density_share = 2;
-    EXPECT_EQ(explain(evidence, by_density, scaleOfTests()).parameter, "clustering.min_members");
+    EXPECT_EQ(explained(evidence, by_density, scaleOfTests()).parameter, "clustering.min_members");
     evidence.result.motion.corner_count = 10'000;  // 2.592 on a car, of which twice: 5
-    const Explanation dense = explain(evidence, by_density, scaleOfTests());
+    const Explanation dense = explained(evidence, by_density, scaleOfTests());
     EXPECT_EQ(dense.sentence, "2 motion vectors, 5 are needed: clustering.min_density_share = 2.");
 }
 
@@ -178,15 +184,15 @@ TEST(Explanation, vectorsThatTheLinkageKeepsApart) {
     PlaceEvidence evidence = emptyPlace();
     // Three vectors, one of them 6 px aside of the others, where 4 are allowed (1.0 m / 0.25 m/px).
     evidence.result.motion.motion_vectors = {vectorAt(1, 98, 98), vectorAt(2, 102, 98), vectorAt(3, 100, 104)};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "clustering.min_distance");  // 1.0 m are 4 px, and so is the floor
     ChainOptions no_floor = plainOptions();
     no_floor.clustering.min_distance_px = 1;
-    EXPECT_EQ(explain(evidence, no_floor, scaleOfTests()).parameter, "clustering.across");
+    EXPECT_EQ(explained(evidence, no_floor, scaleOfTests()).parameter, "clustering.across");
     EXPECT_THAT(told.sentence, HasSubstr("3 motion vectors lie here, but only 2 are linked"));
     // Near enough, but half as fast: a difference of 1 px/frame, where 12 % of the mean of 1.5 are allowed.
     evidence.result.motion.motion_vectors[2] = vectorAt(3, 100, 100, {1, 0});
-    const Explanation differs = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation differs = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(differs.parameter, "clustering.velocity_share");
     EXPECT_THAT(differs.sentence, HasSubstr("velocities differ by 1 px/frame"));
     EXPECT_THAT(differs.sentence, HasSubstr("(allowed 0.18)"));
@@ -196,7 +202,7 @@ TEST(Explanation, clusterInWhichTheWindowsAreNotSureEnough) {
     PlaceEvidence evidence = clusteredPlace();
     evidence.searches.front().trace.checks = {
         {"decision value of the best window", "sliding_window.decision_threshold", -1.25, 0, false, false}};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "sliding_window.decision_threshold");
     EXPECT_EQ(told.sentence,
               "The detector found no box here; closest was: decision value of the best window: -1.25, at least 0: "
@@ -210,7 +216,7 @@ TEST(Explanation, ofSeveralChecksTheOneThatWasCloserDecides) {
         {"motion vectors in a component", "gradient.support_share", 0, 1, false, false, here},
         {"area of a box", "gradient.min_box_area", 9, 10, false, false, here},
         {"area of a box", "gradient.min_box_area", 1, 10, false, false, {40, 60, 1, 1}}};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "gradient.min_box_area");
     EXPECT_THAT(told.sentence, HasSubstr("area of a box: 9, at least 10"));
 }
@@ -219,7 +225,7 @@ TEST(Explanation, detectionWithTooFewVectorsIsAnOutlier) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.detections.front().vectors = {0, 1};
     evidence.result.detections.front().rejection = Rejection::outlier;
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.sentence,
               "The detection here was removed as an outlier: 2 motion vectors inside, 3 are needed: "
               "outliers.min_vectors = 3 vectors.");
@@ -229,7 +235,7 @@ TEST(Explanation, detectionOfAnImpossibleSize) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.detections.front().box.length = 4;  // 1 m; at least 1.2 m are 4.8 px
     evidence.result.detections.front().rejection = Rejection::size;
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "outliers.min_length");
     EXPECT_THAT(told.sentence, HasSubstr("4 px (1 m), at least 4.8 px (1.2 m)"));
 }
@@ -240,7 +246,7 @@ TEST(Explanation, detectionThatReachesBeyondThePicture) {
     evidence.result.detections.front().rejection = Rejection::size;
     ChainOptions options = plainOptions();
     options.outliers.inside_image = true;
-    const Explanation told = explain(evidence, options, scaleOfTests());
+    const Explanation told = explained(evidence, options, scaleOfTests());
     EXPECT_EQ(told.parameter, "outliers.inside_image");
     EXPECT_THAT(told.sentence, HasSubstr("reaches beyond the picture: 0.694 of the box is in the picture"));
 }
@@ -251,7 +257,7 @@ TEST(Explanation, duplicateNamesTheOverlapThatDecided) {
     evidence.result.detections[1].box.centre = {140, 100};
     evidence.result.detections[0].rejection = Rejection::duplicate;
     evidence.removal.duplicates = {{0, 1, 0.82, 0.7, "duplicates.threshold"}};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "duplicates.threshold");
     EXPECT_THAT(told.sentence, HasSubstr("overlaps another detection by 0.82, duplicates overlap by 0.7"));
 }
@@ -260,7 +266,7 @@ TEST(Explanation, tentativeTrackCountsItsDetections) {
     PlaceEvidence evidence = detectedPlace();
     evidence.tracking->started = {{0, 7}};
     evidence.unfinished = {stateAt(7, {100, 100}, TrackStatus::tentative, StateOrigin::detected)};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_FALSE(told.found);
     EXPECT_EQ(told.sentence,
               "The track is tentative: detected in 3 of its 10 frames, 5 within 8 are needed: tracking.confirm_hits = "
@@ -276,7 +282,7 @@ TEST(Explanation, trackThatEndedForWantOfEvidence) {
     track.ended_value = 9;
     track.ended_limit = 8;
     evidence.tracking->tracks = {track};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     // The first thing that was missing decided: without a corner nothing else could come.
     EXPECT_EQ(told.parameter, "registration.corner_deviation");
     const auto ended = std::find_if(told.steps.begin(), told.steps.end(), [](const ExplanationStep& step) {
@@ -290,7 +296,7 @@ TEST(Explanation, trackThatEndedForWantOfEvidence) {
 TEST(Explanation, detectionInsideATrackThatMovesAlikeStartsNone) {
     PlaceEvidence evidence = detectedPlace();
     evidence.tracking->doubled = {0};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "tracking.duplicate_overlap");
 }
 
@@ -305,7 +311,7 @@ TEST(Explanation, hitTellsItsTrackAndTheRowOfTheOverlapMatrix) {
     evidence.tracking->tracks = {row};
     evidence.tracking->relations = {{0, 12, 0.93, true}};
     evidence.tracking->min_overlap = 0.2;
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_TRUE(told.found);
     EXPECT_TRUE(told.parameter.empty());
     EXPECT_THAT(told.sentence, StartsWith("Track 12 is here: confirmed"));
@@ -347,6 +353,8 @@ TEST(Explanation, everyParameterNamedIsOneThatExists) {
                              "clustering.max_length",
                              "clustering.max_width",
                              "clustering.split_width",
+                             "clustering.split_length",
+                             "clustering.roof_length",
                              "detection.method",
                              "detection.extend_along",
                              "gradient.min_box_area",
@@ -387,7 +395,7 @@ TEST(Explanation, everyParameterNamedIsOneThatExists) {
 TEST(Explanation, trackLeftOutWhenTracksWereFinished) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.dropped = {{7, {{100, 100}, 18, 7, 0}, TrackDrop::hardly_detected, 0}};
-    const Explanation told = explain(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_FALSE(told.found);
     EXPECT_EQ(told.parameter, "finishing.min_detected");
     EXPECT_THAT(told.sentence, HasSubstr("track 7 was guessed rather than detected"));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "core/geometry/angle.h"
@@ -119,6 +120,74 @@ TEST(MotionClustering, TakesDegenerateInput) {
     EXPECT_TRUE(std::isfinite(still[0].box.heading));
     for (MotionVector& v : motion.motion_vectors) v.velocity.x = std::nanf("");
     EXPECT_TRUE(clustering.cluster(motion).empty());
+}
+
+TEST(MotionClustering, TracesWhatBecameOfEveryVector) {
+    std::mt19937 random(6);
+    FrameMotion motion = emptyMotion();
+    addObject(motion, {{100, 300}, 15, 6, 0}, 1.5, 40, 0.005, random);
+    addObject(motion, {{500, 100}, 2, 2, 0}, 1.5, 2, 0.005, random);
+    addObject(motion, {{320, 420}, 300, 6, 0}, 1.0, 900, 0.001, random);  // 90 m
+    // Two lanes and a vector beside them, which fall apart when their linkage is tightened.
+    addObject(motion, {{200, 100}, 15, 6, 0}, 1.5, 40, 0.005, random);
+    addObject(motion, {{203, 111}, 15, 6, 0}, 1.5, 40, 0.005, random);
+    addObject(motion, {{203, 122.5}, 0, 0, 0}, 1.5, 1, 0, random);
+    MotionClusteringOptions options;
+    options.across_m = 3;
+    const MotionClustering clustering(options, kScale);
+    ClusteringTrace trace;
+    const auto clusters = clustering.cluster(motion, &trace);
+    ASSERT_EQ(clusters.size(), 3U);
+    std::vector<int> told(motion.motion_vectors.size(), 0);
+    std::map<ClusterRefusal, int> refused;
+    for (const TracedGroup& group : trace.groups) {
+        for (const int member : group.members) ++told[static_cast<std::size_t>(member)];
+        ++refused[group.refusal];
+        ASSERT_EQ(group.cluster >= 0, group.refusal == ClusterRefusal::none);
+        if (group.cluster < 0) continue;
+        EXPECT_EQ(clusters[static_cast<std::size_t>(group.cluster)].members, group.members);
+        EXPECT_EQ(group.split_by, group.cluster == 0 ? "" : "clustering.split_width");
+    }
+    EXPECT_THAT(told, testing::Each(1));
+    EXPECT_EQ(refused[ClusterRefusal::too_few], 1);
+    EXPECT_EQ(refused[ClusterRefusal::too_long], 1);
+    EXPECT_EQ(refused[ClusterRefusal::split_off], 1);
+    EXPECT_EQ(trace.needed, clustering.minMembersFor(motion));
+    EXPECT_EQ(trace.needed_parameter, "clustering.min_members");
+
+    const auto verdict = [&](const std::vector<int>& here) { return clustering.verdictOn(here, motion, trace); };
+    EXPECT_EQ(verdict({3, 40}).refusal, ClusterRefusal::none) << "one of them is in a cluster";
+    EXPECT_EQ(verdict({40, 41}).refusal, ClusterRefusal::too_few);
+    const ClusteringVerdict off = verdict({static_cast<int>(told.size()) - 1});
+    EXPECT_EQ(off.refusal, ClusterRefusal::split_off);
+    EXPECT_EQ(off.parameter, "clustering.split_width");
+    EXPECT_GT(off.value, off.limit);
+    EXPECT_EQ(verdict({}).refusal, ClusterRefusal::none);
+}
+
+TEST(MotionClustering, TellsWhichLimitKeepsVectorsApart) {
+    FrameMotion motion = emptyMotion();
+    // 6 px aside, where 1.0 m or at least 4 px are allowed.
+    motion.motion_vectors = {{1, {98, 98}, {2, 0}, 9}, {2, {102, 98}, {2, 0}, 9}, {3, {100, 104}, {2, 0}, 9}};
+    const auto verdictBy = [&](const MotionClusteringOptions& options) {
+        const MotionClustering clustering(options, kScale);
+        ClusteringTrace trace;
+        EXPECT_TRUE(clustering.cluster(motion, &trace).empty());
+        return clustering.verdictOn({0, 1, 2}, motion, trace);
+    };
+    const ClusteringVerdict apart = verdictBy({});
+    EXPECT_EQ(apart.refusal, ClusterRefusal::not_linked);
+    EXPECT_EQ(apart.here, 3);
+    EXPECT_EQ(apart.group, (std::vector<int>{0, 1}));
+    EXPECT_EQ(apart.gap.other, 2);
+    EXPECT_FALSE(apart.gap.joined);
+    EXPECT_NEAR(apart.gap.aside, 6, 1e-6);
+    EXPECT_EQ(apart.parameter, "clustering.min_distance");
+    MotionClusteringOptions no_floor;
+    no_floor.min_distance_px = 1;
+    EXPECT_EQ(verdictBy(no_floor).parameter, "clustering.across");
+    motion.motion_vectors[2] = {3, {100, 100}, {1, 0}, 9};
+    EXPECT_EQ(verdictBy({}).parameter, "clustering.velocity_share");
 }
 
 }  // namespace

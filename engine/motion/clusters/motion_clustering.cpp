@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "motion/clusters/linkage_gaps.h"
 #include "motion/differences/roof_bridge.h"
 
 namespace eyrie {
@@ -32,6 +34,11 @@ MotionCluster summarise(const FrameMotion& motion, std::vector<int> members, dou
     return cluster;
 }
 
+/// The half axis of the ellipse that a gap uses up most.
+const char* nearestLimit(const LinkageGap& gap, const Linkage& linkage) {
+    return gap.aside / linkage.across > gap.ahead / linkage.along ? "clustering.across" : "clustering.along";
+}
+
 }  // namespace
 
 MotionClustering::MotionClustering(const MotionClusteringOptions& options, const SceneScale& scale)
@@ -58,36 +65,51 @@ int MotionClustering::minMembersFor(const FrameMotion& motion) const {
     return std::max(options_.min_members, static_cast<int>(wanted));
 }
 
-std::vector<std::vector<int>> MotionClustering::split(const FrameMotion& motion, std::vector<int> group,
-                                                      Linkage linkage, std::size_t min_members, int steps_left) const {
-    const MotionCluster whole = summarise(motion, group, options_.margin_px);
-    const bool too_wide =
-        options_.split_width_m > 0 && whole.box.width > scale_.px(options_.split_width_m) + kSplitMargin;
-    const bool too_long =
-        options_.split_length_m > 0 && whole.box.length > scale_.px(options_.split_length_m) + kSplitMargin;
-    if ((!too_wide && !too_long) || steps_left == 0 || group.size() < 2 * min_members) return {std::move(group)};
+std::vector<MotionClustering::Piece> MotionClustering::split(const FrameMotion& motion, Piece group, Linkage linkage,
+                                                             std::size_t min_members, int steps_left,
+                                                             ClusteringTrace* trace) const {
+    const std::vector<int>& whole = group.members;
+    const MotionCluster cluster = summarise(motion, whole, options_.margin_px);
+    const double widest = scale_.px(options_.split_width_m) + kSplitMargin;
+    const double longest = scale_.px(options_.split_length_m) + kSplitMargin;
+    const bool too_wide = options_.split_width_m > 0 && cluster.box.width > widest;
+    const bool too_long = options_.split_length_m > 0 && cluster.box.length > longest;
+    std::vector<Piece> result;
+    if ((!too_wide && !too_long) || steps_left == 0 || whole.size() < 2 * min_members) {
+        result.push_back(std::move(group));
+        return result;
+    }
     if (too_wide) linkage.across *= kTighter;
     if (too_long) linkage.along *= kTighter;
     linkage.velocity_floor *= kTighter;
     linkage.velocity_share *= kTighter;
     std::vector<MotionVector> vectors;
-    vectors.reserve(group.size());
-    for (const int member : group) vectors.push_back(motion.motion_vectors[static_cast<std::size_t>(member)]);
+    vectors.reserve(whole.size());
+    for (const int member : whole) vectors.push_back(motion.motion_vectors[static_cast<std::size_t>(member)]);
+    const char* const split_by = too_wide ? "clustering.split_width" : "clustering.split_length";
     const std::vector<int> numbers = singleLinkage(vectors, linkage);
-    std::vector<std::vector<int>> pieces(static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end())) +
-                                         1);
-    for (std::size_t i = 0; i < numbers.size(); ++i) pieces[static_cast<std::size_t>(numbers[i])].push_back(group[i]);
-    std::erase_if(pieces, [&](const std::vector<int>& piece) { return piece.size() < min_members; });
+    std::vector<Piece> pieces(static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end())) + 1);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        Piece& piece = pieces[static_cast<std::size_t>(numbers[i])];
+        piece.members.push_back(whole[i]);
+        piece.split_by = split_by;
+    }
+    const auto left_over = std::stable_partition(
+        pieces.begin(), pieces.end(), [&](const Piece& piece) { return piece.members.size() >= min_members; });
+    const auto count = left_over - pieces.begin();
     std::size_t held = 0;
-    for (const auto& piece : pieces) held += piece.size();
+    for (auto piece = pieces.begin(); piece != left_over; ++piece) held += piece->members.size();
     const bool falls_apart =
-        pieces.size() >= 2 && static_cast<double>(held) >= kHeldByPieces * static_cast<double>(group.size());
-    if (!falls_apart) return split(motion, std::move(group), linkage, min_members, steps_left - 1);
-    std::vector<std::vector<int>> result;
-    for (auto& piece : pieces) {
-        for (auto& part : split(motion, std::move(piece), linkage, min_members, steps_left - 1)) {
+        count >= 2 && static_cast<double>(held) >= kHeldByPieces * static_cast<double>(whole.size());
+    if (!falls_apart) return split(motion, std::move(group), linkage, min_members, steps_left - 1, trace);
+    for (auto piece = left_over; trace != nullptr && piece != pieces.end(); ++piece) {
+        const double size = too_wide ? cluster.box.width : cluster.box.length;
+        trace->groups.push_back({std::move(piece->members), -1, ClusterRefusal::split_off, size,
+                                 too_wide ? widest : longest, split_by, split_by});
+    }
+    for (auto piece = pieces.begin(); piece != left_over; ++piece) {
+        for (Piece& part : split(motion, std::move(*piece), linkage, min_members, steps_left - 1, trace))
             result.push_back(std::move(part));
-        }
     }
     return result;
 }
@@ -100,31 +122,117 @@ std::vector<int> MotionClustering::linked(const FrameMotion& motion) const {
     return joinAcrossRoofs(motion, linkage, {roof, std::max(scale_.px(kRoofHalfWidth), 1.0)}, std::move(numbers));
 }
 
-std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion) const {
+TracedGroup MotionClustering::checkSize(const MotionCluster& cluster) const {
+    TracedGroup checked;
+    const double max_length = scale_.px(options_.max_length_m);
+    const double max_width = scale_.px(options_.max_width_m);
+    if (!std::isfinite(cluster.box.length + cluster.box.heading)) {
+        checked.refusal = ClusterRefusal::not_finite;
+    } else if (max_length > 0 && cluster.box.length > max_length) {
+        checked = {{}, -1, ClusterRefusal::too_long, cluster.box.length, max_length, "clustering.max_length", {}};
+    } else if (max_width > 0 && cluster.box.width > max_width) {
+        checked = {{}, -1, ClusterRefusal::too_wide, cluster.box.width, max_width, "clustering.max_width", {}};
+    }
+    return checked;
+}
+
+std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion, ClusteringTrace* trace) const {
     const std::vector<int> numbers = linked(motion);
     const int count = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + 1;
     std::vector<std::vector<int>> members(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         members[static_cast<std::size_t>(numbers[i])].push_back(static_cast<int>(i));
     }
-    const auto min_members = static_cast<std::size_t>(minMembersFor(motion));
-    const double max_length = scale_.px(options_.max_length_m);
-    const double max_width = scale_.px(options_.max_width_m);
-    const auto fits = [&](const MotionCluster& cluster) {
-        return std::isfinite(cluster.box.length + cluster.box.heading) &&
-               !(max_length > 0 && cluster.box.length > max_length) &&
-               !(max_width > 0 && cluster.box.width > max_width);
-    };
+    const int needed = minMembersFor(motion);
+    const auto min_members = static_cast<std::size_t>(needed);
+    const char* const needed_parameter =
+        needed > options_.min_members ? "clustering.min_density_share" : "clustering.min_members";
+    if (trace != nullptr) *trace = {{}, needed, needed_parameter};
     const Linkage linkage = linkageFor(motion.background_speed_sigma);
     std::vector<MotionCluster> clusters;
     for (std::vector<int>& group : members) {
-        if (group.size() < min_members) continue;
-        if (!fits(summarise(motion, group, options_.margin_px))) continue;
-        for (auto& piece : split(motion, std::move(group), linkage, min_members, kSplitSteps)) {
-            clusters.push_back(summarise(motion, std::move(piece), options_.margin_px));
+        if (group.size() < min_members) {
+            const auto size = static_cast<double>(group.size());
+            if (trace != nullptr)
+                trace->groups.push_back({std::move(group),
+                                         -1,
+                                         ClusterRefusal::too_few,
+                                         size,
+                                         static_cast<double>(needed),
+                                         needed_parameter,
+                                         {}});
+            continue;
+        }
+        TracedGroup checked = checkSize(summarise(motion, group, options_.margin_px));
+        if (checked.refusal != ClusterRefusal::none) {
+            checked.members = std::move(group);
+            if (trace != nullptr) trace->groups.push_back(std::move(checked));
+            continue;
+        }
+        for (Piece& piece : split(motion, {std::move(group)}, linkage, min_members, kSplitSteps, trace)) {
+            if (trace != nullptr) {
+                const auto size = static_cast<double>(piece.members.size());
+                trace->groups.push_back({piece.members, static_cast<int>(clusters.size()), ClusterRefusal::none, size,
+                                         static_cast<double>(needed), needed_parameter, piece.split_by});
+            }
+            clusters.push_back(summarise(motion, std::move(piece.members), options_.margin_px));
         }
     }
     return clusters;
+}
+
+LinkageGap MotionClustering::gapOutside(const FrameMotion& motion, const std::vector<int>& group) const {
+    const Linkage linkage = linkageFor(motion.background_speed_sigma);
+    LinkageGap gap = smallestGapOutside(motion.motion_vectors, group, linkage);
+    const double distance = gap.aside / linkage.across > gap.ahead / linkage.along ? linkage.across : linkage.along;
+    if (gap.distance <= 1)
+        gap.parameter = gap.allowed > linkage.velocity_floor || linkage.velocity_share <= 0
+                            ? "clustering.velocity_share"
+                            : "clustering.velocity_floor";
+    else if (distance <= options_.min_distance_px)
+        gap.parameter = "clustering.min_distance";
+    else
+        gap.parameter = nearestLimit(gap, linkage);
+    return gap;
+}
+
+LinkageGap MotionClustering::gapInside(const FrameMotion& motion, const std::vector<int>& group) const {
+    const Linkage linkage = linkageFor(motion.background_speed_sigma);
+    LinkageGap gap = largestGapInside(motion.motion_vectors, group, linkage);
+    gap.parameter = gap.distance > 1 ? "clustering.roof_length" : nearestLimit(gap, linkage);
+    return gap;
+}
+
+ClusteringVerdict MotionClustering::verdictOn(const std::vector<int>& here, const FrameMotion& motion,
+                                              const ClusteringTrace& trace) const {
+    ClusteringVerdict verdict;
+    verdict.here = static_cast<int>(here.size());
+    verdict.needed = trace.needed;
+    const auto counted = [](const TracedGroup& group) { return group.refusal != ClusterRefusal::too_few; };
+    const TracedGroup* farthest = nullptr;
+    for (const TracedGroup& group : trace.groups) {
+        const bool is_here = std::any_of(here.begin(), here.end(), [&](int vector) {
+            return std::binary_search(group.members.begin(), group.members.end(), vector);
+        });
+        if (!is_here) continue;
+        if (group.cluster >= 0) return verdict;
+        if (farthest == nullptr ||
+            std::pair(counted(group), group.members.size()) > std::pair(counted(*farthest), farthest->members.size()))
+            farthest = &group;
+    }
+    if (farthest == nullptr) return verdict;
+    verdict.refusal = farthest->refusal;
+    verdict.group = farthest->members;
+    verdict.value = farthest->value;
+    verdict.limit = farthest->limit;
+    verdict.parameter = farthest->parameter;
+    // Neighbours that would have made it enough point to the linkage.
+    if (verdict.refusal == ClusterRefusal::too_few && verdict.here >= verdict.needed) {
+        verdict.refusal = ClusterRefusal::not_linked;
+        verdict.gap = gapOutside(motion, verdict.group);
+        verdict.parameter = verdict.gap.parameter;
+    }
+    return verdict;
 }
 
 }  // namespace eyrie

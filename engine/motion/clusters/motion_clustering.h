@@ -6,6 +6,7 @@
 #include "core/values/motion_cluster.h"
 #include "core/values/motion_vector.h"
 #include "core/values/scene_scale.h"
+#include "motion/clusters/clustering_trace.h"
 #include "motion/clusters/single_linkage.h"
 
 namespace eyrie {
@@ -39,22 +40,37 @@ class MotionClustering {
  public:
     MotionClustering(const MotionClusteringOptions& options, const SceneScale& scale);
 
-    /// Clusters in the order of their first member; members ascend.
-    std::vector<MotionCluster> cluster(const FrameMotion& motion) const;
+    /// Clusters in the order of their first member; members ascend. `trace`, if given, receives what decided.
+    std::vector<MotionCluster> cluster(const FrameMotion& motion, ClusteringTrace* trace = nullptr) const;
 
-    /// For every motion vector the number of its group, before groups are checked or split; numbered from 0 in the
-    /// order of their first vector.
-    std::vector<int> linked(const FrameMotion& motion) const;
+    /// What decided about the motion vectors at these positions of the list. `trace` is of the same frame.
+    ClusteringVerdict verdictOn(const std::vector<int>& here, const FrameMotion& motion,
+                                const ClusteringTrace& trace) const;
+    /// The gap from a group to the next motion vector outside.
+    LinkageGap gapOutside(const FrameMotion& motion, const std::vector<int>& group) const;
+    /// The gap inside a cluster that held it together last; across a plain roof, if more than a linkage distance.
+    LinkageGap gapInside(const FrameMotion& motion, const std::vector<int>& group) const;
+
     /// The linkage used for a frame with this background noise (px/frame).
     Linkage linkageFor(double background_speed_sigma) const;
     /// Smallest cluster accepted in a frame.
     int minMembersFor(const FrameMotion& motion) const;
 
  private:
+    /// Part of a group that was split, or a whole group.
+    struct Piece {
+        std::vector<int> members;
+        const char* split_by = "";
+    };
+    /// For every motion vector the number of its group, before groups are checked or split; numbered from 0 in the
+    /// order of their first vector.
+    std::vector<int> linked(const FrameMotion& motion) const;
+    /// Why linked vectors are no cluster, but for their number.
+    TracedGroup checkSize(const MotionCluster& cluster) const;
     /// Pieces of a group that is too large for one vehicle, by tighter and tighter linkage; the group itself when it
     /// does not fall into pieces that hold most of it.
-    std::vector<std::vector<int>> split(const FrameMotion& motion, std::vector<int> group, Linkage linkage,
-                                        std::size_t min_members, int steps_left) const;
+    std::vector<Piece> split(const FrameMotion& motion, Piece group, Linkage linkage, std::size_t min_members,
+                             int steps_left, ClusteringTrace* trace) const;
 
     MotionClusteringOptions options_;
     SceneScale scale_;
