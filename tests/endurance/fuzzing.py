@@ -10,16 +10,17 @@ from cases import Failure, Part, Skipped
 from programs import Program, run
 
 DICTIONARY = Path(__file__).parent.parent / "fuzz" / "dictionaries" / "labels.dict"
-INPUTS = 1_000_000  # of a format in a full campaign
+INPUTS = 1_000_000  # of a target in a full campaign
 SLICE = 50_000  # inputs that a case tries, so that what was found is known early
 
 
 class Target:
     """A fuzz target with its options, and the folder of good files that it begins with."""
 
-    def __init__(self, name, program, options=(), seeds=None, slices=INPUTS // SLICE, runs=SLICE, max_len=4096):
+    def __init__(self, name, program, options=(), seeds=None, inputs=SLICE, max_len=4096):
         self.name, self.program, self.options = name, program, list(options)
-        self.seeds, self.slices, self.runs, self.max_len = seeds or name, slices, runs, max_len
+        self.seeds, self.runs, self.max_len = seeds or name, inputs, max_len
+        self.slices = INPUTS // inputs  # cases
 
 
 class Fuzzing(Part):
@@ -49,8 +50,8 @@ class Fuzzing(Part):
             Target("preset", "preset_fuzz"),
             Target("index-cache", "index_cache_fuzz"),
             Target("packed", "packed_fuzz"),
-            Target("project", "project_fuzz", [f"--project={self.world.base}"], slices=20, runs=5000, max_len=120),
-            Target("video", "video_fuzz", slices=10, runs=5000, max_len=12_000),
+            Target("project", "project_fuzz", [f"--project={self.world.base}"], max_len=120),
+            Target("video", "video_fuzz", inputs=10_000, max_len=12_000),
         ]
         # Round by round, so that a short campaign tries each.
         rounds = max(target.slices for target in self._targets)
@@ -70,7 +71,7 @@ class Fuzzing(Part):
             "-print_final_stats=1", "-detect_leaks=0", f"-artifact_prefix={found}/", corpus, self._corpus / target.seeds,
         ]  # fmt: skip
         environment = dict(os.environ, UBSAN_OPTIONS="print_stacktrace=1", TMPDIR=str(folder))
-        result = Program(line, folder, "fuzzer", environment).wait(limit=900)
+        result = Program(line, folder, "fuzzer", environment).wait(limit=1800)
         tried = re.search(r"stat::number_of_executed_units: (\d+)", result.err)
         self._done[target.name] += int(tried.group(1)) if tried else 0
         if result.code != 0 or result.hung:

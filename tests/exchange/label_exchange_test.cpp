@@ -14,7 +14,9 @@ namespace eyrie {
 namespace {
 
 using testing::Contains;
+using testing::EndsWith;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 class LabelExchange : public testing::Test {
  protected:
@@ -194,6 +196,44 @@ TEST_F(LabelExchange, UprightBoxesComeBackToTheDigitUnderATurningCamera) {
         }
     }
     EXPECT_LT(store.annotations().objects.at(2).keyframes.size(), 20u) << "still few keyframes";
+}
+
+TEST_F(LabelExchange, FramesComeOneByOneAndTheSameAgain) {
+    AnnotationSet annotations;
+    const auto addObject = [&](int id, FrameIndex first, FrameIndex last) {
+        LabelledObject object;
+        object.id = id;
+        object.object_class = "car";
+        object.keyframes.resize(1);
+        object.keyframes[0].frame = first;
+        object.keyframes[0].box = {{20.0 + id, 30}, 10, 5, 0};
+        object.last_frame = last;
+        annotations.objects[id] = object;
+    };
+    addObject(9, 2, 4);
+    addObject(3, 4, 5);
+    addObject(5, 12, 1'000'000);  // behind a gap, and beyond the video
+    IgnoreRegion region;
+    region.id = 1;
+    region.polygon = {{10, 10}, {30, 10}, {30, 30}, {10, 30}};
+    region.first_frame = 5;
+    region.last_frame = 7;
+    annotations.regions[1] = region;
+    const CameraMotion camera;
+    const LabelStream labels = labelStreamOf(annotations, sequence_, camera);
+    const auto told = [&] {
+        std::string text;
+        labels.frames([&](FrameIndex frame, const std::vector<LabelBox>& boxes) {
+            text += std::to_string(frame) + ':';
+            for (const LabelBox& box : boxes) text += ' ' + (box.id ? std::to_string(*box.id) : "area");
+            text += '\n';
+        });
+        return text;
+    };
+    const std::string once = told();
+    EXPECT_THAT(once, StartsWith("2: 9\n3: 9\n4: 3 9\n5: 3 area\n6: area\n7: area\n12: 5\n13: 5\n"));
+    EXPECT_THAT(once, EndsWith("19: 5\n"));
+    EXPECT_EQ(told(), once);
 }
 
 TEST_F(LabelExchange, RegionsLeaveAsBoxesThatCoverThem) {

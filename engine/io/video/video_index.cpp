@@ -72,15 +72,15 @@ bool mayHoldFields(const AVCodecParameters& parameters) {
 }
 
 struct Scan {
-    VideoIndex index;
+    explicit Scan(VideoIndex& to_fill) : index(to_fill) {}
+    VideoIndex& index;
     std::vector<bool> discarded;  ///< packets that an edit list hides
     bool order_is_known = true;
 };
 
-Scan scanPackets(const std::filesystem::path& path, Progress& progress) {
+Scan scanPackets(const std::filesystem::path& path, VideoIndex& index, Progress& progress) {
     const libav::Demuxer demuxer = openContainer(path);
-    Scan scan;
-    VideoIndex& index = scan.index;
+    Scan scan(index);
     index.stream = findVideoStream(path, *demuxer);
     AVStream& stream = *demuxer->streams[index.stream];
     for (unsigned other = 0; other < demuxer->nb_streams; ++other)
@@ -215,25 +215,25 @@ std::vector<FrameIndex> VideoIndex::framesOfPackets() const {
     return frames;
 }
 
-VideoIndex buildVideoIndex(const std::filesystem::path& path, const IndexProgress& report, std::stop_token stop) {
+std::unique_ptr<VideoDecoder> buildVideoIndex(const std::filesystem::path& path, VideoIndex& index,
+                                              const IndexProgress& report, std::stop_token stop) {
     Progress progress(report, stop);
     progress.at(path, 0);
-    Scan scan = scanPackets(path, progress);
-    VideoIndex& index = scan.index;
-    VideoDecoder decoder(path, index);
+    Scan scan = scanPackets(path, index, progress);
+    auto decoder = std::make_unique<VideoDecoder>(path, index);
     if (scan.order_is_known && orderByStamps(scan)) {
-        trimToDecodable(index, decoder);
+        trimToDecodable(index, *decoder);
     } else {
         Progress decoding(report, stop);
-        orderByDecoding(path, index, decoder, decoding);
+        orderByDecoding(path, index, *decoder, decoding);
     }
-    if (!index.shown.empty()) index.coded_size = firstPictureSize(index, decoder);
+    if (!index.shown.empty()) index.coded_size = firstPictureSize(index, *decoder);
     if (index.coded_size.empty())
         throw Error(ErrorKind::input,
                     path.string() + ": no picture of the video can be decoded; the file may be damaged or cut off");
     placeInTime(index);
     progress.at(path, 1);
-    return std::move(scan.index);
+    return decoder;
 }
 
 }  // namespace eyrie

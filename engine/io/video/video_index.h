@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <opencv2/core/types.hpp>
 #include <stop_token>
 #include <string>
@@ -22,6 +23,8 @@ struct PacketRecord {
 };
 
 inline constexpr std::int64_t kNoStamp = INT64_MIN;
+
+class VideoDecoder;
 
 /// Where every frame of a video lies and when it is shown.
 ///
@@ -49,7 +52,9 @@ struct VideoIndex {
 
 /// Reads through a video once. Frames that cannot be decoded at its ends (a recording that starts or stops amid a group
 /// of pictures, a truncated file) are left out. Streams whose stamps do not tell the order of presentation (none at
-/// all, duplicates, jumps, field pictures) are decoded once to learn it. Throws Error(input).
-VideoIndex buildVideoIndex(const std::filesystem::path& path, const IndexProgress& progress, std::stop_token stop);
+/// all, duplicates, jumps, field pictures) are decoded once to learn it. Answers with the decoder that it needed, so
+/// that the video need not be opened again; `index` must outlive it. Throws Error(input).
+std::unique_ptr<VideoDecoder> buildVideoIndex(const std::filesystem::path& path, VideoIndex& index,
+                                              const IndexProgress& progress, std::stop_token stop);
 
 }  // namespace eyrie

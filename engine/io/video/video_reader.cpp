@@ -69,14 +69,14 @@ VideoReader::VideoReader(const std::filesystem::path& path, const SourceOptions&
     if (auto known = cache.load(info_.path)) {
         index_ = std::move(*known);
     } else {
-        index_ = buildVideoIndex(info_.path, progress, std::move(stop));
+        decoder_ = buildVideoIndex(info_.path, index_, progress, std::move(stop));
         cache.save(info_.path, index_);
     }
     frame_of_packet_ = index_.framesOfPackets();
     for (std::size_t number = 0; number < index_.packets.size(); ++number)
         if (index_.packets[number].key && frame_of_packet_[number] >= 0)
             key_packets_.push_back(static_cast<int>(number));
-    decoder_ = std::make_unique<VideoDecoder>(info_.path, index_);
+    if (!decoder_) decoder_ = std::make_unique<VideoDecoder>(info_.path, index_);
     describe(options);
 }
 
