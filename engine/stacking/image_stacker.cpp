@@ -187,8 +187,7 @@ void ImageStacker::startFromDetections(const std::vector<Placed>& placed) {
             for (const auto& entry : entries_) {
                 const auto own = owners.find(entry.master.id());
                 if (own == owners.end() || 2 * own->second < present) continue;
-                int in_detection = own->second;
-                if (2 * in_detection < static_cast<int>(entry.master.related().size())) {
+                if (2 * own->second < static_cast<int>(entry.master.related().size())) {
                     has_stack = false;
                     for (const CornerId id : ids) {
                         const auto at = by_id.find(id);
@@ -210,7 +209,7 @@ void ImageStacker::startFromClusters(const std::vector<Placed>& placed, const st
             const Placed& p = placed[static_cast<std::size_t>(member)];
             if (!owner_.count(p.vector->id)) free.push_back(&p);
         }
-        if (free.size() < 3 || 2 * free.size() < cluster.members.size()) continue;
+        if (free.size() < 3) continue;
         const double vehicles = cluster.box.length / scale_.px(options_.vehicle_length_m);
         const int k = std::clamp(static_cast<int>(std::lround(vehicles)), 1, static_cast<int>(free.size()));
         cv::Mat points(static_cast<int>(free.size()), 4, CV_32F);

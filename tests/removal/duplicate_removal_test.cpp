@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "core/geometry/angle.h"
 #include "removal/vectors_in_boxes.h"
 
 namespace eyrie {
@@ -145,6 +147,166 @@ TEST(DuplicateRemoval, CountsOnlyVectorsThatMoveAlike) {
     const auto found = removeDuplicates({detection(100, 100, 18, 7)}, motion, withoutParts(), kScale);
     EXPECT_EQ(found[0].vectors, (std::vector<int>{0, 1, 2, 3, 4, 5}));
     EXPECT_EQ(found[0].velocity, cv::Point2d(1, 0));
+}
+
+TEST(DuplicateRemoval, BoxesAreTheSameWithinLimitsOfSpeedAndTurn) {
+    const auto one = [](cv::Point2d velocity, cv::Point2d other_velocity, double turn_deg) {
+        Detection other = detection(100, 100, 17, 6, other_velocity);
+        other.box.heading = radiansFromDegrees(turn_deg);
+        return kept(removeDuplicates({detection(100, 100, 18, 7, velocity), other}, sparseMotion(), withoutParts(),
+                                     kScale)) == 1;
+    };
+    EXPECT_TRUE(one({2, 0}, {2.2, 0}, 0)) << "0.2 of 0.22";
+    EXPECT_FALSE(one({2, 0}, {2.25, 0}, 0)) << "0.25 of 0.225";
+    EXPECT_TRUE(one({0, 0.2}, {0, 0.27}, 0)) << "slow ones may differ by 0.08";
+    EXPECT_FALSE(one({0, 0.2}, {0, 0.29}, 0));
+    DuplicateRemovalOptions thesis = DuplicateRemovalOptions::thesis();
+    for (const double turn : {-29.0, 29.0, -31.0, 31.0}) {
+        Detection other = detection(100, 100, 17, 6);
+        other.box.heading = radiansFromDegrees(turn);
+        EXPECT_EQ(kept(removeDuplicates({detection(100, 100, 18, 7), other}, sparseMotion(), thesis, kScale)),
+                  std::abs(turn) < 30 ? 1 : 2)
+            << turn;
+    }
+    thesis.max_turn_deg = 0;
+    EXPECT_EQ(kept(removeDuplicates({detection(100, 100, 18, 7), detection(100, 100, 17, 6)}, sparseMotion(), thesis,
+                                    kScale)),
+              1)
+        << "no turn at all is within any limit";
+}
+
+TEST(DuplicateRemoval, TheThesisMeasuresOverlapTheDefaultContainment) {
+    const std::vector<Detection> small_in_large{detection(100, 100, 18, 7), detection(100, 100, 4, 4)};  // 16 / 126
+    EXPECT_EQ(kept(removeDuplicates(small_in_large, sparseMotion(), withoutParts(), kScale)), 1);
+    EXPECT_EQ(kept(removeDuplicates(small_in_large, sparseMotion(), DuplicateRemovalOptions::thesis(), kScale)), 2);
+    DuplicateRemovalOptions touching = DuplicateRemovalOptions::thesis();
+    touching.threshold = 0.01;  // squares that share a corner: 4 / 196
+    EXPECT_EQ(kept(removeDuplicates({detection(100, 100, 10, 10), detection(108, 108, 10, 10)}, sparseMotion(),
+                                    touching, kScale)),
+              1);
+}
+
+TEST(DuplicateRemoval, TheUnionTakesTheLargerOnesPlaceAndHeading) {
+    Detection large = detection(100, 100, 18, 8);
+    large.box.heading = 0.2;
+    large.score = 0.3;
+    Detection small = detection(100, 100, 16, 7);
+    small.score = 0.8;
+    for (const bool large_first : {true, false}) {
+        const std::vector<Detection> pair =
+            large_first ? std::vector<Detection>{large, small} : std::vector<Detection>{small, large};
+        RemovalTrace trace;
+        const auto found = removeDuplicates(pair, sparseMotion(), DuplicateRemovalOptions::thesis(), kScale, &trace);
+        const std::size_t stays = large_first ? 0 : 1;
+        EXPECT_EQ(found[stays].rejection, Rejection::none);
+        EXPECT_EQ(found[1 - stays].rejection, Rejection::duplicate);
+        EXPECT_EQ(found[stays].box.heading, 0.2);
+        EXPECT_GE(found[stays].box.area(), large.box.area());
+        EXPECT_EQ(found[stays].score, 0.8) << "as sure as the surer one";
+        ASSERT_EQ(trace.duplicates.size(), 1U);
+        EXPECT_EQ(trace.duplicates[0].kept, static_cast<int>(stays));
+        EXPECT_EQ(trace.duplicates[0].removed, static_cast<int>(1 - stays));
+        EXPECT_NEAR(trace.duplicates[0].value, overlap(large.box, small.box), 1e-12);
+        EXPECT_EQ(trace.duplicates[0].limit, 0.2);
+    }
+    const auto equal = removeDuplicates({small, small}, sparseMotion(), DuplicateRemovalOptions::thesis(), kScale);
+    EXPECT_EQ(equal[0].rejection, Rejection::none) << "of equals the first";
+}
+
+TEST(DuplicateRemoval, TheStrongestOverlapGoesFirst) {
+    // The last two overlap most; once they are one, the first overlaps them less than before.
+    RemovalTrace trace;
+    const auto found =
+        removeDuplicates({detection(100, 100, 18, 7), detection(109, 100, 18, 7), detection(111, 100, 18, 7)},
+                         sparseMotion(), DuplicateRemovalOptions::thesis(), kScale, &trace);
+    ASSERT_EQ(trace.duplicates.size(), 2U);
+    EXPECT_EQ(trace.duplicates[0].kept, 1);
+    EXPECT_EQ(trace.duplicates[0].removed, 2);
+    EXPECT_NEAR(trace.duplicates[0].value, 16.0 / 20, 1e-9);
+    EXPECT_NEAR(trace.duplicates[1].value, 9.0 / 29, 1e-9) << "91 … 109 and 100 … 120";
+    EXPECT_EQ(kept(found), 1);
+}
+
+TEST(DuplicateRemoval, AUnionUpToTheLimitIsFormed) {
+    const std::vector<Detection> pair{detection(100, 100, 18, 7), detection(109, 100, 18, 7)};  // 27 of 18: 1.5 times
+    DuplicateRemovalOptions options = withoutParts();
+    options.threshold = 0.4;
+    EXPECT_DOUBLE_EQ(removeDuplicates(pair, sparseMotion(), options, kScale)[0].box.length, 27);
+    options.growth_limit = 1.49;
+    EXPECT_DOUBLE_EQ(removeDuplicates(pair, sparseMotion(), options, kScale)[0].box.length, 18);
+}
+
+TEST(DuplicateRemoval, AsMuchOverlapAsTheThresholdIsEnough) {
+    DuplicateRemovalOptions options = DuplicateRemovalOptions::thesis();
+    options.threshold = 0.5;  // 12 / (18 + 18 − 12)
+    const std::vector<Detection> pair{detection(100, 100, 18, 8), detection(106, 100, 18, 8)};
+    for (const DuplicateStrategy strategy : {DuplicateStrategy::fuse, DuplicateStrategy::suppress}) {
+        options.strategy = strategy;
+        EXPECT_EQ(kept(removeDuplicates(pair, sparseMotion(), options, kScale)), 1);
+    }
+}
+
+TEST(DuplicateRemoval, SuppressionJudgesEveryPair) {
+    // Scores fall from group to group and back, so that each box is followed by strangers before its duplicate.
+    std::vector<Detection> boxes{detection(100, 100, 18, 7), detection(200, 100, 18, 7), detection(102, 100, 18, 7),
+                                 detection(202, 100, 18, 7), detection(300, 100, 18, 7), detection(302, 100, 18, 7)};
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        boxes[i].score = 5.0 - static_cast<double>(i);
+        boxes[i].complete = true;
+    }
+    const auto found = removeDuplicates(boxes, sparseMotion(), withoutParts(), kScale);
+    for (const std::size_t i : {0U, 1U, 4U}) {
+        EXPECT_EQ(found[i].rejection, Rejection::none) << i;
+        EXPECT_EQ(found[i].box.length, 18) << i << ": nothing is fused";
+    }
+    for (const std::size_t i : {2U, 3U, 5U}) EXPECT_EQ(found[i].rejection, Rejection::duplicate) << i;
+}
+
+TEST(DuplicateRemoval, AWholeVehicleStaysWhateverASegmentScores) {
+    for (const DuplicateStrategy strategy : {DuplicateStrategy::fuse, DuplicateStrategy::suppress}) {
+        for (const bool segment_first : {true, false}) {
+            DuplicateRemovalOptions options = withoutParts();
+            options.strategy = strategy;
+            Detection segment = detection(103, 100, 18, 8);
+            segment.score = 9;
+            Detection vehicle = detection(100, 100, 18, 7);
+            vehicle.score = 0.5;
+            vehicle.complete = true;
+            std::vector<Detection> both{vehicle, segment};
+            if (segment_first) std::swap(both[0], both[1]);
+            RemovalTrace trace;
+            const auto found = removeDuplicates(both, sparseMotion(), options, kScale, &trace);
+            const std::size_t stays = segment_first ? 1 : 0;
+            EXPECT_EQ(found[stays].rejection, Rejection::none);
+            EXPECT_EQ(found[stays].box.length, 18);
+            EXPECT_EQ(found[stays].score, 0.5);
+            EXPECT_EQ(found[1 - stays].rejection, Rejection::duplicate);
+            ASSERT_EQ(trace.duplicates.size(), 1U);
+            EXPECT_EQ(trace.duplicates[0].kept, static_cast<int>(stays));
+        }
+    }
+}
+
+TEST(DuplicateRemoval, TheThesisCountsVectorsOfAnySpeed) {
+    FrameMotion motion = sparseMotion();
+    fill(motion, {{100, 100}, 18, 7, 0}, 3, {1, 0});
+    fill(motion, {{109, 101}, 18, 7, 0}, 3, {-2, 0});
+    const std::vector<Detection> pair{detection(100, 100, 18, 7), detection(109, 100, 18, 7)};
+    const auto vectorsOf = [&](DuplicateRemovalOptions options) {
+        options.threshold = 0.3;
+        options.parts.enabled = false;
+        return removeDuplicates(pair, motion, options, kScale)[0].vectors.size();
+    };
+    EXPECT_EQ(vectorsOf(DuplicateRemovalOptions::thesis()), 6U);
+    DuplicateRemovalOptions alike = DuplicateRemovalOptions::thesis();
+    alike.compare_speed = true;
+    EXPECT_EQ(vectorsOf(alike), 3U);
+}
+
+TEST(DuplicateRemoval, TheThesisJoinsNoParts) {
+    const std::vector<Detection> front_and_rear{detection(100, 100, 5, 7), detection(113, 100, 5, 7)};
+    EXPECT_EQ(kept(removeDuplicates(front_and_rear, sparseMotion(), DuplicateRemovalOptions::thesis(), kScale)), 2);
+    EXPECT_EQ(kept(removeDuplicates(front_and_rear, sparseMotion(), {}, kScale)), 1);
 }
 
 TEST(DuplicateRemoval, LeavesRejectedAloneAndTakesNothing) {

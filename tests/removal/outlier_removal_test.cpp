@@ -60,6 +60,67 @@ TEST(OutlierRemoval, RejectsImpossibleSizes) {
     EXPECT_EQ(rejection(std::nan(""), 7), Rejection::outlier) << "and nothing breaks";
 }
 
+TEST(OutlierRemoval, SaysWhichLimitIsBroken) {
+    const auto broken = [](double length, double width, const OutlierRemovalOptions& options) {
+        return brokenSizeLimit({{100, 100}, length, width, 0}, options, kScale);
+    };
+    struct Case {
+        double length, width;
+        const char* parameter;
+        double value, limit;
+        bool at_most;
+    };
+    for (const Case& c :
+         {Case{4.9, 2, "outliers.min_area", 9.8, 10, false}, Case{4.7, 7, "outliers.min_length", 4.7, 4.8, false},
+          Case{120.1, 9, "outliers.max_length", 120.1, 120, true},
+          Case{50, 40.1, "outliers.max_width", 40.1, 40, true}}) {
+        const auto found = broken(c.length, c.width, {});
+        ASSERT_TRUE(found) << c.parameter;
+        EXPECT_EQ(found->parameter, c.parameter);
+        EXPECT_NEAR(found->value, c.value, 1e-9) << c.parameter;
+        EXPECT_NEAR(found->limit, c.limit, 1e-9) << c.parameter;
+        EXPECT_EQ(found->at_most, c.at_most) << c.parameter;
+    }
+    EXPECT_FALSE(broken(5, 2, {})) << "10 px² are enough";
+    EXPECT_FALSE(broken(4.8, 7, {})) << "1.2 m are enough";
+    EXPECT_FALSE(broken(120, 40, {})) << "30 × 10 m are possible";
+    const OutlierRemovalOptions thesis = OutlierRemovalOptions::thesis();
+    EXPECT_FALSE(broken(400, 300, thesis)) << "the thesis limits the area only";
+    EXPECT_FALSE(broken(4, 2.5, thesis));
+    EXPECT_TRUE(broken(4, 2.4, thesis));
+}
+
+TEST(OutlierRemoval, VectorsNeededGrowWithTheDensityWithinLimits) {
+    const auto needed = [](int corners, const OutlierRemovalOptions& options) {
+        FrameMotion motion = sparseMotion();
+        motion.corner_count = corners;
+        return vectorsNeeded(motion, options, kScale);
+    };
+    // On a car of 129.6 px² in 307,200: 47,407 corners are 20 on a car.
+    EXPECT_EQ(needed(0, {}), 3);
+    EXPECT_EQ(needed(47407, {}), 5);
+    EXPECT_EQ(needed(61000, {}), 6) << "6.4";
+    EXPECT_EQ(needed(64000, {}), 7) << "6.75";
+    EXPECT_EQ(needed(200000, {}), 12) << "however dense";
+    EXPECT_EQ(needed(200000, OutlierRemovalOptions::thesis()), 4);
+}
+
+TEST(OutlierRemoval, TheScoreOfAnOddSizeIsThatOfHalfOrTwoCars) {
+    const auto scoreOf = [](double length, double width, int corners, double score) {
+        FrameMotion motion = sparseMotion();
+        motion.corner_count = corners;
+        fill(motion, {{100, 100}, 10, 5, 0}, 10);
+        Detection judged = detection(100, 100, length, width);
+        judged.score = score;
+        return removeOutliers({judged}, motion, {}, kScale)[0].score;
+    };
+    EXPECT_NEAR(scoreOf(10, 5, 30720, 0), 10 / 6.48, 1e-9) << "half a car is 64.8 px²";
+    EXPECT_NEAR(scoreOf(40, 20, 30720, 0), 10 / 25.92, 1e-9) << "two cars are 259.2 px²";
+    EXPECT_NEAR(scoreOf(40, 20, 30, 0), 10, 1e-9) << "at least one vector is expected";
+    EXPECT_NEAR(scoreOf(40, 20, 30, -2), 10, 1e-9);
+    EXPECT_EQ(scoreOf(40, 20, 30, 0.01), 0.01);
+}
+
 TEST(OutlierRemoval, ThesisCountsVectorsOfAnyVelocity) {
     FrameMotion motion = sparseMotion();
     fill(motion, {{100, 100}, 18, 7, 0}, 4, {-1, 0});
@@ -111,6 +172,10 @@ TEST(OutlierRemoval, ThesisRejectsWhatReachesBeyondTheImage) {
         {{100, 8.5}, 18, 7, kPi / 2}, {{8.5, 100}, 18, 7, kPi}, {{320, 240}, 18, 7, 0.8}};
     for (const OrientedBox& box : inside) EXPECT_EQ(rejection(box, thesis), Rejection::none) << box.centre;
     const std::vector<OrientedBox> beyond{{{7.5, 100}, 18, 7, 0},
+                                          {{8.4, 100}, 18, 7, 0},
+                                          {{630.6, 100}, 18, 7, 0},
+                                          {{100, 2.9}, 18, 7, 0},
+                                          {{100, 476.1}, 18, 7, 0},
                                           {{631.5, 100}, 18, 7, 0},
                                           {{100, 2}, 18, 7, 0},
                                           {{100, 477}, 18, 7, 0},

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "core/geometry/angle.h"
+#include "imaging/upright_patch.h"
 
 namespace eyrie {
 namespace {
@@ -103,6 +105,60 @@ TEST(MasterVector, aFewWrongVectorsDoNotMoveIt) {
     EXPECT_NEAR(cv::norm(master.pose().position - world.centreAt(1)), 0, 1e-3);
 }
 
+TEST(MasterVector, keepsItsTurnAgainstItsVectors) {
+    MotionVector vector;
+    vector.id = 4;
+    vector.position = {100, 50};
+    MasterVector master(1, {{104, 50}, 0.3, {}});
+    master.relate(vector, 0.5);
+    vector.position = {110, 53};
+    vector.velocity = {1.5F, -0.25F};
+    ASSERT_TRUE(master.update({{&vector, 0.9}}));
+    EXPECT_NEAR(master.pose().heading, 0.7, 1e-9);
+    EXPECT_NEAR(master.pose().position.x, 110 + 4 * std::cos(0.4), 1e-9) << "turned with the vector's direction";
+    EXPECT_NEAR(master.pose().position.y, 53 + 4 * std::sin(0.4), 1e-9);
+    EXPECT_EQ(master.pose().velocity, cv::Point2d(1.5, -0.25));
+}
+
+TEST(MasterVector, followsTheMedianOfWhatItsOwnVectorsSuggest) {
+    std::vector<MotionVector> vectors(5);
+    MasterVector master(1, {{100, 50}, 0, {}});
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        vectors[i].id = static_cast<CornerId>(10 - i);
+        vectors[i].position = {100, 50};
+        if (i < 4) master.relate(vectors[i], 0);
+    }
+    EXPECT_EQ(master.related(), (std::vector<CornerId>{7, 8, 9, 10})) << "ascending";
+    const cv::Point2f moved[] = {{101, 58}, {103, 52}, {107, 50.5F}, {99, 53}, {500, 500}};
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        vectors[i].position = moved[i];
+        vectors[i].velocity = moved[i] - cv::Point2f(100, 50);
+    }
+    std::vector<MasterVector::Suggestion> present;
+    for (const MotionVector& vector : vectors) present.push_back({&vector, 0});
+    ASSERT_TRUE(master.update(present));
+    EXPECT_EQ(master.pose().position, cv::Point2d(101, 52)) << "the lower of the two middle values, x and y alone";
+    EXPECT_EQ(master.pose().velocity, cv::Point2d(1, 2));
+    EXPECT_EQ(master.related(), (std::vector<CornerId>{7, 8, 9, 10}));
+    master.relate(vectors[0], 0);  // anew, from where it is
+    EXPECT_EQ(master.related().size(), 4U);
+    ASSERT_TRUE(master.update({{&vectors[0], 0}}));
+    EXPECT_EQ(master.pose().position, cv::Point2d(101, 52));
+    EXPECT_EQ(master.related(), (std::vector<CornerId>{10})) << "the others were not seen";
+    EXPECT_FALSE(master.update({{&vectors[4], 0}})) << "a stranger suggests nothing";
+}
+
+TEST(MasterVector, mediansOfHeadingsGoRoundTheCircle) {
+    EXPECT_EQ(lowerMedian({3, 1, 2, 4}), 2);
+    EXPECT_EQ(lowerMedian({5, 1, 9}), 5);
+    EXPECT_EQ(lowerMedian({7}), 7);
+    for (double base = -3.2; base < 3.2; base += 0.4) {
+        const double median = medianHeading({base - 0.3, base + 0.02, base + 0.1});
+        EXPECT_NEAR(turnBetween(base + 0.02, median), 0, 1e-9) << base;
+        EXPECT_LE(std::abs(median), kPi);
+    }
+}
+
 TEST(ImageStacker, keepsTheObjectSharpAndBlursTheGround) {
     for (const auto initialisation : {StackInitialisation::detections, StackInitialisation::k_means}) {
         const World world;
@@ -116,6 +172,10 @@ TEST(ImageStacker, keepsTheObjectSharpAndBlursTheGround) {
             EXPECT_LE(rois.size(), 1U);
             if (t < 25) {
                 EXPECT_TRUE(rois.empty()) << "the stack is too low in frame " << t;
+            }
+            if (t == 25 && initialisation == StackInitialisation::detections) {
+                ASSERT_EQ(rois.size(), 1U) << "the first detection is of frame 0, the first layer of frame 1";
+                EXPECT_EQ(rois[0].stack_layers, 25);
             }
             if (t == 59) {
                 ASSERT_EQ(rois.size(), 1U);
@@ -170,6 +230,81 @@ TEST(ImageStacker, showsAsMuchOfAStackAsIsAskedFor) {
     EXPECT_LE(cv::norm(near.raw, whole.raw(middle), cv::NORM_INF), 6);
 }
 
+TEST(ImageStacker, aStackedRoiHoldsTheExtendedClusterWhereItIs) {
+    const World world;
+    StackingOptions options = StackingOptions::thesis();
+    options.min_height = 3;
+    ImageStacker stacker(options, scale());
+    for (int t = 0; t < 8; ++t) {
+        stacker.update(world.frameAt(t), world.motionAt(t), world.clustersAt(t));
+        stacker.remember(world.motionAt(t), world.detectionsAt(t));
+    }
+    MotionCluster cluster = world.clustersAt(7)[0];
+    cluster.members = {2, 7, 11};
+    OrientedBox extended = cluster.box.scaled(2.3, 1.7);
+    extended.centre += cv::Point2d(5, 3);
+    const FrameMotion motion = world.motionAt(7);
+    const auto rois = stacker.replace(cluster, 6, extended, motion);
+    ASSERT_EQ(rois.size(), 1U);
+    const MotionRoi& roi = rois[0];
+    EXPECT_EQ(roi.cluster, 6);
+    EXPECT_EQ(roi.velocity, cluster.velocity);
+    EXPECT_EQ(roi.box.centre, extended.centre);
+    EXPECT_EQ(roi.stack_layers, 7);
+    EXPECT_EQ(roi.inside.size(), roi.image.size());
+    EXPECT_EQ(cv::countNonZero(roi.inside), roi.image.rows * roi.image.cols);
+    ASSERT_EQ(roi.vectors.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto member = static_cast<std::size_t>(cluster.members[i]);
+        const cv::Point2d there = toImage(roi.image_from_roi, roi.vectors[i]);
+        EXPECT_LT(cv::norm(there - cv::Point2d(motion.motion_vectors[member].position)), 1e-3);
+    }
+    double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
+    for (const cv::Point2d& corner : extended.corners()) {
+        const cv::Point2d p = toPatch(roi.image_from_roi, corner);
+        left = std::min(left, p.x);
+        top = std::min(top, p.y);
+        right = std::max(right, p.x);
+        bottom = std::max(bottom, p.y);
+    }
+    // All of the extended cluster, and no pixel more than holds it.
+    EXPECT_GE(left, 0);
+    EXPECT_LT(left, 1);
+    EXPECT_GE(top, 0);
+    EXPECT_LT(top, 1);
+    EXPECT_LE(right, roi.image.cols - 1);
+    EXPECT_GT(right, roi.image.cols - 2);
+    EXPECT_LE(bottom, roi.image.rows - 1);
+    EXPECT_GT(bottom, roi.image.rows - 2);
+    // The bright vehicle lies where the ROI says.
+    cv::Mat bright = roi.image > 200;
+    const cv::Moments m = cv::moments(bright, true);
+    const cv::Point2d vehicle = toImage(roi.image_from_roi, {m.m10 / m.m00, m.m01 / m.m00});
+    EXPECT_LT(cv::norm(vehicle - world.centreAt(7)), 0.7);
+}
+
+TEST(ImageStacker, aRoiSaysWhatLiesOutsideTheImage) {
+    World world;
+    world.size = {640, 156};  // the vehicle stands at its lower edge
+    StackingOptions options = StackingOptions::thesis();
+    options.min_height = 1;
+    ImageStacker stacker(options, scale());
+    for (int t = 0; t < 3; ++t) {
+        stacker.update(world.frameAt(t), world.motionAt(t), world.clustersAt(t));
+        stacker.remember(world.motionAt(t), world.detectionsAt(t));
+    }
+    const MotionCluster cluster = world.clustersAt(2)[0];
+    const auto rois = stacker.replace(cluster, 0, cluster.box.scaled(2, 2), world.motionAt(2));
+    ASSERT_EQ(rois.size(), 1U);
+    for (int y = 0; y < rois[0].inside.rows; ++y) {
+        for (int x = 0; x < rois[0].inside.cols; ++x) {
+            const double row = toImage(rois[0].image_from_roi, cv::Point2d(x, y)).y;
+            if (std::abs(row - 155.5) < 0.1) continue;
+            ASSERT_EQ(rois[0].inside.at<std::uint8_t>(y, x), row < 155.5 ? 255 : 0) << x << " " << y;
+        }
+    }
+}
+
 TEST(ImageStacker, refusesAStackThatMovesOtherwise) {
     const World world;
     StackingOptions options = StackingOptions::thesis();
@@ -182,9 +317,24 @@ TEST(ImageStacker, refusesAStackThatMovesOtherwise) {
     MotionCluster cluster = world.clustersAt(7)[0];
     const OrientedBox extended = cluster.box.scaled(2, 1.25);
     EXPECT_EQ(stacker.replace(cluster, 0, extended, world.motionAt(7)).size(), 1U);
-    MotionCluster faster = cluster;
-    faster.velocity *= 2;
-    EXPECT_TRUE(stacker.replace(faster, 0, extended, world.motionAt(7)).empty());
+    const auto replaced = [&](const MotionCluster& changed) {
+        return stacker.replace(changed, 0, extended, world.motionAt(7)).size() == 1;
+    };
+    // A quarter of the cluster's speed: 1.6 / 1.26 … 1.6 / 0.76 against a stack of 1.6 px/frame.
+    for (const auto& [factor, fits] :
+         {std::pair(1.3, true), {1.35, false}, {0.81, true}, {0.79, false}, {2.0, false}}) {
+        MotionCluster other = cluster;
+        other.velocity *= factor;
+        EXPECT_EQ(replaced(other), fits) << factor;
+        other = cluster;
+        other.velocity = cv::Point2d(-cluster.velocity.y, cluster.velocity.x) * factor;
+        EXPECT_EQ(replaced(other), fits) << factor << ": the turn goes by the box";
+    }
+    for (const double turn : {-19.0, 19.0, -21.0, 21.0}) {
+        MotionCluster turned = cluster;
+        turned.box.heading += radiansFromDegrees(turn);
+        EXPECT_EQ(replaced(turned), std::abs(turn) < 20) << turn;
+    }
     MotionCluster elsewhere = cluster;
     elsewhere.box.centre += cv::Point2d(0, 40);
     EXPECT_TRUE(stacker.replace(elsewhere, 0, extended, world.motionAt(7)).empty());

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 
+#include "core/error.h"
 #include "stacking/image_stack.h"
 #include "stacking/selection_network.h"
 
@@ -84,6 +85,23 @@ TEST(ImageStack, accumulationIsTheMeanOfAllLayers) {
     for (const int grey : {250, 10, 20, 40}) stack.add(cv::Mat(4, 6, CV_8UC1, cv::Scalar(grey)));
     EXPECT_EQ(stack.height(), 4);
     EXPECT_EQ(stack.stacked().at<std::uint8_t>(0, 0), 80);
+}
+
+TEST(SelectionNetwork, holdsNoComparatorThatTheRankDoesNotNeed) {
+    EXPECT_TRUE(selectionNetwork(1, 0).empty());
+    EXPECT_EQ(selectionNetwork(2, 0).size(), 1U);
+    EXPECT_EQ(selectionNetwork(3, 1).size(), 3U);
+    EXPECT_EQ(selectionNetwork(4, 0).size(), 3U) << "a smallest of four needs three";
+    for (const auto& c : selectionNetwork(16, 7)) EXPECT_TRUE(c.keep_low || c.keep_high);
+    EXPECT_LE(selectionNetwork(16, 7).size(), 63U) << "Batcher's network sorts 16 with 63 comparators";
+}
+
+TEST(ImageStack, refusesLayersOfAnotherSizeAndHoldsAtLeastOne) {
+    ImageStack stack(StackArrangement::circular_mean, {6, 4}, 0);
+    EXPECT_THROW(stack.add(cv::Mat(6, 4, CV_8UC1, cv::Scalar(1))), Error);
+    for (const int grey : {10, 20}) stack.add(cv::Mat(4, 6, CV_8UC1, cv::Scalar(grey)));
+    EXPECT_EQ(stack.height(), 1);
+    EXPECT_EQ(stack.stacked().at<std::uint8_t>(0, 0), 20);
 }
 
 TEST(ImageStack, aPartIsTheSameAsThePartOfTheWhole) {
