@@ -142,6 +142,89 @@ TEST(ErrorList, ignoredObjectsMakeNoMistakes) {
     EXPECT_THAT(listOf(truth, boxes({car(0, 7, 50)})), IsEmpty());
 }
 
+TEST(ErrorList, boxesWithoutIdsGoOnWhereTheyOverlapEnough) {
+    const BoxesByFrame truth = boxes({car(0, 1, 500), car(1, 1, 500)});
+    const auto alarms = [&](double shift) {
+        return ofKind(listOf(truth, boxes({car(0, {}, 150), car(1, {}, 150 + shift)})), MistakeKind::false_alarm)
+            .size();
+    };
+    EXPECT_EQ(alarms(test::shiftFor(0.31)), 1U);
+    EXPECT_EQ(alarms(test::shiftFor(0.29)), 2U);
+}
+
+TEST(ErrorList, aPartLiesMostlyInTheObjectAndBesideItsFellow) {
+    // The object reaches from 40 to 60.
+    const BoxesByFrame truth = boxes({car(0, 1, 50)});
+    const auto splits = [&](double x, double length, double other_x, double other_length) {
+        return ofKind(listOf(truth, boxes({part(0, 7, x, length), part(0, 8, other_x, other_length)})),
+                      MistakeKind::split)
+            .size();
+    };
+    EXPECT_EQ(splits(40.9, 10, 55, 8), 1U) << "5.9 of 10 px inside";
+    EXPECT_EQ(splits(39.9, 10, 55, 8), 0U) << "4.9 of 10 px inside";
+    EXPECT_EQ(splits(45, 10, 50.1, 10), 1U) << "4.9 of 10 px on one another";
+    EXPECT_EQ(splits(45, 10, 49.9, 10), 0U) << "5.1 of 10 px on one another";
+    // A third that lies on one of two parts is no further part of them, unless it lies beside the other.
+    const auto three =
+        ofKind(listOf(truth, boxes({part(0, 7, 45, 9), part(0, 8, 55, 9), part(0, 9, 50, 19)})), MistakeKind::split);
+    ASSERT_EQ(three.size(), 1U);
+    EXPECT_THAT(three[0].tracks, ElementsAre(7, 8)) << "the third covers both";
+}
+
+TEST(ErrorList, aMergeNeedsAMissedObjectMostlyInside) {
+    const auto merges = [](double second_x) {
+        return ofKind(listOf(boxes({car(0, 1, 50), car(0, 2, second_x)}), boxes({part(0, 7, 61, 42)})),
+                      MistakeKind::merge);
+    };
+    ASSERT_EQ(merges(81).size(), 1U) << "11 of 20 px of the second inside";
+    EXPECT_THAT(merges(81)[0].places[0].truth, ElementsAre(0, 1));
+    EXPECT_THAT(merges(81)[0].places[0].results, ElementsAre(0));
+    EXPECT_EQ(merges(83).size(), 0U) << "9 of 20 px";
+}
+
+TEST(ErrorList, trackEvalCountsFragmentsWhenTheObjectIsFoundAgain) {
+    EvaluationOptions options;
+    options.convention = Convention::trackeval;
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50), car(4, 1, 50),
+                                      car(0, 2, 150), car(1, 2, 150), car(2, 2, 150), car(3, 2, 150), car(4, 2, 150)});
+    const BoxesByFrame result = boxes(
+        {car(0, 7, 50), car(2, 7, 50), car(0, 8, 150), car(1, 8, 150), car(2, 8, 150), car(3, 8, 150), car(4, 8, 150)});
+    const auto fragments = ofKind(listOf(truth, result, options), MistakeKind::fragment);
+    ASSERT_EQ(fragments.size(), 1U) << "lost for good is no fragment";
+    EXPECT_THAT(fragments[0].objects, ElementsAre(1));
+    EXPECT_THAT(fragments[0].tracks, ElementsAre(7));
+    EXPECT_EQ(fragments[0].first_frame, 1);
+    EXPECT_EQ(fragments[0].last_frame, 1);
+    EXPECT_EQ(ofKind(listOf(truth, result), MistakeKind::fragment).size(), 2U) << "the thesis counts both losses";
+}
+
+TEST(ErrorList, trackEvalEndsARunWithTheObjectsAbsence) {
+    EvaluationOptions options;
+    options.convention = Convention::trackeval;
+    // Object 1 has no box in frame 1, where 2 is found; in frame 3 nothing is to be found at all.
+    const BoxesByFrame truth = boxes(
+        {car(0, 1, 50), car(2, 1, 50), car(4, 1, 50), car(0, 2, 150), car(1, 2, 150), car(2, 2, 150), car(4, 2, 150)});
+    const BoxesByFrame result = boxes(
+        {car(0, 7, 50), car(2, 7, 50), car(4, 7, 50), car(0, 8, 150), car(1, 8, 150), car(2, 8, 150), car(4, 8, 150)});
+    const auto fragments = ofKind(listOf(truth, result, options), MistakeKind::fragment);
+    ASSERT_EQ(fragments.size(), 1U);
+    EXPECT_THAT(fragments[0].objects, ElementsAre(1));
+    EXPECT_EQ(fragments[0].first_frame, 1);
+    EXPECT_EQ(fragments[0].places[0].box.centre.x, 50) << "where it was seen last";
+    EXPECT_THAT(ofKind(listOf(truth, result), MistakeKind::fragment), IsEmpty());
+}
+
+TEST(ErrorList, isOrderedByTime) {
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50)});
+    const auto mistakes =
+        listOf(truth, boxes({car(0, 7, 50), car(2, 8, 50), car(0, 9, 300), car(1, 9, 300), car(3, 8, 300)}));
+    ASSERT_GE(mistakes.size(), 4U);
+    for (std::size_t i = 1; i < mistakes.size(); ++i) {
+        EXPECT_LE(std::pair(mistakes[i - 1].first_frame, mistakes[i - 1].kind),
+                  std::pair(mistakes[i].first_frame, mistakes[i].kind));
+    }
+}
+
 TEST(ErrorList, namesAreWords) {
     EXPECT_STREQ(nameOf(MistakeKind::false_alarm), "false alarm");
     for (int kind = 0; kind < kMistakeKinds; ++kind) EXPECT_STRNE(nameOf(static_cast<MistakeKind>(kind)), "");

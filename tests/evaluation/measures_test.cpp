@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "evaluation/evaluate.h"
@@ -82,6 +83,42 @@ TEST(DetectionMeasures, ATruthOfAnotherVideoIsSuspected) {
                             [](const std::string& r) { return r.find("same video") != std::string::npos; }));
 }
 
+TEST(DetectionMeasures, FalsePositivesAreGivenForEachFrame) {
+    const BoxesByFrame truth = boxes({car(0, 1, 100), car(1, 1, 100), car(3, 1, 100), car(4, 1, 100)});
+    const BoxesByFrame result = boxes({car(0, 1, 100), car(0, 2, 300), car(1, 2, 300), car(3, 1, 100)});
+    const Measures m = evaluate(truth, result, at(0.5));
+    EXPECT_EQ(m.detection.frames, 4) << "with truth";
+    EXPECT_DOUBLE_EQ(m.detection.false_positives_per_frame, 2.0 / 4);
+    EXPECT_EQ(m.detection.ground_truth, 4);
+    EXPECT_DOUBLE_EQ(m.detection.n_moda, 1 - (2 + 2) / 4.0);
+    EXPECT_EQ(evaluate(truth, result, at(0.5, Convention::trackeval)).detection.frames, 5) << "0 to 4";
+}
+
+TEST(Remarks, SayWhatMakesAComparisonDoubtful) {
+    const auto scene = [](int objects, int hits) {
+        BoxesByFrame truth;
+        BoxesByFrame result;
+        for (int frame = 0; frame < objects; ++frame) {
+            truth[frame].push_back(car(frame, 1, 100));
+            result[frame].push_back(car(frame, 1, frame < hits ? 100 : 300));
+        }
+        return remarksOn(evaluate(truth, result, at(0.5))).size();
+    };
+    EXPECT_EQ(scene(49, 0), 0U) << "too few to judge";
+    EXPECT_EQ(scene(50, 0), 1U);
+    EXPECT_EQ(scene(50, 1), 0U) << "one of fifty";
+    EXPECT_EQ(scene(101, 2), 1U);
+    EXPECT_EQ(scene(100, 2), 0U);
+    const auto remarks = [](const std::vector<BoxRecord>& truth, const std::vector<BoxRecord>& result) {
+        return remarksOn(evaluate(boxes(truth), boxes(result), at(0.5)));
+    };
+    EXPECT_TRUE(remarks({car(0, 1, 100)}, {car(0, 1, 100)}).empty());
+    EXPECT_EQ(remarks({car(0, 1, 100)}, {car(0, 1, 100), car(7, 1, 100)}).size(), 1U) << "a frame without truth";
+    EXPECT_EQ(remarks({car(0, 1, 100)}, {car(0, 1, 100), car(0, 1, 300)}).size(), 1U) << "an id twice";
+    EXPECT_EQ(remarks({ignored(car(0, 1, 100))}, {car(0, 1, 100)}).size(), 1U) << "nothing counts";
+    EXPECT_EQ(remarks({car(0, 1, 100)}, {car(0, {}, 100)}).size(), 1U) << "no tracks";
+}
+
 TEST(TrackingMeasures, PerfectTracks) {
     const OneObject scene = oneObject(std::vector<int>(10, 4));
     for (const Convention convention : {Convention::thesis, Convention::trackeval}) {
@@ -107,6 +144,10 @@ TEST(TrackingMeasures, SwitchesAndFragments) {
     EXPECT_EQ(m.tracking->fragments, 2);  // tracked → not tracked: before frames 2 and 8
     EXPECT_EQ(m.tracking->partially_tracked, 1);
     EXPECT_NEAR(m.tracking->mota, 1 - (4 + 0 + 2) / 20.0, 1e-12);
+    EXPECT_NEAR(m.tracking->mota_log, 1 - (4 + 0 + std::log10(2)) / 20.0, 1e-12);
+    EXPECT_NEAR(m.tracking->mota_soft, (16 - 0 - 2) / 20.0, 1e-12);
+    EXPECT_EQ(m.tracking->truth_tracks, 2);
+    EXPECT_EQ(m.tracking->result_tracks, 4);
     const Measures other = evaluate(scene.truth, scene.result, at(0.5, Convention::trackeval));
     EXPECT_EQ(other.tracking->id_switches, 2);
     EXPECT_EQ(other.tracking->fragments, 1);  // two runs
@@ -160,6 +201,76 @@ TEST(IdentityAndHota, ATrackCutInHalf) {
     EXPECT_NEAR(meanOf(m.hota->det_a), 1, 1e-12);
     EXPECT_NEAR(meanOf(m.hota->ass_a), 0.5, 1e-12);
     EXPECT_NEAR(meanOf(m.hota->hota), std::sqrt(0.5), 1e-12);
+}
+
+TEST(TrackingMeasures, FalsePositivesCostAccuracyAndBelongToTheirTracks) {
+    OneObject scene = oneObject({4, 4, 4, 4, 4, 5, 5, 5, 5, 5});
+    for (const int frame : {1, 2, 8}) scene.result[frame].push_back(car(frame, 30, 500));
+    scene.result[4].push_back(car(4, 4, 700));
+    scene.result[4].erase(scene.result[4].begin() + 1);  // track 4 is elsewhere there
+    const Measures m = evaluate(scene.truth, scene.result, at(0.5));
+    EXPECT_EQ(m.detection.false_positives, 4);
+    EXPECT_EQ(m.tracking->id_switches, 1);
+    EXPECT_NEAR(m.tracking->mota, 1 - (1 + 4 + 1) / 20.0, 1e-12);
+    EXPECT_NEAR(m.tracking->mota_log, 1 - (1 + 4 + 0) / 20.0, 1e-12) << "the logarithm of one switch is none";
+    EXPECT_NEAR(m.tracking->mota_soft, (19 - 4 - 1) / 20.0, 1e-12);
+    std::vector<std::array<int, 3>> tallies;
+    for (const ResultTrackTally& track : m.tracks.results)
+        tallies.push_back({track.id, track.matched, track.false_positives});
+    EXPECT_EQ(tallies, (std::vector<std::array<int, 3>>{{4, 4, 1}, {5, 5, 0}, {30, 0, 3}, {99, 10, 0}}));
+    EXPECT_NEAR(m.tracks.truth[0].overlap_sum, 9, 1e-12);
+}
+
+TEST(IdentityAndHota, FollowTheirEquations) {
+    // One object in four frames: track 10 finds it exactly in three and is elsewhere in the last, 11 is always
+    // elsewhere.
+    BoxesByFrame truth;
+    BoxesByFrame result;
+    for (int frame = 0; frame < 4; ++frame) {
+        truth[frame].push_back(car(frame, 1, 100));
+        result[frame] = {car(frame, 11, 500), car(frame, 10, frame < 3 ? 100 : 300)};
+    }
+    for (const Convention convention : {Convention::thesis, Convention::trackeval}) {
+        const Measures m = evaluate(truth, result, at(0.5, convention));
+        EXPECT_EQ(m.identity->idtp, 3);
+        EXPECT_EQ(m.identity->idfp, 5);
+        EXPECT_EQ(m.identity->idfn, 1);
+        EXPECT_DOUBLE_EQ(m.identity->idp, 3.0 / 8);
+        EXPECT_DOUBLE_EQ(m.identity->idr, 3.0 / 4);
+        EXPECT_DOUBLE_EQ(m.identity->idf1, 3 / 6.0);
+        const HotaMeasures& h = *m.hota;
+        EXPECT_NEAR(meanOf(h.true_positives), 3, 1e-12);
+        EXPECT_NEAR(meanOf(h.false_negatives), 1, 1e-12);
+        EXPECT_NEAR(meanOf(h.false_positives), 5, 1e-12);
+        EXPECT_NEAR(meanOf(h.det_re), 3.0 / 4, 1e-12);
+        EXPECT_NEAR(meanOf(h.det_pr), 3.0 / 8, 1e-12);
+        EXPECT_NEAR(meanOf(h.det_a), 3.0 / (4 + 8 - 3), 1e-12);
+        EXPECT_NEAR(meanOf(h.ass_re), 3.0 / 4, 1e-12);
+        EXPECT_NEAR(meanOf(h.ass_pr), 3.0 / 4, 1e-12);
+        EXPECT_NEAR(meanOf(h.ass_a), 3.0 / (4 + 4 - 3), 1e-12);
+        EXPECT_NEAR(meanOf(h.loc_a), 1, 1e-12);
+        EXPECT_NEAR(meanOf(h.hota), std::sqrt(1.0 / 3 * 0.6), 1e-12);
+        EXPECT_NEAR(meanOf(h.owta), std::sqrt(0.75 * 0.6), 1e-12);
+    }
+}
+
+TEST(IdentityAndHota, TheTrackThatFitsLongestWinsTheObject) {
+    // In frame 0 track 20 lies closer, but 10 follows the object for the rest of its way.
+    BoxesByFrame truth;
+    BoxesByFrame result;
+    for (int frame = 0; frame < 6; ++frame) {
+        truth[frame].push_back(car(frame, 1, 100));
+        result[frame].push_back(car(frame, 10, 100 + shiftFor(0.75)));
+    }
+    result[0].push_back(car(0, 20, 100 + shiftFor(0.85)));
+    const Measures m = evaluate(truth, result, at(0.5));
+    EXPECT_EQ(m.identity->idtp, 6);
+    EXPECT_NEAR(m.hota->ass_a[0], 1, 1e-12) << "track 10 has all six";
+    EXPECT_NEAR(m.hota->det_a[0], 6.0 / 7, 1e-12);
+    EXPECT_NEAR(m.hota->loc_a[0], 0.75, 1e-9);
+    EXPECT_EQ(m.hota->true_positives[13], 6) << "0.7 is reached";
+    EXPECT_EQ(m.hota->true_positives[15], 0) << "0.8 is not";
+    EXPECT_EQ(m.hota->loc_a[15], 1) << "of nothing";
 }
 
 TEST(IdentityAndHota, OverlapDecidesPerThreshold) {
@@ -232,6 +343,31 @@ TEST(BoxErrors, AreMeansOverTheMatchedPairs) {
     EXPECT_NEAR(e.width_bias_px, -1, 1e-12);
     EXPECT_NEAR(e.heading_degrees, (10 + 170) / 2.0, 1e-9);
     EXPECT_NEAR(e.heading_axis_degrees, 10, 1e-9);
+}
+
+TEST(BoxErrors, UprightBoxesAreComparedWithoutHeadings) {
+    BoxesByFrame truth = boxes({car(0, 1, 100)});
+    BoxesByFrame result = boxes({car(0, 1, 100)});
+    result[0][0].box.heading = kPi / 2;  // 10 wide and 20 high
+    EvaluationOptions options = at(0.1);
+    options.upright = true;
+    const BoxErrors upright = evaluate(truth, result, options).boxes;
+    EXPECT_FALSE(upright.has_headings);
+    EXPECT_NEAR(upright.length_bias_px, -10, 1e-9);
+    EXPECT_NEAR(upright.width_bias_px, 10, 1e-9);
+    const Measures turned = evaluate(truth, result, at(0.1));
+    EXPECT_TRUE(turned.boxes.has_headings);
+    EXPECT_EQ(turned.boxes.length_px, 0);
+    EXPECT_NEAR(turned.boxes.heading_degrees, 90, 1e-9);
+    const auto withValue = [](const Measures& m) {
+        const auto listed = listMeasures(m);
+        return std::count_if(listed.begin(), listed.end(), [](const NamedMeasure& n) {
+            return n.value && (n.key == "heading_error_deg" || n.key == "axis_error_deg" || n.key == "width_error_px");
+        });
+    };
+    EXPECT_EQ(withValue(turned), 3);
+    EXPECT_EQ(withValue(evaluate(truth, result, options)), 1) << "nobody knows a heading";
+    EXPECT_EQ(withValue(evaluate(truth, {}, options)), 0) << "nor an error without pairs";
 }
 
 }  // namespace

@@ -60,6 +60,24 @@ TEST(MethodDifference, CountsByTrackAndByTime) {
     EXPECT_NEAR(fScoreInterval(tallies).value, 320.0 / 380, 1e-12);
 }
 
+TEST(MethodDifference, SwitchesBelongToTheirObjectAndFalseBoxesToTheirTime) {
+    BoxesByFrame boxes = truth();
+    for (int frame = 7; frame < 20; ++frame) boxes[frame][3].id = 44;
+    for (const int frame : {0, 4, 5, 19}) {
+        boxes[frame].push_back(boxes[frame][0]);
+        boxes[frame].back().id = 77;
+        boxes[frame].back().box.centre.y = 300;
+    }
+    const PairedTallies tallies = tallied(boxes);
+    for (std::size_t unit = 0; unit < 10; ++unit) EXPECT_EQ(tallies.units[unit].switches, unit == 3 ? 1 : 0) << unit;
+    std::vector<double> false_boxes;
+    for (std::size_t block = 10; block < 14; ++block) false_boxes.push_back(tallies.units[block].false_positives);
+    EXPECT_EQ(false_boxes, (std::vector<double>{2, 1, 0, 1})) << "blocks of five frames";
+    const MethodDifference difference = methodDifference(tallied(truth()), tallies);
+    ASSERT_TRUE(difference.mota);
+    EXPECT_NEAR(difference.mota->value, 5.0 / 200, 1e-12);
+}
+
 TEST(MethodDifference, OfEqualResultsIsExactlyZero) {
     const PairedTallies tallies = tallied(result(2, 1));
     const MethodDifference difference = methodDifference(tallies, tallies);

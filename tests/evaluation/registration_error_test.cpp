@@ -58,6 +58,22 @@ TEST(RegistrationError, ATurnIsWorstInTheCorners) {
     EXPECT_NEAR(error.max_px, std::hypot(319, 239) * 0.001, 1e-6);
 }
 
+TEST(RegistrationError, IsMeasuredOnAGridOverTheWholeImage) {
+    // The error grows with the column alone: 0.1 · x / 319 on three columns is 0, 0.05 and 0.1.
+    Homography stretched;
+    stretched.matrix = cv::Matx33d(1 + 0.1 / 319, 0, 0, 0, 1, 0, 0, 0, 1);
+    const FrameRegistrationError by_column = gridError(stretched, cv::Matx33d::eye(), kImage, 3, 2);
+    EXPECT_NEAR(by_column.mean_px, 0.05, 1e-12);
+    EXPECT_NEAR(by_column.rms_px, std::sqrt((0.05 * 0.05 + 0.1 * 0.1) / 3), 1e-12);
+    EXPECT_NEAR(by_column.max_px, 0.1, 1e-12);
+    Homography raised;
+    raised.matrix = cv::Matx33d(1, 0, 0, 0, 1 + 0.1 / 239, 0, 0, 0, 1);
+    const FrameRegistrationError by_row = gridError(raised, cv::Matx33d::eye(), kImage, 2, 3);
+    EXPECT_NEAR(by_row.mean_px, 0.05, 1e-12);
+    EXPECT_NEAR(by_row.max_px, 0.1, 1e-12);
+    EXPECT_EQ(gridError(raised, cv::Matx33d::eye(), kImage, 1, 1).max_px, 0) << "one point is the first";
+}
+
 TEST(RegistrationError, FailedFramesAreCountedNotMeasured) {
     const TrueHomographies truth{{0, cv::Matx33d::eye()}, {1, cv::Matx33d::eye()}};
     const RegistrationError error = registrationError({estimated(0, turned(0, 9, 9), RegistrationState::first),

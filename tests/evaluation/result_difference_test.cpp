@@ -102,5 +102,62 @@ TEST(ResultDifference, twoResultsChangedRoundGiveTheSameDifferencesChangedRound)
     EXPECT_EQ(there[0].size, back[0].size);
 }
 
+TEST(ResultDifference, aGapLongerThanTheLimitBeginsAnother) {
+    for (const int gap : {1, 2, 3, 4}) {
+        DifferenceLimits limits;
+        limits.gap = 2;
+        BoxesByFrame a;
+        BoxesByFrame b;
+        put(a, 0, 2, 100);
+        put(a, 1 + gap, 2, 100);
+        put(b, 50, 1, 400);
+        put(a, 50, 1, 400);
+        EXPECT_EQ(differencesOf(a, b, limits).size(), gap <= 2 ? 1U : 2U) << gap;
+    }
+}
+
+TEST(ResultDifference, theLargestComeFirstThenTheEarliest) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    put(a, 0, 5, 100);
+    for (const FrameIndex f : {3, 4, 5}) put(a, f, 6, 200);
+    put(b, 9, 7, 300);
+    put(a, 9, 4, 500);
+    const auto found = differencesOf(a, b);
+    ASSERT_EQ(found.size(), 4U);
+    EXPECT_EQ(found[0].first_id, 6);
+    EXPECT_EQ(found[1].first_id, 5);
+    EXPECT_EQ(found[2].second_id, 7) << "nobody before somebody";
+    EXPECT_EQ(found[3].first_id, 4);
+}
+
+TEST(ResultDifference, theLargestOverlapMakesThePair) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    put(a, 0, 1, 50);
+    put(a, 0, 2, 54);
+    put(b, 0, 3, 54);  // exactly the second, but on the first, too
+    const auto found = differencesOf(a, b);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].kind, DifferenceKind::only_first);
+    EXPECT_EQ(found[0].first_id, 1);
+    EXPECT_EQ(found[0].box.centre.x, 50);
+}
+
+TEST(ResultDifference, anIdThatChangesInTheFirstOnlyIsOneToo) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    for (int f = 0; f < 6; ++f) {
+        put(a, f, f < 3 ? 4 : 5, 50);
+        put(b, f, 1, 50);
+    }
+    const auto found = differencesOf(a, b);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].kind, DifferenceKind::identity);
+    EXPECT_EQ(found[0].first_frame, 3);
+    EXPECT_EQ(found[0].last_frame, 3);
+    EXPECT_EQ(found[0].size, 1);
+}
+
 }  // namespace
 }  // namespace eyrie

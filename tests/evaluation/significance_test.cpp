@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "core/error.h"
@@ -53,6 +55,56 @@ TEST(Bootstrap, ShareOfSuccessesHasTheBinomialInterval) {
     const double half = 1.96 * std::sqrt(0.25 * 0.75 / units);
     EXPECT_NEAR(interval.low, 0.25 - half, 0.006);
     EXPECT_NEAR(interval.high, 0.25 + half, 0.006);
+}
+
+TEST(Student, SmallDegreesOfFreedomHaveClosedForms) {
+    for (const double t : {0.05, 0.3, 0.9, 1.7, 4.0, 25.0}) {
+        EXPECT_NEAR(studentTwoSided(t, 1), 1 - 2 / std::numbers::pi * std::atan(t), 1e-12) << t;
+        EXPECT_NEAR(studentTwoSided(t, 2), 1 - t / std::sqrt(2 + t * t), 1e-12) << t;
+        EXPECT_NEAR(studentTwoSided(t, 4), 1 - t * (6 + t * t) / std::pow(4 + t * t, 1.5), 1e-12) << t;
+        EXPECT_EQ(studentTwoSided(t, 4), studentTwoSided(-t, 4));
+    }
+    EXPECT_EQ(studentTwoSided(std::numeric_limits<double>::infinity(), 3), 0);
+}
+
+TEST(Bootstrap, QuantilesAreThoseOfTheResamples) {
+    // The number of draws of one of two units is 0, 1 or 2 with the chances 1/4, 1/2, 1/4.
+    const Statistic first = [](const std::vector<int>& counts) { return static_cast<double>(counts[0]); };
+    BootstrapOptions options;
+    options.confidence = 0.6;
+    EXPECT_EQ(bootstrap(2, first, options).low, 0);
+    EXPECT_EQ(bootstrap(2, first, options).high, 2);
+    options.confidence = 0.4;
+    EXPECT_EQ(bootstrap(2, first, options).low, 1);
+    EXPECT_EQ(bootstrap(2, first, options).high, 1);
+    options.resamples = 1;
+    EXPECT_EQ(bootstrap(1, first, options).low, 1) << "of one unit there is one sample";
+    options.resamples = 0;
+    EXPECT_THROW(bootstrap(1, first, options), Error);
+    options.resamples = 9;
+    for (const double confidence : {0.0, 1.0, -0.1}) {
+        options.confidence = confidence;
+        EXPECT_THROW(bootstrap(1, first, options), Error) << confidence;
+    }
+}
+
+TEST(Bootstrap, DrawsAsManyAsThereAreUnits) {
+    bool right = true;
+    bootstrap(7, [&](const std::vector<int>& counts) {
+        right = right && std::accumulate(counts.begin(), counts.end(), 0) == 7 && counts.size() == 7;
+        return 0.0;
+    });
+    EXPECT_TRUE(right);
+}
+
+TEST(TrackBootstrap, CountsMissesSwitchesAndFalsePositives) {
+    TrackTallies tallies;
+    tallies.truth.push_back({.id = 1, .frames = 10, .matched = 7, .switches = 2});
+    tallies.truth.push_back({.id = 2, .frames = 6, .matched = 5});
+    tallies.results.push_back({.id = 8, .matched = 12, .false_positives = 3});
+    const TrackBootstrap b = bootstrapTracks(tallies);
+    EXPECT_NEAR(b.f_score.value, 24.0 / (24 + 4 + 3), 1e-12);
+    EXPECT_NEAR(b.mota.value, 1 - (4 + 3 + 2) / 16.0, 1e-12);
 }
 
 TEST(Bootstrap, SeedDecidesEverything) {
