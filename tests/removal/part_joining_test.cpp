@@ -75,7 +75,7 @@ TEST(PartJoining, WhatOneSilhouetteHolds) {
 /// Whether two boxes of 16 × 8 px, 24 px apart, are joined by these vectors.
 bool joinedBy(const FrameMotion& motion, const SceneScale& scale = kScale, double width = 8) {
     PartJoiningOptions options;
-    options.vehicle_width_m = 20;
+    options.part_vehicle_width_m = 20;
     return kept(joinParts({detection(100, 100, 16, 8), detection(124, 100, 16, width)}, motion, options, scale)) == 1;
 }
 
@@ -131,7 +131,7 @@ TEST(PartJoining, ASilhouetteMovesLikeItsVehicle) {
     EXPECT_EQ(kept(joinParts(pair, slow, options, kScale)), 1) << "0.09 of a floor of 0.1";
     for (MotionVector& vector : slow.motion_vectors) vector.velocity = {0.21F, 0};
     EXPECT_EQ(kept(joinParts(pair, slow, options, kScale)), 2);
-    options.silhouette_gap_m = 0;
+    options.part_silhouette_gap_m = 0;
     EXPECT_EQ(kept(joinParts(pair, silhouette(90, 134), options, kScale)), 2) << "silhouettes are not looked at";
 }
 
@@ -193,7 +193,7 @@ TEST(PartJoining, HeadingsOfPartsAgreeAndTheLargerOneLeads) {
         EXPECT_NEAR(found[0].box.heading, turned.box.heading, 1e-12);
     }
     PartJoiningOptions straight;
-    straight.max_turn_deg = 0;
+    straight.part_max_turn_deg = 0;
     EXPECT_EQ(kept(joinParts({detection(100, 100, 5, 6), detection(110, 100, 5, 6)}, {}, straight, kScale)), 1);
 }
 
