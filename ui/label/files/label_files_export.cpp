@@ -17,6 +17,7 @@
 #include "label/files/label_files.h"
 #include "label/files/label_files_text.h"
 #include "session/background/queued_call.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -54,9 +55,9 @@ LabelExportDialog::LabelExportDialog(LabelSession& labels, QWidget* parent)
         form->setRowVisible(columns_, format_->currentData().toString() == QLatin1String("columns"));
         showFormat();
     });
-    connect(choose, &QPushButton::clicked, this, &LabelExportDialog::browse);
-    connect(export_, &QPushButton::clicked, this, &LabelExportDialog::startExport);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    bindCommands(this, {{choose, [this] { browse(); }},
+                        {export_, [this] { startExport(); }},
+                        {buttons->button(QDialogButtonBox::Close), [this] { reject(); }}});
     form->setRowVisible(columns_, format_->currentData().toString() == QLatin1String("columns"));
     showFormat();
 }
