@@ -8,27 +8,24 @@
 #include <numbers>
 
 #include "annotation/edits/object_pieces.h"
-#include "annotation/review/join_suggestions.h"
-#include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "label/canvas/label_timeline.h"
 #include "label/canvas/label_tool.h"
-#include "label/computing/label_chips.h"
 #include "label/computing/label_fitting.h"
-#include "label/computing/label_stacks.h"
 #include "label/computing/label_tracking.h"
+#include "label/identity_commands.h"
 #include "label/label_actions.h"
 #include "label/label_classes.h"
+#include "label/label_commands.h"
 #include "label/label_lists.h"
 #include "label/label_scene.h"
 #include "label/lists/object_inspector.h"
 #include "label/lists/objects_panel.h"
-#include "widgets/chip_grid.h"
-#include "widgets/display_text.h"
+#include "label/object_pictures.h"
 #include "widgets/empty_state.h"
 #include "widgets/message_bar.h"
+#include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
-#include "workspace/window_actions.h"
 
 namespace eyrie::ui {
 
@@ -52,29 +49,34 @@ LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&aroun
     buildDocks();
     buildToolBar();
     buildMenu();
+    identity_ = new IdentityCommands(parts(), this);
+    new LabelCommands(parts(), *identity_, this);
     wireLabels();
     wireTool();
-    wireEditActions();
-    wireGoActions();
-    wireProposals();
-    wireIdentity();
-    wireRanges();
-    wireFiles();
-    wireChips();
-    wireStacks();
+    wireWork();
+    wireObjects();
+    pictures_ = new ObjectPictures(parts(), this);  // follows what is shown before
     around_.rows.hide();
+}
+
+LabelParts LabelWorkspace::parts() {
+    return {around_, *labels_, *proposals_, *editor_, *fitting_, *tracking_, *tool_, *actions_};
+}
+
+void LabelParts::tell(const QString& text) const {
+    around.messages.showTopic(kLabelTopic, MessageKind::info, text);  // the newest counts
+}
+
+ChipGrid& LabelWorkspace::chips() {
+    return pictures_->chips();
 }
 
 void LabelWorkspace::buildDocks() {
     model_ = new ObjectsModel(this);
     objects_ = new ObjectsPanel(model_);
     inspector_ = new ObjectInspector;
-    chips_ = new LabelChips(around_.session, *labels_, this);
-    stacks_ = new LabelStacks(around_.session, *labels_, this);
-    grid_ = new ChipGrid;
     around_.docks.add(DockId::objects, tr("Objects"), objects_);
     around_.docks.add(DockId::object, tr("Object"), inspector_);
-    around_.docks.add(DockId::object_chips, tr("Over time"), grid_);
 }
 
 void LabelWorkspace::buildToolBar() {
@@ -121,47 +123,132 @@ void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::changed, this, &LabelWorkspace::labelsChanged);
     connect(labels_, &LabelSession::drawnClassChanged, this, &LabelWorkspace::showScene);
     connect(labels_, &LabelSession::problem, &around_.session, &ProjectSession::problem);
-    connect(labels_, &LabelSession::notice, this, &LabelWorkspace::tell);
-    connect(labels_, &LabelSession::opened, this, [this] {
-        around_.messages.dismissTopic(kRightTopic);
-        if (labels_->readOnly())
-            around_.messages.showTopic(kRightTopic, MessageKind::warning,
-                                       asSentence(labels_->store()->readOnlyReason()), tr("Try again"),
-                                       [this] { labels_->tryToWrite(); });
-        else if (active_ && !around_.session.currentRun() && labels_->annotations().objects.empty())
-            tell(tr(
-                "This video has no run yet: boxes are interpolated in the image. After a run they follow the ground, "
-                "however the camera moves."));
-        enableActions();
+    connect(labels_, &LabelSession::notice, this, [this](const QString& text) { parts().tell(text); });
+    connect(labels_, &LabelSession::opened, this, &LabelWorkspace::labelsOpened);
+    connect(labels_, &LabelSession::selectionChanged, this, &LabelWorkspace::selectionChanged);
+    connect(&around_.session, &ProjectSession::viewFrameChanged, this, &LabelWorkspace::pictureChanged);
+    connect(&around_.session, &ProjectSession::frameChanged, this, [this](FrameIndex frame) {
+        if (active_) objects_->setFrame(frame);
     });
-    connect(labels_, &LabelSession::selectionChanged, this, [this] {
-        showScene();
-        showObject();
-        objects_->selectId(labels_->selected().value_or(0));
-        around_.rows.setSelection(labels_->selection(), labels_->selected());
-        enableActions();
-        followObject();
-        if (active_) chips_due_.start();
+    for (QAction* action : {actions_->follow, actions_->follow_upright})
+        bindSwitches(this, {{action, [this] { followObject(); }}});
+}
+
+void LabelWorkspace::labelsOpened() {
+    around_.messages.dismissTopic(kRightTopic);
+    if (labels_->readOnly())
+        around_.messages.showTopic(kRightTopic, MessageKind::warning, asSentence(labels_->store()->readOnlyReason()),
+                                   tr("Try again"), [this] { labels_->tryToWrite(); });
+    else if (active_ && !around_.session.currentRun() && labels_->annotations().objects.empty())
+        parts().tell(
+            tr("This video has no run yet: boxes are interpolated in the image. After a run they follow the ground, "
+               "however the camera moves."));
+    enableActions();
+}
+
+void LabelWorkspace::selectionChanged() {
+    showScene();
+    showObject();
+    objects_->selectId(labels_->selected().value_or(0));
+    around_.rows.setSelection(labels_->selection(), labels_->selected());
+    enableActions();
+    followObject();
+    if (active_) pictures_->showChipsSoon();
+}
+
+void LabelWorkspace::pictureChanged() {
+    if (!active_) return;
+    followObject();
+    showScene();
+    showObject();
+}
+
+/// What the hand does on the canvas.
+void LabelWorkspace::wireTool() {
+    connect(tool_, &LabelTool::repaintNeeded, &around_.canvas, qOverload<>(&QWidget::update));
+    connect(tool_, &LabelTool::drawingChanged, actions_->draw, &QAction::setChecked);
+    connect(tool_, &LabelTool::regionDrawingChanged, actions_->region, &QAction::setChecked);
+    connect(tool_, &LabelTool::regionDrawn, editor_, &LabelEditor::addRegion);
+    connect(tool_, &LabelTool::boxDrawn, editor_, &LabelEditor::add);
+    connect(tool_, &LabelTool::boxRedrawn, this, [this](ObjectId id, FrameIndex frame, const OrientedBox& box) {
+        editor_->setBox(id, frame, box, true, tr("Redraw box of %1"));
     });
+    connect(tool_, &LabelTool::boxChanged, this,
+            [this](ObjectId id, FrameIndex frame, const OrientedBox& box, bool turned, bool resized) {
+                const QString what = turned    ? tr("Turn box of %1")
+                                     : resized ? tr("Resize box of %1")
+                                               : tr("Move box of %1");
+                editor_->setBox(id, frame, box, turned, what);
+            });
+    connect(tool_, &LabelTool::objectClicked, this, [this](std::optional<ObjectId> id, bool add) {
+        proposals_->select(std::nullopt);
+        if (id && add)
+            labels_->toggle(*id);
+        else
+            labels_->select(id);
+    });
+    connect(tool_, &LabelTool::proposalClicked, this, [this](TrackId track, bool add) {
+        labels_->select(std::nullopt);
+        if (add)
+            proposals_->toggle(track);
+        else
+            proposals_->select(track);
+    });
+}
+
+/// What goes on by itself: proposals that are read, boxes that are followed and refined.
+void LabelWorkspace::wireWork() {
     connect(proposals_, &LabelProposals::changed, this, [this] {
         showScene();
         enableActions();
     });
-    connect(&around_.session, &ProjectSession::viewFrameChanged, this, [this] {
-        if (!active_) return;
-        followObject();
-        showScene();
-        showObject();
+    connect(identity_, &IdentityCommands::shownEditChanged, this, &LabelWorkspace::showScene);
+    connect(fitting_, &LabelFitting::workingChanged, this, &LabelWorkspace::enableActions);
+    connect(tracking_, &LabelTracking::workingChanged, this, &LabelWorkspace::enableActions);
+    connect(tracking_, &LabelTracking::advanced, &around_.session, &ProjectSession::goToFrame);
+    connect(tracking_, &LabelTracking::ended, this, [this](FrameIndex frame, const QString& reason) {
+        around_.session.goToFrame(frame);
+        if (!reason.isEmpty()) parts().tell(tr("Tracking %1").arg(reason));
     });
-    connect(&around_.session, &ProjectSession::frameChanged, this, [this](FrameIndex frame) {
-        if (active_) objects_->setFrame(frame);
-    });
-    connect(objects_, &ObjectsPanel::objectSelected, this, [this](int id) { labels_->select(id); });
-    connect(objects_, &ObjectsPanel::objectActivated, this, [this](int id, int frame) { editor_->goTo(id, frame); });
-    connect(objects_->emptyState(), &EmptyState::actionTriggered, actions_->draw, &QAction::trigger);
-    connect(&around_.rows, &LabelTimeline::placeClicked, this,
-            [this](ObjectId id, FrameIndex frame) { editor_->goTo(id, frame); });
+}
+
+/// What the lists of objects do.
+void LabelWorkspace::wireObjects() {
+    objects_->setCommands({.select = [this](int object) { labels_->select(object); },
+                           .go_to = [this](int object, int frame) { editor_->goTo(object, frame); }});
+    bindCommands(this, {{objects_->emptyState()->button(), [this] { actions_->draw->trigger(); }}});
+    bindSwitches(this, {{actions_->this_frame, [this](bool only) { objects_->setThisFrameOnly(only); }}});
+    connect(&around_.rows, &LabelTimeline::placeClicked, editor_, &LabelEditor::goTo);
     connect(&around_.rows, &LabelTimeline::frameRequested, &around_.session, &ProjectSession::goToFrame);
+    inspector_->setEdits(inspectorEdits());
+}
+
+ObjectEdits LabelWorkspace::inspectorEdits() {
+    return {
+        .set_class = [this](const QString& name) { editor_->setClass(name.toStdString()); },
+        .set_colour =
+            [this](const QColor& colour) {
+                editor_->setColour(colour.isValid() ? std::optional<std::uint32_t>(colour.rgb() & 0xffffffU)
+                                                    : std::nullopt);
+            },
+        .toggle_occluded = [this] { editor_->toggleOccluded(); },
+        .toggle_outside = [this] { editor_->toggleOutside(); },
+        .toggle_ignore = [this] { editor_->toggleIgnore(); },
+        .set_notes = [this](const QString& notes) { editor_->setNotes(notes); },
+        .check = [this] { actions_->checked->trigger(); },
+        .question = [this] { actions_->questionable->trigger(); },
+        .join = [this](int other) { editor_->join(other, GapFilling::interpolate); },
+        .show_candidate = [this](int other) { showCandidate(other); },
+    };
+}
+
+void LabelWorkspace::showCandidate(ObjectId other) {
+    const LabelledObject* candidate = labels_->object(other);
+    const auto main = labels_->selected();
+    if (candidate == nullptr || !main) return;
+    const bool later = firstFrameOf(*candidate) > labels_->object(*main)->last_frame;
+    around_.session.goToFrame(later ? firstFrameOf(*candidate) : candidate->last_frame);
+    labels_->setSelection({*main, other}, main);
 }
 
 void LabelWorkspace::labelsChanged() {
@@ -169,7 +256,7 @@ void LabelWorkspace::labelsChanged() {
     showScene();
     showObject();
     enableActions();
-    chips_due_.start();
+    pictures_->showChipsSoon();
     // Lists of a thousand objects follow when the event loop is free, once for several edits.
     if (std::exchange(refresh_due_, true)) return;
     QTimer::singleShot(0, this, [this] {
@@ -182,10 +269,8 @@ void LabelWorkspace::labelsChanged() {
 void LabelWorkspace::showScene() {
     if (!active_) return;
     // Boxes belong to the picture that is shown, which may come later than the frame was asked for.
-    const bool planned =
-        planned_.plan && planned_.plan->version == labels_->version() && planned_.selection == labels_->selection();
     tool_->setScene(labelScene(*labels_, *proposals_, around_.session.viewFrame().index, around_.session.scale(),
-                               planned ? &planned_.plan->edit : nullptr));
+                               identity_->shownEdit()));
 }
 
 void LabelWorkspace::showList() {
@@ -243,10 +328,6 @@ void LabelWorkspace::enableActions() {
     actions_->stop_tracking->setEnabled(tracking_->working() || fitting_->working());
     actions_->try_to_write->setEnabled(labels_->isOpen() && labels_->readOnly());
     for (QAction* action : {actions_->draw, actions_->region}) action->setEnabled(labels_->isOpen());
-}
-
-void LabelWorkspace::tell(const QString& text) {
-    around_.messages.showTopic(kLabelTopic, MessageKind::info, text);  // the newest counts
 }
 
 void LabelWorkspace::followObject() {

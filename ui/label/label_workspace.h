@@ -1,12 +1,11 @@
 #pragma once
 
-#include <QList>
 #include <QObject>
-#include <QTimer>
 #include <optional>
 
 #include "label/computing/label_proposals.h"
 #include "label/label_editor.h"
+#include "label/label_parts.h"
 #include "label/label_session.h"
 
 class QAction;
@@ -17,40 +16,15 @@ class QToolBar;
 namespace eyrie::ui {
 
 class ChipGrid;
-class DockRegistry;
-class KeyBindings;
-class LabelActions;
-class LabelChips;
-class LabelFitting;
-class LabelStacks;
-class LabelTimeline;
-class LabelTool;
-class LabelTracking;
-class MessageBar;
+class IdentityCommands;
 class ObjectInspector;
+class ObjectPictures;
 class ObjectsModel;
 class ObjectsPanel;
-class TimelineView;
-class VideoView;
-class WindowActions;
+struct ObjectEdits;
 
-/// What the label workspace says it says about this: one message at a time.
-inline constexpr char kLabelTopic[] = "labelling";
-
-/// What the label workspace is joined with.
-struct LabelSurroundings {
-    ProjectSession& session;
-    VideoView& canvas;
-    TimelineView& timeline;
-    LabelTimeline& rows;
-    MessageBar& messages;
-    WindowActions& actions;
-    DockRegistry& docks;
-    KeyBindings& keys;
-    QMainWindow& window;
-};
-
-/// The label workspace: its docks, its tool on the canvas and its keys, joined with the labels of the video shown.
+/// The label workspace: its docks, its bars and its tool on the canvas, which show the labels of the video. What its
+/// commands do is told by LabelCommands and IdentityCommands, what objects look like by ObjectPictures.
 class LabelWorkspace : public QObject {
     Q_OBJECT
 
@@ -71,54 +45,34 @@ class LabelWorkspace : public QObject {
     LabelActions& actions() { return *actions_; }
     ObjectsPanel& objects() { return *objects_; }
     ObjectInspector& inspector() { return *inspector_; }
-    ChipGrid& chips() { return *grid_; }
+    ChipGrid& chips();
 
  private:
+    LabelParts parts();
     void buildDocks();
     void buildToolBar();
     void buildMenu();
     void wireLabels();
     void wireTool();
-    void wireEditActions();
-    void wireGoActions();
-    void turnBy(double radians);
-    void wireProposals();
-    void wireIdentity();
-    void wireRanges();
-    /// Shows what an identity verb would do; the same key once more does it.
-    void offer(QAction* action, const std::function<std::optional<LabelEditor::Plan>()>& make);
-    /// The range of frames set above the canvas; the whole video where none is.
-    FrameRange markedRange() const;
-    void wireFiles();
-    void wireChips();
-    void wireStacks();
-    void showStack();
-    void showChips();
+    void wireWork();
+    void wireObjects();
+    ObjectEdits inspectorEdits();
+    void labelsOpened();
+    void selectionChanged();
+    void pictureChanged();
     void labelsChanged();
     void showScene();
     void showList();
     void showObject();
     void showRows();
+    /// Shows another object beside the selected one where they would be joined.
+    void showCandidate(ObjectId other);
     void enableActions();
-    void escape();
     void followObject();
-    void selectProposal(const Proposal* proposal);
-    void acceptSelected();
-    void identityWithOther(bool fuse);
-    void tell(const QString& text);
-    std::optional<ObjectId> otherSelected() const;
 
     LabelSurroundings around_;
     bool active_ = false;
     bool refresh_due_ = false;
-    /// What was shown and waits for its key.
-    struct Planned {
-        const QAction* action = nullptr;
-        FrameIndex frame = 0;
-        std::set<ObjectId> selection;
-        std::optional<LabelEditor::Plan> plan;
-    };
-    Planned planned_;
     LabelSession* labels_;
     LabelProposals* proposals_;
     LabelEditor* editor_;
@@ -129,11 +83,8 @@ class LabelWorkspace : public QObject {
     ObjectsModel* model_;
     ObjectsPanel* objects_;
     ObjectInspector* inspector_;
-    LabelChips* chips_;
-    LabelStacks* stacks_;
-    ChipGrid* grid_;
-    QTimer chips_due_;
-    bool chips_looked_at_ = false;
+    IdentityCommands* identity_;
+    ObjectPictures* pictures_;
     QToolBar* bar_;
     QMenu* menu_;
 };

@@ -5,6 +5,7 @@
 #include <QTableView>
 
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -13,9 +14,7 @@ RunsPanel::RunsPanel(RunsModel* model, QWidget* parent) : TablePanel(model, QStr
     emptyState()->setTexts(tr("No run yet. A run finds and follows the moving vehicles of the video; each is kept here "
                               "with its parameters and can be shown again."),
                            tr("Run with these defaults"));
-    connect(emptyState(), &EmptyState::actionTriggered, this, &RunsPanel::runRequested);
-    connect(this, &TablePanel::idSelected, this, &RunsPanel::runActivated);
-    connect(this, &TablePanel::idDoubleClicked, this, &RunsPanel::runActivated);
+    bindCommands(this, {{emptyState()->button(), [this] { emit runRequested(); }}});
 }
 
 void RunsPanel::fillMenu(QMenu& menu, int run_id) {

@@ -29,6 +29,8 @@ class RunsPanel : public TablePanel {
     void parametersRequested(int run_id);
 
  protected:
+    void rowSelected(int run_id) override { emit runActivated(run_id); }
+    void rowDoubleClicked(int run_id) override { emit runActivated(run_id); }
     void fillMenu(QMenu& menu, int run_id) override;
     bool eventFilter(QObject* watched, QEvent* event) override;
 

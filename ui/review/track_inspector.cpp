@@ -15,6 +15,7 @@
 #include "widgets/charts/origin_bar.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 namespace {
@@ -74,8 +75,7 @@ TrackInspector::TrackInspector(QWidget* parent)
     origin_counts_->setTextFormat(Qt::RichText);
 
     connect(origins_, &OriginBar::frameActivated, this, &TrackInspector::frameActivated);
-    connect(first, &QToolButton::clicked, this, [this] { activate(false); });
-    connect(last, &QToolButton::clicked, this, [this] { activate(true); });
+    bindCommands(this, {{first, [this] { activate(false); }}, {last, [this] { activate(true); }}});
 }
 
 QLabel* TrackInspector::addLine(const QString& name) {

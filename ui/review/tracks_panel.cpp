@@ -8,6 +8,7 @@
 #include <QToolButton>
 
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -39,17 +40,10 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
         filterTracks();
         emit minScoreChanged(minScore());
     });
-    connect(model, &QAbstractItemModel::modelReset, this, &TracksPanel::showCount);
-    connect(model, &QAbstractItemModel::rowsInserted, this, &TracksPanel::showCount);
-    connect(model, &QAbstractItemModel::rowsRemoved, this, &TracksPanel::showCount);
-    connect(model, &QAbstractItemModel::dataChanged, this, &TracksPanel::showCount);
-    connect(tentative_, &QToolButton::toggled, this, &TracksPanel::setTentativeShown);
+    whenAny(model, this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
+            &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::dataChanged);
+    onEdited(this, &TracksPanel::filterTracks, tentative_);
     setTentativeShown(false);
-
-    connect(this, &TablePanel::idSelected, this, &TracksPanel::trackSelected);
-    connect(this, &TablePanel::idClicked, this, &TracksPanel::activate);
-    connect(this, &TablePanel::idDoubleClicked, this,
-            [this](int track) { activate(track, TracksModel::first_column); });
 }
 
 double TracksPanel::minScore() const {

@@ -30,6 +30,9 @@ class TracksPanel : public TablePanel {
     void minScoreChanged(double score);
 
  protected:
+    void rowSelected(int track) override { emit trackSelected(track); }
+    void rowClicked(int track, int column) override { activate(track, column); }
+    void rowDoubleClicked(int track) override { activate(track, TracksModel::first_column); }
     void fillMenu(QMenu& menu, int track) override;
 
  private:

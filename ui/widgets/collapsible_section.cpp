@@ -3,6 +3,8 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "widgets/wiring.h"
+
 namespace eyrie::ui {
 
 CollapsibleSection::CollapsibleSection(const QString& title, QWidget* parent)
@@ -20,7 +22,7 @@ CollapsibleSection::CollapsibleSection(const QString& title, QWidget* parent)
     layout->setSpacing(0);
     layout->addWidget(header_);
     layout->addWidget(rows_);
-    connect(header_, &QToolButton::clicked, this, [this] { setExpanded(!expanded_); });
+    bindCommands(this, {{header_, [this] { setExpanded(!expanded_); }}});
     setTitle(title);
     update();
 }

@@ -16,7 +16,6 @@ EmptyState::EmptyState(QWidget* parent) : QWidget(parent), label_(new QLabel(thi
     layout->addWidget(label_);
     layout->addWidget(button_, 0, Qt::AlignHCenter);
     layout->addStretch(2);
-    connect(button_, &QPushButton::clicked, this, &EmptyState::actionTriggered);
 }
 
 void EmptyState::setTexts(const QString& explanation, const QString& action) {
@@ -27,6 +26,10 @@ void EmptyState::setTexts(const QString& explanation, const QString& action) {
 
 QString EmptyState::explanation() const {
     return label_->text();
+}
+
+QAbstractButton* EmptyState::button() const {
+    return button_;
 }
 
 }  // namespace eyrie::ui

@@ -3,6 +3,7 @@
 #include <QWidget>
 
 class QLabel;
+class QAbstractButton;
 class QPushButton;
 
 namespace eyrie::ui {
@@ -15,9 +16,7 @@ class EmptyState : public QWidget {
     /// `action`: text of a button, empty for none.
     void setTexts(const QString& explanation, const QString& action = {});
     QString explanation() const;
-
- signals:
-    void actionTriggered();
+    QAbstractButton* button() const;
 
  private:
     QLabel* label_;

@@ -11,6 +11,7 @@
 #include <QVBoxLayout>
 
 #include "widgets/theme_colours.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 namespace {
@@ -57,7 +58,7 @@ MessageStrip::MessageStrip(MessageKind kind, const QString& text, QWidget* paren
     close->setAutoRaise(true);
     close->setToolTip(tr("Dismiss"));
     close->setAccessibleName(tr("Dismiss this message"));
-    connect(close, &QToolButton::clicked, this, &MessageStrip::dismissed);
+    bindCommands(this, {{close, [this] { emit dismissed(); }}});
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 4, 4, 4);
     layout->addWidget(icon_);

@@ -9,6 +9,8 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "widgets/wiring.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -24,8 +26,9 @@ QString titleOf(const ProjectBackup& backup) {
 
 }  // namespace
 
-EarlierStateDialog::EarlierStateDialog(EarlierStates& states, const std::filesystem::path& project, QWidget* parent)
-    : QDialog(parent) {
+EarlierStateDialog::EarlierStateDialog(EarlierStates& states, const std::filesystem::path& project,
+                                       EarlierStateCommands commands, QWidget* parent)
+    : QDialog(parent), commands_(std::move(commands)) {
     setObjectName(QStringLiteral("earlier_states"));
     setWindowTitle(tr("Restore an earlier state of %1").arg(QString::fromStdString(project.filename().string())));
     resize(720, 360);
@@ -50,21 +53,22 @@ EarlierStateDialog::EarlierStateDialog(EarlierStates& states, const std::filesys
     rows->addLayout(columns, 1);
     rows->addWidget(buttons);
     connect(list_, &QListWidget::currentRowChanged, this, &EarlierStateDialog::choose);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    const auto answer = [this](auto signal) {
-        const auto row = static_cast<std::size_t>(list_->currentRow());
-        if (row >= shown_.size()) return;
-        const ProjectBackup chosen = shown_[row].backup;
-        accept();
-        emit(this->*signal)(chosen);
-    };
-    connect(restore_, &QPushButton::clicked, this, [answer] { answer(&EarlierStateDialog::restoreChosen); });
-    connect(open_, &QPushButton::clicked, this, [answer] { answer(&EarlierStateDialog::openChosen); });
+    bindCommands(this, {{restore_, [this] { answer(commands_.restore); }},
+                        {open_, [this] { answer(commands_.open_as_new); }},
+                        {buttons->button(QDialogButtonBox::Cancel), [this] { reject(); }}});
     connect(&states, &EarlierStates::listed, this, &EarlierStateDialog::show);
     connect(&states, &EarlierStates::failed, differences_, &QLabel::setText);
     choose(-1);
     differences_->setText(tr("Reading the kept states …"));
     states.list(project);
+}
+
+void EarlierStateDialog::answer(const std::function<void(const ProjectBackup& backup)>& command) {
+    const auto row = static_cast<std::size_t>(list_->currentRow());
+    if (row >= shown_.size()) return;
+    const ProjectBackup chosen = shown_[row].backup;
+    accept();
+    command(chosen);
 }
 
 void EarlierStateDialog::show(const std::vector<EarlierState>& states) {

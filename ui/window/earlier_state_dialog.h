@@ -11,25 +11,30 @@ class QPushButton;
 
 namespace eyrie::ui {
 
+/// What can be done with a kept state.
+struct EarlierStateCommands {
+    std::function<void(const ProjectBackup& backup)> restore;
+    /// As a project of its own, beside the present one.
+    std::function<void(const ProjectBackup& backup)> open_as_new;
+};
+
 /// The kept states of a project: when they were made, and what would be different with each.
 class EarlierStateDialog : public QDialog {
     Q_OBJECT
 
  public:
     /// `states` must outlive the dialog; it is asked for the states of `project`.
-    EarlierStateDialog(EarlierStates& states, const std::filesystem::path& project, QWidget* parent);
+    EarlierStateDialog(EarlierStates& states, const std::filesystem::path& project, EarlierStateCommands commands,
+                       QWidget* parent);
 
     QListWidget* list() const { return list_; }
-
- signals:
-    void restoreChosen(const ProjectBackup& backup);
-    /// As a project of its own, beside the present one.
-    void openChosen(const ProjectBackup& backup);
 
  private:
     void show(const std::vector<EarlierState>& states);
     void choose(int row);
+    void answer(const std::function<void(const ProjectBackup& backup)>& command);
 
+    EarlierStateCommands commands_;
     std::vector<EarlierState> shown_;
     QListWidget* list_;
     QLabel* differences_;

@@ -1,36 +1,41 @@
 #include "window/main_window.h"
 
+#include <QCloseEvent>
 #include <QDockWidget>
+#include <QDragEnterEvent>
 #include <QMenu>
 #include <QMenuBar>
+#include <QMimeData>
 #include <QScreen>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
-#include <filesystem>
 #include <utility>
 
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
-#include "review/run_text.h"
-#include "review/runs_model.h"
-#include "session/project/earlier_states.h"
+#include "tune/compare/live_preview.h"
 #include "tune/inspect/inspection.h"
+#include "tune/inspect/stacks_panel.h"
+#include "tune/inspect/stage_chips.h"
 #include "tune/parameters/parameter_binding.h"
-#include "widgets/charts/stage_times_chart.h"
 #include "widgets/message_bar.h"
-#include "widgets/parameters/parameter_form.h"
+#include "widgets/wiring.h"
+#include "window/bars/overlay_button.h"
 #include "window/bars/run_bar.h"
 #include "window/bars/status_fields.h"
 #include "window/bars/transport_bar.h"
 #include "window/docks/evaluation_docks.h"
 #include "window/docks/review_docks.h"
 #include "window/docks/tuning.h"
+#include "window/opened_files.h"
 #include "window/run_guard.h"
+#include "window/run_messages.h"
 #include "window/welcome_panel.h"
+#include "window/window_commands.h"
 #include "workspace/dock_registry.h"
 #include "workspace/timeline_binding.h"
 #include "workspace/window_actions.h"
@@ -40,10 +45,7 @@ namespace eyrie::ui {
 
 namespace {
 constexpr QSize kFirstSize(1500, 940);
-/// What messages are about; a later one about the same takes the place of the former.
-const QString kGsdTopic = QStringLiteral("gsd");
-const QString kRunTopic = QStringLiteral("run");
-const QString kVideoTopic = QStringLiteral("video");
+const QString kWorkspaces = QStringLiteral("window/workspaces");
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
@@ -58,27 +60,29 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildToolBar();
     resize(kFirstSize.boundedTo(screen()->availableSize()));
     guard_ = new RunGuard(session_, *this);
-    earlier_ = new EarlierStates(this);
     inspection_ = new Inspection(session_, this);
     docks_ = new DockRegistry(*this);
-    review_ = new ReviewDocks(session_, *inspection_, *docks_);
-    ParameterForm& form = review_->parameterForm();
-    parameters_ = new ParameterBinding(session_, form, this);
-    tuning_ = new Tuning({session_, *canvas_, *docks_, form, *actions_, parameters_->presets(), overlays_, *this});
+    review_ = new ReviewDocks({session_, *inspection_, *docks_, *actions_, overlays_, *guard_, *messages_});
+    tuning_ = new Tuning(
+        {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
     buildEvaluation();
-    timeline_binding_ = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
+    new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
-    buildLabelling();
+    labelling_ = new LabelWorkspace(
+        {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
+    evaluation_->join(*labelling_);
+    new RunMessages(
+        session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
+    files_ =
+        new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_, *run_bar_, *welcome_, *canvas_, *this});
+    commands_ = new WindowCommands(
+        {session_, *actions_, *canvas_, *transport_, *run_bar_, *inspection_, keys_, *labelling_, *this});
     buildMenus();
-    wireFileActions();
-    wireEarlierStates();
-    wirePlaybackActions();
-    wireViewActions();
+    wireCanvas();
     wireSession();
     wireInspection();
     restoreGeometry(settings_.geometry());
     buildWorkspaces();
-    showRecent();
     enableActions();
     updateTitle();
 }
@@ -124,13 +128,13 @@ void MainWindow::buildToolBar() {
     bar->setMovable(false);
     bar->addAction(actions_->open_video);
     bar->addSeparator();
-    run_bar_ = new RunBar(session_, *actions_);
+    run_bar_ = new RunBar(session_, *actions_, *messages_);
     run_bar_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
     bar->addWidget(run_bar_);
     bar->addSeparator();
     bar->addAction(actions_->fit);
     bar->addAction(actions_->one_to_one);
-    bar->addWidget(overlayButton(buildOverlayMenu()));
+    bar->addWidget(new OverlayButton(overlays_, *actions_));
     bar->addSeparator();
     for (QAction* action : actions_->workspace) bar->addAction(action);
     connect(run_bar_, &RunBar::editingDone, this, &MainWindow::focusCanvas);
@@ -143,8 +147,7 @@ void MainWindow::buildMenus() {
         QMenu* menu = menuBar()->addMenu(QLatin1Char('&') + section.title);
         menu->addActions(section.actions);
         if (section.actions.contains(actions_->open_project)) {
-            recent_menu_ = new QMenu(tr("Open &recent"), menu);
-            menu->insertMenu(actions_->save_as, recent_menu_);
+            menu->insertMenu(actions_->save_as, files_->recentMenu());
             menu->insertSeparator(actions_->save_as);
             menu->insertSeparator(actions_->quit);
         }
@@ -157,71 +160,71 @@ void MainWindow::buildMenus() {
     }
 }
 
-void MainWindow::wireFileActions() {
-    connect(actions_->open_video, &QAction::triggered, this, &MainWindow::openVideo);
-    connect(actions_->open_folder, &QAction::triggered, this, &MainWindow::openFolder);
-    connect(actions_->open_project, &QAction::triggered, this, &MainWindow::openProject);
-    connect(actions_->save_as, &QAction::triggered, this, &MainWindow::saveAs);
-    connect(actions_->save_copy, &QAction::triggered, this, &MainWindow::saveCopy);
-    connect(actions_->restore_state, &QAction::triggered, this, &MainWindow::chooseEarlierState);
-    connect(actions_->demo, &QAction::triggered, this, &MainWindow::showDemo);
-    connect(actions_->quit, &QAction::triggered, this, &QWidget::close);
-    connect(welcome_, &WelcomePanel::recentChosen, this, &MainWindow::openRecent);
-    connect(actions_->run, &QAction::triggered, this, &MainWindow::startRun);
-    connect(actions_->stop, &QAction::triggered, &session_, &ProjectSession::stopRun);
-    connect(actions_->follow, &QAction::triggered, &session_, [this](bool on) {
-        if (on)
-            session_.follow();
-        else
-            session_.goToFrame(session_.currentFrame());
-    });
-    connect(actions_->continue_run, &QAction::triggered, &session_, [this] {
-        if (session_.currentRun()) session_.continueRun(*session_.currentRun());
-    });
-    connect(review_, &ReviewDocks::continueRequested, &session_, &ProjectSession::continueRun);
-    connect(actions_->restore_run, &QAction::triggered, &session_, [this] {
-        if (!session_.removedRuns().empty()) session_.restoreRun(session_.removedRuns().back().id);
-    });
-    connect(review_, &ReviewDocks::minScoreChanged, &overlays_, &OverlaySettings::setMinScore);
-    connect(review_, &ReviewDocks::runRequested, actions_->run, &QAction::trigger);
-    connect(review_, &ReviewDocks::removeRequested, guard_, &RunGuard::remove);
-    connect(review_, &ReviewDocks::parametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
-    connect(tuning_, &Tuning::storedParametersRequested, parameters_, &ParameterBinding::adoptRunParameters);
-    connect(tuning_, &Tuning::parameterRequested, parameters_, [this](const QString& name, const QString& value) {
-        parameters_->setValue(name.toStdString(), value.toStdString());
-    });
-    connect(tuning_, &Tuning::runRequested, actions_->run, &QAction::trigger);
-    review_->wireSweeps(*parameters_);
-    connect(parameters_, &ParameterBinding::problem, this, &MainWindow::showProblem);
-    connect(parameters_, &ParameterBinding::notice, this, &MainWindow::showNotice);
+void MainWindow::start(const StartOptions& options) {
+    if (options.workspace) workspaces_->open(*options.workspace);
+    files_->start(options);
 }
 
-void MainWindow::wirePlaybackActions() {
-    const auto step = [this](QAction* action, int frames) {
-        connect(action, &QAction::triggered, &session_, [this, frames] { session_.step(frames); });
-    };
-    step(actions_->step_back, -1);
-    step(actions_->step_on, 1);
-    step(actions_->jump_back, -10);
-    step(actions_->jump_on, 10);
-    connect(actions_->first, &QAction::triggered, &session_, [this] { session_.goToFrame(0); });
-    connect(actions_->last, &QAction::triggered, &session_, [this] { session_.step(session_.lastFrame()); });
-    connect(actions_->play, &QAction::triggered, &session_, &ProjectSession::togglePlay);
-    connect(canvas_, &VideoView::playToggled, actions_->play, &QAction::trigger);
-    connect(actions_->shuttle_back, &QAction::triggered, &session_, [this] { session_.shuttle(-1); });
-    connect(actions_->shuttle_stop, &QAction::triggered, &session_, [this] { session_.shuttle(0); });
-    connect(actions_->shuttle_on, &QAction::triggered, &session_, [this] { session_.shuttle(1); });
-    connect(actions_->slower, &QAction::triggered, &session_,
-            [this] { session_.playback().setSpeed(session_.playback().speed() / 2, session_.currentFrame()); });
-    connect(actions_->faster, &QAction::triggered, &session_,
-            [this] { session_.playback().setSpeed(session_.playback().speed() * 2, session_.currentFrame()); });
-    connect(actions_->loop, &QAction::toggled, &session_, [this](bool on) { session_.playback().setLooping(on); });
-    connect(actions_->go_to_frame, &QAction::triggered, transport_, &TransportBar::focusFrameField);
-    connect(&session_.playback(), &Playback::playingChanged, this, [this](bool playing) {
-        actions_->play->setIcon(QIcon::fromTheme(playing ? QStringLiteral("media-playback-pause")
-                                                         : QStringLiteral("media-playback-start")));
-        actions_->play->setText(playing ? tr("&Pause") : tr("&Play"));
+// ---- wiring ---------------------------------------------------------------------------------------------------------
+
+void MainWindow::buildWorkspaces() {
+    workspaces_ = new Workspaces(*this, *docks_, overlays_);
+    for (const WorkspaceKind kind : allWorkspaces())
+        bindCommands(this, {{actions_->workspaceAction(kind), [this, kind] { workspaces_->open(kind); }}});
+    connect(workspaces_, &Workspaces::leaving, evaluation_, &EvaluationDocks::leaveWorkspace);
+    connect(workspaces_, &Workspaces::opened, this, [this](WorkspaceKind kind) {
+        actions_->workspaceAction(kind)->setChecked(true);
+        const QList<QDockWidget*> offered = docks_->docksFor(kind);
+        for (const DockId id : allDocks())
+            docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
+        labelling_->setActive(kind == WorkspaceKind::label);
+        evaluation_->enterWorkspace(kind);
     });
+    workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
+}
+
+void MainWindow::buildEvaluation() {
+    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, overlays_, *docks_, *this);
+    connect(evaluation_, &EvaluationDocks::notice, this, &MainWindow::showNotice);
+    connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
+    // A preview takes the verdicts away, which are those of the stored run; they come back with it.
+    connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
+        if (!tuning_->preview().active()) evaluation_->showMarks();
+    });
+    connect(evaluation_, &EvaluationDocks::problem, this, &MainWindow::showProblem);
+}
+
+void MainWindow::wireInspection() {
+    connect(canvas_, &VideoView::placeClicked, inspection_, [this](QPointF place, double margin) {
+        if (!session_.selectedTrack()) inspection_->choose(place, margin);
+    });
+    connect(inspection_, &Inspection::changed, canvas_, [this] { canvas_->setInspectedArea(inspection_->area()); });
+    connect(inspection_, &Inspection::replayed, canvas_, [this](const std::shared_ptr<const ReplayView>& view) {
+        canvas_->setStacks(view->wish.frame, stackMarks(*view));
+    });
+    connect(&overlays_, &OverlaySettings::changed, inspection_,
+            [this] { inspection_->wantStackOverlay(overlays_.isVisible(OverlayKind::stacks)); });
+    review_->stacks().setCommands({
+        .show_place =
+            [this](QPointF place) {
+                canvas_->centreOn(place);
+                inspection_->choose(place);
+            },
+        .run_with_stacking =
+            [this] {
+                review_->parameters().adoptRunParameters();
+                review_->parameters().setValue("stacking.enabled", "true");
+                commands_->startRun();
+            },
+    });
+}
+
+void MainWindow::wireCanvas() {
+    connect(canvas_, &VideoView::trackClicked, &session_, &ProjectSession::selectTrack);
+    connect(canvas_, &VideoView::cursorMoved, status_, &StatusFields::showCursor);
+    connect(canvas_, &VideoView::transformChanged, status_, [this] { status_->showZoom(canvas_->transform().zoom()); });
+    connect(&overlays_, &OverlaySettings::changed, timeline_, [this] { timeline_->setPalette(overlays_.palette()); });
+    timeline_->setPalette(overlays_.palette());
 }
 
 void MainWindow::wireSession() {
@@ -229,8 +232,6 @@ void MainWindow::wireSession() {
         const auto& video = session_.video();
         canvas_->clear(video ? QSize(video->size.width, video->size.height) : QSize());
         stack_->setCurrentIndex(video ? 1 : 0);
-        enableActions();
-        updateTitle();
     });
     connect(&session_, &ProjectSession::viewFrameChanged, canvas_, &VideoView::setFrame);
     // An empty picture of a run may not look as if nothing was found there.
@@ -241,60 +242,11 @@ void MainWindow::wireSession() {
     });
     connect(&session_, &ProjectSession::viewFrameChanged, evaluation_, &EvaluationDocks::showMarks);
     connect(&session_, &ProjectSession::selectionChanged, canvas_, &VideoView::setSelectedTrack);
-    connect(canvas_, &VideoView::trackClicked, &session_, &ProjectSession::selectTrack);
-    connect(&session_, &ProjectSession::problem, this, &MainWindow::showProblem);
-    connect(&session_, &ProjectSession::notice, this, &MainWindow::showNotice);
-    connect(&session_, &ProjectSession::ready, this, [this](bool has_results) {
-        messages_->dismissTopic(kRunTopic);  // a run of the former video may have been summarised meanwhile
-        becameReady(has_results);
-    });
-    connect(&session_, &ProjectSession::runFinished, this, &MainWindow::runEnded);
-    connect(&session_, &ProjectSession::runStarted, this, &MainWindow::enableActions);
-    connect(&session_, &ProjectSession::runsChanged, this, &MainWindow::enableActions);
-    connect(&session_, &ProjectSession::currentRunChanged, this, &MainWindow::enableActions);
-    connect(&session_, &ProjectSession::projectChanged, this, &MainWindow::enableActions);
-    connect(&session_, &ProjectSession::projectChanged, this, &MainWindow::updateTitle);
-    connect(&session_, &ProjectSession::projectChanged, this, [this] {
-        if (shown_project_.empty() || session_.project().empty()) return;  // becameReady() follows
-        shown_project_ = session_.project();
-        rememberProject();
-    });
-    wireRunMessages();
-    connect(&session_, &ProjectSession::followingChanged, this, [this](bool following) {
-        actions_->follow->setChecked(following);
-        enableActions();
-    });
-}
-
-void MainWindow::wireRunMessages() {
-    connect(&session_, &ProjectSession::runSummarised, this, [this](const RunRecord& run, const RunFacts& facts) {
-        const bool doubtful = facts.counts.tracks == 0 || facts.state == RunState::failed;
-        messages_->showTopic(kRunTopic, doubtful ? MessageKind::warning : MessageKind::info, runSummaryText(run, facts),
-                             tr("Show the tracks"), [this] { docks_->raise(DockId::tracks); });
-    });
-    connect(&session_, &ProjectSession::runPreparing, this, [this] {
-        // What was wrong with the former run, or kept this one from starting, is of no use any more.
-        messages_->dismiss(MessageKind::error);
-        messages_->dismissTopic(kRunTopic);
-    });
-    connect(&session_, &ProjectSession::runRemoved, this, [this](const RunRecord& run) {
-        messages_->showTopic(
-            kRunTopic, MessageKind::info,
-            tr("Removed “%1”. It can be brought back until the project is closed.").arg(shownName(run)),
-            tr("Bring it back"), [this, id = run.id] { session_.restoreRun(id); });
-    });
-    connect(&session_, &ProjectSession::videoNotFound, this, [this](const QString& message) {
-        messages_->showTopic(kVideoTopic, MessageKind::warning,
-                             tr("%1. The results can be viewed without it.").arg(message), tr("Locate…"),
-                             [this] { locateVideo(); });
-    });
-    connect(run_bar_, &RunBar::gsdRefused, this,
-            [this](const QString& message) { messages_->showTopic(kGsdTopic, MessageKind::error, message); });
-    connect(run_bar_, &RunBar::gsdTouched, this, [this] { messages_->dismissTopic(kGsdTopic); });
-}
-
-void MainWindow::startRun() {
-    if (run_bar_->takeEdits()) session_.startRun();
+    connect(&session_, &ProjectSession::followingChanged, actions_->follow, &QAction::setChecked);
+    whenAny(&session_, this, &MainWindow::enableActions, &ProjectSession::videoChanged, &ProjectSession::projectChanged,
+            &ProjectSession::runsChanged, &ProjectSession::currentRunChanged, &ProjectSession::runStarted,
+            &ProjectSession::runFinished, &ProjectSession::followingChanged);
+    whenAny(&session_, this, &MainWindow::updateTitle, &ProjectSession::videoChanged, &ProjectSession::projectChanged);
 }
 
 void MainWindow::enableActions() {
@@ -333,6 +285,46 @@ void MainWindow::showNotice(const QString& message) {
 
 void MainWindow::focusCanvas() {
     canvas_->setFocus();
+}
+
+// ---- events ---------------------------------------------------------------------------------------------------------
+
+void MainWindow::showEvent(QShowEvent* event) {
+    QMainWindow::showEvent(event);
+    workspaces_->fit();  // only now its size is known
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (!closing_ && session_.running() && !session_.stopping()) {
+        event->ignore();
+        guard_->beforeEnding(tr("the window closes"), [this] {
+            closing_ = true;
+            close();
+        });
+        return;
+    }
+    files_->rememberView();
+    settings_.setGeometry(saveGeometry());
+    settings_.setValue(kWorkspaces, workspaces_->state());
+    session_.stopRun();  // the run's own thread finishes storing while the program goes down
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    for (const QUrl& url : event->mimeData()->urls())
+        if (url.isLocalFile()) {
+            event->acceptProposedAction();
+            return;
+        }
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    for (const QUrl& url : event->mimeData()->urls()) {
+        if (!url.isLocalFile()) continue;
+        event->acceptProposedAction();
+        files_->open(url.toLocalFile());
+        return;
+    }
 }
 
 }  // namespace eyrie::ui

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <QMainWindow>
-#include <functional>
-#include <memory>
 
 #include "canvas/overlay_settings.h"
 #include "session/project_session.h"
@@ -10,34 +8,32 @@
 #include "window/window_settings.h"
 #include "workspace/key_bindings.h"
 
-class QMenu;
 class QStackedWidget;
 
 namespace eyrie::ui {
 
 class DockRegistry;
-class EarlierStates;
 class EvaluationDocks;
 class Inspection;
 class LabelTimeline;
 class LabelWorkspace;
 class MessageBar;
-class ParameterBinding;
+class OpenedFiles;
 class ReviewDocks;
 class RunBar;
 class RunGuard;
 class StatusFields;
-class TimelineBinding;
 class TimelineView;
 class TransportBar;
 class Tuning;
 class VideoView;
 class WelcomePanel;
 class WindowActions;
+class WindowCommands;
 class Workspaces;
 
 /// The window: menus, docks, canvas and timeline, joined with the session. Decides nothing about videos and runs
-/// itself.
+/// itself. What commands do is told by WindowCommands, files are opened and left by OpenedFiles.
 class MainWindow : public QMainWindow {
     Q_OBJECT
 
@@ -73,52 +69,22 @@ class MainWindow : public QMainWindow {
     void buildCentre();
     void buildMenus();
     void buildToolBar();
-    QMenu* buildOverlayMenu();
-    QWidget* overlayButton(QMenu* menu);
-    void wireFileActions();
-    void wirePlaybackActions();
-    void wireViewActions();
-    void wireSession();
-    void wireInspection();
-    void buildLabelling();
     void buildEvaluation();
     void buildWorkspaces();
-    void wireRunMessages();
-    void openVideo();
-    void openFolder();
-    void openProject();
-    void locateVideo();
-    void saveAs();
-    void saveCopy();
-    QString chosenTarget(const QString& title);
-    void openPath(const QString& path);
-    void openRecent(const RecentProject& project);
-    void wireEarlierStates();
-    void chooseEarlierState();
-    void leave(std::function<void()> then);
-    void rememberProject();
-    void showDemo();
-    void startRun();
+    void wireCanvas();
+    void wireSession();
+    void wireInspection();
     void showProblem(const QString& message);
     void showNotice(const QString& message);
-    void becameReady(bool has_results);
-    void runEnded(const RunSummary& summary);
     void enableActions();
     void updateTitle();
-    void showRecent();
-    void restoreView();
-    void rememberView();
     void focusCanvas();
 
     WindowSettings settings_;
     OverlaySettings overlays_;
     KeyBindings keys_;
     ProjectSession session_;
-    StartOptions start_;           ///< what is still to be done of it
-    bool run_when_ready_ = false;  ///< opened from the command line, by the demo or by dropping: run if there is no run
-    bool play_when_done_ = false;
-    bool closing_ = false;                 ///< the user was asked and answered
-    std::filesystem::path shown_project_;  ///< whose view is to be remembered
+    bool closing_ = false;  ///< the user was asked and answered
 
     WindowActions* actions_;
     MessageBar* messages_;
@@ -130,8 +96,6 @@ class MainWindow : public QMainWindow {
     LabelTimeline* label_rows_;
     RunBar* run_bar_;
     RunGuard* guard_;
-    EarlierStates* earlier_;
-    std::filesystem::path restoring_;  ///< the project that was closed to become what it was
     StatusFields* status_;
     Inspection* inspection_;
     DockRegistry* docks_;
@@ -139,9 +103,8 @@ class MainWindow : public QMainWindow {
     EvaluationDocks* evaluation_;
     Tuning* tuning_;
     LabelWorkspace* labelling_;
-    ParameterBinding* parameters_;
-    TimelineBinding* timeline_binding_;
-    QMenu* recent_menu_;
+    OpenedFiles* files_;
+    WindowCommands* commands_;
     Workspaces* workspaces_;
 };
 

@@ -5,6 +5,7 @@
 #include <QTimer>
 #include <cstdio>
 
+#include "widgets/wiring.h"
 #include "window/main_window.h"
 
 namespace eyrie::ui {
@@ -21,8 +22,7 @@ class Photographer : public QObject {
         connect(&session, &ProjectSession::viewFrameChanged, this, [this](const ViewFrame& frame) {
             if (frame.result && --left_ <= 0) shootSoon();
         });
-        connect(&session, &ProjectSession::runFinished, this, [this] { shootSoon(); });
-        connect(&session, &ProjectSession::problem, this, [this] { shootSoon(); });
+        whenAny(&session, this, &Photographer::shootSoon, &ProjectSession::runFinished, &ProjectSession::problem);
         if (left_ <= 0) shootSoon();
     }
 

@@ -7,6 +7,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "widgets/wiring.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -19,7 +20,7 @@ QPushButton* welcomeButtonOf(QAction* action, QWidget* parent) {
     auto* button = new QPushButton(action->icon(), action->text().remove(QLatin1Char('&')), parent);
     button->setToolTip(action->toolTip());
     button->setMinimumHeight(34);
-    QObject::connect(button, &QPushButton::clicked, action, &QAction::trigger);
+    bindCommands(button, {{button, [action] { action->trigger(); }}});
     return button;
 }
 }  // namespace
@@ -89,7 +90,7 @@ void WelcomePanel::setRecent(const QList<RecentProject>& projects) {
         button->setToolTip(project.project);
         button->setAutoRaise(true);
         button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-        connect(button, &QToolButton::clicked, this, [this, project] { emit recentChosen(project); });
+        bindCommands(this, {{button, [this, project] { emit recentChosen(project); }}});
         recent_layout_->addWidget(button);
     }
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "widgets/wiring.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -88,11 +90,14 @@ QDockWidget* DockRegistry::add(DockId id, const QString& title, QWidget* content
     made->setWidget(content);
     window_.addDockWidget(Qt::LeftDockWidgetArea, made);
     made->hide();
-    connect(made, &QDockWidget::visibilityChanged, this, &DockRegistry::tidySoon);
-    connect(made, &QDockWidget::topLevelChanged, this, &DockRegistry::tidySoon);
-    connect(made, &QDockWidget::dockLocationChanged, this, &DockRegistry::tidySoon);
+    whenAny(made, this, &DockRegistry::tidySoon, &QDockWidget::visibilityChanged, &QDockWidget::topLevelChanged,
+            &QDockWidget::dockLocationChanged);
     docks_[static_cast<std::size_t>(id)] = made;
     return made;
+}
+
+void DockRegistry::watch(DockId id, QObject* watcher, const std::function<void(bool)>& looked_at) {
+    connect(dock(id), &QDockWidget::visibilityChanged, watcher, looked_at);
 }
 
 QList<QDockWidget*> DockRegistry::docksFor(WorkspaceKind workspace) const {

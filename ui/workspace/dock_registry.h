@@ -3,6 +3,7 @@
 #include <QList>
 #include <QObject>
 #include <array>
+#include <functional>
 
 #include "workspace/workspace_kind.h"
 
@@ -47,6 +48,8 @@ class DockRegistry : public QObject {
 
     /// Makes a dock around `content`, hidden until a workspace shows it.
     QDockWidget* add(DockId id, const QString& title, QWidget* content);
+    /// Tells `looked_at` whenever the dock comes into view, and goes, as long as `watcher` lives.
+    void watch(DockId id, QObject* watcher, const std::function<void(bool)>& looked_at);
     /// Null until it was added.
     QDockWidget* dock(DockId id) const { return docks_[static_cast<std::size_t>(id)]; }
     /// Those that a workspace shows at first, and besides in review and tune all that the chain has: for menus.

@@ -11,6 +11,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "widgets/wiring.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -83,14 +85,16 @@ KeySheet::KeySheet(KeyBindings& keys, const QString& first, QWidget* parent) : Q
     connect(search_, &QLineEdit::textChanged, this, &KeySheet::filter);
     connect(list_, &QTreeWidget::currentItemChanged, this, &KeySheet::showChosen);
     connect(list_, &QTreeWidget::itemActivated, key_, qOverload<>(&QWidget::setFocus));
-    connect(set_, &QPushButton::clicked, this, [this] { setKey(key_->keySequence()); });
-    connect(none_, &QPushButton::clicked, this, [this] {
-        if (chosen() != nullptr) keys_.setKeysOf(chosen(), {});
-    });
-    connect(default_, &QPushButton::clicked, this, [this] {
-        if (chosen() != nullptr) keys_.reset(chosen());
-    });
-    connect(all, &QPushButton::clicked, &keys_, &KeyBindings::resetAll);
+    bindCommands(this, {{set_, [this] { setKey(key_->keySequence()); }},
+                        {none_,
+                         [this] {
+                             if (chosen() != nullptr) keys_.setKeysOf(chosen(), {});
+                         }},
+                        {default_,
+                         [this] {
+                             if (chosen() != nullptr) keys_.reset(chosen());
+                         }},
+                        {all, [this] { keys_.resetAll(); }}});
     connect(&keys_, &KeyBindings::keysChanged, this, &KeySheet::showAllKeys);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     showChosen();

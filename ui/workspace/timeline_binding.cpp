@@ -50,9 +50,6 @@ TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline
         live_ = false;
         timeline_.setRunRange(std::nullopt);
     });
-    connect(&session_, &ProjectSession::currentRunChanged, &timeline_, [this] {
-        if (!live_) timeline_.setRunRange(std::nullopt);
-    });
     connect(&timeline_, &TimelineView::frameRequested, &session_,
             [this](FrameIndex frame, bool) { session_.goToFrame(frame); });
     connect(&chart_, &StageTimesChart::frameActivated, &session_, &ProjectSession::goToFrame);
@@ -66,6 +63,7 @@ void TimelineBinding::showVideo() {
 
 void TimelineBinding::forgetRun() {
     live_ = false;
+    timeline_.setRunRange(std::nullopt);
     timeline_.setFrames({});
     timeline_.setTrackLife(std::nullopt);
     chart_.clear();

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "canvas/layers/overlay_table.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -137,8 +138,7 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
     for (const OverlayRow& row : overlayTable()) {
         QAction* action = addToggle(overlayName(row), {nullptr, {QKeySequence(row.key)}}, overlays.isVisible(row.kind));
         overlay[static_cast<size_t>(row.kind)] = action;
-        connect(action, &QAction::toggled, &overlays,
-                [&overlays, kind = row.kind](bool on) { overlays.setVisible(kind, on); });
+        bindSwitches(this, {{action, [&overlays, kind = row.kind](bool on) { overlays.setVisible(kind, on); }}});
     }
     connect(&overlays, &OverlaySettings::changed, this, [this, &overlays] {
         for (const OverlayRow& row : overlayTable())
@@ -153,18 +153,20 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
     shorter_vectors = add(tr("Shorter vectors"), {nullptr, {QKeySequence(tr("Ctrl+Shift+V"))}});
     colour_blind =
         addToggle(tr("Colour-blind safe colours"), {nullptr, {}}, overlays.palette() == PaletteKind::colour_blind);
-    connect(labels, &QAction::toggled, &overlays, &OverlaySettings::setLabels);
-    connect(trails, &QAction::toggled, &overlays, &OverlaySettings::setTrails);
-    connect(rejected, &QAction::toggled, &overlays, &OverlaySettings::setRejectedDetections);
-    connect(tentative, &QAction::toggled, &overlays, &OverlaySettings::setTentativeTracks);
-    connect(longer_vectors, &QAction::triggered, &overlays, [&overlays] {
-        overlays.setVectorLengthFactor(std::min(100.0, overlays.style().vector_length_factor * 1.5));
-    });
-    connect(shorter_vectors, &QAction::triggered, &overlays, [&overlays] {
-        overlays.setVectorLengthFactor(std::max(1.0, overlays.style().vector_length_factor / 1.5));
-    });
-    connect(colour_blind, &QAction::toggled, &overlays,
-            [&overlays](bool on) { overlays.setPalette(on ? PaletteKind::colour_blind : PaletteKind::thesis); });
+    const auto scale_vectors = [&overlays](double factor) {
+        overlays.setVectorLengthFactor(std::clamp(overlays.style().vector_length_factor * factor, 1.0, 100.0));
+    };
+    bindSwitches(
+        this, {
+                  {labels, [&overlays](bool on) { overlays.setLabels(on); }},
+                  {trails, [&overlays](bool on) { overlays.setTrails(on); }},
+                  {rejected, [&overlays](bool on) { overlays.setRejectedDetections(on); }},
+                  {tentative, [&overlays](bool on) { overlays.setTentativeTracks(on); }},
+                  {colour_blind,
+                   [&overlays](bool on) { overlays.setPalette(on ? PaletteKind::colour_blind : PaletteKind::thesis); }},
+              });
+    bindCommands(this, {{longer_vectors, [scale_vectors] { scale_vectors(1.5); }},
+                        {shorter_vectors, [scale_vectors] { scale_vectors(1 / 1.5); }}});
 }
 
 }  // namespace eyrie::ui

@@ -111,13 +111,13 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         const ObjectId id = draw(*window, {40, 60}, {58, 60});
         const auto shown = [&] { return window->labelling().tool().scene().marks.front().colour; };
         const QColor of_class = shown();
-        emit window->labelling().inspector().colourChosen(QColor(10, 200, 250));
+        window->labelling().inspector().edits().set_colour(QColor(10, 200, 250));
         QCOMPARE(object(*window, id).colour, 0x0ac8faU);
         QCOMPARE(shown(), QColor(10, 200, 250));
         key(*window, Qt::Key_4);  // another class, the same colour
         QCOMPARE(shown(), QColor(10, 200, 250));
         key(*window, Qt::Key_Z, Qt::ControlModifier);
-        emit window->labelling().inspector().colourChosen({});
+        window->labelling().inspector().edits().set_colour({});
         QCOMPARE(shown(), of_class);
         key(*window, Qt::Key_Z, Qt::ControlModifier);
         QCOMPARE(shown(), QColor(10, 200, 250));
@@ -274,7 +274,7 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         key(*window, Qt::Key_O, Qt::ShiftModifier);
         QCOMPARE(boxAt(object(*window, id), 5, labels.camera()).occlusion, Occlusion::partly);
         QCOMPARE(boxAt(object(*window, id), 2, labels.camera()).occlusion, Occlusion::none);
-        emit window->labelling().inspector().classChosen(QStringLiteral("tram"));
+        window->labelling().inspector().edits().set_class(QStringLiteral("tram"));
         QCOMPARE(object(*window, id).object_class, std::string("tram"));
         QCOMPARE(object(*window, other).object_class, std::string("tram"));
     }

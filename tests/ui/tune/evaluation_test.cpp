@@ -14,6 +14,7 @@
 #include "store/runs/result_writer.h"
 #include "tune/evaluate/errors_panel.h"
 #include "tune/evaluate/evaluation_panel.h"
+#include "tune/evaluate/evaluation_wording.h"
 #include "tune/inspect/why_panel.h"
 #include "ui/support/ui_support.h"
 #include "widgets/charts/line_chart.h"
@@ -238,11 +239,11 @@ class EvaluationTest : public QObject {
                 const MistakePlace place = mistakes[i].mistake.places[mistakes[i].place];
                 window->session().goToFrame(0);
                 if (by_key) {
-                    emit errors.errorActivated(static_cast<int>(i) + 1);
+                    errors.commands().go_to(static_cast<int>(i) + 1);
                     window->session().goToFrame(0);
                     QTest::keyClick(window.get(), Qt::Key_W, Qt::ShiftModifier);
                 } else {
-                    emit errors.whyAsked(static_cast<int>(i) + 1);
+                    errors.commands().ask_why(static_cast<int>(i) + 1);
                 }
                 return waitFor([&] { return why.view() && why.view()->frame == place.frame; }) &&
                        why.area()->centre == place.box.centre &&
@@ -266,7 +267,7 @@ class EvaluationTest : public QObject {
         for (int row = 0; row < rows(errors); ++row)
             if (cell(errors, row, ErrorsModel::kind_column) == QStringLiteral("miss"))
                 miss = errors.table()->model()->index(row, 0).data(id_role).toInt();
-        emit errors.errorActivated(miss);
+        errors.commands().go_to(miss);
         QTest::keyClick(window.get(), Qt::Key_T, Qt::ControlModifier);
         LabelSession& labels = window->labelling().labels();
         QVERIFY(waitFor([&] { return labels.isOpen() && labels.selected() == 1; }));

@@ -152,10 +152,8 @@ class SweepPanelTest : public QObject {
         panel.sweeps().start(request({"gradient.quantile=0.11,0.23"}));
         QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
         emit panel.chart().pointClicked(1);
-        QSignalSpy applied(&panel, &SweepPanel::applyRequested);
         for (auto* button : panel.findChildren<QAbstractButton*>())
             if (button->text() == QStringLiteral("Use for the next run")) button->click();
-        QCOMPARE(applied.size(), 1);
         QCOMPARE(window->session().settings().options.detection.gradient.quantile, 0.23);
     }
 

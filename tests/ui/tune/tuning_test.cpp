@@ -120,7 +120,7 @@ class TuningTest : public QObject {
         // Another frame is previewed, too.
         session().goToFrame(41);
         QVERIFY(waitFor([&] { return preview().view() && preview().view()->frame == 41; }));
-        emit tuning().previewBar().discardRequested();
+        tuning().previewBar().commands().discard();
         QVERIFY(!preview().active());
         QVERIFY(waitFor([&] { return window_->canvas().frame().result == session().viewFrame().result; }));
         QCOMPARE(row("clustering.min_members")->value(), QStringLiteral("3"));

@@ -19,6 +19,7 @@
 #include "exchange/label_import.h"
 #include "label/files/label_files_text.h"
 #include "label/label_classes.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -79,13 +80,10 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
         form->setRowVisible(columns_, wanted);
     };
     connect(format_, &QComboBox::currentIndexChanged, this, show_columns);
-    connect(format_, &QComboBox::currentIndexChanged, this, &LabelImportDialog::read);
-    connect(columns_, &QLineEdit::editingFinished, this, &LabelImportDialog::read);
-    connect(shift_, &QSpinBox::valueChanged, this, &LabelImportDialog::read);
-    connect(scale_, &QDoubleSpinBox::valueChanged, this, &LabelImportDialog::read);
-    connect(link_, &QCheckBox::toggled, this, &LabelImportDialog::read);
-    connect(buttons_, &QDialogButtonBox::accepted, this, &LabelImportDialog::accept);
-    connect(buttons_, &QDialogButtonBox::rejected, this, &LabelImportDialog::reject);
+    onEdited(this, &LabelImportDialog::read, format_, shift_, scale_, link_);
+    onFinished(this, &LabelImportDialog::read, columns_);
+    bindCommands(this, {{buttons_->button(QDialogButtonBox::Ok), [this] { accept(); }},
+                        {buttons_->button(QDialogButtonBox::Cancel), [this] { reject(); }}});
     show_columns();
     setBusy(true);
 }

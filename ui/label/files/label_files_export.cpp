@@ -16,6 +16,7 @@
 #include "io/output_files.h"
 #include "label/files/label_files.h"
 #include "label/files/label_files_text.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -53,9 +54,9 @@ LabelExportDialog::LabelExportDialog(LabelSession& labels, QWidget* parent)
         form->setRowVisible(columns_, format_->currentData().toString() == QLatin1String("columns"));
         showFormat();
     });
-    connect(choose, &QPushButton::clicked, this, &LabelExportDialog::browse);
-    connect(export_, &QPushButton::clicked, this, &LabelExportDialog::startExport);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    bindCommands(this, {{choose, [this] { browse(); }},
+                        {export_, [this] { startExport(); }},
+                        {buttons->button(QDialogButtonBox::Close), [this] { reject(); }}});
     form->setRowVisible(columns_, format_->currentData().toString() == QLatin1String("columns"));
     showFormat();
 }

@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -68,7 +69,7 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     colour_->setAccessibleName(tr("Colour"));
     auto* colours = new QMenu(colour_);
     colours->addAction(tr("A colour of its own…"), this, &ObjectInspector::chooseColour);
-    class_colour_ = colours->addAction(tr("Colour of its class"), this, [this] { emit colourChosen({}); });
+    class_colour_ = colours->addAction(tr("Colour of its class"), this, [this] { edits_.set_colour({}); });
     colour_->setMenu(colours);
     occluded_ = button(tr("Occluded"), tr("Not, partly or fully hidden from here (O)"), true);
     outside_ = button(tr("Outside"), tr("Outside the image from here until the next keyframe (L)"), true);
@@ -100,26 +101,27 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     layout->addStretch(0);
     pages_->addWidget(empty_);
     pages_->addWidget(page);
-    connect(class_, &QComboBox::textActivated, this, &ObjectInspector::classChosen);
+    connect(class_, &QComboBox::textActivated, this, [this](const QString& name) { edits_.set_class(name); });
     connect(class_->lineEdit(), &QLineEdit::returnPressed, this, [this] {
         const QString name = class_->currentText().simplified().toLower();
-        if (!name.isEmpty() && class_->findText(name) < 0) emit classChosen(name);
+        if (!name.isEmpty() && class_->findText(name) < 0) edits_.set_class(name);
     });
-    connect(occluded_, &QToolButton::clicked, this, &ObjectInspector::occlusionToggled);
-    connect(outside_, &QToolButton::clicked, this, &ObjectInspector::outsideToggled);
-    connect(ignore_, &QToolButton::clicked, this, &ObjectInspector::ignoreToggled);
-    connect(checked_, &QToolButton::clicked, this, &ObjectInspector::checkedRequested);
-    connect(questionable_, &QToolButton::clicked, this, &ObjectInspector::questionableRequested);
-    connect(notes_, &QLineEdit::editingFinished, this, [this] { emit notesEdited(notes_->text()); });
+    bindCommands(this, {{occluded_, [this] { edits_.toggle_occluded(); }},
+                        {outside_, [this] { edits_.toggle_outside(); }},
+                        {ignore_, [this] { edits_.toggle_ignore(); }},
+                        {checked_, [this] { edits_.check(); }},
+                        {questionable_, [this] { edits_.question(); }}});
+    onFinished(
+        this, [this] { edits_.set_notes(notes_->text()); }, notes_);
     connect(joins_, &QListWidget::itemDoubleClicked, this,
-            [this](QListWidgetItem* item) { emit joinRequested(item->data(Qt::UserRole).toInt()); });
+            [this](QListWidgetItem* item) { edits_.join(item->data(Qt::UserRole).toInt()); });
     connect(joins_, &QListWidget::itemClicked, this,
-            [this](QListWidgetItem* item) { emit candidateChosen(item->data(Qt::UserRole).toInt()); });
+            [this](QListWidgetItem* item) { edits_.show_candidate(item->data(Qt::UserRole).toInt()); });
 }
 
 void ObjectInspector::chooseColour() {
     const QColor chosen = QColorDialog::getColor(shown_colour_, this, tr("Colour of %1").arg(title_->text()));
-    if (chosen.isValid()) emit colourChosen(chosen);
+    if (chosen.isValid()) edits_.set_colour(chosen);
 }
 
 void ObjectInspector::showColour(const ObjectDetails& details) {

@@ -2,7 +2,9 @@
 
 #include <QColor>
 #include <QWidget>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/labels/annotation.h"
@@ -44,12 +46,31 @@ struct ObjectDetails {
     std::vector<JoinOffer> joins;
 };
 
+/// What the inspector does to the object it shows.
+struct ObjectEdits {
+    std::function<void(const QString& name)> set_class;
+    /// An invalid colour: that of its class.
+    std::function<void(const QColor& colour)> set_colour;
+    std::function<void()> toggle_occluded;
+    std::function<void()> toggle_outside;
+    std::function<void()> toggle_ignore;
+    std::function<void(const QString& notes)> set_notes;
+    std::function<void()> check;
+    std::function<void()> question;
+    std::function<void(int other)> join;
+    /// The user looks at another one that may be the same vehicle.
+    std::function<void(int other)> show_candidate;
+};
+
 /// The selected object: class, flags, notes, review, and which others may be the same vehicle.
 class ObjectInspector : public QWidget {
     Q_OBJECT
  public:
     explicit ObjectInspector(QWidget* parent = nullptr);
 
+    /// To be called before anything is shown.
+    void setEdits(ObjectEdits edits) { edits_ = std::move(edits); }
+    const ObjectEdits& edits() const { return edits_; }
     void setClasses(const QStringList& classes);
     /// Nothing: says how to select one.
     void showObject(const std::optional<ObjectDetails>& details);
@@ -57,23 +78,11 @@ class ObjectInspector : public QWidget {
     QString boxText() const;
     QToolButton* colourButton() const { return colour_; }
 
- signals:
-    void classChosen(const QString& name);
-    /// An invalid one: that of its class.
-    void colourChosen(const QColor& colour);
-    void occlusionToggled();
-    void outsideToggled();
-    void ignoreToggled();
-    void notesEdited(const QString& notes);
-    void checkedRequested();
-    void questionableRequested();
-    void joinRequested(int object);
-    /// The user looks at a candidate.
-    void candidateChosen(int object);
-
  private:
     void chooseColour();
     void showColour(const ObjectDetails& details);
+
+    ObjectEdits edits_;
     QStackedLayout* pages_;
     EmptyState* empty_;
     QLabel* title_;

@@ -10,6 +10,7 @@
 #include <QToolButton>
 
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -68,14 +69,7 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
         rows->addWidget(coverage_);
     }
     setCheckedShare(0, 0);
-    for (QWidget* field : {static_cast<QWidget*>(class_), static_cast<QWidget*>(state_)})
-        connect(qobject_cast<QComboBox*>(field), &QComboBox::currentIndexChanged, this, &ObjectsPanel::refilter);
-    connect(shortest_, &QDoubleSpinBox::valueChanged, this, &ObjectsPanel::refilter);
-    connect(slowest_, &QDoubleSpinBox::valueChanged, this, &ObjectsPanel::refilter);
-    connect(this_frame_, &QToolButton::toggled, this, &ObjectsPanel::refilter);
-    connect(this, &TablePanel::idSelected, this, &ObjectsPanel::objectSelected);
-    connect(this, &TablePanel::idClicked, this, &ObjectsPanel::activate);
-    connect(this, &TablePanel::idDoubleClicked, this, [this](int id) { activate(id, ObjectsModel::first_column); });
+    onEdited(this, &ObjectsPanel::refilter, class_, state_, shortest_, slowest_, this_frame_);
 }
 
 void ObjectsPanel::setClasses(const QStringList& classes) {
@@ -136,11 +130,11 @@ void ObjectsPanel::activate(int object, int column) {
     const ObjectRow* row = objects_->recordAt(objects_->rowOf(object));
     if (row == nullptr) return;
     if (column == ObjectsModel::last_column)
-        emit objectActivated(object, row->last_frame);
+        commands_.go_to(object, row->last_frame);
     else if (column == ObjectsModel::first_column || frame_ < row->first_frame || frame_ > row->last_frame)
-        emit objectActivated(object, row->first_frame);
+        commands_.go_to(object, row->first_frame);
     else
-        emit objectSelected(object);
+        commands_.select(object);
 }
 
 void ObjectsPanel::fillMenu(QMenu& menu, int object) {

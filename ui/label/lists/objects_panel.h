@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <utility>
+
 #include "label/lists/objects_model.h"
 #include "widgets/tables/table_panel.h"
 
@@ -10,6 +13,13 @@ class QToolButton;
 
 namespace eyrie::ui {
 
+/// What the list of objects does with one of them.
+struct ObjectListCommands {
+    std::function<void(int object)> select = [](int) {};
+    /// Its first frame is wanted, or the last where that was clicked.
+    std::function<void(int object, int frame)> go_to = [](int, int) {};
+};
+
 /// The labelled objects: clicking one goes to it. Filters by class, state, length of life, speed and by what lives in
 /// the frame shown; below, how much is checked.
 class ObjectsPanel : public TablePanel {
@@ -17,6 +27,7 @@ class ObjectsPanel : public TablePanel {
  public:
     /// `model` must outlive the panel.
     explicit ObjectsPanel(ObjectsModel* model, QWidget* parent = nullptr);
+    void setCommands(ObjectListCommands commands) { commands_ = std::move(commands); }
 
     /// Classes to filter by.
     void setClasses(const QStringList& classes);
@@ -25,12 +36,10 @@ class ObjectsPanel : public TablePanel {
     /// Only objects of the frame shown.
     void setThisFrameOnly(bool only);
 
- signals:
-    void objectSelected(int object);
-    /// The user wants to see an object: its first frame, or the last where that was clicked.
-    void objectActivated(int object, int frame);
-
  protected:
+    void rowSelected(int object) override { commands_.select(object); }
+    void rowClicked(int object, int column) override { activate(object, column); }
+    void rowDoubleClicked(int object) override { activate(object, ObjectsModel::first_column); }
     void fillMenu(QMenu& menu, int object) override;
 
  private:
@@ -39,6 +48,7 @@ class ObjectsPanel : public TablePanel {
     void activate(int object, int column);
 
     ObjectsModel* objects_;
+    ObjectListCommands commands_;
     QComboBox* class_;
     QComboBox* state_;
     QToolButton* this_frame_;

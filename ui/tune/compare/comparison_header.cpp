@@ -10,6 +10,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "widgets/wiring.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -84,10 +86,10 @@ ComparisonHeader::ComparisonHeader(ProjectSession& session, PresetLibrary& prese
         adjustRange();
         emit pairChosen();
     };
-    connect(first_, &QComboBox::activated, this, chosen);
-    connect(second_, &QComboBox::activated, this, chosen);
-    connect(swap, &QToolButton::clicked, this,
-            [this] { choose(second_->currentData().toString(), first_->currentData().toString()); });
+    bindCommands(this, {{first_, chosen}, {second_, chosen}, {swap, [this] {
+                                                                  choose(second_->currentData().toString(),
+                                                                         first_->currentData().toString());
+                                                              }}});
     for (QSpinBox* box : {from_, to_}) {
         box->setKeyboardTracking(false);
         connect(box, &QSpinBox::valueChanged, this, [this, box] {

@@ -15,6 +15,7 @@
 
 #include "canvas/wipe_split.h"
 #include "tune/compare/comparison_header.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -86,7 +87,8 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
 
     wireLoader();
     connect(header_, &ComparisonHeader::pairChosen, this, &ComparisonWindow::usePair);
-    connect(&header_->wipe(), &QToolButton::toggled, views_, &WipeSplit::setWipe);
+    bindSwitches(this, {{&header_->wipe(), [this](bool on) { views_->setWipe(on); }},
+                        {detections_, [this] { showComparison(); }}});
     connect(&playback_, &Playback::frameDue, this, &ComparisonWindow::playOn);
     connect(&playback_, &Playback::playingChanged, this, [this](bool playing) {
         play_->setIcon(QIcon::fromTheme(playing ? QStringLiteral("media-playback-pause")
@@ -136,12 +138,12 @@ QWidget* ComparisonWindow::buildTransport() {
     layout->addWidget(play_);
     layout->addWidget(slider_, 1);
     layout->addWidget(place_);
-    connect(play_, &QToolButton::clicked, this, [this] {
-        if (playback_.playing())
-            playback_.pause();
-        else
-            playback_.play(frame_);
-    });
+    bindCommands(this, {{play_, [this] {
+                             if (playback_.playing())
+                                 playback_.pause();
+                             else
+                                 playback_.play(frame_);
+                         }}});
     connect(slider_, &QSlider::valueChanged, this, [this](int frame) {
         playback_.jumped(frame);
         goToFrame(frame);
@@ -161,9 +163,8 @@ QWidget* ComparisonWindow::buildLists() {
     tabs_ = new QTabWidget;
     tabs_->addTab(page, tr("Differences"));
     tabs_->addTab(parameters_, tr("Parameters"));
-    connect(detections_, &QCheckBox::toggled, this, &ComparisonWindow::showComparison);
-    connect(differences_, &QTableWidget::currentCellChanged, this, [this](int row) { goToDifference(row); });
-    connect(differences_, &QTableWidget::cellClicked, this, [this](int row) { goToDifference(row); });
+    connect(differences_, &QTableWidget::currentCellChanged, this, &ComparisonWindow::goToDifference);
+    connect(differences_, &QTableWidget::cellClicked, this, &ComparisonWindow::goToDifference);
     return tabs_;
 }
 

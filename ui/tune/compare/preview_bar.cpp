@@ -5,6 +5,8 @@
 #include <QPushButton>
 #include <QSpinBox>
 
+#include "widgets/wiring.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -13,7 +15,8 @@ constexpr int kMostInTip = 25;         ///< differences listed in the tool tip
 constexpr std::size_t kMostNamed = 2;  ///< … and in the bar itself
 }  // namespace
 
-PreviewBar::PreviewBar(LivePreview& preview, QWidget* parent) : QFrame(parent), preview_(preview) {
+PreviewBar::PreviewBar(LivePreview& preview, PreviewCommands commands, QWidget* parent)
+    : QFrame(parent), preview_(preview), commands_(std::move(commands)) {
     setObjectName(QStringLiteral("preview_bar"));
     text_ = new QLabel(this);
     text_->setTextFormat(Qt::PlainText);
@@ -35,8 +38,7 @@ PreviewBar::PreviewBar(LivePreview& preview, QWidget* parent) : QFrame(parent), 
     layout->addWidget(run_);
     layout->addWidget(discard_);
     connect(range_, &QSpinBox::valueChanged, &preview_, &LivePreview::setRange);
-    connect(run_, &QPushButton::clicked, this, &PreviewBar::runRequested);
-    connect(discard_, &QPushButton::clicked, this, &PreviewBar::discardRequested);
+    bindCommands(this, {{run_, [this] { commands_.run(); }}, {discard_, [this] { commands_.discard(); }}});
     connect(&preview_, &LivePreview::changed, this, &PreviewBar::refresh);
     refresh();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QFrame>
+#include <functional>
 
 #include "tune/compare/live_preview.h"
 
@@ -10,19 +11,22 @@ class QSpinBox;
 
 namespace eyrie::ui {
 
+/// What can be done with a preview.
+struct PreviewCommands {
+    std::function<void()> run;
+    std::function<void()> discard;
+};
+
 /// Says that the picture is a preview, of what, and what can be done with it. Hidden while it is none.
 class PreviewBar : public QFrame {
     Q_OBJECT
 
  public:
     /// `preview` must outlive the bar.
-    explicit PreviewBar(LivePreview& preview, QWidget* parent = nullptr);
+    PreviewBar(LivePreview& preview, PreviewCommands commands, QWidget* parent = nullptr);
+    const PreviewCommands& commands() const { return commands_; }
 
     QString text() const;
-
- signals:
-    void runRequested();
-    void discardRequested();
 
  protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -32,6 +36,7 @@ class PreviewBar : public QFrame {
     void refresh();
 
     LivePreview& preview_;
+    PreviewCommands commands_;
     QString whole_text_;
     QLabel* text_;
     QSpinBox* range_;

@@ -11,6 +11,7 @@
 
 #include "widgets/empty_state.h"
 #include "widgets/tables/table_roles.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -34,15 +35,11 @@ ErrorsPanel::ErrorsPanel(ErrorsModel* model, QWidget* parent)
     causes_ = filterButton(tr("All causes"));
     chips_due_->setSingleShot(true);
     chips_due_->setInterval(kChipsSettle_ms);
-    connect(chips_due_, &QTimer::timeout, this, &ErrorsPanel::chipsWanted);
+    connect(chips_due_, &QTimer::timeout, this, [this] { commands_.want_chips(); });
     connect(table()->verticalScrollBar(), &QScrollBar::valueChanged, this, &ErrorsPanel::wantChips);
     connect(table()->model(), &QAbstractItemModel::layoutChanged, this, &ErrorsPanel::wantChips);
-    connect(model, &QAbstractItemModel::modelReset, this, &ErrorsPanel::rebuildMenus);
-    connect(model, &QAbstractItemModel::rowsInserted, this, &ErrorsPanel::rebuildMenus);
-    connect(model, &QAbstractItemModel::rowsRemoved, this, &ErrorsPanel::rebuildMenus);
-    connect(this, &TablePanel::idSelected, this, &ErrorsPanel::errorActivated);
-    connect(this, &TablePanel::idClicked, this, [this](int id) { emit errorActivated(id); });
-    connect(this, &TablePanel::idDoubleClicked, this, &ErrorsPanel::errorActivated);
+    whenAny(model, this, &ErrorsPanel::rebuildMenus, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
+            &QAbstractItemModel::rowsRemoved);
     rebuildMenus();
 }
 
@@ -145,9 +142,9 @@ void ErrorsPanel::resizeEvent(QResizeEvent* event) {
 }
 
 void ErrorsPanel::fillMenu(QMenu& menu, int id) {
-    menu.addAction(tr("Go there"), this, [this, id] { emit errorActivated(id); });
-    menu.addAction(tr("Why?\tShift+W"), this, [this, id] { emit whyAsked(id); });
-    menu.addAction(tr("The ground truth is wrong here…"), this, [this, id] { emit truthIsWrong(id); });
+    menu.addAction(tr("Go there"), this, [this, id] { commands_.go_to(id); });
+    menu.addAction(tr("Why?\tShift+W"), this, [this, id] { commands_.ask_why(id); });
+    menu.addAction(tr("The ground truth is wrong here…"), this, [this, id] { commands_.correct_truth(id); });
     const ErrorRow* row = errors_->recordAt(errors_->rowOf(id));
     if (row == nullptr) return;
     menu.addAction(tr("Only “%1”").arg(row->kind), this, [this, kind = row->kind] { setShownKind(kind); });

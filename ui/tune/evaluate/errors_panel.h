@@ -2,6 +2,8 @@
 
 #include <QMap>
 #include <QSet>
+#include <functional>
+#include <utility>
 
 #include "tune/evaluate/errors_model.h"
 #include "widgets/tables/table_panel.h"
@@ -12,12 +14,23 @@ class QToolButton;
 
 namespace eyrie::ui {
 
+/// What the list of errors does with one of them.
+struct ErrorCommands {
+    std::function<void(int id)> go_to = [](int) {};
+    std::function<void(int id)> ask_why = [](int) {};
+    std::function<void(int id)> correct_truth = [](int) {};
+    /// Rows have come into view that may lack their chips.
+    std::function<void()> want_chips = [] {};
+};
+
 /// The list of errors: filtered by kind and cause, sorted, stepped through in the order shown.
 class ErrorsPanel : public TablePanel {
     Q_OBJECT
  public:
     /// `model` must outlive the panel.
     explicit ErrorsPanel(ErrorsModel* model, QWidget* parent = nullptr);
+    void setCommands(ErrorCommands commands) { commands_ = std::move(commands); }
+    const ErrorCommands& commands() const { return commands_; }
 
     /// Only errors of this kind or cause; empty: all.
     void setShownKind(const QString& kind);
@@ -35,13 +48,10 @@ class ErrorsPanel : public TablePanel {
     QList<int> rowsWithoutChip() const;
     static constexpr int kChipHeight = 36;
 
- signals:
-    void errorActivated(int id);
-    void whyAsked(int id);
-    void truthIsWrong(int id);
-    void chipsWanted();
-
  protected:
+    void rowSelected(int id) override { commands_.go_to(id); }
+    void rowClicked(int id, int /*column*/) override { commands_.go_to(id); }
+    void rowDoubleClicked(int id) override { commands_.go_to(id); }
     void fillMenu(QMenu& menu, int id) override;
     void resizeEvent(QResizeEvent* event) override;
 
@@ -52,6 +62,7 @@ class ErrorsPanel : public TablePanel {
     QToolButton* filterButton(const QString& title);
 
     ErrorsModel* errors_;
+    ErrorCommands commands_;
     QString kind_;
     QString cause_;
     QToolButton* kinds_;

@@ -2,34 +2,27 @@
 
 #include <QAction>
 #include <QApplication>
-#include <QCheckBox>
 #include <QClipboard>
-#include <QComboBox>
-#include <QDoubleSpinBox>
-#include <QFileDialog>
-#include <QFileInfo>
-#include <QFormLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QProgressBar>
 #include <QScrollArea>
-#include <QSignalBlocker>
 #include <QStackedWidget>
 #include <QTableWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "formats/label_formats.h"
+#include "tune/evaluate/evaluation_choices.h"
+#include "tune/evaluate/evaluation_wording.h"
 #include "widgets/charts/line_chart.h"
 #include "widgets/charts/tracked_bar.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
 #include "widgets/theme_colours.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -40,85 +33,25 @@ const QColor kMissedColour(222, 160, 20);
 const QColor kFalseColour(214, 66, 54);
 const QColor kRecallColour(45, 120, 200);
 
-enum TruthEntry { labels_entry, file_entry, choose_entry };
-
-QString spanText(const BootstrapInterval& interval) {
-    return QStringLiteral("%1 (%2 – %3)")
-        .arg(numberText(interval.value, 3), numberText(interval.low, 3), numberText(interval.high, 3));
-}
-
-QString runName(const RunRecord& run) {
-    return run.name.empty() ? QObject::tr("run %1").arg(run.id)
-                            : QObject::tr("run %1, %2").arg(run.id).arg(QString::fromStdString(run.name));
-}
-
-QString differenceLine(const QString& measure, const BootstrapInterval& difference, const RunRecord& other) {
-    const QString sign = difference.value >= 0 ? QStringLiteral("+") : QString();
-    const QString numbers =
-        QStringLiteral("%1%2 (%3 – %4)")
-            .arg(sign, numberText(difference.value, 3), numberText(difference.low, 3), numberText(difference.high, 3));
-    const bool real = difference.low > 0 || difference.high < 0;
-    if (!real)
-        return QObject::tr("%1 against %2: %3, <b>no significant difference</b>").arg(measure, runName(other), numbers);
-    return difference.value > 0
-               ? QObject::tr("%1 against %2: %3, <b>significantly better</b>").arg(measure, runName(other), numbers)
-               : QObject::tr("%1 against %2: %3, <b>significantly worse</b>").arg(measure, runName(other), numbers);
-}
-
 }  // namespace
-
-WindowedRatios windowedRatios(const std::vector<FrameCounts>& frames, int window) {
-    WindowedRatios ratios;
-    const int count = static_cast<int>(frames.size());
-    const double nothing = std::numeric_limits<double>::quiet_NaN();
-    for (int i = 0; i < count; ++i) {
-        double found = 0;
-        double missed = 0;
-        double alarms = 0;
-        for (int k = std::max(0, i - window / 2); k <= std::min(count - 1, i + window / 2); ++k) {
-            found += frames[static_cast<std::size_t>(k)].found;
-            missed += frames[static_cast<std::size_t>(k)].missed;
-            alarms += frames[static_cast<std::size_t>(k)].false_alarms;
-        }
-        ratios.precision.push_back(found + alarms > 0 ? found / (found + alarms) : nothing);
-        ratios.recall.push_back(found + missed > 0 ? found / (found + missed) : nothing);
-    }
-    return ratios;
-}
-
-QString certaintyText(const RunEvaluation& evaluation) {
-    QStringList lines;
-    lines << QObject::tr("f-score <b>%1</b>, 95 % interval %2 – %3")
-                 .arg(numberText(evaluation.f_score.value, 3), numberText(evaluation.f_score.low, 3),
-                      numberText(evaluation.f_score.high, 3));
-    if (evaluation.mota) lines.back() += QObject::tr(" · MOTA %1").arg(spanText(*evaluation.mota));
-    if (evaluation.difference) {
-        const RunDifference& difference = *evaluation.difference;
-        lines << differenceLine(QObject::tr("f-score"), difference.difference.f_score, difference.other);
-        if (difference.difference.mota)
-            lines << differenceLine(QObject::tr("MOTA"), *difference.difference.mota, difference.other);
-    }
-    return lines.join(QStringLiteral("<br>"));
-}
 
 EvaluationPanel::EvaluationPanel(ProjectSession& session, EvaluationSession& evaluation, QWidget* parent)
     : QWidget(parent), session_(session), evaluation_(evaluation) {
     auto* rows = new QVBoxLayout(this);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(2);
-    rows->addWidget(buildChoices());
+    choices_ = new EvaluationChoices(session_, evaluation_);
+    rows->addWidget(choices_);
     pages_ = new QStackedWidget;
     empty_ = new EmptyState;
     pages_->addWidget(empty_);
     pages_->addWidget(buildResult());
     rows->addWidget(pages_, 1);
 
-    connect(empty_, &EmptyState::actionTriggered, this, &EvaluationPanel::labellingRequested);
-    connect(&evaluation_, &EvaluationSession::changed, this, &EvaluationPanel::refresh);
-    connect(&evaluation_, &EvaluationSession::workingChanged, this, &EvaluationPanel::refresh);
-    connect(&evaluation_, &EvaluationSession::settingsChanged, this, &EvaluationPanel::showSettings);
-    connect(&session_, &ProjectSession::runsChanged, this, &EvaluationPanel::showRuns);
-    connect(&session_, &ProjectSession::currentRunChanged, this, &EvaluationPanel::showRuns);
+    bindCommands(this,
+                 {{empty_->button(), [this] { commands_.label(); }}, {report_, [this] { commands_.write_report(); }}});
+    whenAny(&evaluation_, this, &EvaluationPanel::refresh, &EvaluationSession::changed,
+            &EvaluationSession::workingChanged);
     connect(&session_, &ProjectSession::frameChanged, this, [this](FrameIndex frame) {
         counts_->setMarker(frame);
         ratios_->setMarker(frame);
@@ -126,163 +59,12 @@ EvaluationPanel::EvaluationPanel(ProjectSession& session, EvaluationSession& eva
     for (LineChart* chart : {counts_, ratios_})
         connect(chart, &LineChart::placeActivated, &session_,
                 [this](double place) { session_.goToFrame(static_cast<FrameIndex>(std::lround(place))); });
-    connect(tracked_, &TrackedBar::objectActivated, this, &EvaluationPanel::objectActivated);
-    showSettings();
+    connect(tracked_, &TrackedBar::objectActivated, this, [this](int object) { commands_.go_to_object(object); });
     refresh();
 }
 
-// ---- choices --------------------------------------------------------------------------------------------------------
-
-QWidget* EvaluationPanel::buildChoices() {
-    auto* choices = new QWidget;
-    truth_ = new QComboBox;
-    truth_->addItem(tr("Labels of the project"));
-    truth_->addItem(QString());
-    truth_->addItem(tr("Choose a file…"));
-    truth_->setToolTip(tr("What the run is compared with"));
-    truth_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    measured_ = new QComboBox;
-    measured_->addItems({tr("Tracks"), tr("Detections")});
-    overlap_ = new QDoubleSpinBox;
-    overlap_->setRange(0.01, 1);
-    overlap_->setSingleStep(0.05);
-    overlap_->setDecimals(2);
-    overlap_->setPrefix(tr("T_ov "));
-    overlap_->setKeyboardTracking(false);
-    overlap_->setToolTip(tr("Smallest overlap at which an object counts as found, for errors, objects and curves"));
-    other_ = new QComboBox;
-    other_->setToolTip(tr("Another run over the same video; tells whether the difference is more than chance"));
-    other_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    more_ = new QToolButton;
-    more_->setText(tr("Options"));
-    more_->setCheckable(true);
-    vehicles_ = new QCheckBox(tr("Vehicles only: other objects are ignored"));
-    upright_ = new QCheckBox(tr("Compare upright boxes (truth without headings)"));
-    border_ = new QDoubleSpinBox;
-    border_->setRange(0, 200);
-    border_->setDecimals(1);
-    border_->setSuffix(tr(" px"));
-    border_->setSpecialValueText(tr("none"));
-    border_->setKeyboardTracking(false);
-    border_->setToolTip(
-        tr("Results that come this close to the image's edge are left out, for ground truth that leaves "
-           "cut objects out"));
-    for (QWidget* field : std::initializer_list<QWidget*>{truth_, measured_, other_, overlap_, border_}) {
-        field->installEventFilter(this);
-        field->setFocusPolicy(Qt::StrongFocus);
-    }
-    details_ = new QWidget;
-    auto* form = new QFormLayout(details_);
-    form->setContentsMargins(0, 0, 0, 0);
-    form->addRow(vehicles_);
-    form->addRow(upright_);
-    form->addRow(tr("Border left out"), border_);
-    details_->hide();
-
-    auto* first = new QHBoxLayout;
-    first->addWidget(truth_, 3);
-    first->addWidget(measured_, 1);
-    auto* second = new QHBoxLayout;
-    second->addWidget(overlap_);
-    second->addWidget(other_, 1);
-    second->addWidget(more_);
-    auto* rows = new QVBoxLayout(choices);
-    rows->setContentsMargins(6, 4, 6, 2);
-    rows->setSpacing(4);
-    rows->addLayout(first);
-    rows->addLayout(second);
-    rows->addWidget(details_);
-
-    connect(more_, &QToolButton::toggled, details_, &QWidget::setVisible);
-    connect(truth_, &QComboBox::activated, this, [this](int entry) {
-        if (entry == choose_entry)
-            chooseTruthFile();
-        else
-            applySettings();
-    });
-    connect(measured_, &QComboBox::activated, this, &EvaluationPanel::applySettings);
-    connect(other_, &QComboBox::activated, this, &EvaluationPanel::applySettings);
-    connect(overlap_, &QDoubleSpinBox::valueChanged, this, &EvaluationPanel::applySettings);
-    connect(border_, &QDoubleSpinBox::valueChanged, this, &EvaluationPanel::applySettings);
-    connect(vehicles_, &QCheckBox::toggled, this, &EvaluationPanel::applySettings);
-    connect(upright_, &QCheckBox::toggled, this, &EvaluationPanel::applySettings);
-    return choices;
-}
-
-bool EvaluationPanel::eventFilter(QObject* watched, QEvent* event) {
-    // Scrolling over a field must not change what is measured.
-    auto* field = qobject_cast<QWidget*>(watched);
-    if (event->type() == QEvent::Wheel && field != nullptr && !field->hasFocus()) {
-        event->ignore();
-        return true;
-    }
-    return QWidget::eventFilter(watched, event);
-}
-
-void EvaluationPanel::showSettings() {
-    const EvaluationSettings& settings = evaluation_.settings();
-    const QSignalBlocker blockers[] = {QSignalBlocker(truth_),    QSignalBlocker(measured_), QSignalBlocker(overlap_),
-                                       QSignalBlocker(vehicles_), QSignalBlocker(upright_),  QSignalBlocker(border_)};
-    const QString path = QString::fromStdString(settings.truth_file.string());
-    truth_->setItemText(file_entry, path.isEmpty() ? tr("No file chosen") : QFileInfo(path).fileName());
-    truth_->setItemData(file_entry, path, Qt::UserRole);
-    truth_->setItemData(file_entry, path, Qt::ToolTipRole);
-    truth_->setCurrentIndex(path.isEmpty() ? labels_entry : file_entry);
-    measured_->setCurrentIndex(settings.detections ? 1 : 0);
-    overlap_->setValue(settings.wishes.overlap);
-    border_->setValue(settings.wishes.border.value_or(0));
-    vehicles_->setChecked(settings.wishes.vehicles_only);
-    upright_->setChecked(settings.wishes.upright);
-    showRuns();
-}
-
-void EvaluationPanel::showRuns() {
-    const QSignalBlocker blocker(other_);
-    other_->clear();
-    other_->addItem(tr("Compare with …"), 0);
-    const auto current = session_.currentRun();
-    std::string video;
-    for (const RunRecord& run : session_.runs())
-        if (run.id == current) video = run.sequence.path;
-    for (const RunRecord& run : session_.runs()) {
-        if (run.id == current || run.sequence.path != video || run.frames_done == 0) continue;
-        other_->addItem(tr("against %1").arg(runName(run)), run.id);
-        if (evaluation_.settings().other_run == run.id) other_->setCurrentIndex(other_->count() - 1);
-    }
-    other_->setEnabled(other_->count() > 1);
-}
-
-void EvaluationPanel::applySettings() {
-    EvaluationSettings settings = evaluation_.settings();
-    settings.truth_file = truth_->currentIndex() == file_entry
-                              ? truth_->itemData(file_entry, Qt::UserRole).toString().toStdString()
-                              : std::string();
-    settings.detections = measured_->currentIndex() == 1;
-    settings.wishes.overlap = overlap_->value();
-    settings.wishes.border = border_->value() > 0 ? std::optional(border_->value()) : std::nullopt;
-    settings.wishes.vehicles_only = vehicles_->isChecked();
-    settings.wishes.upright = upright_->isChecked();
-    const int other = other_->currentData().toInt();
-    settings.other_run = other > 0 ? std::optional(other) : std::nullopt;
-    evaluation_.setSettings(settings);
-    showSettings();
-}
-
 void EvaluationPanel::useTruthFile(const QString& path) {
-    truth_->setItemData(file_entry, path, Qt::UserRole);
-    const QSignalBlocker blocker(truth_);
-    truth_->setCurrentIndex(file_entry);
-    applySettings();
-}
-
-void EvaluationPanel::chooseTruthFile() {
-    const QString patterns = QString::fromStdString(labelFilePatterns());
-    const QString path = QFileDialog::getOpenFileName(this, tr("Ground truth"), QString(),
-                                                      tr("Labels (%1);;All files (*)").arg(patterns));
-    if (path.isEmpty())
-        showSettings();
-    else
-        useTruthFile(path);
+    choices_->useTruthFile(path);
 }
 
 // ---- result ---------------------------------------------------------------------------------------------------------
@@ -308,7 +90,7 @@ QWidget* EvaluationPanel::buildResult() {
     table_->setContextMenuPolicy(Qt::ActionsContextMenu);
     auto* copy = new QAction(tr("Copy the table as text"), table_);
     table_->addAction(copy);
-    connect(copy, &QAction::triggered, this, &EvaluationPanel::copyTable);
+    bindCommands(this, {{copy, [this] { copyTable(); }}});
     tracked_ = new TrackedBar;
     tracked_->setFixedHeight(110);
     counts_ = new LineChart;
@@ -317,7 +99,6 @@ QWidget* EvaluationPanel::buildResult() {
     report_ = new QToolButton;
     report_->setText(tr("Report…"));
     report_->setToolTip(tr("Write everything as one HTML or PDF file (Ctrl+Shift+R)"));
-    connect(report_, &QToolButton::clicked, this, &EvaluationPanel::reportRequested);
     report_progress_ = new QProgressBar;
     report_progress_->hide();
     auto* report = new QHBoxLayout;

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
+#include <utility>
 
 #include "tune/evaluate/evaluation_session.h"
 
-class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
 class QLabel;
 class QProgressBar;
 class QStackedWidget;
@@ -16,8 +15,17 @@ class QToolButton;
 namespace eyrie::ui {
 
 class EmptyState;
+class EvaluationChoices;
 class LineChart;
 class TrackedBar;
+
+/// What the evaluation leads to.
+struct EvaluationCommands {
+    /// The user wants to draw or import labels.
+    std::function<void()> label = [] {};
+    std::function<void(int object)> go_to_object = [](int) {};
+    std::function<void()> write_report = [] {};
+};
 
 /// How good the run shown is: against what, the measures in numbers, their certainty, the objects, and curves over
 /// time.
@@ -36,26 +44,13 @@ class EvaluationPanel : public QWidget {
     LineChart& counts() { return *counts_; }
     LineChart& ratios() { return *ratios_; }
     TrackedBar& tracked() { return *tracked_; }
-    /// Takes this file as the ground truth.
     void showReportProgress(double share);
+    /// Takes this file as the ground truth.
     void useTruthFile(const QString& path);
-
- signals:
-    /// The user wants to draw or import labels.
-    void labellingRequested();
-    void objectActivated(int object);
-    void reportRequested();
-
- protected:
-    bool eventFilter(QObject* watched, QEvent* event) override;
+    void setCommands(EvaluationCommands commands) { commands_ = std::move(commands); }
 
  private:
-    QWidget* buildChoices();
     QWidget* buildResult();
-    void showSettings();
-    void showRuns();
-    void applySettings();
-    void chooseTruthFile();
     void refresh();
     void showTable();
     void showCurves();
@@ -63,15 +58,8 @@ class EvaluationPanel : public QWidget {
 
     ProjectSession& session_;
     EvaluationSession& evaluation_;
-    QComboBox* truth_;
-    QComboBox* measured_;
-    QComboBox* other_;
-    QDoubleSpinBox* overlap_;
-    QDoubleSpinBox* border_;
-    QCheckBox* vehicles_;
-    QCheckBox* upright_;
-    QToolButton* more_;
-    QWidget* details_;
+    EvaluationCommands commands_;
+    EvaluationChoices* choices_;
     QLabel* headline_;
     QLabel* remarks_;
     QStackedWidget* pages_;
@@ -83,16 +71,5 @@ class EvaluationPanel : public QWidget {
     QToolButton* report_;
     QProgressBar* report_progress_;
 };
-
-/// Precision and recall over a sliding window; NaN where nothing is defined.
-struct WindowedRatios {
-    std::vector<double> precision;
-    std::vector<double> recall;
-};
-/// `window`: frames of the list, centred.
-WindowedRatios windowedRatios(const std::vector<FrameCounts>& frames, int window);
-
-/// "f-score 0.940 (0.921 – 0.956)" … and, where another run is compared, whether the difference is real.
-QString certaintyText(const RunEvaluation& evaluation);
 
 }  // namespace eyrie::ui

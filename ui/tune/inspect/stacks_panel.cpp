@@ -8,6 +8,7 @@
 
 #include "tune/inspect/stage_chips.h"
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -39,16 +40,16 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
     connect(&inspection_, &Inspection::working, this, [this](int left) {
         if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
     });
-    connect(whole_area_, &QCheckBox::toggled, this, [this] {
-        summary_->setText(tr("The stacks are being cut again …"));
-        want();
-    });
-    connect(empty_, &EmptyState::actionTriggered, this, &StacksPanel::stackingRunRequested);
+    bindSwitches(this, {{whole_area_, [this] {
+                             summary_->setText(tr("The stacks are being cut again …"));
+                             want();
+                         }}});
+    bindCommands(this, {{empty_->button(), [this] { commands_.run_with_stacking(); }}});
     connect(grid_, &ChipGrid::cardClicked, this, [this](int id) {
         grid_->setMarkedCard(id);
         if (!view_) return;
         for (const StackView& stack : view_->stacks)
-            if (stack.id == id) emit placeChosen({stack.pose.position.x, stack.pose.position.y});
+            if (stack.id == id) commands_.show_place({stack.pose.position.x, stack.pose.position.y});
     });
     refresh();
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
+#include <utility>
 
 #include "tune/inspect/inspection.h"
 
@@ -12,6 +14,14 @@ namespace eyrie::ui {
 
 class ChipGrid;
 class EmptyState;
+
+/// What the list of stacks leads to.
+struct StackCommands {
+    /// The user pointed at a stack; where its master vector lies in the frame shown.
+    std::function<void(QPointF image_point)> show_place = [](QPointF) {};
+    /// Run again with the same parameters, but with stacking.
+    std::function<void()> run_with_stacking = [] {};
+};
 
 /// All image stacks of the frame shown (fig. 5.5–5.9): raw chip beside stacked image, height, and the colour that the
 /// stack has in the video. Replays nothing
@@ -28,12 +38,7 @@ class StacksPanel : public QWidget {
     ChipGrid& grid() { return *grid_; }
     /// What stands there while there is nothing to see; empty while there is.
     QString explanation() const;
-
- signals:
-    /// The user pointed at a stack; where its master vector lies in the frame shown.
-    void placeChosen(QPointF image_point);
-    /// Run again with the same parameters, but with stacking.
-    void stackingRunRequested();
+    void setCommands(StackCommands commands) { commands_ = std::move(commands); }
 
  private:
     void refresh();
@@ -43,6 +48,7 @@ class StacksPanel : public QWidget {
 
     ProjectSession& session_;
     Inspection& inspection_;
+    StackCommands commands_;
     bool looked_at_ = false;
     std::shared_ptr<const ReplayView> view_;
     QLabel* summary_;

@@ -11,6 +11,7 @@
 
 #include "tune/inspect/stage_chips.h"
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -44,7 +45,7 @@ StagesPanel::StagesPanel(ProjectSession& session, Inspection& inspection, QWidge
     layout->addWidget(buildHeader());
     layout->addLayout(pages_, 1);
 
-    connect(empty_, &EmptyState::actionTriggered, &inspection_, [this] { inspection_.step(1); });
+    bindCommands(this, {{empty_->button(), [this] { inspection_.step(1); }}});
     connect(&inspection_, &Inspection::changed, this, &StagesPanel::refresh);
     connect(&inspection_, &Inspection::replayed, this, &StagesPanel::showView);
     connect(&inspection_, &Inspection::working, this, [this](int left) {
@@ -92,13 +93,13 @@ QWidget* StagesPanel::buildHeader() {
     rows->addWidget(summary_);
     rows->addLayout(second);
 
-    connect(back_, &QToolButton::clicked, &inspection_, [this] { inspection_.step(-1); });
-    connect(on_, &QToolButton::clicked, &inspection_, [this] { inspection_.step(1); });
-    connect(smaller, &QToolButton::clicked, this, [this] { grid_->zoomBy(1 / 1.25); });
-    connect(larger, &QToolButton::clicked, this, [this] { grid_->zoomBy(1.25); });
-    connect(fit, &QToolButton::clicked, this, [this] { grid_->fit(); });
+    bindCommands(this, {{back_, [this] { inspection_.step(-1); }},
+                        {on_, [this] { inspection_.step(1); }},
+                        {smaller, [this] { grid_->zoomBy(1 / 1.25); }},
+                        {larger, [this] { grid_->zoomBy(1.25); }},
+                        {fit, [this] { grid_->fit(); }}});
     connect(searches_, &QComboBox::currentIndexChanged, this, &StagesPanel::showSearch);
-    connect(general_, &QCheckBox::toggled, &inspection_, &Inspection::wantGeneralSegmentation);
+    bindSwitches(this, {{general_, [this](bool on) { inspection_.wantGeneralSegmentation(on); }}});
     return header;
 }
 

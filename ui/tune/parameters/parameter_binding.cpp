@@ -5,28 +5,24 @@
 #include "core/error.h"
 #include "rerun/replay.h"
 #include "tune/parameters/preset_dialog.h"
+#include "widgets/message_bar.h"
 #include "widgets/parameters/parameter_form.h"
 
 namespace eyrie::ui {
 
-ParameterBinding::ParameterBinding(ProjectSession& session, ParameterForm& form, QObject* parent)
-    : QObject(parent), session_(session), form_(form), defaults_(session.settings().options) {
+ParameterBinding::ParameterBinding(ProjectSession& session, ParameterForm& form, MessageBar& messages, QObject* parent)
+    : QObject(parent), session_(session), form_(form), messages_(messages), defaults_(session.settings().options) {
     connect(&form_, &ParameterForm::valueChanged, this, [this](const QString& name, const QString& value) {
         try {
             setParameter(describeOf(session_.settings().options), name.toStdString(), value.toStdString());
         } catch (const Error& error) {
-            emit problem(QString::fromUtf8(error.what()));
+            tellProblem(QString::fromUtf8(error.what()));
             show();
         }
     });
     connect(&form_, &ParameterForm::presetChosen, this, &ParameterBinding::choosePreset);
     connect(&form_, &ParameterForm::savePresetRequested, this, &ParameterBinding::savePreset);
-    connect(&form_, &ParameterForm::presetsRequested, this, [this] {
-        PresetDialog dialog(presets_, session_.settings().options, form_.window());
-        connect(&dialog, &PresetDialog::useRequested, this, &ParameterBinding::usePreset);
-        dialog.exec();
-        show();
-    });
+    connect(&form_, &ParameterForm::presetsRequested, this, &ParameterBinding::comparePresets);
     connect(&session_, &ProjectSession::projectChanged, this, [this] { presets_.useProject(session_.project()); });
     connect(&presets_, &PresetLibrary::changed, this, [this] {
         const PresetLibrary::Preset* awaited = presets_.find(defaults_awaited_);
@@ -36,6 +32,21 @@ ParameterBinding::ParameterBinding(ProjectSession& session, ParameterForm& form,
         }
         show();
     });
+    show();
+}
+
+void ParameterBinding::tellProblem(const QString& text) {
+    messages_.showMessage(MessageKind::error, text);
+}
+
+void ParameterBinding::tell(const QString& text) {
+    messages_.showMessage(MessageKind::info, text);
+}
+
+void ParameterBinding::comparePresets() {
+    PresetDialog dialog(presets_, session_.settings().options, form_.window());
+    connect(&dialog, &PresetDialog::useRequested, this, &ParameterBinding::usePreset);
+    dialog.exec();
     show();
 }
 
@@ -58,7 +69,7 @@ void ParameterBinding::choosePreset(const QString& name) {
         session_.settings().options = defaults_;
         session_.settings().preset = preset->name;
     } else {
-        emit problem(preset != nullptr ? preset->problem : tr("There is no preset “%1”.").arg(name));
+        tellProblem(preset != nullptr ? preset->problem : tr("There is no preset “%1”.").arg(name));
     }
     show();
 }
@@ -71,13 +82,13 @@ void ParameterBinding::savePreset() {
     const ChainOptions options = session_.settings().options;
     presets_.save(name.toStdString(), options, this, [this, options](const QString& saved, const QString& what_failed) {
         if (!what_failed.isEmpty()) {
-            emit problem(what_failed);
+            tellProblem(what_failed);
             return;
         }
         session_.settings().preset = saved.toStdString();
         defaults_ = options;
         defaults_awaited_.clear();
-        emit notice(tr("Saved the preset “%1”.").arg(saved));
+        tell(tr("Saved the preset “%1”.").arg(saved));
         show();
     });
 }
@@ -90,9 +101,9 @@ void ParameterBinding::setValue(const std::string& name, const std::string& valu
 void ParameterBinding::setValues(const std::vector<std::pair<std::string, std::string>>& values) {
     try {
         setParameters(describeOf(session_.settings().options), values);
-        emit notice(tr("The next run uses the parameters of this point."));
+        tell(tr("The next run uses the parameters of this point."));
     } catch (const Error& error) {
-        emit problem(QString::fromUtf8(error.what()));
+        tellProblem(QString::fromUtf8(error.what()));
     }
     show();
 }
@@ -118,8 +129,8 @@ void ParameterBinding::adoptRunParameters() {
     QStringList unknown;
     for (const std::string& name : names) unknown << QString::fromStdString(name);
     if (!unknown.isEmpty())
-        emit problem(tr("These parameters of the run are not known to this version and were left at their defaults: %1")
-                         .arg(unknown.join(QStringLiteral(", "))));
+        tellProblem(tr("These parameters of the run are not known to this version and were left at their defaults: %1")
+                        .arg(unknown.join(QStringLiteral(", "))));
     show();
 }
 

@@ -7,6 +7,7 @@
 
 namespace eyrie::ui {
 
+class MessageBar;
 class ParameterForm;
 
 /// Joins the form of parameters with the settings of the next run and with the presets.
@@ -14,8 +15,8 @@ class ParameterBinding : public QObject {
     Q_OBJECT
 
  public:
-    /// Both must outlive the binding.
-    ParameterBinding(ProjectSession& session, ParameterForm& form, QObject* parent);
+    /// All must outlive the binding. What goes wrong is told by `messages`.
+    ParameterBinding(ProjectSession& session, ParameterForm& form, MessageBar& messages, QObject* parent);
 
     /// Takes over the parameters of the current run, which were read with it.
     void adoptRunParameters();
@@ -27,18 +28,18 @@ class ParameterBinding : public QObject {
     /// Asks for a name and keeps these parameters as a preset.
     void saveAsPreset(const ChainOptions& options);
 
- signals:
-    void problem(const QString& message);
-    void notice(const QString& message);
-
  private:
     void show();
     void choosePreset(const QString& name);
     void usePreset(const QString& name);
     void savePreset();
+    void comparePresets();
+    void tellProblem(const QString& text);
+    void tell(const QString& text);
 
     ProjectSession& session_;
     ParameterForm& form_;
+    MessageBar& messages_;
     PresetLibrary presets_;
     ChainOptions defaults_;         ///< the values of the preset chosen last
     std::string defaults_awaited_;  ///< a preset that was not read yet when it was wanted

@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 
 #include "tune/compare/live_preview.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -74,7 +75,7 @@ PresetDialog::PresetDialog(PresetLibrary& presets, ChainOptions present, QWidget
     layout->addWidget(message_);
     layout->addWidget(buildButtons());
     connect(list_, &QTableWidget::currentCellChanged, this, &PresetDialog::compare);
-    connect(other_, &QComboBox::currentIndexChanged, this, &PresetDialog::compare);
+    onEdited(this, &PresetDialog::compare, other_);
     connect(&presets_, &PresetLibrary::changed, this, &PresetDialog::refresh);
     refresh();
     select(QStringLiteral("default"));
@@ -88,7 +89,7 @@ QWidget* PresetDialog::buildButtons() {
         auto* made = new QPushButton(title);
         made->setAutoDefault(false);
         layout->addWidget(made);
-        connect(made, &QPushButton::clicked, this, work);
+        bindCommands(this, {{made, work}});
         return made;
     };
     rename_ = button(tr("Rename…"), [this] {

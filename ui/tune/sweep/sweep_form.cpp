@@ -19,6 +19,7 @@
 #include "io/tables/number_text.h"
 #include "tune/evaluate/evaluation_session.h"
 #include "widgets/theme_colours.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -83,8 +84,7 @@ SweepForm::SweepForm(QWidget* parent) : QWidget(parent) {
     grid->addWidget(start_, 6, 2);
     grid->setColumnStretch(1, 3);
     grid->setColumnStretch(2, 2);
-    connect(truth_, &QComboBox::activated, this, &SweepForm::chooseTruth);
-    connect(start_, &QPushButton::clicked, this, &SweepForm::start);
+    bindCommands(this, {{truth_, [this](int index) { chooseTruth(index); }}, {start_, [this] { start(); }}});
     refresh();
 }
 
@@ -108,7 +108,7 @@ SweepForm::Axis SweepForm::addAxis(QGridLayout& grid, int row, const QString& ti
         if (index < axes_.size()) suggestValues(axes_[index]);
         refresh();
     });
-    connect(axis.values, &QLineEdit::textChanged, this, &SweepForm::refresh);
+    onEdited(this, &SweepForm::refresh, axis.values);
     connect(axis.values, &QLineEdit::returnPressed, this, &SweepForm::start);
     return axis;
 }

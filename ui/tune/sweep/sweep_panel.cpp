@@ -14,9 +14,12 @@
 #include "core/error.h"
 #include "io/tables/number_text.h"
 #include "rerun/replay.h"
+#include "tune/parameters/parameter_binding.h"
 #include "tune/sweep/sweep_form.h"
 #include "widgets/charts/sweep_chart.h"
 #include "widgets/empty_state.h"
+#include "widgets/message_bar.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -47,8 +50,8 @@ QString titleOf(const SweepRecord& record) {
 
 }  // namespace
 
-SweepPanel::SweepPanel(ProjectSession& session, QWidget* parent)
-    : QWidget(parent), session_(session), sweeps_(session) {
+SweepPanel::SweepPanel(ProjectSession& session, ParameterBinding& parameters, MessageBar& messages, QWidget* parent)
+    : QWidget(parent), session_(session), parameters_(parameters), messages_(messages), sweeps_(session) {
     auto* rows = new QVBoxLayout(this);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(2);
@@ -77,10 +80,8 @@ SweepPanel::SweepPanel(ProjectSession& session, QWidget* parent)
     pages_->addWidget(buildResult());
     rows->addWidget(below, 1);
     connect(form_, &SweepForm::startRequested, &sweeps_, &SweepSession::start);
-    connect(cancel_, &QPushButton::clicked, &sweeps_, &SweepSession::cancel);
-    for (const auto signal :
-         {&ProjectSession::currentRunChanged, &ProjectSession::runDataChanged, &ProjectSession::runsChanged})
-        connect(&session_, signal, this, &SweepPanel::showRun);
+    whenAny(&session_, this, &SweepPanel::showRun, &ProjectSession::currentRunChanged, &ProjectSession::runDataChanged,
+            &ProjectSession::runsChanged);
     wireSweeps();
     showRun();
     showList();
@@ -120,7 +121,7 @@ QWidget* SweepPanel::buildResult() {
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(6);
         second->addWidget(box, box == view_ ? 2 : 1);
-        connect(box, &QComboBox::activated, this, [this] { showTable(); });
+        bindCommands(this, {{box, [this] { showTable(); }}});
     }
     rows->addLayout(second);
     chart_ = new SweepChart(result);
@@ -142,14 +143,7 @@ QWidget* SweepPanel::buildResult() {
     last->addWidget(copy);
     last->addWidget(picture);
     rows->addLayout(last);
-    connect(copy, &QToolButton::clicked, this, [this] {
-        chart_->copyText();
-        emit notice(tr("The values of the chart were copied."));
-    });
-    connect(picture, &QToolButton::clicked, this, [this] {
-        chart_->copyPicture();
-        emit notice(tr("The picture of the chart was copied."));
-    });
+    bindButtons(copy, picture);
     return result;
 }
 
@@ -157,44 +151,75 @@ void SweepPanel::wireSweeps() {
     connect(&sweeps_, &SweepSession::sweepsChanged, this, &SweepPanel::showList);
     connect(&sweeps_, &SweepSession::tableChanged, this, &SweepPanel::showTable);
     connect(&sweeps_, &SweepSession::progressed, this, &SweepPanel::showProgress);
-    connect(&sweeps_, &SweepSession::failed, this, &SweepPanel::problem);
+    connect(&sweeps_, &SweepSession::failed, this, &SweepPanel::tellProblem);
     connect(&sweeps_, &SweepSession::consentNeeded, this, &SweepPanel::ask);
-    connect(&sweeps_, &SweepSession::runningChanged, this, [this](bool running) {
-        progress_line_->setVisible(running);
-        form_->setRunning(running);
-        showList();
-    });
+    connect(&sweeps_, &SweepSession::runningChanged, this, &SweepPanel::showRunning);
     connect(&sweeps_, &SweepSession::finished, this, [this](bool whole) {
-        emit notice(whole ? tr("The sweep is done.") : tr("The sweep was cancelled; Resume computes the rest."));
-    });
-    connect(list_, &QComboBox::activated, this, [this](int index) { sweeps_.select(list_->itemData(index).toInt()); });
-    connect(resume_, &QPushButton::clicked, this, [this] { sweeps_.resume(list_->currentData().toInt()); });
-    connect(remove_, &QToolButton::clicked, this, [this] {
-        const auto answer = QMessageBox::question(this, tr("Remove sweep"), tr("Remove this sweep from the project?"));
-        if (answer == QMessageBox::Yes) sweeps_.remove(list_->currentData().toInt());
+        tell(whole ? tr("The sweep is done.") : tr("The sweep was cancelled; Resume computes the rest."));
     });
     connect(chart_, &SweepChart::pointClicked, this, [this](int position) {
         clicked_ = position;
         showTable();
     });
-    connect(apply_, &QPushButton::clicked, this, [this] {
-        if (!sweeps_.table() || !chosenPoint()) return;
-        const SweepPlan& plan = sweeps_.table()->plan;
-        auto values = plan.base;
-        const std::vector<std::string> changed = plan.valuesOf(*chosenPoint());
-        for (std::size_t a = 0; a < plan.axes.size(); ++a)
-            for (auto& [name, value] : values)
-                if (name == plan.axes[a].name) value = changed[a];
-        emit applyRequested(values);
-    });
-    connect(save_, &QPushButton::clicked, this, [this] {
-        try {
-            if (sweeps_.table() && chosenPoint())
-                emit savePresetRequested(sweeps_.table()->plan.optionsOf(*chosenPoint()));
-        } catch (const Error& error) {
-            emit problem(QString::fromUtf8(error.what()));
-        }
-    });
+}
+
+void SweepPanel::bindButtons(QToolButton* copy, QToolButton* copy_picture) {
+    bindCommands(this, {
+                           {list_, [this](int index) { sweeps_.select(list_->itemData(index).toInt()); }},
+                           {cancel_, [this] { sweeps_.cancel(); }},
+                           {resume_, [this] { sweeps_.resume(list_->currentData().toInt()); }},
+                           {remove_, [this] { removeSweep(); }},
+                           {apply_, [this] { applyPoint(); }},
+                           {save_, [this] { savePoint(); }},
+                           {copy,
+                            [this] {
+                                chart_->copyText();
+                                tell(tr("The values of the chart were copied."));
+                            }},
+                           {copy_picture,
+                            [this] {
+                                chart_->copyPicture();
+                                tell(tr("The picture of the chart was copied."));
+                            }},
+                       });
+}
+
+void SweepPanel::showRunning(bool running) {
+    progress_line_->setVisible(running);
+    form_->setRunning(running);
+    showList();
+}
+
+void SweepPanel::removeSweep() {
+    const auto answer = QMessageBox::question(this, tr("Remove sweep"), tr("Remove this sweep from the project?"));
+    if (answer == QMessageBox::Yes) sweeps_.remove(list_->currentData().toInt());
+}
+
+void SweepPanel::applyPoint() {
+    if (!sweeps_.table() || !chosenPoint()) return;
+    const SweepPlan& plan = sweeps_.table()->plan;
+    auto values = plan.base;
+    const std::vector<std::string> changed = plan.valuesOf(*chosenPoint());
+    for (std::size_t a = 0; a < plan.axes.size(); ++a)
+        for (auto& [name, value] : values)
+            if (name == plan.axes[a].name) value = changed[a];
+    parameters_.setValues(values);
+}
+
+void SweepPanel::savePoint() {
+    try {
+        if (sweeps_.table() && chosenPoint()) parameters_.saveAsPreset(sweeps_.table()->plan.optionsOf(*chosenPoint()));
+    } catch (const Error& error) {
+        tellProblem(QString::fromUtf8(error.what()));
+    }
+}
+
+void SweepPanel::tell(const QString& text) {
+    messages_.showMessage(MessageKind::info, text);
+}
+
+void SweepPanel::tellProblem(const QString& text) {
+    messages_.showMessage(MessageKind::error, text);
 }
 
 void SweepPanel::fillMeasures() {

@@ -16,6 +16,8 @@ class QToolButton;
 namespace eyrie::ui {
 
 class EmptyState;
+class MessageBar;
+class ParameterBinding;
 class SweepChart;
 class SweepForm;
 
@@ -24,24 +26,24 @@ class SweepPanel : public QWidget {
     Q_OBJECT
 
  public:
-    /// The session must outlive the panel.
-    explicit SweepPanel(ProjectSession& session, QWidget* parent = nullptr);
+    /// All must outlive the panel. The parameters of a point go to `parameters`, what there is to say to `messages`.
+    SweepPanel(ProjectSession& session, ParameterBinding& parameters, MessageBar& messages, QWidget* parent = nullptr);
 
     SweepSession& sweeps() { return sweeps_; }
     SweepForm& form() { return *form_; }
     SweepChart& chart() { return *chart_; }
     void setView(SweepView view);
 
- signals:
-    /// Parameters of the chosen point, for the next run.
-    void applyRequested(const std::vector<std::pair<std::string, std::string>>& values);
-    void savePresetRequested(const ChainOptions& options);
-    void problem(const QString& message);
-    void notice(const QString& message);
-
  private:
     QWidget* buildResult();
     void wireSweeps();
+    void bindButtons(QToolButton* copy, QToolButton* copy_picture);
+    void applyPoint();
+    void savePoint();
+    void removeSweep();
+    void showRunning(bool running);
+    void tell(const QString& text);
+    void tellProblem(const QString& text);
     void showRun();
     void showList();
     void showTable();
@@ -54,6 +56,8 @@ class SweepPanel : public QWidget {
     void fillOverlaps();
 
     ProjectSession& session_;
+    ParameterBinding& parameters_;
+    MessageBar& messages_;
     SweepSession sweeps_;
     SweepForm* form_;
     QProgressBar* progress_;

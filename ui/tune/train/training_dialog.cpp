@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 
 #include "widgets/charts/sweep_chart.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -76,13 +77,13 @@ TrainingDialog::TrainingDialog(const std::filesystem::path& project, QWidget* pa
     layout->addWidget(message_);
     layout->addWidget(progress_);
     layout->addLayout(buttons);
-    connect(start_, &QPushButton::clicked, this, &TrainingDialog::start);
-    connect(cancel_, &QPushButton::clicked, this, [this] { training_.cancel(); });
-    connect(close, &QPushButton::clicked, this, &QDialog::reject);
-    connect(use_, &QPushButton::clicked, this, [this] {
-        emit useRequested(QString::fromStdString(report_->file.string()));
-        accept();
-    });
+    bindCommands(this, {{start_, [this] { start(); }},
+                        {cancel_, [this] { training_.cancel(); }},
+                        {close, [this] { reject(); }},
+                        {use_, [this] {
+                             emit useRequested(QString::fromStdString(report_->file.string()));
+                             accept();
+                         }}});
     connect(&training_, &LabelTraining::progress, this, [this](const QString& phase, double share) {
         progress_->setValue(static_cast<int>(1000 * share));
         message_->setText(phase);
@@ -151,21 +152,23 @@ QWidget* TrainingDialog::buildSettings() {
     layout->addWidget(projects_, 1);
     layout->addLayout(project_buttons);
     layout->addLayout(form);
-    connect(add, &QPushButton::clicked, this, [this] {
-        for (const QString& file :
-             QFileDialog::getOpenFileNames(this, tr("Add projects"), {}, tr("Eyrie projects (*.eyrie);;All files (*)")))
-            addProject(file);
-    });
-    connect(remove, &QPushButton::clicked, this, [this] {
-        delete projects_->takeItem(projects_->currentRow());
-        enable();
-    });
-    connect(browse, &QPushButton::clicked, this, [this] {
-        const QString file =
-            QFileDialog::getSaveFileName(this, tr("Model file"), file_->text(), tr("Models (*.eyriemodel)"));
-        if (!file.isEmpty()) file_->setText(file);
-    });
-    connect(file_, &QLineEdit::textChanged, this, &TrainingDialog::enable);
+    bindCommands(this, {{add,
+                         [this] {
+                             for (const QString& file : QFileDialog::getOpenFileNames(
+                                      this, tr("Add projects"), {}, tr("Eyrie projects (*.eyrie);;All files (*)")))
+                                 addProject(file);
+                         }},
+                        {remove,
+                         [this] {
+                             delete projects_->takeItem(projects_->currentRow());
+                             enable();
+                         }},
+                        {browse, [this] {
+                             const QString file = QFileDialog::getSaveFileName(this, tr("Model file"), file_->text(),
+                                                                               tr("Models (*.eyriemodel)"));
+                             if (!file.isEmpty()) file_->setText(file);
+                         }}});
+    onEdited(this, &TrainingDialog::enable, file_);
     return settings;
 }
 

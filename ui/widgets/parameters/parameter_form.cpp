@@ -12,6 +12,7 @@
 
 #include "widgets/collapsible_section.h"
 #include "widgets/parameters/parameter_row.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 namespace {
@@ -88,9 +89,9 @@ QWidget* ParameterForm::makePresetLine() {
     all->setText(tr("Presets…"));
     all->setToolTip(tr("Compare, rename, delete, export and import presets"));
     layout->addWidget(all);
-    connect(all, &QToolButton::clicked, this, &ParameterForm::presetsRequested);
-    connect(presets_, &QComboBox::activated, this, [this] { emit presetChosen(presets_->currentText()); });
-    connect(save_preset_, &QToolButton::clicked, this, &ParameterForm::savePresetRequested);
+    bindCommands(this, {{presets_, [this] { emit presetChosen(presets_->currentText()); }},
+                        {all, [this] { emit presetsRequested(); }},
+                        {save_preset_, [this] { emit savePresetRequested(); }}});
     return line;
 }
 
@@ -109,9 +110,8 @@ QWidget* ParameterForm::makeSearchLine() {
     layout->addWidget(search_, 1);
     layout->addWidget(modified_only_);
     layout->addWidget(reset_all_);
-    connect(search_, &QLineEdit::textChanged, this, &ParameterForm::refresh);
-    connect(modified_only_, &QToolButton::toggled, this, &ParameterForm::refresh);
-    connect(reset_all_, &QToolButton::clicked, this, &ParameterForm::resetAll);
+    onEdited(this, &ParameterForm::refresh, search_, modified_only_);
+    bindCommands(this, {{reset_all_, [this] { resetAll(); }}});
     return line;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "widgets/parameters/parameter_editor.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 namespace {
@@ -66,7 +67,7 @@ ParameterRow::ParameterRow(const Parameter& parameter, QWidget* parent)
         compare();
         emit valueChanged(name_, value);
     });
-    connect(reset_, &QToolButton::clicked, this, &ParameterRow::resetToDefault);
+    bindCommands(this, {{reset_, [this] { resetToDefault(); }}});
     setValues(default_, default_);
 }
 

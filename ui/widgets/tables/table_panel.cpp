@@ -21,6 +21,7 @@
 #include "widgets/empty_state.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/tables/table_text.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 namespace {
@@ -45,7 +46,7 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
     filter_->setClearButtonEnabled(true);
     filter_->setAccessibleName(tr("Show only rows with these words"));
     connect(filter_, &QLineEdit::textChanged, this, &TablePanel::setFilterText);
-    connect(nothing_found_, &EmptyState::actionTriggered, filter_, &QLineEdit::clear);
+    bindCommands(this, {{nothing_found_->button(), [this] { filter_->clear(); }}});
 
     tool_row_->addWidget(filter_, 1);
     stack_->addWidget(table_);
@@ -58,12 +59,10 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
     layout->addLayout(stack_, 1);
 
     buildTable();
-    for (const auto signal : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved}) {
-        connect(proxy_, signal, this, &TablePanel::keepSelection);
-    }
+    whenAny(proxy_, this, &TablePanel::keepSelection, &QAbstractItemModel::rowsInserted,
+            &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::modelReset);
     // The proxy lets go of rows before the model does.
     connect(model_, &QAbstractItemModel::rowsRemoved, this, &TablePanel::showTableOrEmptyState);
-    connect(proxy_, &QAbstractItemModel::modelReset, this, &TablePanel::keepSelection);
     connect(proxy_, &QAbstractItemModel::layoutChanged, this, &TablePanel::showTableOrEmptyState);
     showTableOrEmptyState();
 }
@@ -77,10 +76,8 @@ void TablePanel::buildTable() {
     // view connects itself.
     const auto pause = [this] { telling_ = false; };
     const auto resume = [this] { telling_ = true; };
-    connect(proxy_, &QAbstractItemModel::rowsAboutToBeRemoved, this, pause);
-    connect(proxy_, &QAbstractItemModel::rowsRemoved, this, resume);
-    connect(proxy_, &QAbstractItemModel::modelAboutToBeReset, this, pause);
-    connect(proxy_, &QAbstractItemModel::modelReset, this, resume);
+    whenAny(proxy_, this, pause, &QAbstractItemModel::rowsAboutToBeRemoved, &QAbstractItemModel::modelAboutToBeReset);
+    whenAny(proxy_, this, resume, &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::modelReset);
     table_->setModel(proxy_);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
@@ -108,10 +105,8 @@ void TablePanel::buildTable() {
     widening_due_.setSingleShot(true);
     widening_due_.setInterval(1000);
     connect(&widening_due_, &QTimer::timeout, this, &TablePanel::widenColumns);
-    connect(proxy_, &QAbstractItemModel::dataChanged, this, &TablePanel::widenColumnsSoon);
-    connect(proxy_, &QAbstractItemModel::headerDataChanged, this, &TablePanel::widenColumnsSoon);
-    connect(proxy_, &QAbstractItemModel::rowsInserted, this, &TablePanel::widenColumnsSoon);
-    connect(proxy_, &QAbstractItemModel::modelReset, this, &TablePanel::widenColumnsSoon);
+    whenAny(proxy_, this, &TablePanel::widenColumnsSoon, &QAbstractItemModel::dataChanged,
+            &QAbstractItemModel::headerDataChanged, &QAbstractItemModel::rowsInserted, &QAbstractItemModel::modelReset);
     connect(table_->verticalScrollBar(), &QScrollBar::valueChanged, this, &TablePanel::widenColumnsSoon);
 
     connect(table_->horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, [this](int column) {
@@ -127,12 +122,11 @@ void TablePanel::buildTable() {
         const int id = idOf(now);
         if (!telling_ || id == 0) return;
         kept_id_ = id;
-        emit idSelected(id);
+        rowSelected(id);
     });
     connect(table_, &QTableView::clicked, this,
-            [this](const QModelIndex& at) { emit idClicked(idOf(at), proxy_->mapToSource(at).column()); });
-    connect(table_, &QTableView::doubleClicked, this,
-            [this](const QModelIndex& at) { emit idDoubleClicked(idOf(at)); });
+            [this](const QModelIndex& at) { rowClicked(idOf(at), proxy_->mapToSource(at).column()); });
+    connect(table_, &QTableView::doubleClicked, this, [this](const QModelIndex& at) { rowDoubleClicked(idOf(at)); });
 }
 
 int TablePanel::idOf(const QModelIndex& index) const {
@@ -276,7 +270,7 @@ bool TablePanel::eventFilter(QObject* watched, QEvent* event) {
     }
     const bool enter = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
     if (enter && currentId() != 0) {
-        emit idDoubleClicked(currentId());
+        rowDoubleClicked(currentId());
         return true;
     }
     return QWidget::eventFilter(watched, event);

@@ -36,17 +36,16 @@ class TablePanel : public QWidget {
     QTableView* table() const { return table_; }
     EmptyState* emptyState() const { return empty_; }
 
- signals:
-    /// The user selected another row.
-    void idSelected(int id);
-    /// The user clicked a row or pressed Enter on it; `column` of the model.
-    void idClicked(int id, int column);
-    void idDoubleClicked(int id);
-
  protected:
     TableSortProxy& proxy() { return *proxy_; }
     /// Place for buttons right of the filter line.
     QHBoxLayout* toolRow() const { return tool_row_; }
+    /// The user selected another row.
+    virtual void rowSelected(int /*id*/) {}
+    /// The user clicked a row; `column` of the model.
+    virtual void rowClicked(int /*id*/, int /*column*/) {}
+    /// The user double-clicked a row or pressed Enter on it.
+    virtual void rowDoubleClicked(int /*id*/) {}
     /// Adds entries to the menu of a row.
     virtual void fillMenu(QMenu&, int /*id*/) {}
     bool eventFilter(QObject* watched, QEvent* event) override;

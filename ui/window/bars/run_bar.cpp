@@ -10,11 +10,17 @@
 
 #include "review/run_text.h"
 #include "widgets/gsd_text.h"
+#include "widgets/message_bar.h"
+#include "widgets/wiring.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
 
 namespace {
+
+/// What messages are about a GSD that cannot be used.
+const QString kGsdTopic = QStringLiteral("gsd");
+
 QToolButton* toolButtonOf(QAction* action, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setDefaultAction(action);
@@ -22,10 +28,11 @@ QToolButton* toolButtonOf(QAction* action, QWidget* parent) {
     button->setFocusPolicy(Qt::NoFocus);
     return button;
 }
+
 }  // namespace
 
-RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* parent)
-    : QWidget(parent), session_(session) {
+RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar& messages, QWidget* parent)
+    : QWidget(parent), session_(session), messages_(messages) {
     run_button_ = toolButtonOf(actions.run, this);
     stop_button_ = toolButtonOf(actions.stop, this);
     stop_button_->setToolButtonStyle(Qt::ToolButtonIconOnly);
@@ -48,8 +55,8 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     gsd_->setClearButtonEnabled(true);
     gsd_->setMinimumWidth(fontMetrics().horizontalAdvance(gsd_->placeholderText()) + 40);
     gsd_->setMaximumWidth(gsd_->minimumWidth() + 20);
-    connect(gsd_, &QLineEdit::editingFinished, this, &RunBar::takeGsd);
-    connect(gsd_, &QLineEdit::textEdited, this, &RunBar::gsdTouched);
+    onFinished(this, &RunBar::takeGsd, gsd_);
+    connect(gsd_, &QLineEdit::textEdited, this, &RunBar::forgetRefusal);
     connect(gsd_, &QLineEdit::returnPressed, this, &RunBar::editingDone);
 
     frame_rate_ = new QDoubleSpinBox(this);
@@ -61,14 +68,14 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     frame_rate_->setToolTip(tr(
         "Frames per second of the video. Folders of images do not state it: give it here. The project remembers it."));
     frame_rate_->setAccessibleName(tr("Frames per second"));
-    connect(frame_rate_, &QDoubleSpinBox::editingFinished, this, &RunBar::frameRateEdited);
+    onFinished(this, &RunBar::frameRateEdited, frame_rate_);
 
     const auto frameBox = [this](const QString& name) {
         auto* box = new QSpinBox(this);
         box->setKeyboardTracking(false);
         box->setAccessibleName(name);
         box->setToolTip(name);
-        connect(box, &QSpinBox::editingFinished, this, &RunBar::rangeEdited);
+        onFinished(this, &RunBar::rangeEdited, box);
         return box;
     };
     first_frame_ = frameBox(tr("First frame to process"));
@@ -93,15 +100,16 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, QWidget* p
     layout->addWidget(last_frame_);
     layout->addStretch(1);
 
-    connect(&session_, &ProjectSession::videoChanged, this, &RunBar::refresh);
-    connect(&session_, &ProjectSession::ready, this, &RunBar::refresh);
-    connect(&session_, &ProjectSession::scaleChanged, this, &RunBar::refresh);
-    connect(&session_, &ProjectSession::runsChanged, this, &RunBar::showGuess);
-    connect(&session_, &ProjectSession::currentRunChanged, this, &RunBar::showGuess);
-    connect(&session_, &ProjectSession::followingChanged, this, &RunBar::enable);
-    connect(&session_, &ProjectSession::runStarted, this, &RunBar::enable);
-    connect(&session_, &ProjectSession::runFinished, this, &RunBar::enable);
+    whenAny(&session_, this, &RunBar::refresh, &ProjectSession::videoChanged, &ProjectSession::ready,
+            &ProjectSession::scaleChanged);
+    whenAny(&session_, this, &RunBar::showGuess, &ProjectSession::runsChanged, &ProjectSession::currentRunChanged);
+    whenAny(&session_, this, &RunBar::enable, &ProjectSession::followingChanged, &ProjectSession::runStarted,
+            &ProjectSession::runFinished);
     refresh();
+}
+
+void RunBar::forgetRefusal() {
+    messages_.dismissTopic(kGsdTopic);
 }
 
 void RunBar::refresh() {
@@ -119,7 +127,7 @@ void RunBar::refresh() {
         frame_rate_->setValue(0);
     }
     refreshing_ = false;
-    emit gsdTouched();
+    forgetRefusal();
     showGuess();
     enable();
 }
@@ -155,14 +163,15 @@ bool RunBar::takeGsd() {
     if (refreshing_) return true;
     const auto value = gsdFromText(gsd_->text());
     if (!value) {
-        emit gsdRefused(tr("GSD “%1” is not a number of metres per pixel from %2 to %3. Leave the field empty if "
-                           "it is not known.")
-                            .arg(gsd_->text().trimmed())
-                            .arg(kSmallestGsd)
-                            .arg(kLargestGsd));
+        messages_.showTopic(kGsdTopic, MessageKind::error,
+                            tr("GSD “%1” is not a number of metres per pixel from %2 to %3. Leave the field empty if "
+                               "it is not known.")
+                                .arg(gsd_->text().trimmed())
+                                .arg(kSmallestGsd)
+                                .arg(kLargestGsd));
         return false;
     }
-    emit gsdTouched();
+    forgetRefusal();
     session_.settings().gsd_m_per_px = *value;
     return true;
 }

@@ -12,6 +12,7 @@ class QToolButton;
 
 namespace eyrie::ui {
 
+class MessageBar;
 class WindowActions;
 
 /// Run and stop, with what the next run is made with besides its parameters: ground sampling distance, frame rate,
@@ -20,24 +21,22 @@ class RunBar : public QWidget {
     Q_OBJECT
 
  public:
-    /// `session` must outlive the bar.
-    RunBar(ProjectSession& session, const WindowActions& actions, QWidget* parent = nullptr);
+    /// `session` and `messages` must outlive the bar.
+    RunBar(ProjectSession& session, const WindowActions& actions, MessageBar& messages, QWidget* parent = nullptr);
 
     /// Takes the values of the session's settings and video.
     void refresh();
     /// What stands in the fields becomes what the next run is made with, whether its editing was finished or not.
-    /// False, after gsdRefused(), when it cannot.
+    /// False, after saying why, when it cannot.
     bool takeEdits();
 
  signals:
     /// Editing is over: the keys belong to the canvas again.
     void editingDone();
-    /// What was typed is no GSD; it stays in the field, to be mended.
-    void gsdRefused(const QString& message);
-    /// The GSD is being mended, or is good: what was said about it no longer holds.
-    void gsdTouched();
 
  private:
+    /// The GSD is being mended, or is good: what was said about it no longer holds.
+    void forgetRefusal();
     bool takeGsd();
     void showGuess();
     void frameRateEdited();
@@ -47,6 +46,7 @@ class RunBar : public QWidget {
     void enable();
 
     ProjectSession& session_;
+    MessageBar& messages_;
     QToolButton* run_button_;
     QToolButton* stop_button_;
     QLineEdit* gsd_;

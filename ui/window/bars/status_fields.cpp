@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "canvas/timeline/timeline_axis.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -47,10 +48,10 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     hideProgress();
 
     // The number names the picture it stands under, which may come later than it was asked for.
-    connect(&session_, &ProjectSession::viewFrameChanged, this, &StatusFields::showFrame);
-    connect(&session_, &ProjectSession::videoChanged, this, &StatusFields::showFrame);
+    whenAny(&session_, this, &StatusFields::showFrame, &ProjectSession::viewFrameChanged,
+            &ProjectSession::videoChanged);
+    whenAny(&session_, this, &StatusFields::hideProgress, &ProjectSession::openingEnded, &ProjectSession::runFinished);
     connect(&session_, &ProjectSession::openingProgress, this, &StatusFields::showOpening);
-    connect(&session_, &ProjectSession::openingEnded, this, &StatusFields::hideProgress);
     connect(&session_, &ProjectSession::runPreparing, this, [this] {
         work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run …")
                                                             : tr("estimating the scale from the traffic …"));
@@ -61,15 +62,16 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
         showRun({0, run.last_frame - run.first_frame + 1, 0, 0});
     });
     connect(&session_, &ProjectSession::runProgress, this, &StatusFields::showRun);
-    connect(&session_, &ProjectSession::runFinished, this, &StatusFields::hideProgress);
-    connect(stop_, &QToolButton::clicked, &session_, [this] {
-        if (session_.opening()) {
-            session_.cancelOpening();
-            return;
-        }
-        session_.stopRun();
-        work_->setText(tr("stopping …"));
-    });
+    bindCommands(this, {{stop_, [this] { stop(); }}});
+}
+
+void StatusFields::stop() {
+    if (session_.opening()) {
+        session_.cancelOpening();
+        return;
+    }
+    session_.stopRun();
+    work_->setText(tr("stopping …"));
 }
 
 void StatusFields::showFrame() {

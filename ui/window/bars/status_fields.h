@@ -25,6 +25,7 @@ class StatusFields : public QObject {
     void showZoom(double zoom);
 
  private:
+    void stop();
     void showFrame();
     void showRun(const RunProgress& progress);
     void showOpening(const QString& name, double share);

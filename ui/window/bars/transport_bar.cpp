@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "widgets/wiring.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -52,9 +53,9 @@ TransportBar::TransportBar(ProjectSession& session, const WindowActions& actions
     layout->addStretch(1);
     button(actions.follow, true);
 
-    connect(speed_, &QComboBox::activated, this, [this](int index) {
-        session_.playback().setSpeed(speed_->itemData(index).toDouble(), session_.currentFrame());
-    });
+    bindCommands(this, {{speed_, [this](int index) {
+                             session_.playback().setSpeed(speed_->itemData(index).toDouble(), session_.currentFrame());
+                         }}});
     connect(&session_.playback(), &Playback::speedChanged, this, &TransportBar::showSpeed);
     showSpeed(session_.playback().speed());
     connect(&session_, &ProjectSession::videoChanged, this,
@@ -62,12 +63,13 @@ TransportBar::TransportBar(ProjectSession& session, const WindowActions& actions
     const auto show = [this] {
         if (!frame_->hasFocus()) frame_->setValue(session_.shownFrame());
     };
-    connect(&session_, &ProjectSession::videoChanged, this, show);
-    connect(&session_, &ProjectSession::viewFrameChanged, this, show);
-    connect(frame_, &QSpinBox::editingFinished, this, [this] {
-        if (frame_->value() != session_.shownFrame()) session_.goToFrame(frame_->value());
-        if (frame_->hasFocus()) emit editingDone();
-    });
+    whenAny(&session_, this, show, &ProjectSession::videoChanged, &ProjectSession::viewFrameChanged);
+    onFinished(this, &TransportBar::frameEdited, frame_);
+}
+
+void TransportBar::frameEdited() {
+    if (frame_->value() != session_.shownFrame()) session_.goToFrame(frame_->value());
+    if (frame_->hasFocus()) emit editingDone();
 }
 
 void TransportBar::focusFrameField() {

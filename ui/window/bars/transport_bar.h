@@ -26,6 +26,7 @@ class TransportBar : public QWidget {
 
  private:
     void showSpeed(double speed);
+    void frameEdited();
 
     ProjectSession& session_;
     QComboBox* speed_;

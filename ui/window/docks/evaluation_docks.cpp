@@ -1,7 +1,6 @@
 #include "window/docks/evaluation_docks.h"
 
 #include <QDir>
-#include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMainWindow>
@@ -17,6 +16,7 @@
 #include "tune/evaluate/report_writer.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
@@ -77,14 +77,23 @@ EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, Win
     model_ = new ErrorsModel(this);
     errors_ = new ErrorsPanel(model_);
     chips_ = new ErrorChips(this);
-    const auto watch = [this](QDockWidget* dock, bool& looked_at) {
-        connect(dock, &QDockWidget::visibilityChanged, this, [this, &looked_at](bool visible) {
+    docks_.add(DockId::evaluation, tr("Evaluation"), panel_);
+    docks_.add(DockId::errors, tr("Errors"), errors_);
+    const auto watch = [this](DockId id, bool& looked_at) {
+        docks_.watch(id, this, [this, &looked_at](bool visible) {
             looked_at = visible;
             updateWanted();
         });
     };
-    watch(docks_.add(DockId::evaluation, tr("Evaluation"), panel_), evaluation_looked_at_);
-    watch(docks_.add(DockId::errors, tr("Errors"), errors_), errors_looked_at_);
+    watch(DockId::evaluation, evaluation_looked_at_);
+    watch(DockId::errors, errors_looked_at_);
+    bindCommands(this, {
+                           {actions_.next_error, [this] { step(1); }},
+                           {actions_.previous_error, [this] { step(-1); }},
+                           {actions_.why_error, [this] { askWhy(); }},
+                           {actions_.wrong_truth, [this] { correctTruth(); }},
+                           {actions_.report, [this] { askForReport(); }},
+                       });
     wireReport();
     connect(evaluation_, &EvaluationSession::changed, this, [this] {
         tellChange(told_);
@@ -93,8 +102,8 @@ EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, Win
         showMarks();
         showErrorsAlone();
     });
+    connect(evaluation_, &EvaluationSession::selectionChanged, this, &EvaluationDocks::showMarks);
     wireList();
-    wireCanvas();
     showErrors();
 }
 
@@ -135,38 +144,44 @@ void EvaluationDocks::enterWorkspace(WorkspaceKind kind) {
 // ---- the list -------------------------------------------------------------------------------------------------------
 
 void EvaluationDocks::wireList() {
-    connect(errors_, &ErrorsPanel::errorActivated, this, &EvaluationDocks::goTo);
-    connect(errors_, &ErrorsPanel::whyAsked, this, [this](int id) {
-        goTo(id);
-        askWhy();
+    errors_->setCommands({
+        .go_to = [this](int id) { goTo(id); },
+        .ask_why =
+            [this](int id) {
+                goTo(id);
+                askWhy();
+            },
+        .correct_truth =
+            [this](int id) {
+                goTo(id);
+                correctTruth();
+            },
+        .want_chips = [this] { wantChips(); },
     });
-    connect(actions_.why_error, &QAction::triggered, this, &EvaluationDocks::askWhy);
-    connect(errors_, &ErrorsPanel::truthIsWrong, this, [this](int id) {
-        goTo(id);
-        correctTruth();
+    panel_->setCommands({
+        .label = [this] { actions_.workspaceAction(WorkspaceKind::label)->trigger(); },
+        .go_to_object = [this](int object) { goToObject(object); },
+        .write_report = [this] { askForReport(); },
     });
-    connect(errors_, &ErrorsPanel::chipsWanted, this, &EvaluationDocks::wantChips);
     connect(chips_, &ErrorChips::ready, model_, &ErrorsModel::setChip);
     connect(&session_, &ProjectSession::videoChanged, this, [this] { chips_->setMedia(session_.media()); });
-    connect(actions_.next_error, &QAction::triggered, this, [this] { step(1); });
-    connect(actions_.previous_error, &QAction::triggered, this, [this] { step(-1); });
-    connect(actions_.wrong_truth, &QAction::triggered, this, &EvaluationDocks::correctTruth);
-    connect(panel_, &EvaluationPanel::objectActivated, this, [this](int object) {
-        const auto& evaluation = evaluation_->evaluation();
-        for (std::size_t i = 0; evaluation && i < evaluation->mistakes.size(); ++i) {
-            const auto& objects = evaluation->mistakes[i].mistake.objects;
-            if (std::find(objects.begin(), objects.end(), object) == objects.end()) continue;
-            goTo(static_cast<int>(i) + 1);
-            return;
-        }
-        for (const auto& [frame, records] : evaluation ? evaluation->truth : BoxesByFrame())
-            for (const BoxRecord& record : records)
-                if (record.id == object) {
-                    session_.goToFrame(frame);
-                    canvas_.centreOn(QPointF(record.box.centre.x, record.box.centre.y));
-                    return;
-                }
-    });
+}
+
+void EvaluationDocks::goToObject(int object) {
+    const auto& evaluation = evaluation_->evaluation();
+    for (std::size_t i = 0; evaluation && i < evaluation->mistakes.size(); ++i) {
+        const auto& objects = evaluation->mistakes[i].mistake.objects;
+        if (std::find(objects.begin(), objects.end(), object) == objects.end()) continue;
+        goTo(static_cast<int>(i) + 1);
+        return;
+    }
+    for (const auto& [frame, records] : evaluation ? evaluation->truth : BoxesByFrame())
+        for (const BoxRecord& record : records)
+            if (record.id == object) {
+                session_.goToFrame(frame);
+                canvas_.centreOn(QPointF(record.box.centre.x, record.box.centre.y));
+                return;
+            }
 }
 
 void EvaluationDocks::showErrors() {
@@ -253,10 +268,6 @@ void EvaluationDocks::askWhy() {
 
 // ---- the canvas -----------------------------------------------------------------------------------------------------
 
-void EvaluationDocks::wireCanvas() {
-    connect(evaluation_, &EvaluationSession::selectionChanged, this, &EvaluationDocks::showMarks);
-}
-
 void EvaluationDocks::showMarks() {
     const FrameIndex frame = canvas_.frame().index;
     canvas_.setVerdicts(frame, evaluation_->evaluated(frame), evaluation_->marksAt(frame), evaluation_->truthAt(frame));
@@ -267,8 +278,6 @@ void EvaluationDocks::showMarks() {
 void EvaluationDocks::join(LabelWorkspace& labelling) {
     labelling_ = &labelling;
     connect(&labelling.labels(), &LabelSession::changed, evaluation_, &EvaluationSession::labelsChanged);
-    connect(panel_, &EvaluationPanel::labellingRequested, actions_.workspaceAction(WorkspaceKind::label),
-            &QAction::trigger);
     connect(&labelling.labels(), &LabelSession::opened, this, [this] {
         const DiagnosedMistake* one = evaluation_->selectedMistake();
         if (correcting_ && one != nullptr && !one->mistake.objects.empty())
@@ -340,8 +349,6 @@ void EvaluationDocks::writeReport(const QString& path) {
 
 void EvaluationDocks::wireReport() {
     report_ = new ReportWriter(this);
-    connect(actions_.report, &QAction::triggered, this, &EvaluationDocks::askForReport);
-    connect(panel_, &EvaluationPanel::reportRequested, this, &EvaluationDocks::askForReport);
     connect(report_, &ReportWriter::progress, panel_, &EvaluationPanel::showReportProgress);
     connect(report_, &ReportWriter::failed, this, [this](const QString& message) {
         panel_->showReportProgress(1);

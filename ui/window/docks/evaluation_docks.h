@@ -61,9 +61,10 @@ class EvaluationDocks : public QObject {
     void wireList();
     void wireReport();
     void askForReport();
-    void wireCanvas();
     void showErrors();
     void goTo(int id);
+    /// The first error of an object, else where it is first seen.
+    void goToObject(int object);
     void wantChips();
     void updateWanted();
     void showErrorsAlone();

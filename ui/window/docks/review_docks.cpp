@@ -1,7 +1,5 @@
 #include "window/docks/review_docks.h"
 
-#include <QDockWidget>
-
 #include "review/inspector_panel.h"
 #include "review/run_text.h"
 #include "review/runs_panel.h"
@@ -14,12 +12,14 @@
 #include "widgets/charts/stage_times_chart.h"
 #include "widgets/empty_state.h"
 #include "widgets/parameters/parameter_form.h"
+#include "widgets/wiring.h"
+#include "window/run_guard.h"
 #include "workspace/dock_registry.h"
+#include "workspace/window_actions.h"
 
 namespace eyrie::ui {
 
-ReviewDocks::ReviewDocks(ProjectSession& session, Inspection& inspection, DockRegistry& docks)
-    : QObject(&docks), session_(session), docks_(docks) {
+ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), parts_(parts), session_(parts.session) {
     runs_model_ = new RunsModel(this);
     tracks_model_ = new TracksModel(this);
     runs_ = new RunsPanel(runs_model_);
@@ -27,67 +27,62 @@ ReviewDocks::ReviewDocks(ProjectSession& session, Inspection& inspection, DockRe
     inspector_ = new InspectorPanel(session_);
     form_ = new ParameterForm;
     chart_ = new StageTimesChart;
-    stages_ = new StagesPanel(session_, inspection);
-    stacks_ = new StacksPanel(session_, inspection);
+    parameters_ = new ParameterBinding(session_, *form_, parts_.messages, this);
+    stages_ = new StagesPanel(session_, parts_.inspection);
+    stacks_ = new StacksPanel(session_, parts_.inspection);
     statistics_ = new MotionStatisticsPanel(session_);
-    sweeps_ = new SweepPanel(session_);
-    docks_.add(DockId::runs, tr("Runs"), runs_);
-    docks_.add(DockId::tracks, tr("Tracks"), tracks_);
-    docks_.add(DockId::inspector, tr("Inspector"), inspector_);
-    docks_.add(DockId::parameters, tr("Parameters"), form_);
-    docks_.add(DockId::stage_times, tr("Times"), chart_);
-    QDockWidget* stages = docks_.add(DockId::stages, tr("Stages"), stages_);
-    QDockWidget* stacks = docks_.add(DockId::stacks, tr("Stacks"), stacks_);
-    QDockWidget* statistics = docks_.add(DockId::statistics, tr("Statistics"), statistics_);
-    docks_.add(DockId::sweeps, tr("Sweeps"), sweeps_);
-    connect(stages, &QDockWidget::visibilityChanged, stages_, &StagesPanel::setLookedAt);
-    connect(stacks, &QDockWidget::visibilityChanged, stacks_, &StacksPanel::setLookedAt);
-    connect(statistics, &QDockWidget::visibilityChanged, statistics_, &MotionStatisticsPanel::setLookedAt);
+    sweeps_ = new SweepPanel(session_, *parameters_, parts_.messages);
+    DockRegistry& docks = parts_.docks;
+    docks.add(DockId::runs, tr("Runs"), runs_);
+    docks.add(DockId::tracks, tr("Tracks"), tracks_);
+    docks.add(DockId::inspector, tr("Inspector"), inspector_);
+    docks.add(DockId::parameters, tr("Parameters"), form_);
+    docks.add(DockId::stage_times, tr("Times"), chart_);
+    docks.add(DockId::stages, tr("Stages"), stages_);
+    docks.add(DockId::stacks, tr("Stacks"), stacks_);
+    docks.add(DockId::statistics, tr("Statistics"), statistics_);
+    docks.add(DockId::sweeps, tr("Sweeps"), sweeps_);
+    docks.watch(DockId::stages, stages_, [this](bool visible) { stages_->setLookedAt(visible); });
+    docks.watch(DockId::stacks, stacks_, [this](bool visible) { stacks_->setLookedAt(visible); });
+    docks.watch(DockId::statistics, statistics_, [this](bool visible) { statistics_->setLookedAt(visible); });
     wireRuns();
     wireTracks();
     showRuns();
 }
 
-void ReviewDocks::wireSweeps(ParameterBinding& parameters) {
-    connect(sweeps_, &SweepPanel::applyRequested, &parameters, &ParameterBinding::setValues);
-    connect(sweeps_, &SweepPanel::savePresetRequested, &parameters, &ParameterBinding::saveAsPreset);
-    connect(sweeps_, &SweepPanel::problem, &parameters, &ParameterBinding::problem);
-    connect(sweeps_, &SweepPanel::notice, &parameters, &ParameterBinding::notice);
-}
-
 void ReviewDocks::showTrackList() {
-    docks_.raise(DockId::tracks);
+    parts_.docks.raise(DockId::tracks);
 }
 
 void ReviewDocks::wireRuns() {
-    connect(&session_, &ProjectSession::videoChanged, this, &ReviewDocks::showRuns);
-    connect(&session_, &ProjectSession::runsChanged, this, &ReviewDocks::showRuns);
-    connect(&session_, &ProjectSession::currentRunChanged, this, &ReviewDocks::showRuns);
-    connect(&session_, &ProjectSession::currentRunChanged, this, &ReviewDocks::showTracks);
-    connect(&session_, &ProjectSession::runStarted, this, &ReviewDocks::showRuns);
-    connect(&session_, &ProjectSession::runFinished, this, &ReviewDocks::showRuns);
+    whenAny(&session_, this, &ReviewDocks::showRuns, &ProjectSession::videoChanged, &ProjectSession::runsChanged,
+            &ProjectSession::currentRunChanged, &ProjectSession::runStarted, &ProjectSession::runFinished);
     connect(&session_, &ProjectSession::liveFrames, this, [this] {
         if (const RunRecord* run = session_.ownRun()) runs_model_->updateRun(*run);
     });
+    connect(&session_, &ProjectSession::runDataChanged, this, &ReviewDocks::adoptAwaitedParameters);
     connect(runs_model_, &RunsModel::renameRequested, &session_, &ProjectSession::renameRun);
-    connect(runs_, &RunsPanel::runActivated, &session_, &ProjectSession::showRun);
     runs_->setContinuable([this](int run_id) { return session_.canContinue(run_id); });
-    connect(runs_, &RunsPanel::continueRequested, this, &ReviewDocks::continueRequested);
-    connect(runs_, &RunsPanel::removeRequested, this, &ReviewDocks::removeRequested);
-    connect(runs_, &RunsPanel::runRequested, this, &ReviewDocks::runRequested);
-    connect(runs_, &RunsPanel::parametersRequested, this, [this](int run_id) {
-        if (session_.currentRun() == run_id && session_.runData()) {
-            emit parametersRequested();
-            return;
-        }
-        parameters_wanted_of_ = run_id;
-        session_.showRun(run_id);
-    });
-    connect(&session_, &ProjectSession::runDataChanged, this, [this] {
-        if (!parameters_wanted_of_ || session_.currentRun() != parameters_wanted_of_) return;
-        parameters_wanted_of_.reset();
-        emit parametersRequested();
-    });
+    connect(runs_, &RunsPanel::runActivated, &session_, &ProjectSession::showRun);
+    connect(runs_, &RunsPanel::continueRequested, &session_, &ProjectSession::continueRun);
+    connect(runs_, &RunsPanel::removeRequested, &parts_.guard, &RunGuard::remove);
+    connect(runs_, &RunsPanel::runRequested, parts_.actions.run, &QAction::trigger);
+    connect(runs_, &RunsPanel::parametersRequested, this, &ReviewDocks::adoptParametersOf);
+}
+
+void ReviewDocks::adoptParametersOf(int run_id) {
+    if (session_.currentRun() == run_id && session_.runData()) {
+        parameters_->adoptRunParameters();
+        return;
+    }
+    parameters_wanted_of_ = run_id;
+    session_.showRun(run_id);
+}
+
+void ReviewDocks::adoptAwaitedParameters() {
+    if (!parameters_wanted_of_ || session_.currentRun() != parameters_wanted_of_) return;
+    parameters_wanted_of_.reset();
+    parameters_->adoptRunParameters();
 }
 
 void ReviewDocks::showRuns() {
@@ -104,10 +99,11 @@ void ReviewDocks::showRuns() {
 }
 
 void ReviewDocks::wireTracks() {
-    connect(&session_, &ProjectSession::runDataChanged, this, &ReviewDocks::showTracks);
+    whenAny(&session_, this, &ReviewDocks::showTracks, &ProjectSession::currentRunChanged,
+            &ProjectSession::runDataChanged);
     connect(&session_, &ProjectSession::selectionChanged, this,
             [this](std::optional<TrackId> track) { tracks_->selectId(track.value_or(0)); });
-    connect(tracks_, &TracksPanel::minScoreChanged, this, &ReviewDocks::minScoreChanged);
+    connect(tracks_, &TracksPanel::minScoreChanged, &parts_.overlays, &OverlaySettings::setMinScore);
     connect(tracks_, &TracksPanel::trackSelected, &session_, &ProjectSession::goToTrack);
     connect(tracks_, &TracksPanel::trackActivated, this, [this](int track, int frame) {
         session_.selectTrack(track);

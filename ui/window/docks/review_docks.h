@@ -12,25 +12,40 @@ namespace eyrie::ui {
 class DockRegistry;
 class Inspection;
 class InspectorPanel;
+class MessageBar;
 class MotionStatisticsPanel;
+class OverlaySettings;
 class ParameterBinding;
 class ParameterForm;
+class RunGuard;
 class RunsPanel;
 class StacksPanel;
 class StageTimesChart;
 class StagesPanel;
 class SweepPanel;
 class TracksPanel;
+class WindowActions;
+
+/// What the docks work on. All must outlive them.
+struct ReviewParts {
+    ProjectSession& session;
+    Inspection& inspection;
+    DockRegistry& docks;
+    WindowActions& actions;
+    OverlaySettings& overlays;
+    RunGuard& guard;
+    MessageBar& messages;
+};
 
 /// The docks about runs and tracks, and those that show what the stages did; how their lists follow the session.
 class ReviewDocks : public QObject {
     Q_OBJECT
 
  public:
-    /// Session, inspection and docks must outlive it.
-    ReviewDocks(ProjectSession& session, Inspection& inspection, DockRegistry& docks);
+    explicit ReviewDocks(const ReviewParts& parts);
 
     ParameterForm& parameterForm() { return *form_; }
+    ParameterBinding& parameters() { return *parameters_; }
     StageTimesChart& stageTimes() { return *chart_; }
     StagesPanel& stages() { return *stages_; }
     StacksPanel& stacks() { return *stacks_; }
@@ -39,16 +54,6 @@ class ReviewDocks : public QObject {
 
     /// Brings the list of tracks to the front.
     void showTrackList();
-    /// What a sweep found goes into the parameters of the next run.
-    void wireSweeps(ParameterBinding& parameters);
-
- signals:
-    void runRequested();
-    void removeRequested(int run_id);
-    void continueRequested(int run_id);
-    void parametersRequested();
-    /// Tracks with a lower score are not to be shown.
-    void minScoreChanged(double score);
 
  private:
     void wireRuns();
@@ -56,15 +61,19 @@ class ReviewDocks : public QObject {
     void showRuns();
     void showTracks();
     void explainNoTracks();
+    /// Takes the parameters of a run over into the form, once they are read.
+    void adoptParametersOf(int run_id);
+    void adoptAwaitedParameters();
 
+    ReviewParts parts_;
     ProjectSession& session_;
-    DockRegistry& docks_;
     RunsModel* runs_model_;
     TracksModel* tracks_model_;
     RunsPanel* runs_;
     TracksPanel* tracks_;
     InspectorPanel* inspector_;
     ParameterForm* form_;
+    ParameterBinding* parameters_;
     StageTimesChart* chart_;
     StagesPanel* stages_;
     StacksPanel* stacks_;

@@ -10,8 +10,10 @@
 #include "tune/compare/comparison_window.h"
 #include "tune/compare/preview_bar.h"
 #include "tune/inspect/why_panel.h"
+#include "tune/parameters/parameter_binding.h"
 #include "tune/train/training_dialog.h"
 #include "widgets/parameters/parameter_form.h"
+#include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
@@ -41,30 +43,38 @@ QColor colourOf(CornerFate fate, const OverlayColours& colours) {
 Tuning::Tuning(const TuningParts& parts) : QObject(&parts.window), parts_(parts) {
     buildWhy();
     buildPreview();
-    connect(parts_.actions.compare, &QAction::triggered, this, [this] { compareRuns(); });
-    connect(parts_.actions.train, &QAction::triggered, this, &Tuning::train);
+    bindCommands(this, {
+                           {parts_.actions.why, [this] { askWhyHere(); }},
+                           {parts_.actions.compare, [this] { compareRuns(); }},
+                           {parts_.actions.train, [this] { train(); }},
+                       });
+    bindSwitches(this, {{parts_.actions.live_preview, [this](bool on) { preview_->setEnabled(on); }}});
 }
 
 void Tuning::buildWhy() {
     why_ = new Why(parts_.session, this);
     why_panel_ = new WhyPanel(parts_.session, *why_);
-    QDockWidget* dock = parts_.docks.add(DockId::why, tr("Why?"), why_panel_);
-    connect(dock, &QDockWidget::visibilityChanged, why_panel_, &WhyPanel::setLookedAt);
+    parts_.docks.add(DockId::why, tr("Why?"), why_panel_);
+    parts_.docks.watch(DockId::why, why_panel_, [this](bool visible) {
+        why_panel_->setLookedAt(visible);
+        showPlaceMark();
+    });
     connect(why_panel_, &WhyPanel::parameterChosen, this, &Tuning::showParameter);
     connect(why_, &Why::changed, this, &Tuning::showPlaceMark);
-    connect(dock, &QDockWidget::visibilityChanged, this, &Tuning::showPlaceMark);
     connect(&parts_.canvas, &VideoView::placeMenuRequested, this, &Tuning::showPlaceMenu);
     connect(&parts_.canvas, &VideoView::cursorMoved, this, [this](std::optional<QPointF> place) { cursor_ = place; });
-    connect(parts_.actions.why, &QAction::triggered, this, [this] {
-        const QPointF middle(parts_.canvas.width() / 2.0, parts_.canvas.height() / 2.0);
-        const ViewTransform& transform = parts_.canvas.transform();
-        askWhy(cursor_.value_or(transform.imageFromView(middle)), kKeyMargin / transform.scale());
-    });
+}
+
+void Tuning::askWhyHere() {
+    const QPointF middle(parts_.canvas.width() / 2.0, parts_.canvas.height() / 2.0);
+    const ViewTransform& transform = parts_.canvas.transform();
+    askWhy(cursor_.value_or(transform.imageFromView(middle)), kKeyMargin / transform.scale());
 }
 
 void Tuning::buildPreview() {
     preview_ = new LivePreview(parts_.session, this);
-    preview_bar_ = new PreviewBar(*preview_);
+    preview_bar_ = new PreviewBar(
+        *preview_, {.run = [this] { parts_.actions.run->trigger(); }, .discard = [this] { discardPreview(); }});
     if (auto* column = qobject_cast<QVBoxLayout*>(parts_.canvas.parentWidget()->layout()))
         column->insertWidget(column->indexOf(&parts_.canvas), preview_bar_);
     // Queued: the settings of the next run take the value over first.
@@ -74,15 +84,14 @@ void Tuning::buildPreview() {
     connect(&form, &ParameterForm::pointedAt, this, [this](const QString& name) {
         if (name.startsWith(QLatin1String("motion."))) preview_->warmUp();
     });
-    connect(parts_.actions.live_preview, &QAction::toggled, preview_, &LivePreview::setEnabled);
-    connect(preview_bar_, &PreviewBar::runRequested, this, &Tuning::runRequested);
-    connect(preview_bar_, &PreviewBar::discardRequested, this, [this] {
-        preview_->discard();
-        emit storedParametersRequested();
-    });
     connect(preview_, &LivePreview::changed, this, &Tuning::showPreview);
     // Queued: after the canvas got the stored frame, before it is painted.
     connect(&parts_.session, &ProjectSession::viewFrameChanged, this, &Tuning::showPreview, Qt::QueuedConnection);
+}
+
+void Tuning::discardPreview() {
+    preview_->discard();
+    parts_.parameters.adoptRunParameters();
 }
 
 void Tuning::parameterMoved(const QString& name, const QString& value) {
@@ -90,8 +99,8 @@ void Tuning::parameterMoved(const QString& name, const QString& value) {
     // The first thing that is moved while another preset stands in the form: the run is meant, with this one changed.
     if (run && preview_->enabled() && !preview_->active() && parts_.form.modifiedCount() == 1 &&
         differencesBetween(storedOptions(run->parameters), parts_.session.settings().options).size() > 1) {
-        emit storedParametersRequested();
-        emit parameterRequested(name, value);
+        parts_.parameters.adoptRunParameters();
+        parts_.parameters.setValue(name.toStdString(), value.toStdString());
     }
     parametersEdited();
 }
@@ -153,7 +162,7 @@ void Tuning::train() {
     auto* dialog = new TrainingDialog(parts_.session.project(), &parts_.window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &TrainingDialog::useRequested, this, [this](const QString& file) {
-        emit parameterRequested(QStringLiteral("sliding_window.model"), file);
+        parts_.parameters.setValue("sliding_window.model", file.toStdString());
         parametersEdited();
     });
     dialog->open();
@@ -161,7 +170,8 @@ void Tuning::train() {
 
 ComparisonWindow& Tuning::compareRuns() {
     if (!comparison_) {
-        comparison_ = new ComparisonWindow(parts_.session, parts_.presets, parts_.overlays, &parts_.window);
+        comparison_ =
+            new ComparisonWindow(parts_.session, parts_.parameters.presets(), parts_.overlays, &parts_.window);
         comparison_->setAttribute(Qt::WA_DeleteOnClose);
     }
     parts_.session.playback().pause();

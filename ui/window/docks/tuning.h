@@ -15,8 +15,8 @@ namespace eyrie::ui {
 class ComparisonWindow;
 class DockRegistry;
 class OverlaySettings;
+class ParameterBinding;
 class ParameterForm;
-class PresetLibrary;
 class PreviewBar;
 class VideoView;
 class WhyPanel;
@@ -29,7 +29,7 @@ struct TuningParts {
     DockRegistry& docks;
     ParameterForm& form;
     WindowActions& actions;
-    PresetLibrary& presets;
+    ParameterBinding& parameters;
     OverlaySettings& overlays;
     QMainWindow& window;
 };
@@ -54,16 +54,12 @@ class Tuning : public QObject {
     /// Opens the form of parameters at one of them.
     void showParameter(const QString& name);
 
- signals:
-    /// The form is to show the parameters of the run again.
-    void storedParametersRequested();
-    void runRequested();
-    /// A parameter of the next run is to be set.
-    void parameterRequested(const QString& name, const QString& value);
-
  private:
     void buildWhy();
     void buildPreview();
+    /// About the place under the cursor, else the middle of the canvas.
+    void askWhyHere();
+    void discardPreview();
     void parametersEdited();
     void parameterMoved(const QString& name, const QString& value);
     void showPreview();

@@ -1,0 +1,113 @@
+#include "label/object_pictures.h"
+
+#include "canvas/image_convert.h"
+#include "label/canvas/label_tool.h"
+#include "label/computing/label_chips.h"
+#include "label/computing/label_stacks.h"
+#include "label/label_actions.h"
+#include "label/object_colours.h"
+#include "widgets/chip_grid.h"
+#include "widgets/wiring.h"
+#include "workspace/dock_registry.h"
+
+namespace eyrie::ui {
+
+ObjectPictures::ObjectPictures(const LabelParts& parts, QObject* parent) : QObject(parent), parts_(parts) {
+    chips_ = new LabelChips(parts_.around.session, parts_.labels, this);
+    stacks_ = new LabelStacks(parts_.around.session, parts_.labels, this);
+    grid_ = new ChipGrid;
+    parts_.around.docks.add(DockId::object_chips, tr("Over time"), grid_);
+    wireChips();
+    wireStacks();
+}
+
+// ---- chips ----------------------------------------------------------------------------------------------------------
+
+void ObjectPictures::wireChips() {
+    chips_due_.setSingleShot(true);
+    chips_due_.setInterval(250);  // not while keys are held
+    connect(&chips_due_, &QTimer::timeout, this, &ObjectPictures::showChips);
+    parts_.around.docks.watch(DockId::object_chips, this, [this](bool visible) {
+        chips_looked_at_ = visible;
+        if (visible) chips_due_.start();
+    });
+    connect(chips_, &LabelChips::ready, this, &ObjectPictures::takeChips);
+    connect(grid_, &ChipGrid::cardClicked, &parts_.around.session, &ProjectSession::goToFrame);
+    connect(&parts_.around.session, &ProjectSession::frameChanged, grid_, &ChipGrid::setMarkedCard);
+}
+
+void ObjectPictures::showChips() {
+    if (!parts_.actions.active() || !chips_looked_at_) return;
+    if (parts_.labels.selected()) {
+        chips_->request(*parts_.labels.selected());
+    } else {
+        chips_->cancel();
+        grid_->setCards({});
+    }
+}
+
+void ObjectPictures::takeChips(ObjectId id, const std::vector<LabelChip>& chips) {
+    if (parts_.labels.selected() != id) return;
+    std::vector<ChipCard> cards;
+    const LabelledObject* object = parts_.labels.object(id);
+    const QColor colour = object != nullptr ? ObjectColours(parts_.labels.annotations()).of(*object) : QColor();
+    for (const LabelChip& cut : chips) {
+        Chip chip;
+        chip.title = cut.keyframe ? tr("%1 ◆").arg(cut.frame) : QString::number(cut.frame);
+        chip.values = cut.gray;
+        chip.image = wrapImage(cut.gray);
+        chip.box_colour = colour;
+        const QPointF middle((cut.gray.cols - 1) / 2.0, (cut.gray.rows - 1) / 2.0);
+        const QPointF half(cut.box.width / 2, cut.box.height / 2);
+        chip.boxes.push_back(QRectF(middle - half, middle + half));
+        ChipCard card;
+        card.id = cut.frame;
+        card.chips.push_back(std::move(chip));
+        cards.push_back(std::move(card));
+    }
+    grid_->setCards(std::move(cards));
+    grid_->setMarkedCard(parts_.around.session.currentFrame());
+}
+
+// ---- image stacks ---------------------------------------------------------------------------------------------------
+
+void ObjectPictures::wireStacks() {
+    whenAny(&parts_.labels, this, &ObjectPictures::showStack, &LabelSession::changed, &LabelSession::selectionChanged);
+    connect(&parts_.around.session, &ProjectSession::viewFrameChanged, this, &ObjectPictures::showStack);
+    const LabelActions& actions = parts_.actions;
+    bindSwitches(this, {{actions.loupe,
+                         [this](bool shown) {
+                             parts_.tool.setLoupeShown(shown);
+                             showStack();
+                         }},
+                        {actions.stack_loupe, [this](bool shown) {
+                             parts_.tool.setStackShown(shown);
+                             showStack();
+                         }}});
+    connect(stacks_, &LabelStacks::ready, this, &ObjectPictures::takeStack);
+}
+
+void ObjectPictures::showStack() {
+    const LabelActions& actions = parts_.actions;
+    const bool wanted = actions.active() && actions.loupe->isChecked() && actions.stack_loupe->isChecked();
+    if (wanted && parts_.labels.selected())
+        stacks_->request(*parts_.labels.selected(), parts_.around.session.viewFrame().index);
+    else
+        stacks_->cancel();
+}
+
+void ObjectPictures::takeStack(ObjectId id, const ObjectStack& stack) {
+    LoupeStack shown;
+    shown.object = id;
+    shown.frame = stack.frame;
+    shown.area = stack.area;
+    if (!stack.stacked.empty()) shown.image = wrapImage(stack.stacked);
+    shown.layers = stack.layers;
+    if (stack.stacked.empty())
+        shown.missing = stack.layers < 2
+                            ? tr("No stack yet: it needs three frames that show the object")
+                            : tr("No stack yet: it needs three frames that look alike, there are %1").arg(stack.layers);
+    parts_.tool.setStack(std::move(shown));
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QSpinBox>
+#include <functional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace eyrie::ui {
+
+/// What an action, a button or a box of choices does. What can be switched on may ask for whether it is; a box for
+/// which of its choices.
+class Command {
+ public:
+    template <typename Work>
+    Command(QAction* action, Work work) : action_(action), work_(withState<bool>(std::move(work))) {}
+    template <typename Work>
+    Command(QAbstractButton* button, Work work) : button_(button), work_(withState<bool>(std::move(work))) {}
+    template <typename Work>
+    Command(QComboBox* box, Work work) : box_(box), choose_(withState<int>(std::move(work))) {}
+
+ private:
+    template <typename State, typename Work>
+    static std::function<void(State)> withState(Work work) {
+        if constexpr (std::is_invocable_v<Work, State>)
+            return work;
+        else
+            return [work = std::move(work)](State) { work(); };
+    }
+    friend void bindCommands(QObject* owner, const std::vector<Command>& commands);
+    friend void bindSwitches(QObject* owner, const std::vector<Command>& switches);
+
+    QAction* action_ = nullptr;
+    QAbstractButton* button_ = nullptr;
+    QComboBox* box_ = nullptr;
+    std::function<void(bool)> work_;
+    std::function<void(int)> choose_;
+};
+
+/// A list of what each command does when a person uses it. Holds as long as `owner`.
+void bindCommands(QObject* owner, const std::vector<Command>& commands);
+/// The same for actions and buttons that can be on and off; follows that also where the program switches them.
+void bindSwitches(QObject* owner, const std::vector<Command>& switches);
+
+/// Lets `react`, a member of the receiver or a function, follow each of these signals, whatever they carry.
+template <typename Sender, typename Receiver, typename React, typename... Signals>
+void whenAny(Sender* sender, Receiver* receiver, React react, Signals... told) {
+    const auto follow = [receiver, react] {
+        if constexpr (std::is_invocable_v<React>)
+            react();
+        else
+            (receiver->*react)();
+    };
+    (QObject::connect(sender, told, receiver, follow), ...);
+}
+
+/// What a field sends when its value becomes another, by a person or by the program.
+inline auto editedSignal(const QComboBox*) {
+    return &QComboBox::currentIndexChanged;
+}
+inline auto editedSignal(const QSpinBox*) {
+    return &QSpinBox::valueChanged;
+}
+inline auto editedSignal(const QDoubleSpinBox*) {
+    return &QDoubleSpinBox::valueChanged;
+}
+inline auto editedSignal(const QAbstractButton*) {
+    return &QAbstractButton::toggled;
+}
+inline auto editedSignal(const QLineEdit*) {
+    return &QLineEdit::textChanged;
+}
+
+/// Lets `react` follow every change in the fields of a form.
+template <typename Receiver, typename React, typename... Fields>
+void onEdited(Receiver* receiver, React react, Fields*... fields) {
+    (whenAny(fields, receiver, react, editedSignal(fields)), ...);
+}
+
+/// Lets `react` follow when a person has finished with one of these fields: by Return, or by leaving it.
+template <typename Receiver, typename React, typename... Fields>
+void onFinished(Receiver* receiver, React react, Fields*... fields) {
+    (whenAny(fields, receiver, react, &Fields::editingFinished), ...);
+}
+
+}  // namespace eyrie::ui
