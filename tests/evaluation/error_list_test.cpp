@@ -63,6 +63,7 @@ TEST(ErrorList, missesOfConsecutiveFramesAreOneEntry) {
     EXPECT_EQ(misses[0].places[1].box.centre.x, 50);
     EXPECT_THAT(misses[1].objects, ElementsAre(2));
     EXPECT_EQ(misses[2].first_frame, 4);
+    EXPECT_EQ(ofKind(mistakes, MistakeKind::fragment).size(), 2u) << "what was never found breaks nowhere";
 }
 
 TEST(ErrorList, falseAlarmsAreGroupedByTrack) {
@@ -161,6 +162,7 @@ TEST(ErrorList, aPartLiesMostlyInTheObjectAndBesideItsFellow) {
             .size();
     };
     EXPECT_EQ(splits(40.9, 10, 55, 8), 1U) << "5.9 of 10 px inside";
+    EXPECT_EQ(splits(40, 10, 55, 8), 1U) << "half of it inside";
     EXPECT_EQ(splits(39.9, 10, 55, 8), 0U) << "4.9 of 10 px inside";
     EXPECT_EQ(splits(45, 10, 50.1, 10), 1U) << "4.9 of 10 px on one another";
     EXPECT_EQ(splits(45, 10, 49.9, 10), 0U) << "5.1 of 10 px on one another";

@@ -117,6 +117,14 @@ TEST(Remarks, SayWhatMakesAComparisonDoubtful) {
     EXPECT_EQ(remarks({car(0, 1, 100)}, {car(0, 1, 100), car(0, 1, 300)}).size(), 1U) << "an id twice";
     EXPECT_EQ(remarks({ignored(car(0, 1, 100))}, {car(0, 1, 100)}).size(), 1U) << "nothing counts";
     EXPECT_EQ(remarks({car(0, 1, 100)}, {car(0, {}, 100)}).size(), 1U) << "no tracks";
+    BoxesByFrame even;
+    BoxesByFrame odd;
+    for (int frame = 0; frame < 140; ++frame) (frame % 2 == 0 ? even : odd)[frame].push_back(car(frame, 1, 100));
+    const auto none_shared = remarksOn(evaluate(even, odd, at(0.5, Convention::trackeval)));
+    EXPECT_EQ(std::count_if(none_shared.begin(), none_shared.end(),
+                            [](const std::string& r) { return r.find("same video") != std::string::npos; }),
+              1)
+        << "that no frame is shared says it all";
 }
 
 TEST(TrackingMeasures, PerfectTracks) {

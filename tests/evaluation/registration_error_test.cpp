@@ -71,6 +71,8 @@ TEST(RegistrationError, IsMeasuredOnAGridOverTheWholeImage) {
     const FrameRegistrationError by_row = gridError(raised, cv::Matx33d::eye(), kImage, 2, 3);
     EXPECT_NEAR(by_row.mean_px, 0.05, 1e-12);
     EXPECT_NEAR(by_row.max_px, 0.1, 1e-12);
+    EXPECT_NEAR(gridError(stretched, cv::Matx33d::eye(), kImage, 2, 1).max_px, 0.1, 1e-12);
+    EXPECT_NEAR(gridError(raised, cv::Matx33d::eye(), kImage, 1, 2).max_px, 0.1, 1e-12);
     EXPECT_EQ(gridError(raised, cv::Matx33d::eye(), kImage, 1, 1).max_px, 0) << "one point is the first";
 }
 

@@ -57,6 +57,11 @@ TEST(ResultDifference, boxesThatDifferAreWorstWhereTheyOverlapLeast) {
     EXPECT_EQ(found[0].kind, DifferenceKind::box);
     EXPECT_EQ(found[0].worst_frame, 2);
     EXPECT_NEAR(found[0].size, 3 * 0.5 + 0.6, 1e-9);
+    DifferenceLimits limits;
+    limits.same_box = 0.5;
+    const auto fewer = differencesOf(a, b, limits);
+    ASSERT_EQ(fewer.size(), 1U);
+    EXPECT_NEAR(fewer[0].size, 0.6, 1e-9) << "as much overlap as the limit is none";
 }
 
 TEST(ResultDifference, anIdThatChangesInOneOnly) {
@@ -86,6 +91,21 @@ TEST(ResultDifference, detectionsWithoutIdsAreJoinedByTheirPlace) {
     ASSERT_EQ(found.size(), 2U);
     EXPECT_EQ(found[0].size, 4);
     EXPECT_EQ(found[1].size, 4);
+}
+
+TEST(ResultDifference, placesDecideOnlyWithoutIds) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    b[0] = {};
+    put(a, 0, std::nullopt, 10);
+    put(a, 1, std::nullopt, 300);
+    EXPECT_EQ(differencesOf(a, b).size(), 2U);
+    EXPECT_EQ(differencesOf(b, a).size(), 2U);
+    BoxesByFrame known;
+    put(known, 0, 5, 10);
+    put(known, 1, 5, 300);
+    EXPECT_EQ(differencesOf(known, b).size(), 1U);
+    EXPECT_EQ(differencesOf(b, known).size(), 1U);
 }
 
 TEST(ResultDifference, twoResultsChangedRoundGiveTheSameDifferencesChangedRound) {

@@ -41,6 +41,12 @@ TEST(Roc, AreaIsTheChanceOfTheRightOrder) {
     EXPECT_NEAR(rocCurve(samples).area, in_order / pairs, 1e-12);
 }
 
+TEST(Roc, EqualScoresAreOnePoint) {
+    const RocCurve curve = rocCurve({{0.9, true}, {0.1, true}, {0.1, false}});
+    EXPECT_EQ(curve.points.size(), 3u);
+    EXPECT_NEAR(curve.area, 0.75, 1e-12) << "one pair in order, one equal";
+}
+
 TEST(Roc, TurnedScoresMirrorTheArea) {
     const RocCurve curve = rocCurve({{1, true}, {2, false}, {3, true}, {4, false}});
     const RocCurve turned = rocCurve({{-1, true}, {-2, false}, {-3, true}, {-4, false}});

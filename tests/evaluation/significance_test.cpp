@@ -88,6 +88,18 @@ TEST(Bootstrap, QuantilesAreThoseOfTheResamples) {
     }
 }
 
+TEST(Bootstrap, QuantilesLieBetweenTheResamples) {
+    double next = -1;
+    BootstrapOptions options;
+    options.resamples = 5;
+    options.confidence = 0.9;
+    const BootstrapInterval interval = bootstrap(
+        3, [&](const std::vector<int>&) { return next++; }, options);
+    EXPECT_EQ(interval.value, -1) << "of the units themselves";
+    EXPECT_NEAR(interval.low, 0.2, 1e-12) << "of 0, 1, 2, 3, 4";
+    EXPECT_NEAR(interval.high, 3.8, 1e-12);
+}
+
 TEST(Bootstrap, DrawsAsManyAsThereAreUnits) {
     bool right = true;
     bootstrap(7, [&](const std::vector<int>& counts) {

@@ -159,6 +159,12 @@ TEST(PartJoining, LengthsThatAreAllowedAndTraced) {
         EXPECT_EQ(trace.duplicates[0].parameter, c.parameter);
         EXPECT_NEAR(found[0].box.length, (c.one + c.other) / 2 + c.apart, 1e-9);
     }
+    const auto onOne = [](double apart) {
+        const std::vector<Detection> pair{detection(100, 100, 16, 8), detection(100 + apart, 100, 16, 8)};
+        return kept(joinParts(pair, silhouette(90, 190), {}, kScale)) == 1;
+    };
+    EXPECT_TRUE(onOne(56)) << "18 m";
+    EXPECT_FALSE(onOne(56.25));
     RemovalTrace trace;
     joinParts({detection(100, 100, 16, 8), detection(124, 100, 16, 8)}, silhouette(90, 134), {}, kScale, &trace);
     ASSERT_EQ(trace.duplicates.size(), 1U);

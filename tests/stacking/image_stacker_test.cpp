@@ -156,6 +156,7 @@ TEST(MasterVector, mediansOfHeadingsGoRoundTheCircle) {
         const double median = medianHeading({base - 0.3, base + 0.02, base + 0.1});
         EXPECT_NEAR(turnBetween(base + 0.02, median), 0, 1e-9) << base;
         EXPECT_LE(std::abs(median), kPi);
+        EXPECT_NEAR(turnBetween(base, medianHeading({base + 0.1, base, base - 1.5})), 0, 1e-9) << base;
     }
 }
 

@@ -96,11 +96,12 @@ StackingOptions withNeighbours(int k) {
 }
 
 /// The stack whose rivals' vectors lie so around a newcomer: 1 or 2; 0 where it joins none.
-int joinedStack(const std::vector<cv::Point2f>& first, const std::vector<cv::Point2f>& second, int k) {
+int joinedStack(const std::vector<cv::Point2f>& first, const std::vector<cv::Point2f>& second, int k,
+                CornerId newcomer_id) {
     const cv::Point2f newcomer(200, 200);
     Traffic traffic;
     std::vector<Ids> detections(2);
-    CornerId id = 1;
+    CornerId id = 10;
     for (const cv::Point2f& away : first) detections[0].insert(id), traffic.places[id++] = newcomer + away;
     for (const cv::Point2f& away : second) detections[1].insert(id), traffic.places[id++] = newcomer + away;
     ImageStacker stacker(withNeighbours(k), quarterMetre());
@@ -108,13 +109,19 @@ int joinedStack(const std::vector<cv::Point2f>& first, const std::vector<cv::Poi
     traffic.remember(stacker, detections);
     traffic.update(stacker);
     EXPECT_EQ(groupsOf(stacker), (std::set<Ids>{detections[0], detections[1]}));
-    traffic.places[99] = newcomer;
+    traffic.places[newcomer_id] = newcomer;
     traffic.update(stacker);
     for (const StackView& view : viewsOf(stacker)) {
         const Ids related(view.related.begin(), view.related.end());
-        if (related.count(99)) return related.count(1) ? 1 : 2;
+        if (related.count(newcomer_id)) return related.count(10) ? 1 : 2;
     }
     return 0;
+}
+
+int joinedStack(const std::vector<cv::Point2f>& first, const std::vector<cv::Point2f>& second, int k) {
+    const int joined = joinedStack(first, second, k, 99);
+    EXPECT_EQ(joinedStack(first, second, k, 1), joined) << "wherever it stands in the list";
+    return joined;
 }
 
 }  // namespace
@@ -158,7 +165,7 @@ TEST(RivalStacks, AStackStartsInTheMedianOfItsDetection) {
 }
 
 TEST(RivalStacks, OnlyKeptDetectionsOfClusteredCornersStartStacks) {
-    Traffic traffic{.places = {{1, {100, 50}}, {2, {110, 54}}, {3, {104, 61}}, {4, {180, 90}}}};
+    Traffic traffic{.places = {{1, {100, 50}}, {2, {110, 54}}, {3, {104, 61}}, {4, {180, 90}}, {5, {102, 52}}}};
     traffic.without_cluster = {2};
     ImageStacker stacker(StackingOptions::thesis(), quarterMetre());
     traffic.update(stacker);
@@ -166,9 +173,9 @@ TEST(RivalStacks, OnlyKeptDetectionsOfClusteredCornersStartStacks) {
     rejected.rejection = Rejection::outlier;
     FrameMotion motion = traffic.motion();
     motion.motion_vectors[2].age = 0;  // inferred: gone in the next frame
-    stacker.remember(motion, {rejected, traffic.detectionOf({1, 2, 3}), traffic.detectionOf({3})});
+    stacker.remember(motion, {rejected, traffic.detectionOf({1, 2, 3, 5}), traffic.detectionOf({3})});
     traffic.update(stacker);
-    EXPECT_EQ(groupsOf(stacker), (std::set<Ids>{{1}}));
+    EXPECT_EQ(groupsOf(stacker), (std::set<Ids>{{1, 5}}));
 }
 
 TEST(RivalStacks, ADetectionWithAStackStartsNoOther) {
@@ -205,6 +212,19 @@ TEST(RivalStacks, WhatSharedAStackGetsItsOwn) {
     EXPECT_EQ(views[0].height, 3);
     EXPECT_EQ(views[1].id, 2);
     EXPECT_EQ(views[1].height, 2);
+}
+
+TEST(RivalStacks, StackAreasStayWithinReasonWhateverTheScale) {
+    for (const auto& [gsd, size] : {std::pair(0.01, cv::Size(1024, 2048)), {5.0, cv::Size(16, 32)}}) {
+        SceneScale scale = quarterMetre();
+        scale.gsd_m_per_px = gsd;
+        Traffic traffic{.places = {{1, {100, 50}}}};
+        ImageStacker stacker(StackingOptions::thesis(), scale);
+        traffic.update(stacker);
+        traffic.remember(stacker, {{1}});
+        traffic.update(stacker);
+        EXPECT_EQ(stacker.views(plainFrame(0), StackPictures::whole_area).at(0).stacked.size(), size);
+    }
 }
 
 TEST(RivalStacks, AStackDiesWithItsVectorsAndAllWithAReset) {
