@@ -4,6 +4,7 @@
 #include <functional>
 #include <opencv2/core.hpp>
 #include <ostream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ class DrivenTracks {
     double noise_px = 0.3;
     Camera camera = standing(0.2);
     std::vector<EventTrack> tracks;
+    std::set<TrackId> left;  ///< tracks that drove out of the picture
 
     /// Looks straight down with its first pixel over the origin.
     static Camera standing(double gsd) {
@@ -77,7 +79,10 @@ class DrivenTracks {
             OrientedBox box{local.point(), length * local.scale(), 1.8 * local.scale(), local.turned(poses[i].second)};
             const bool inside =
                 box.centre.x >= 0 && box.centre.y >= 0 && box.centre.x < size.width && box.centre.y < size.height;
-            if (!inside && !track.boxes.empty()) break;
+            if (!inside && !track.boxes.empty()) {
+                left.insert(track.id);
+                break;
+            }
             if (!inside) continue;
             box.centre += {random_.gaussian(noise_px), random_.gaussian(noise_px)};
             track.boxes.push_back({frame, box});
