@@ -37,6 +37,7 @@ void addTrainCommand(CLI::App& app, int& exit_code);
 void addClassifyCommand(CLI::App& app, int& exit_code);
 void addClassifyTestCommand(CLI::App& app, int& exit_code);
 void addImportCommand(CLI::App& app, int& exit_code);
+void addEventsCommand(CLI::App& app, int& exit_code);
 void addReportCommand(CLI::App& app, int& exit_code);
 void addExportCommand(CLI::App& app, int& exit_code);
 void addCheckCommand(CLI::App& app, int& exit_code);

@@ -46,6 +46,7 @@ int commandOf(int argc, char** argv) {
     int exit_code = eyrie::cli::exit_ok;
     eyrie::cli::addRunCommand(app, exit_code);
     eyrie::cli::addEvaluateCommand(app, exit_code);
+    eyrie::cli::addEventsCommand(app, exit_code);
     eyrie::cli::addReportCommand(app, exit_code);
     eyrie::cli::addRenderCommand(app, exit_code);
     eyrie::cli::addParamsCommand(app, exit_code);

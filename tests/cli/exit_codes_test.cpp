@@ -66,6 +66,7 @@ TEST_F(ExitCodes, AProjectThatCannotBeUsedIsFiveEverywhere) {
         expect({{{"info", project}, 5, name},
                 {{"evaluate", "--project", project}, 5, name},
                 {{"evaluate", "--project", project, "--ground-truth", "@boxes.csv"}, 5, name},
+                {{"events", "--project", project}, 5, name},
                 {{"report", "--project", project, "--out", "@r.html"}, 5, name},
                 {{"export", "--project", project, "--format", "mot", "--out", "@x.txt"}, 5, name},
                 {{"export", "--project", project, "--labels", "--format", "mot", "--out", "@x.txt"}, 5, name},
@@ -80,6 +81,7 @@ TEST_F(ExitCodes, AProjectThatCannotBeUsedIsFiveEverywhere) {
 TEST_F(ExitCodes, AProjectWithoutRunsOrLabelsIsFiveEverywhere) {
     expect({{{"evaluate", "--project", "@empty.eyrie", "--ground-truth", "@boxes.csv"}, 5, "holds no run"},
             {{"evaluate", "--project", "@empty.eyrie", "--run", "1"}, 5, "holds no run"},
+            {{"events", "--project", "@empty.eyrie"}, 5, "holds no run"},
             {{"report", "--project", "@empty.eyrie", "--out", "@r.html"}, 5, "holds no run"},
             {{"export", "--project", "@empty.eyrie", "--format", "mot", "--out", "@x.txt"}, 5, "holds no run"},
             {{"sweep", "--project", "@empty.eyrie", "--parameter", "gradient.quantile=0.3"}, 5, "holds no run"},
@@ -93,6 +95,7 @@ TEST_F(ExitCodes, AProjectWithoutRunsOrLabelsIsFiveEverywhere) {
 
 TEST_F(ExitCodes, ARunThatIsNotThereIsTwoEverywhere) {
     expect({{{"evaluate", "--project", "@p.eyrie", "--ground-truth", "@boxes.csv", "--run", "7"}, 2, "the runs 1"},
+            {{"events", "--project", "@p.eyrie", "--run", "7"}, 2, "the runs 1"},
             {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--run", "7"}, 2, "the runs 1"},
             {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--against", "7"}, 2, "--against 7"},
             {{"export", "--project", "@p.eyrie", "--run", "7", "--format", "mot", "--out", "@x.txt"}, 2, "the runs 1"},
@@ -110,6 +113,7 @@ TEST_F(ExitCodes, AnInputThatCannotBeReadIsThreeEverywhere) {
             {{"evaluate", "--project", "@p.eyrie", "--ground-truth", "@absent.csv"}, 3, "absent.csv"},
             {{"evaluate", "--ground-truth", "@boxes.csv", "--result", "@absent.csv"}, 3, "absent.csv"},
             {{"report", "--project", "@p.eyrie", "--ground-truth", "@absent.csv", "--out", "@r.html"}, 3, "absent.csv"},
+            {{"events", "--project", "@p.eyrie", "--zone", "@absent.json"}, 3, "absent.json"},
             {{"import", "@absent.csv", "--show"}, 3, "absent.csv"},
             {{"export", "--from", "@absent.csv", "--format", "mot", "--out", "@x.txt"}, 3, "absent.csv"}});
 }

@@ -67,6 +67,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
      {"core", "io", "registration", "motion", "stacking", "detection", "learning", "removal", "tracking", "store"}},
     {"report", {"core", "chain", "diagnosis", "evaluation", "io", "store"}},
     {"scoring", {"core", "annotation", "evaluation", "formats", "io", "store"}},
+    {"events", {"core", "annotation", "formats", "io", "store"}},
     {"diagnosis", {"core", "chain", "rerun", "evaluation", "io", "motion", "scoring", "store"}},
 };
 

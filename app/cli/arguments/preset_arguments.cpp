@@ -30,12 +30,16 @@ ChainOptions PresetArguments::options() const {
 }
 
 void PresetArguments::applySettings(ChainOptions& options) const {
+    cli::applySettings(describeOf(options), settings);
+}
+
+void applySettings(const Describe& describe, const std::vector<std::string>& settings) {
     for (const auto& setting : settings) {
         const auto equals = setting.find('=');
         if (equals == std::string::npos) {
             throw Error(ErrorKind::parameter, "--set " + setting + ": expected name=value");
         }
-        setParameter(describeOf(options), setting.substr(0, equals), setting.substr(equals + 1));
+        setParameter(describe, setting.substr(0, equals), setting.substr(equals + 1));
     }
 }
 

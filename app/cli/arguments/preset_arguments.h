@@ -23,4 +23,7 @@ struct PresetArguments {
     void applySettings(ChainOptions& options) const;
 };
 
+/// Sets what --set says, "name=value" each. Throws Error(parameter).
+void applySettings(const Describe& describe, const std::vector<std::string>& settings);
+
 }  // namespace eyrie::cli

@@ -8,6 +8,7 @@
 #include "chain/recording/run_recorder.h"
 #include "cli/command.h"
 #include "core/parameter.h"
+#include "events/event_options.h"
 
 /// The manual page and the shell completion are made of what the program itself accepts, so that they cannot differ
 /// from it.
@@ -97,6 +98,8 @@ void printCompletion(const CLI::App& app) {
     std::set<std::string> parameters;
     ChainOptions chain;
     for (const Parameter& parameter : listParameters(describeOf(chain))) parameters.insert(parameter.name + "=");
+    EventOptions events;
+    for (const Parameter& parameter : listParameters(describeOf(events))) parameters.insert(parameter.name + "=");
     const std::vector<std::string> presets = builtInPresets();
     std::printf(
         "# Completion of eyrie-cli for bash; made by `eyrie-cli manual --completion`.\n"

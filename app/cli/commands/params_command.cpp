@@ -5,6 +5,7 @@
 
 #include "cli/arguments/preset_arguments.h"
 #include "cli/command.h"
+#include "events/event_options.h"
 
 namespace eyrie::cli {
 namespace {
@@ -50,7 +51,9 @@ void addParamsCommand(CLI::App& app, int&) {
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] {
         ChainOptions options = arguments->preset.options();
-        const auto parameters = listParameters(describeOf(options));
+        auto parameters = listParameters(describeOf(options));
+        EventOptions events;
+        for (Parameter& parameter : listParameters(describeOf(events))) parameters.push_back(std::move(parameter));
         arguments->json ? printParameterJson(parameters) : printParameterTable(parameters);
     });
 }

@@ -1,0 +1,46 @@
+#include "events/event_csv.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "io/atomic_file.h"
+#include "io/tables/csv_reader.h"
+#include "io/tables/number_text.h"
+
+namespace eyrie {
+
+std::string videoClockText(double seconds) {
+    const auto tenths = static_cast<long long>(std::floor(std::abs(seconds) * 10 + 1e-6));
+    const long long minutes = tenths / 600;
+    const char* sign = seconds < 0 && tenths > 0 ? "-" : "";
+    char text[64];
+    if (minutes >= 60) {
+        std::snprintf(text, sizeof text, "%s%lld:%02lld:%02lld.%lld", sign, minutes / 60, minutes % 60,
+                      tenths / 10 % 60, tenths % 10);
+    } else {
+        std::snprintf(text, sizeof text, "%s%lld:%02lld.%lld", sign, minutes, tenths / 10 % 60, tenths % 10);
+    }
+    return text;
+}
+
+void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock) {
+    std::string text =
+        "kind,first_frame,last_frame,start_s,end_s,clock,tracks,figure,unit,zone,sense,frame,x,y,ground_frame,"
+        "ground_x,ground_y\n";
+    for (const Event& event : events) {
+        std::string tracks;
+        for (const TrackId id : event.tracks) tracks += (tracks.empty() ? "" : " ") + std::to_string(id);
+        const bool counts = event.unit != FigureUnit::none;
+        text += std::string(nameOf(event.kind)) + ',' + std::to_string(event.first_frame) + ',' +
+                std::to_string(event.last_frame) + ',' + fixedText(clock(event.first_frame), 3) + ',' +
+                fixedText(clock(event.last_frame), 3) + ',' + videoClockText(clock(event.first_frame)) + ',' + tracks +
+                ',' + (counts ? fixedText(event.figure, 3) : "") + ',' + nameOf(event.unit) + ',' +
+                csvField(event.zone) + ',' + nameOf(event.sense) + ',' + std::to_string(event.frame) + ',' +
+                fixedText(event.place.x, 2) + ',' + fixedText(event.place.y, 2) + ',' +
+                std::to_string(event.ground_frame) + ',' + fixedText(event.ground.x, 2) + ',' +
+                fixedText(event.ground.y, 2) + '\n';
+    }
+    writeFileAtomically(path, text);
+}
+
+}  // namespace eyrie

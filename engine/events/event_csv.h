@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "events/event.h"
+
+namespace eyrie {
+
+/// Seconds from the beginning of the video at which a frame is shown.
+using FrameClock = std::function<double(FrameIndex)>;
+
+/// "1:02:03.4", "2:03.4": hours where there are any, tenths of seconds.
+std::string videoClockText(double seconds);
+
+/// Columns kind, first_frame, last_frame, start_s, end_s, clock, tracks (separated by blanks), figure, unit, zone,
+/// sense, frame, x, y, ground_frame, ground_x, ground_y. Throws Error(output).
+void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock);
+
+}  // namespace eyrie

@@ -1,0 +1,170 @@
+#include "events/ground/ground_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyrie {
+namespace {
+
+constexpr double kSure = 3;                 ///< deviations
+constexpr std::size_t kFewestInWindow = 3;  ///< samples that tell a speed
+
+/// Places and velocities by a straight line through the samples of a window around each; near the ends of the path the
+/// window is cut off.
+void measure(GroundPath& path, const std::vector<cv::Point2d>& raw, double half_window, double rate_hz) {
+    const std::vector<GroundSample>& s = path.samples;
+    std::size_t begin = 0, end = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        while (s[i].frame - s[begin].frame > half_window) ++begin;
+        while (end < s.size() && s[end].frame - s[i].frame <= half_window) ++end;
+        const double n = static_cast<double>(end - begin);
+        double mean_time = 0;
+        cv::Point2d mean(0, 0);
+        for (std::size_t k = begin; k < end; ++k) {
+            mean_time += (s[k].frame - s[i].frame) / n;
+            mean += raw[k] * (1 / n);
+        }
+        double spread = 0;
+        cv::Point2d slope(0, 0);
+        for (std::size_t k = begin; k < end; ++k) {
+            const double time = s[k].frame - s[i].frame - mean_time;
+            spread += time * time;
+            slope += raw[k] * time;
+        }
+        GroundSample& sample = path.samples[i];
+        if (end - begin < kFewestInWindow) continue;
+        slope *= 1 / spread;
+        sample.at = mean - slope * mean_time;
+        sample.velocity = slope * rate_hz;
+        sample.speed = std::hypot(sample.velocity.x, sample.velocity.y);
+    }
+}
+
+/// How fast noise alone lets a standing vehicle seem, m/s.
+double speedOfNoise(double noise_m, double half_window, double rate_hz) {
+    const double n = 2 * std::floor(half_window) + 1;
+    return kSure * noise_m * std::sqrt(12 / (n * (n * n - 1))) * rate_hz;
+}
+
+/// What moves, by two thresholds; a start is dated back to where the lower one was passed.
+void tellMoving(GroundPath& path, double standing, double moving) {
+    std::vector<GroundSample>& s = path.samples;
+    bool now = s.front().speed >= (standing + moving) / 2;
+    std::size_t slow_until = 0;  // the last sample below the lower threshold, plus one
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        if (s[i].speed < standing) {
+            slow_until = i + 1;
+            now = false;
+        } else if (!now && s[i].speed > moving) {
+            now = true;
+            for (std::size_t k = slow_until; k < i; ++k) s[k].moving = true;
+        }
+        s[i].moving = now;
+    }
+}
+
+void set(GroundPath& path, const SampleSpan& span, bool moving) {
+    for (std::size_t i = span.first; i <= span.last; ++i) path.samples[i].moving = moving;
+}
+
+void removeShortSpans(GroundPath& path, double min_way, const EventOptions& options, const SceneScale& scale) {
+    const auto isWhole = [&](const SampleSpan& span) {
+        return span.first == 0 && span.last + 1 == path.samples.size();
+    };
+    for (const SampleSpan& span : spansOf(path, true)) {
+        const cv::Point2d moved = path.samples[span.last].at - path.samples[span.first].at;
+        if (!isWhole(span) && std::hypot(moved.x, moved.y) < min_way) set(path, span, false);
+    }
+    for (const SampleSpan& span : spansOf(path, false)) {
+        if (!isWhole(span) && secondsBetween(path, span.first, span.last, scale) < options.min_standing_s)
+            set(path, span, true);
+    }
+}
+
+/// Boxes of the track from `first` on that lie on one ground.
+GroundPath pieceFrom(const EventTrack& track, std::size_t first, const GroundStretches& ground,
+                     std::vector<cv::Point2d>& raw) {
+    GroundPath path;
+    path.track = &track;
+    path.first_box = first;
+    path.stretch = ground.indexOf(track.boxes[first].frame);
+    path.begins = first == 0;
+    std::size_t i = first;
+    for (; i < track.boxes.size(); ++i) {
+        const TrackedBox& box = track.boxes[i];
+        if (ground.indexOf(box.frame) != path.stretch) break;
+        GroundSample sample;
+        sample.frame = box.frame;
+        sample.at = ground.toGround(box.frame, box.box.centre);
+        raw.push_back(sample.at);
+        path.samples.push_back(sample);
+    }
+    path.ends = i == track.boxes.size();
+    return path;
+}
+
+}  // namespace
+
+std::vector<SampleSpan> spansOf(const GroundPath& path, bool moving) {
+    std::vector<SampleSpan> spans;
+    if (!path.measured) return spans;
+    for (std::size_t i = 0; i < path.samples.size(); ++i) {
+        if (path.samples[i].moving != moving) continue;
+        if (i == 0 || path.samples[i - 1].moving != moving) spans.push_back({i, i});
+        spans.back().last = i;
+    }
+    return spans;
+}
+
+double secondsBetween(const GroundPath& path, std::size_t from, std::size_t to, const SceneScale& scale) {
+    return (path.samples[to].frame - path.samples[from].frame) / scale.frame_rate_hz;
+}
+
+double wayBetween(const GroundPath& path, std::size_t from, std::size_t to) {
+    double way = 0;
+    for (std::size_t i = from + 1; i <= to; ++i) {
+        if (!path.samples[i].moving) continue;
+        const cv::Point2d step = path.samples[i].at - path.samples[i - 1].at;
+        way += std::hypot(step.x, step.y);
+    }
+    return way;
+}
+
+std::size_t sampleAt(const GroundPath& path, FrameIndex frame) {
+    const auto found = std::lower_bound(path.samples.begin(), path.samples.end(), frame,
+                                        [](const GroundSample& sample, FrameIndex at) { return sample.frame < at; });
+    return static_cast<std::size_t>(found - path.samples.begin());
+}
+
+std::vector<GroundPath> groundPaths(const std::vector<EventTrack>& tracks, const GroundStretches& ground,
+                                    const EventOptions& options) {
+    const SceneScale& scale = ground.footage().scale;
+    const double half_window = std::max(2.0, options.smooth_s * scale.frame_rate_hz / 2);
+    std::vector<GroundPath> paths;
+    for (const EventTrack& track : tracks) {
+        for (std::size_t i = 0; i < track.boxes.size();) {
+            if (ground.indexOf(track.boxes[i].frame) < 0) {
+                ++i;
+                continue;
+            }
+            std::vector<cv::Point2d> raw;
+            GroundPath path = pieceFrom(track, i, ground, raw);
+            i += path.samples.size();
+            path.measured = path.samples.size() >= kFewestInWindow &&
+                            path.samples.back().frame - path.samples.front().frame >= half_window;
+            if (path.measured) {
+                measure(path, raw, half_window, scale.frame_rate_hz);
+                const TrackedBox& middle = path.box(path.samples.size() / 2);
+                const double noise_m = options.noise_px * ground.metresPerPixel(middle.frame, middle.box.centre);
+                const double noise = speedOfNoise(noise_m, half_window, scale.frame_rate_hz);
+                const double standing = std::max(options.standing_kmh / 3.6, noise);
+                tellMoving(path, standing, std::max({options.moving_kmh / 3.6, standing, 1.5 * noise}));
+                removeShortSpans(path, std::max(options.min_way_m, 2 * kSure * noise_m), options, scale);
+            }
+            paths.push_back(std::move(path));
+        }
+    }
+    return paths;
+}
+
+}  // namespace eyrie

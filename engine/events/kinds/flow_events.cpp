@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angle.h"
+#include "events/ground/flow_field.h"
+#include "events/kinds/event_scene.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kLeastFlowTime_s = 1;  ///< for which a vehicle drives against the flow or off it
+
+/// How a sample lies to what others do.
+enum class Verdict {
+    none,     ///< it stands, or nothing can be told
+    along,    ///< enough others go its way
+    against,  ///< enough others go the other way, hardly one goes its way
+    off       ///< nobody else comes near
+};
+
+/// The flow on one ground.
+struct Flow {
+    FlowField near;  ///< who passes a place
+    FlowField wide;  ///< who comes near it
+};
+
+std::vector<Verdict> verdictsOn(const EventScene& scene, const GroundPath& path, const Flow& flow) {
+    const EventOptions& o = scene.options;
+    const FlowField::Votes near = flow.near.votesOf(path);
+    const FlowField::Votes wide = flow.wide.votesOf(path);
+    const double against = radiansFromDegrees(o.against_deg);
+    std::vector<Verdict> verdicts(path.samples.size(), Verdict::none);
+    for (std::size_t i = 0; i < path.samples.size(); ++i) {
+        const GroundSample& sample = path.samples[i];
+        if (!sample.moving) continue;
+        const double direction = std::atan2(sample.velocity.y, sample.velocity.x);
+        const FlowField::Others others = flow.near.othersAt(sample.at, direction, against, near);
+        if (others.against >= o.flow_tracks && others.along <= o.flow_share * others.all) {
+            verdicts[i] = Verdict::against;
+        } else if (others.along >= o.flow_tracks) {
+            verdicts[i] = Verdict::along;
+        } else if (others.all == 0 && flow.wide.othersAt(sample.at, direction, against, wide).all == 0) {
+            verdicts[i] = Verdict::off;
+        }
+    }
+    return verdicts;
+}
+
+/// Spans of one verdict that are long enough; short interruptions that say nothing else belong to them.
+std::vector<SampleSpan> longSpans(const EventScene& scene, const GroundPath& path, const std::vector<Verdict>& verdicts,
+                                  Verdict wanted) {
+    std::vector<SampleSpan> spans;
+    bool open = false;
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+        if (verdicts[i] == wanted) {
+            if (open)
+                spans.back().last = i;
+            else
+                spans.push_back({i, i});
+            open = true;
+        } else if (open && (verdicts[i] != Verdict::none ||
+                            secondsBetween(path, spans.back().last, i, scene.scale) > kLeastFlowTime_s)) {
+            open = false;
+        }
+    }
+    std::erase_if(spans, [&](const SampleSpan& span) {
+        return wayBetween(path, span.first, span.last) < scene.options.flow_way_m ||
+               secondsBetween(path, span.first, span.last, scene.scale) < kLeastFlowTime_s;
+    });
+    return spans;
+}
+
+/// For how long a place on the ground was in the picture; counts no further than `enough`.
+double secondsInPicture(const EventScene& scene, int stretch_index, cv::Point2d place, double enough) {
+    const GroundStretch& stretch = scene.ground.all()[static_cast<std::size_t>(stretch_index)];
+    const int step = std::max(1, static_cast<int>(scene.scale.frame_rate_hz / 2));
+    double seconds = 0;
+    for (FrameIndex frame = stretch.first_frame; frame <= stretch.last_frame && seconds < enough; frame += step) {
+        const auto image = scene.ground.toImage(frame, place);
+        if (image && scene.ground.inImage(*image)) seconds += step / scene.scale.frame_rate_hz;
+    }
+    return seconds;
+}
+
+/// The sample of a span that lies furthest beside the straight continuation of what came before, and how far, m.
+std::pair<std::size_t, double> furthestBeside(const GroundPath& path, const GroundSample& from,
+                                              const SampleSpan& span) {
+    std::pair<std::size_t, double> furthest{span.first, 0};
+    for (std::size_t i = span.first; i <= span.last; ++i) {
+        const cv::Point2d way = path.samples[i].at - from.at;
+        const double beside = std::abs(from.velocity.x * way.y - from.velocity.y * way.x) / from.speed;
+        if (beside > furthest.second) furthest = {i, beside};
+    }
+    return furthest;
+}
+
+void addAgainst(const EventScene& scene, const GroundPath& path, const std::vector<Verdict>& verdicts,
+                std::vector<Event>& events) {
+    for (const SampleSpan& span : longSpans(scene, path, verdicts, Verdict::against)) {
+        const std::size_t middle = (span.first + span.last) / 2;
+        Event event = eventAt(scene, EventKind::against_flow, path, span, middle);
+        setLength(event, scene, wayBetween(path, span.first, span.last));
+        events.push_back(event);
+    }
+}
+
+void addLeaving(const EventScene& scene, const GroundPath& path, const std::vector<Verdict>& verdicts,
+                std::vector<Event>& events) {
+    const std::vector<SampleSpan> along = longSpans(scene, path, verdicts, Verdict::along);
+    for (const SampleSpan& span : longSpans(scene, path, verdicts, Verdict::off)) {
+        const auto after =
+            std::find_if(along.rbegin(), along.rend(), [&](const SampleSpan& each) { return each.last < span.first; });
+        if (after == along.rend()) continue;
+        const auto [furthest, beside] = furthestBeside(path, path.samples[after->last], span);
+        if (beside < scene.options.off_flow_m) continue;
+        // A place that has hardly been seen may be full of traffic at other times.
+        const double seen = scene.options.off_flow_s;
+        if (secondsInPicture(scene, path.stretch, path.samples[furthest].at, seen) < seen) continue;
+        Event event = eventAt(scene, EventKind::leaves_flow, path, span, span.first);
+        setLength(event, scene, wayBetween(path, span.first, span.last));
+        events.push_back(event);
+    }
+}
+
+}  // namespace
+
+void findFlowEvents(const EventScene& scene, std::vector<Event>& events) {
+    const EventOptions& o = scene.options;
+    std::vector<Flow> flows(scene.ground.all().size(), {FlowField(o.flow_radius_m), FlowField(o.off_flow_m)});
+    for (const GroundPath& path : scene.paths) {
+        if (!path.measured) continue;
+        Flow& flow = flows[static_cast<std::size_t>(path.stretch)];
+        flow.near.add(flow.near.votesOf(path));
+        flow.wide.add(flow.wide.votesOf(path));
+    }
+    for (const GroundPath& path : scene.paths) {
+        if (!path.measured) continue;
+        const auto verdicts = verdictsOn(scene, path, flows[static_cast<std::size_t>(path.stretch)]);
+        addAgainst(scene, path, verdicts, events);
+        addLeaving(scene, path, verdicts, events);
+    }
+}
+
+}  // namespace eyrie

@@ -1,0 +1,74 @@
+#include "events/stored_events.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/error.h"
+
+namespace eyrie {
+
+double StoredTracks::secondsOf(FrameIndex frame) const {
+    const int at = frame - footage.first_frame;
+    if (at < 0 || at >= static_cast<int>(shown_s.size())) return frame / footage.scale.frame_rate_hz;
+    return shown_s[static_cast<std::size_t>(at)];
+}
+
+StoredTracks readTracks(const RunStore& store, const RunRecord& run) {
+    StoredTracks found;
+    Footage& footage = found.footage;
+    footage.image_size = run.sequence.size;
+    footage.scale = run.scale;
+    footage.first_frame = run.first_frame;
+    footage.last_frame = run.first_frame - 1;
+    for (const FrameSummary& frame : store.frameSummaries(run.id)) {
+        // Frames follow each other; what a damaged file lacks is shown at the time of the frame before.
+        while (footage.last_frame < frame.frame) {
+            found.shown_s.push_back(static_cast<double>(frame.time_us) / 1e6);
+            ++footage.last_frame;
+        }
+    }
+    std::vector<Homography> steps;
+    store.visitRegistrations(run.id, [&](const Registration& registration) {
+        if (registration.reliable()) steps.push_back(registration.current_from_previous);
+        if (registration.state == RegistrationState::failed) ++found.unregistered;
+    });
+    footage.camera = CameraMotion(steps);
+    std::set<TrackId> confirmed;
+    for (const TrackSummary& track : store.tracks(run.id)) {
+        if (track.confirmed) confirmed.insert(track.id);
+    }
+    std::map<TrackId, EventTrack> tracks;
+    store.visitTrackStates(run.id, [&](FrameIndex frame, const TrackState& state) {
+        if (!confirmed.contains(state.id)) return;
+        EventTrack& track = tracks[state.id];
+        track.id = state.id;
+        track.boxes.push_back({frame, state.box});
+    });
+    for (auto& [id, track] : tracks) found.tracks.push_back(std::move(track));
+    return found;
+}
+
+std::vector<std::string> remarksOn(const std::vector<Zone>& zones, const Footage& footage) {
+    std::vector<std::string> remarks;
+    if (footage.last_frame < footage.first_frame) return remarks;
+    const GroundStretches ground(footage);
+    for (const Zone& zone : zones) {
+        if (zone.anchor == ZoneAnchor::image) continue;
+        const GroundStretch* stretch = ground.of(zone.frame);
+        if (stretch == nullptr) {
+            throw Error(ErrorKind::input, "zone \"" + zone.name + "\" is fixed to the ground of frame " +
+                                              std::to_string(zone.frame) + ", but the run holds the frames " +
+                                              std::to_string(footage.first_frame) + " to " +
+                                              std::to_string(footage.last_frame));
+        }
+        if (ground.all().size() == 1) continue;
+        remarks.push_back("zone \"" + zone.name + "\" counts in frames " + std::to_string(stretch->first_frame) +
+                          " to " + std::to_string(stretch->last_frame) +
+                          " only: the ground of other frames is not connected with that of frame " +
+                          std::to_string(zone.frame));
+    }
+    return remarks;
+}
+
+}  // namespace eyrie

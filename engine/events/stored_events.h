@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "events/event.h"
+#include "events/ground/ground_stretches.h"
+#include "events/zones/zone.h"
+#include "store/runs/run_store.h"
+
+namespace eyrie {
+
+/// What events are computed from.
+struct StoredTracks {
+    std::vector<EventTrack> tracks;  ///< of the run's result, ascending ids
+    Footage footage;                 ///< no frames where the run has none
+    std::vector<double> shown_s;     ///< when each of its frames is shown, s from the beginning of the video
+    int unregistered = 0;            ///< frames that could not be registered onto the one before
+
+    /// Seconds at which a frame is shown; by the frame rate where the run does not know it.
+    double secondsOf(FrameIndex frame) const;
+};
+
+/// Reads a run's tracks and how its frames were registered. Throws Error(project).
+StoredTracks readTracks(const RunStore& store, const RunRecord& run);
+
+/// In which frames zones that are fixed to the ground hold, where these are not all; one sentence a zone. Throws
+/// Error(input) for a zone fixed to a frame that was not searched.
+std::vector<std::string> remarksOn(const std::vector<Zone>& zones, const Footage& footage);
+
+}  // namespace eyrie

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <string>
+#include <vector>
+
+#include "core/values/ids.h"
+
+namespace eyrie {
+
+enum class ZoneShape { area, line };
+enum class ZoneAnchor { image, ground };
+
+/// A place that somebody watches.
+struct Zone {
+    std::string name;
+    ZoneShape shape = ZoneShape::area;
+    ZoneAnchor anchor = ZoneAnchor::ground;
+    FrameIndex frame = 0;             ///< in which the points are meant, if fixed to the ground
+    std::vector<cv::Point2d> points;  ///< px; corners of an area, or the line from its first to its last point
+};
+
+/// What makes a zone useless, for people ("has no area"); empty for a good one.
+std::string faultOf(const Zone& zone);
+
+/// Shortest distance from the outline or the line.
+double distanceTo(const std::vector<cv::Point2d>& points, bool closed, cv::Point2d place);
+/// Whether a place lies inside a closed outline.
+bool isInside(const std::vector<cv::Point2d>& outline, cv::Point2d place);
+/// How a step crosses a line: +1 to the right as seen along it, −1 to the left, 0 not at all.
+int crossing(const std::vector<cv::Point2d>& line, cv::Point2d from, cv::Point2d to);
+
+}  // namespace eyrie

@@ -1,0 +1,86 @@
+#include "events/zones/zone_file.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "formats/json_xml/json_place.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kZoneFormat = 1;
+constexpr std::size_t kMostZones = 1000;
+constexpr std::size_t kMostPoints = 10000;
+
+/// Words that nobody reads were misspelt.
+void refuseOtherKeys(const JsonPlace& place, const std::vector<std::string>& known) {
+    if (!place.value().is_object()) place.fail("is not an object");
+    for (const auto& item : place.value().items()) {
+        if (std::find(known.begin(), known.end(), item.key()) != known.end()) continue;
+        const auto nearest = nearestWord(item.key(), known);
+        place.fail("\"" + validUtf8(item.key()) + "\" is not known here" +
+                   (nearest ? "; did you mean \"" + *nearest + "\"?" : ""));
+    }
+}
+
+/// 0 for the first word, which is the default, 1 for the second.
+int choiceOf(const JsonPlace& zone, const char* key, const char* first, const char* second) {
+    if (!zone.has(key)) return 0;
+    const JsonPlace place = zone.at(key);
+    const std::string word = place.text();
+    if (word != first && word != second)
+        place.fail("is \"" + word + "\", expected \"" + first + "\" or \"" + second + "\"");
+    return word == second ? 1 : 0;
+}
+
+Zone zoneAt(const JsonPlace& place) {
+    refuseOtherKeys(place, {"name", "shape", "fixed_to", "frame", "points"});
+    Zone zone;
+    zone.name = place.at("name").text();
+    if (zone.name.empty()) place.at("name").fail("is empty");
+    zone.shape = choiceOf(place, "shape", "area", "line") == 0 ? ZoneShape::area : ZoneShape::line;
+    zone.anchor = choiceOf(place, "fixed_to", "ground", "image") == 0 ? ZoneAnchor::ground : ZoneAnchor::image;
+    if (place.has("frame")) {
+        zone.frame = place.at("frame").whole();
+        if (zone.frame < 0) place.at("frame").fail("is not the number of a frame");
+    }
+    const JsonPlace points = place.at("points");
+    if (points.size() > kMostPoints) points.fail("has more than " + std::to_string(kMostPoints) + " points");
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const JsonPlace point = points.at(i);
+        if (point.size() != 2) point.fail("is not a point [x, y]");
+        zone.points.emplace_back(point.at(std::size_t{0}).pixels(), point.at(std::size_t{1}).pixels());
+    }
+    const std::string fault = faultOf(zone);
+    if (!fault.empty()) points.fail(fault);
+    return zone;
+}
+
+}  // namespace
+
+std::vector<Zone> readZones(const std::filesystem::path& path) {
+    const nlohmann::json json = readLabelJson(path);
+    const JsonPlace file(path, json);
+    if (!file.has("eyrie_zones")) file.fail("holds no zones: \"eyrie_zones\" is missing");
+    const JsonPlace format = file.at("eyrie_zones");
+    if (format.whole() != kZoneFormat)
+        format.fail("is " + std::to_string(format.whole()) + ", expected " + std::to_string(kZoneFormat));
+    refuseOtherKeys(file, {"eyrie_zones", "zones"});
+    const JsonPlace list = file.at("zones");
+    if (list.size() == 0) list.fail("is empty");
+    if (list.size() > kMostZones) list.fail("has more than " + std::to_string(kMostZones) + " zones");
+    std::vector<Zone> zones;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const JsonPlace place = list.at(i);
+        zones.push_back(zoneAt(place));
+        if (!names.insert(zones.back().name).second)
+            place.fail("is the second zone with the name \"" + zones.back().name + "\"");
+    }
+    return zones;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,174 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "store/project/project_file.h"
+#include "store/runs/result_writer.h"
+#include "store/runs/run_store.h"
+#include "support/places.h"
+#include "support/process.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr int kFrames = 500;
+
+class EventsCommand : public testing::Test {
+ protected:
+    EventsCommand() {
+        writeProject("p.eyrie", true, -1);
+        write("zones.json",
+              R"({"eyrie_zones": 1, "zones": [
+                  {"name": "gate", "shape": "line", "points": [[300, 100], [300, 300]]},
+                  {"name": "yard", "points": [[400, 100], [500, 100], [500, 300], [400, 300]]}]})");
+    }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+    std::string at(const std::string& name) const { return (folder_ / name).string(); }
+    std::string textOf(const std::string& name) const {
+        std::stringstream text;
+        text << std::ifstream(folder_ / name).rdbuf();
+        return text.str();
+    }
+    /// Words that begin with "@" are paths in the folder.
+    test::ProcessResult call(std::vector<std::string> arguments) const {
+        for (std::string& word : arguments) {
+            if (word.starts_with('@')) word = at(word.substr(1));
+        }
+        arguments.insert(arguments.begin(), {test::programPath("eyrie-cli"), "events"});
+        return test::runProcess(arguments);
+    }
+    /// At 0.2 m/px and 25 Hz: 1.5 px a frame are 27 km/h. It comes over the left border, drives on to x = 420, stands
+    /// there for seven seconds and is seen until the end. The camera moves by a quarter of a pixel.
+    static double wayAt(int frame) { return frame < 50 ? -75 + 1.5 * 50 : std::min(420.0, -75 + 1.5 * frame); }
+    void writeProject(const std::string& name, bool gsd_known, int failed) const {
+        RunRecord run;
+        run.sequence = {.path = "/nowhere/clip.mp4", .size = {640, 400}, .frame_count = kFrames, .frame_rate_hz = 25};
+        run.last_frame = kFrames - 1;
+        run.scale = {0.2, 25, gsd_known};
+        ProjectFile::create(folder_ / name);
+        ResultWriter writer(folder_ / name, run, {});
+        for (int frame = 0; frame < kFrames; ++frame) {
+            FrameResult result;
+            result.motion.frame = frame;
+            result.motion.time_us = frame * 40000LL;
+            result.motion.image_size = {640, 400};
+            auto& registration = result.motion.registration;
+            registration.state = frame == 0        ? RegistrationState::first
+                                 : frame == failed ? RegistrationState::failed
+                                                   : RegistrationState::registered;
+            registration.current_from_previous.from_frame = frame == 0 ? 0 : frame - 1;
+            registration.current_from_previous.to_frame = frame;
+            if (frame > 0) registration.current_from_previous.matrix(0, 2) = -0.25;
+            if (frame >= 50) {
+                TrackState track;
+                track.id = 5;
+                track.box = {{wayAt(frame) - 0.25 * frame + 20, 200}, 22, 9, 0};
+                track.status = TrackStatus::confirmed;
+                result.tracks.push_back(track);
+            }
+            writer.write(result);
+        }
+        writer.finish(RunState::finished, "");
+    }
+    test::TemporaryFolder folder_;
+};
+
+}  // namespace
+
+TEST_F(EventsCommand, PrintsWhatHappenedWithTimesFiguresAndPlaces) {
+    const auto result = call({"--project", "@p.eyrie"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output, StartsWith("kind "));
+    EXPECT_THAT(result.output, AllOf(HasSubstr("appears           50            0:02.0     5"), HasSubstr("27 km/h"),
+                                     HasSubstr("stops "), HasSubstr("stands ")));
+    EXPECT_THAT(result.output, HasSubstr("3 events of 1 tracks: 1 appears, 1 stops, 1 stands"));
+    EXPECT_EQ(result.errors, "");
+}
+
+TEST_F(EventsCommand, KindsAndThresholdsCanBeChosen) {
+    const auto stops = call({"--project", "@p.eyrie", "--kind", "stops,stands", "--set", "events.stands=20"});
+    EXPECT_EQ(stops.exit_code, 0) << stops.errors;
+    EXPECT_THAT(stops.output, HasSubstr("1 event of 1 tracks: 1 stops"));
+    const auto over = call({"--project", "@p.eyrie", "--kind", "over-speed", "--set", "events.over=20"});
+    EXPECT_THAT(over.output, AllOf(HasSubstr("over speed"), HasSubstr("27 km/h")));
+    const auto wrong = call({"--project", "@p.eyrie", "--kind", "stopps"});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.errors, HasSubstr("the nearest is \"stops\""));
+    EXPECT_EQ(call({"--project", "@p.eyrie", "--set", "events.over=-1"}).exit_code, 2);
+    EXPECT_EQ(call({"--project", "@p.eyrie", "--set", "events.over"}).exit_code, 2);
+    EXPECT_THAT(call({"--project", "@p.eyrie", "--set", "events.ovr=1"}).errors, HasSubstr("events.over"));
+}
+
+TEST_F(EventsCommand, ZonesAreWatchedOnTheGround) {
+    const auto result = call({"--project", "@p.eyrie", "--zone", "@zones.json", "--kind", "enters", "--kind", "exits",
+                              "--kind", "crosses", "--csv", "@e.csv"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output,
+                AllOf(HasSubstr("gate to the left"), HasSubstr("2 events of 1 tracks: 1 enters, 1 crosses")));
+    // x = 280 of frame 0 is where the box's centre, 20 px ahead of its way, comes to the line: frame 237.
+    const std::string table = textOf("e.csv");
+    EXPECT_THAT(table,
+                StartsWith("kind,first_frame,last_frame,start_s,end_s,clock,tracks,figure,unit,zone,sense,frame"));
+    EXPECT_THAT(table, HasSubstr("\ncrosses,237,237,9.48,9.48,0:09.4,5,27,km/h,gate,to the left,237,"));
+    EXPECT_THAT(table, HasSubstr("\nenters,304,304,"));
+}
+
+TEST_F(EventsCommand, WithoutAScaleItSpeaksOfPixelsAndSaysSo) {
+    writeProject("unknown.eyrie", false, -1);
+    const auto result = call({"--project", "@unknown.eyrie"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.output, AllOf(HasSubstr("1.50 px/frame"), Not(HasSubstr("km/h"))));
+    EXPECT_THAT(result.errors, AllOf(HasSubstr("the scale is not known"), HasSubstr("0.2 m/px")));
+}
+
+TEST_F(EventsCommand, FramesThatCouldNotBeRegisteredAreTold) {
+    writeProject("broken.eyrie", true, 200);
+    const auto result = call({"--project", "@broken.eyrie", "--zone", "@zones.json"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.errors, AllOf(HasSubstr("1 frame could not be registered"),
+                                     HasSubstr("zone \"gate\" counts in frames 0 to 199 only")));
+}
+
+TEST_F(EventsCommand, BadZonesAreRefusedWithTheirPlace) {
+    write("flat.json", R"({"eyrie_zones": 1, "zones": [{"name": "a", "points": [[0, 0], [5, 5], [9, 9]]}]})");
+    write("broken.json", R"({"eyrie_zones": 1, "zones": [{"name": "a",)");
+    write("late.json",
+          R"({"eyrie_zones": 1, "zones": [{"name": "a", "frame": 900, "points": [[0, 0], [5, 0], [9, 9]]}]})");
+    const std::vector<std::pair<std::string, std::string>> files = {
+        {"flat.json", "flat.json: zones[0].points: the zone has no area"},
+        {"broken.json", "broken.json: is not valid JSON"},
+        {"late.json", "zone \"a\" is fixed to the ground of frame 900"},
+        {"absent.json", "absent.json"}};
+    for (const auto& [file, words] : files) {
+        const auto result = call({"--project", "@p.eyrie", "--zone", "@" + file, "--csv", "@none.csv"});
+        EXPECT_EQ(result.exit_code, 3) << file;
+        EXPECT_THAT(result.errors, HasSubstr(words));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "none.csv"));
+    }
+}
+
+TEST_F(EventsCommand, EndsAsTheOtherCommandsDo) {
+    ProjectFile::create(folder_ / "empty.eyrie");
+    EXPECT_EQ(call({"--project", "@absent.eyrie"}).exit_code, 5);
+    EXPECT_EQ(call({"--project", "@empty.eyrie"}).exit_code, 5);
+    EXPECT_EQ(call({"--project", "@p.eyrie", "--run", "7"}).exit_code, 2);
+    EXPECT_EQ(call({}).exit_code, 2);
+    write("file", "x");
+    EXPECT_EQ(call({"--project", "@p.eyrie", "--csv", "@file/e.csv"}).exit_code, 4);
+    EXPECT_EQ(call({"--project", "@p.eyrie", "--csv", "@p.eyrie"}).exit_code, 4);
+    EXPECT_EQ(call({"--project", "@p.eyrie", "--zone", "@zones.json", "--csv", "@zones.json"}).exit_code, 4);
+    write("old.csv", "a,b\n1,2\n");
+    EXPECT_EQ(call({"--project", "@p.eyrie", "--csv", "@old.csv"}).exit_code, 4);
+    EXPECT_EQ(call({"--project", "@p.eyrie", "--csv", "@old.csv", "--force"}).exit_code, 0);
+    EXPECT_THAT(textOf("old.csv"), StartsWith("kind,"));
+}
+
+}  // namespace eyrie

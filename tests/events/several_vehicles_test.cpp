@@ -1,0 +1,160 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "events/driven_tracks.h"
+
+namespace eyrie {
+namespace {
+
+using test::DrivenTracks;
+using test::Leg;
+using test::tracksOf;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// Two lanes, 3.5 m apart: to the right on y = 62, to the left on y = 58.5; a car every two seconds.
+void addTwoLanes(DrivenTracks& scene) {
+    for (int i = 0; i < 18; ++i) {
+        scene.drive({-10, 62}, 0, {{40, 45, 45}}, 40 * i);
+        scene.drive({210, 58.5}, 180, {{40, 50, 50}}, 40 * i + 13);
+    }
+}
+
+}  // namespace
+
+TEST(Flow, TwoLanesSideBySideAreNotAgainstEachOther) {
+    DrivenTracks scene;
+    addTwoLanes(scene);
+    EXPECT_THAT(scene.events(EventKind::against_flow), IsEmpty());
+    EXPECT_THAT(scene.events(EventKind::leaves_flow), IsEmpty());
+}
+
+TEST(Flow, TheWrongWayDriverIsFoundAndTheOthersAreNot) {
+    DrivenTracks scene;
+    addTwoLanes(scene);
+    const TrackId wrong = scene.drive({-10, 58.5}, 0, {{40, 40, 40}}, 300);
+    const auto events = scene.events(EventKind::against_flow);
+    ASSERT_THAT(tracksOf(events), ElementsAre(wrong));
+    EXPECT_GT(events[0].figure, 150);
+    EXPECT_NEAR(scene.placeOf(events[0]).x, 100, 15);
+    EXPECT_NEAR(scene.placeOf(events[0]).y, 58.5, 0.5);
+}
+
+TEST(Flow, ChangingToTheWrongLaneIsFoundWhereItHappens) {
+    DrivenTracks scene;
+    addTwoLanes(scene);
+    // 3.5 m to the left in three seconds, there for five, and back.
+    const TrackId overtaking = scene.drive({-10, 62}, 0,
+                                           {{4, 45, 45},
+                                            {1.5, 45, 45, -7.1},
+                                            {1.5, 45, 45, 7.1},
+                                            {4, 45, 45},
+                                            {1.5, 45, 45, 7.1},
+                                            {1.5, 45, 45, -7.1},
+                                            {10, 45, 45}},
+                                           305);
+    const auto events = scene.events(EventKind::against_flow);
+    ASSERT_THAT(tracksOf(events), ElementsAre(overtaking));
+    EXPECT_NEAR(events[0].frame, 305 + 25 * (4 + 3 + 2), 25);
+}
+
+TEST(Flow, NothingIsToldWhereTooFewDrive) {
+    DrivenTracks scene;
+    for (int i = 0; i < 4; ++i) scene.drive({-10, 62}, 0, {{40, 45, 45}}, 40 * i);
+    scene.drive({210, 62}, 180, {{40, 45, 45}}, 400);
+    EXPECT_THAT(scene.events(EventKind::against_flow), IsEmpty());
+}
+
+TEST(Flow, WhoTurnsOffToWhereNobodyDrivesLeavesIt) {
+    DrivenTracks scene;
+    addTwoLanes(scene);
+    // A bend to the right after 80 m, on into the field.
+    const TrackId leaving = scene.drive({-10, 62}, 0, {{7.2, 45, 45}, {3, 25, 25, 25}, {6, 25, 25}}, 310);
+    const auto events = scene.events(EventKind::leaves_flow);
+    ASSERT_THAT(tracksOf(events), ElementsAre(leaving));
+    EXPECT_GT(scene.placeOf(events[0]).y, 66);
+    EXPECT_LT(scene.placeOf(events[0]).y, 75);
+    EXPECT_GT(events[0].figure, 30);
+}
+
+TEST(Flow, WhoDrivesOnWhereOthersWereLostDoesNotLeaveIt) {
+    DrivenTracks scene;
+    for (int i = 0; i < 10; ++i) {
+        scene.drive({-10, 62}, 0, {{40, 45, 45}}, 40 * i);
+        scene.cutAfter(8);
+    }
+    scene.drive({-10, 62}, 0, {{40, 45, 45}}, 450);
+    EXPECT_THAT(scene.events(EventKind::leaves_flow), IsEmpty());
+}
+
+TEST(Convoys, ThreeAtSteadyDistanceAreOneAndOverlappingTrafficIsNot) {
+    DrivenTracks scene;
+    scene.frames = 900;
+    // One after the other along the same way, round a corner.
+    for (int i = 0; i < 4; ++i) scene.drive({40, 30}, 0, {{8, 20, 20}, {6, 20, 20, 15}, {16, 15, 15}}, 75 * i);
+    // Faster and faster ones behind each other, on another road.
+    for (int i = 0; i < 4; ++i) scene.drive({60.0 - 18 * i, 100}, 0, {{40, 8 + 6.0 * i, 8 + 6.0 * i}}, 0);
+    const auto events = scene.events(EventKind::convoy);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_THAT(events[0].tracks, ElementsAre(1, 2, 3, 4));
+    EXPECT_EQ(events[0].figure, 4);
+    EXPECT_GT(events[0].last_frame - events[0].first_frame, 15 * 25);
+}
+
+TEST(Convoys, TwoAreNone) {
+    DrivenTracks scene;
+    scene.drive({40, 40}, 0, {{30, 20, 20}});
+    scene.drive({20, 40}, 0, {{30, 20, 20}});
+    EXPECT_THAT(scene.events(EventKind::convoy), IsEmpty());
+    EventOptions options;
+    options.convoy_vehicles = 2;
+    EXPECT_EQ(scene.events(EventKind::convoy, options).size(), 1U);
+}
+
+TEST(Convoys, ThoseWhoDriveTheOtherWayOrBesideDoNotBelongToIt) {
+    DrivenTracks scene;
+    scene.frames = 700;
+    scene.drive({60, 40}, 0, {{28, 20, 20}});
+    scene.drive({42, 40}, 0, {{28, 20, 20}});
+    scene.drive({30, 44}, 0, {{28, 20, 20}});       // beside
+    scene.drive({150, 36.5}, 180, {{28, 20, 20}});  // oncoming
+    EXPECT_THAT(scene.events(EventKind::convoy), IsEmpty());
+}
+
+TEST(Meetings, TwoFromDifferentDirectionsStandSideBySide) {
+    DrivenTracks scene;
+    const std::vector<Leg> come = {{5, 30, 30}, {4, 30, 0}, {10, 0, 0}, {4, 0, 30}, {8, 30, 30}};
+    // Both come 58.3 m; they stand 3 m apart, side by side.
+    scene.drive({100 - 58.3, 60}, 0, come);
+    scene.drive({100 + 58.3, 57}, 180, come, 50);
+    const auto events = scene.events(EventKind::meeting);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_THAT(events[0].tracks, ElementsAre(1, 2));
+    EXPECT_NEAR(events[0].figure, 8, 1);
+    EXPECT_NEAR(events[0].first_frame, 50 + 9 * 25, 15);
+    EXPECT_NEAR(scene.placeOf(events[0]).x, 100, 2);
+}
+
+TEST(Meetings, AQueueIsNone) {
+    DrivenTracks scene;
+    const std::vector<Leg> come = {{5, 30, 30}, {4, 30, 0}, {10, 0, 0}, {4, 0, 30}, {8, 30, 30}};
+    scene.drive({40, 60}, 0, come);
+    scene.drive({33, 60}, 0, come);
+    scene.drive({26, 60}, 0, come);
+    EXPECT_THAT(scene.events(EventKind::meeting), IsEmpty());
+    EventOptions options;
+    options.meeting_deg = 0;
+    EXPECT_EQ(scene.events(EventKind::meeting, options).size(), 2U);
+}
+
+TEST(Meetings, PassingEachOtherOrStandingFarApartIsNone) {
+    DrivenTracks scene;
+    const std::vector<Leg> come = {{5, 30, 30}, {4, 30, 0}, {10, 0, 0}, {4, 0, 30}};
+    scene.drive({100 - 58.3, 60}, 0, come);
+    scene.drive({100 + 58.3, 50}, 180, come);    // 10 m beside
+    scene.drive({-10, 100}, 0, {{30, 40, 40}});  // these pass
+    scene.drive({210, 97}, 180, {{30, 40, 40}});
+    EXPECT_THAT(scene.events(EventKind::meeting), IsEmpty());
+}
+
+}  // namespace eyrie
