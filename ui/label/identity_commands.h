@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "label/label_editor.h"
+#include "label/editor/label_editor.h"
 #include "label/label_parts.h"
 
 class QAction;

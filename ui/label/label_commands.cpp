@@ -12,11 +12,11 @@
 #include "label/computing/label_fitting.h"
 #include "label/computing/label_proposals.h"
 #include "label/computing/label_tracking.h"
+#include "label/editor/label_editor.h"
 #include "label/files/label_files.h"
 #include "label/identity_commands.h"
 #include "label/label_actions.h"
 #include "label/label_classes.h"
-#include "label/label_editor.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "label/canvas/label_timeline.h"
-#include "label/label_editor.h"
+#include "label/editor/label_editor.h"
 #include "label/label_session.h"
 #include "label/lists/object_inspector.h"
 #include "label/lists/objects_model.h"

@@ -2,8 +2,8 @@
 
 #include "annotation/edits/ignore_regions.h"
 #include "annotation/keyframes/interpolation.h"
+#include "label/editor/label_editor.h"
 #include "label/label_classes.h"
-#include "label/label_editor.h"
 #include "label/object_colours.h"
 
 namespace eyrie::ui {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "label/computing/label_proposals.h"
-#include "label/label_editor.h"
+#include "label/editor/label_editor.h"
 #include "label/label_parts.h"
 #include "label/label_session.h"
 

@@ -7,7 +7,7 @@
 #include "annotation/edits/object_pieces.h"
 #include "annotation/keyframes/keyframe_reduction.h"
 #include "annotation/review/proposals.h"
-#include "label/label_editor.h"
+#include "label/editor/label_editor.h"
 
 namespace eyrie::ui {
 

@@ -1,6 +1,6 @@
 // The part of LabelEditor that says which object is which.
 #include "annotation/edits/object_pieces.h"
-#include "label/label_editor.h"
+#include "label/editor/label_editor.h"
 
 namespace eyrie::ui {
 

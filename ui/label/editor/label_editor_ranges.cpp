@@ -1,6 +1,6 @@
 // The part of LabelEditor that works on ranges of frames: flags and ignore regions.
 #include "annotation/edits/ignore_regions.h"
-#include "label/label_editor.h"
+#include "label/editor/label_editor.h"
 
 namespace eyrie::ui {
 

@@ -1,4 +1,4 @@
-#include "label/label_editor.h"
+#include "label/editor/label_editor.h"
 
 #include <QDateTime>
 #include <QtMath>
