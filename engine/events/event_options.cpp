@@ -3,7 +3,7 @@
 namespace eyrie {
 namespace {
 
-void describeMotion(EventOptions& o, ParameterVisitor& v) {
+void describeMotion(EventOptions& o, const ParameterDeclarer& v) {
     v.real("events.smooth", o.smooth_s, 0.1, 10,
            {"s",
             "Speeds and directions are those over so long a time. Longer: steadier, but short stops and turns are "
@@ -27,7 +27,7 @@ void describeMotion(EventOptions& o, ParameterVisitor& v) {
            {"m", "A vehicle that moves less than this between two standstills has stood all the time.", ""});
 }
 
-void describeBorder(EventOptions& o, ParameterVisitor& v) {
+void describeBorder(EventOptions& o, const ParameterDeclarer& v) {
     v.real("events.border_time", o.border_s, 0, 10,
            {"s",
             "A track that would reach the border of the picture within this time has left, not been lost. Longer: "
@@ -42,7 +42,7 @@ void describeBorder(EventOptions& o, ParameterVisitor& v) {
             ""});
 }
 
-void describeOne(EventOptions& o, ParameterVisitor& v) {
+void describeOne(EventOptions& o, const ParameterDeclarer& v) {
     v.real("events.stands", o.stands_s, 0, 3600, {"s", "Shortest standstill that is told as such.", ""});
     v.real("events.turn_back_angle", o.turn_back_deg, 90, 180,
            {"degrees", "Directions before and after turning back differ by at least this.", ""});
@@ -63,7 +63,7 @@ void describeOne(EventOptions& o, ParameterVisitor& v) {
            {"s", "… for at least so long, and drives at least twice the circle's diameter meanwhile.", ""});
 }
 
-void describeOthers(EventOptions& o, ParameterVisitor& v) {
+void describeOthers(EventOptions& o, const ParameterDeclarer& v) {
     v.real("events.flow_radius", o.flow_radius_m, 0.5, 50,
            {"m", "Tracks that pass a place within this distance tell its direction. More than half a lane mixes lanes.",
             ""});
@@ -101,7 +101,8 @@ void describeOthers(EventOptions& o, ParameterVisitor& v) {
 
 }  // namespace
 
-void EventOptions::describe(ParameterVisitor& v) {
+void EventOptions::describe(ParameterVisitor& visitor) {
+    const ParameterDeclarer v(visitor, ChainStage::none);  // they read stored tracks
     describeMotion(*this, v);
     describeBorder(*this, v);
     describeOne(*this, v);
