@@ -23,6 +23,7 @@ const char* nameOf(EventKind kind) {
 
 std::vector<EventKind> allEventKinds() {
     std::vector<EventKind> kinds;
+    kinds.reserve(kEventKinds);
     for (int i = 0; i < kEventKinds; ++i) kinds.push_back(static_cast<EventKind>(i));
     return kinds;
 }

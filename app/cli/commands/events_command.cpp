@@ -31,6 +31,7 @@ struct EventArguments {
 /// The kinds that are asked for; all where nothing is.
 std::vector<EventKind> wantedKinds(const std::vector<std::string>& names) {
     std::vector<EventKind> kinds;
+    kinds.reserve(names.size());
     for (const std::string& name : names) kinds.push_back(eventKindOf(name));
     return kinds.empty() ? allEventKinds() : kinds;
 }

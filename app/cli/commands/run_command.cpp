@@ -269,10 +269,10 @@ int run(const RunArguments& arguments) {
     const RunStore store(file);
     if (!arguments.tracks_csv.empty())
         writeResultCsv(arguments.tracks_csv,
-                       [&](const BoxVisitor& visitor) { store.visitTrackBoxes(record.id, visitor); });
+                       [&, run = record.id](const BoxVisitor& visitor) { store.visitTrackBoxes(run, visitor); });
     if (!arguments.detections_csv.empty())
         writeResultCsv(arguments.detections_csv,
-                       [&](const BoxVisitor& visitor) { store.visitDetectionBoxes(record.id, visitor); });
+                       [&, run = record.id](const BoxVisitor& visitor) { store.visitDetectionBoxes(run, visitor); });
     if (!arguments.timing.empty()) writeTiming(arguments.timing, summary);
     std::fputs(
         summaryText(source->info(), record, summary, factsOf(file, record), store.tracks(record.id), project).c_str(),

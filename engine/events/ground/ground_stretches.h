@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "annotation/keyframes/camera_motion.h"
+#include "core/geometry/oriented_box.h"
 #include "core/values/ids.h"
 #include "core/values/scene_scale.h"
 
