@@ -135,7 +135,8 @@ LabelStream labelStreamOf(const AnnotationSet& annotations, const SequenceRecord
     about.frame_count = sequence.frame_count;
     about.frame_rate_hz = sequence.frame_rate_hz;
     if (camera.empty()) {
-        about.notes.emplace_back("the video was never registered, so boxes between keyframes run straight in the image");
+        about.notes.emplace_back(
+            "the video was never registered, so boxes between keyframes run straight in the image");
     }
     const FrameIndex last =
         sequence.frame_count > 0 ? sequence.frame_count - 1 : std::numeric_limits<FrameIndex>::max() - 1;
