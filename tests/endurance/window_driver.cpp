@@ -63,7 +63,7 @@ class Driver : public QObject {
     void label(int count, const std::string& name) {
         if (!session_.video() || session_.project().empty()) return;
         const int before = refusals_;
-        window_.actions().workspaceAction(WorkspaceKind::label)->trigger();
+        window_.actions().workspaceAction(eyrie::ui::WorkspaceKind::label)->trigger();
         auto& labels = window_.labelling().labels();
         until("labels", [&] { return labels.isOpen() || refusals_ > before; });
         for (int i = 0; i < count; ++i) {
@@ -72,7 +72,7 @@ class Driver : public QObject {
             say(QStringLiteral("done label %1 %2").arg(QString::fromStdString(name)).arg(i + 1));
             handleEvents(0);
         }
-        window_.actions().workspaceAction(WorkspaceKind::review)->trigger();
+        window_.actions().workspaceAction(eyrie::ui::WorkspaceKind::review)->trigger();
     }
     void run(const std::string& name) {
         if (!session_.video()) return;
