@@ -119,7 +119,7 @@ void ReviewDocks::explainNoTracks() {
     if (data && !data->record.live && !(session_.ownRun() != nullptr && session_.ownRun()->id == data->record.id))
         text = whyNoTracks(data->facts);
     else if (data)
-        text = tr("No tracks yet. They appear while the run works.");
+        text = tr("The tracks are listed here when the run ends. Until then the video shows them.");
     tracks_->emptyState()->setTexts(text);
 }
 
