@@ -153,8 +153,7 @@ void MainWindow::buildMenus() {
         }
         if (section.actions.contains(actions_->fit)) {
             menu->addSeparator();
-            for (const DockId id : allDocks())
-                if (docks_->dock(id) != nullptr) menu->addAction(docks_->dock(id)->toggleViewAction());
+            for (const DockId id : allDocks()) menu->addAction(docks_->dock(id)->toggleViewAction());
             menu->addAction(tr("Reset the layout"), this, [this] { workspaces_->reset(); });
         }
     }
@@ -291,7 +290,8 @@ void MainWindow::focusCanvas() {
 
 void MainWindow::showEvent(QShowEvent* event) {
     QMainWindow::showEvent(event);
-    workspaces_->fit();  // only now its size is known
+    // Only now its size is known. Shown again, from an icon say, it is as a person has arranged it.
+    if (!std::exchange(shown_, true)) workspaces_->fit();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

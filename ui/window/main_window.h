@@ -84,6 +84,7 @@ class MainWindow : public QMainWindow {
     OverlaySettings overlays_;
     KeyBindings keys_;
     ProjectSession session_;
+    bool shown_ = false;    ///< once
     bool closing_ = false;  ///< the user was asked and answered
 
     WindowActions* actions_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "canvas/video_view.h"
+#include "core/project_name.h"
 #include "session/project/earlier_states.h"
 #include "store/health/file_check.h"
 #include "widgets/message_bar.h"
@@ -136,7 +137,7 @@ QString OpenedFiles::chosenTarget(const QString& title) {
     QString path =
         QFileDialog::getSaveFileName(&parts_.window, title, text(session_.project()), tr("Eyrie projects (*.eyrie)"),
                                      nullptr, QFileDialog::DontConfirmOverwrite);
-    if (!path.isEmpty() && QFileInfo(path).suffix() != QStringLiteral("eyrie")) path += QStringLiteral(".eyrie");
+    if (!path.isEmpty() && !hasProjectName(path.toStdString())) path += QStringLiteral(".eyrie");
     return path;
 }
 

@@ -119,9 +119,12 @@ bool fill(SQLite::Database& database, const DamagedCopy& copy, const CopyWatch& 
             if (!rescue.whole) report.lost.push_back("part of the rows of " + tables[i] + " (" + rescue.fault + ")");
             if (watch.progress) watch.progress(static_cast<double>(i + 1) / static_cast<double>(tables.size()));
         }
+        // Rows of a schema before that column.
+        const bool has_sentences =
+            textsOf(database, "SELECT name FROM pragma_table_info('frame', 'damaged') WHERE name = 'picture'").empty();
         database.exec("DETACH damaged");
         SQLite::Transaction transaction(database);
-        schema::wordRegistrationFaults(database);  // rows of an older project
+        if (has_sentences) schema::wordRegistrationFaults(database);
         append(report.lost, dropImpossibleRows(database));
         append(report.lost, mendReferences(database));
         append(report.lost, mendRuns(database, frames_whole));

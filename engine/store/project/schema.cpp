@@ -364,7 +364,7 @@ UPDATE frame SET
         WHEN reason LIKE '%too few corners%' THEN 'too few corners'
         WHEN reason LIKE '%is not one a camera makes%' THEN 'impossible motion'
         ELSE 'no match' END
-WHERE reason NOT IN ('', 'cut', 'too few corners', 'too few found again', 'too few agree', 'impossible motion', 'no match');
+WHERE reason <> '';
 )sql");
 }
 

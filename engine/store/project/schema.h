@@ -29,7 +29,8 @@ int numberOf(SQLite::Database& database);
 /// leaves the file at the number before. Two programs may migrate the same file at once.
 void migrate(SQLite::Database& database, std::span<const Migration> steps);
 
-/// Turns the sentences that frames of projects before schema 9 have as reasons into words and figures; words stay.
+/// Turns the sentences that frames of projects before schema 9 have as reasons into words and figures. Not to be called
+/// where there are words already.
 void wordRegistrationFaults(SQLite::Database& database);
 
 /// Whether all tables and columns of the newest schema are there; what else is there does not matter. Throws

@@ -11,6 +11,7 @@
 #include "label/label_actions.h"
 #include "label/label_workspace.h"
 #include "ui/support/ui_support.h"
+#include "widgets/message_bar.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
 #include "workspace/key_sheet.h"
@@ -128,9 +129,19 @@ class WorkspacesTest : public QObject {
         QVERIFY(window->overlays().isVisible(OverlayKind::tracks));
     }
 
+    void aWindowThatIsShownAgainIsAsItWasLeft() {
+        const auto window = this->window();
+        QVERIFY(window);
+        window->docks().dock(DockId::inspector)->hide();
+        window->hide();
+        window->show();
+        QVERIFY(!shown(*window, DockId::inspector));
+    }
+
     void theVideoKeepsHalfOfASmallWindow() {
         const auto window = windowWithVideo();
         QVERIFY(window);
+        window->findChild<MessageBar*>()->setMaximumHeight(0);  // notices pass
         for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
             go(*window, key);
             QTest::qWait(0);
