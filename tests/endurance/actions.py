@@ -148,6 +148,11 @@ class Import(Action):
     def done(self):
         return {f"labels {self.mark}": 2}
 
+    def going_on(self, held):
+        following = self.again()
+        following.exists = self.exists  # the same words: killed early it leaves a project without a video
+        return following
+
 
 class ImportToFile(Import):
     def words(self):
