@@ -8,8 +8,8 @@
 #include "core/error.h"
 #include "diagnosis/mistake_csv.h"
 #include "store/labels/annotation_store.h"
-#include "store/runs/result_writer.h"
 #include "support/temporary_folder.h"
+#include "support/written_run.h"
 
 namespace eyrie {
 namespace {
@@ -21,34 +21,19 @@ using testing::HasSubstr;
 class RunEvaluations : public testing::Test {
  protected:
     RunEvaluations() {
-        ProjectFile::openOrCreate(path());
         writeRun(8);
         writeRun(4);
     }
     std::filesystem::path path() const { return folder / "p.eyrie"; }
     void writeRun(int followed) const {
-        RunRecord run;
-        run.sequence = {.path = "/nowhere/clip.mp4", .size = {320, 240}, .frame_count = 10, .frame_rate_hz = 25};
-        run.last_frame = 9;
-        ResultWriter writer(path(), run, {});
-        for (int frame = 0; frame < 10; ++frame) {
-            FrameResult result;
-            result.motion.frame = frame;
-            result.motion.image_size = {320, 240};
-            auto& registration = result.motion.registration;
-            registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
-            registration.current_from_previous.from_frame = std::max(0, frame - 1);
-            registration.current_from_previous.to_frame = frame;
-            if (frame < followed) {
-                TrackState track;
-                track.id = 5;
-                track.box = boxIn(frame);
-                track.status = TrackStatus::confirmed;
-                result.tracks.push_back(track);
-            }
-            writer.write(result);
-        }
-        writer.finish(RunState::finished, "");
+        test::writeRun(path(), 10, [&](int frame, FrameResult& result) {
+            if (frame >= followed) return;
+            TrackState track;
+            track.id = 5;
+            track.box = boxIn(frame);
+            track.status = TrackStatus::confirmed;
+            result.tracks.push_back(track);
+        });
     }
     static OrientedBox boxIn(int frame) { return {{50.0 + 4 * frame, 40}, 20, 10, 0}; }
     void label() const {

@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "store/labels/annotation_store.h"
-#include "store/runs/result_writer.h"
 #include "support/temporary_folder.h"
+#include "support/written_run.h"
 
 namespace eyrie {
 namespace {
@@ -39,25 +39,9 @@ class ScoringTest : public testing::Test {
     std::filesystem::path project() const { return folder / "p.eyrie"; }
     /// Over 20 frames, in which the camera moves by `step` px a frame.
     RunRecord writeRun(double step) const {
-        ProjectFile::openOrCreate(project());
-        RunRecord run;
-        run.sequence = {.path = "/nowhere/clip.mp4", .size = {320, 240}, .frame_count = 20, .frame_rate_hz = 25};
-        run.last_frame = 19;
-        ResultWriter writer(project(), run, {});
-        for (int frame = 0; frame < 20; ++frame) {
-            FrameResult result;
-            result.motion.frame = frame;
-            result.motion.image_size = {320, 240};
-            Registration& registration = result.motion.registration;
-            registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
-            registration.current_from_previous.from_frame = std::max(0, frame - 1);
-            registration.current_from_previous.to_frame = frame;
-            registration.current_from_previous.matrix(0, 2) = frame % 2 == 0 ? -step : step;
-            writer.write(result);
-        }
-        writer.finish(RunState::finished, "");
-        ProjectFile file = ProjectFile::open(project(), ProjectFile::Mode::read_only);
-        return RunStore(file).runs().back();
+        return test::writeRun(project(), 20, [&](int frame, FrameResult& result) {
+            result.motion.registration.current_from_previous.matrix(0, 2) = frame % 2 == 0 ? -step : step;
+        });
     }
     void label() const {
         ProjectFile file = ProjectFile::open(project());

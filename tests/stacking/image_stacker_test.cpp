@@ -71,6 +71,14 @@ struct World {
     }
 };
 
+/// Frames 0 to 7 of the world.
+void fill(ImageStacker& stacker, const World& world) {
+    for (int t = 0; t < 8; ++t) {
+        stacker.update(world.frameAt(t), world.motionAt(t), world.clustersAt(t));
+        stacker.remember(world.motionAt(t), world.detectionsAt(t));
+    }
+}
+
 }  // namespace
 
 TEST(MasterVector, staysAtItsPlaceOnATurningObjectWhateverVectorsRemain) {
@@ -236,10 +244,7 @@ TEST(ImageStacker, aStackedRoiHoldsTheExtendedClusterWhereItIs) {
     StackingOptions options = StackingOptions::thesis();
     options.min_height = 3;
     ImageStacker stacker(options, scale());
-    for (int t = 0; t < 8; ++t) {
-        stacker.update(world.frameAt(t), world.motionAt(t), world.clustersAt(t));
-        stacker.remember(world.motionAt(t), world.detectionsAt(t));
-    }
+    fill(stacker, world);
     MotionCluster cluster = world.clustersAt(7)[0];
     cluster.members = {2, 7, 11};
     OrientedBox extended = cluster.box.scaled(2.3, 1.7);
@@ -311,10 +316,7 @@ TEST(ImageStacker, refusesAStackThatMovesOtherwise) {
     StackingOptions options = StackingOptions::thesis();
     options.min_height = 3;
     ImageStacker stacker(options, scale());
-    for (int t = 0; t < 8; ++t) {
-        stacker.update(world.frameAt(t), world.motionAt(t), world.clustersAt(t));
-        stacker.remember(world.motionAt(t), world.detectionsAt(t));
-    }
+    fill(stacker, world);
     MotionCluster cluster = world.clustersAt(7)[0];
     const OrientedBox extended = cluster.box.scaled(2, 1.25);
     EXPECT_EQ(stacker.replace(cluster, 0, extended, world.motionAt(7)).size(), 1U);

@@ -7,13 +7,13 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
-#include <QPainter>
 #include <QSignalBlocker>
 #include <QStackedLayout>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include "widgets/empty_state.h"
+#include "widgets/swatch.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -130,14 +130,7 @@ void ObjectInspector::showColour(const ObjectDetails& details) {
     colour_->setEnabled(details.editable);
     colour_->setToolTip(details.own_colour ? tr("Shown in a colour of its own")
                                            : tr("Shown in the colour of its class"));
-    QPixmap swatch(16, 16);
-    swatch.fill(Qt::transparent);
-    QPainter painter(&swatch);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QColor(0, 0, 0, 150));
-    painter.setBrush(details.colour);
-    painter.drawRoundedRect(QRectF(1.5, 1.5, 13, 13), 3, 3);
-    colour_->setIcon(swatch);
+    colour_->setIcon(swatch(details.colour, 16));
 }
 
 void ObjectInspector::setClasses(const QStringList& classes) {

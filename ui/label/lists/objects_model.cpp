@@ -1,27 +1,10 @@
 #include "label/lists/objects_model.h"
 
-#include <QPainter>
-#include <QPixmap>
-
 #include "widgets/display_text.h"
+#include "widgets/swatch.h"
 #include "widgets/tables/table_roles.h"
 
 namespace eyrie::ui {
-
-namespace {
-
-QPixmap swatch(const QColor& colour) {
-    QPixmap pixmap(12, 12);
-    pixmap.fill(Qt::transparent);
-    QPainter painter(&pixmap);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QColor(0, 0, 0, 150));
-    painter.setBrush(colour);
-    painter.drawRoundedRect(QRectF(1.5, 1.5, 9, 9), 2, 2);
-    return pixmap;
-}
-
-}  // namespace
 
 QString reviewText(const ObjectRow& row) {
     if (row.state == ReviewState::questionable) return ObjectsModel::tr("questionable");
@@ -62,7 +45,7 @@ QVariant ObjectsModel::data(const QModelIndex& index, int role) const {
         case Qt::DisplayRole:
             return textOf(*row, index.column());
         case Qt::DecorationRole:
-            return index.column() == class_column ? QVariant(swatch(row->colour)) : QVariant();
+            return index.column() == class_column ? QVariant(swatch(row->colour, 12)) : QVariant();
         case Qt::ToolTipRole:
             return tr("%1 %2: frames %3 to %4, %5 keyframes, %6. Click to go to it.")
                 .arg(row->object_class)

@@ -4,30 +4,14 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
-#include <QPainter>
 #include <QSignalBlocker>
 #include <QWidgetAction>
 
 #include "canvas/layers/overlay_table.h"
+#include "widgets/swatch.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
-
-namespace {
-
-/// A square in the colour of an overlay.
-QIcon swatch(const QColor& colour) {
-    QPixmap pixmap(16, 16);
-    pixmap.fill(Qt::transparent);
-    QPainter painter(&pixmap);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QColor(0, 0, 0, 150));
-    painter.setBrush(colour);
-    painter.drawRoundedRect(QRectF(2.5, 2.5, 11, 11), 2, 2);
-    return {pixmap};
-}
-
-}  // namespace
 
 OverlayButton::OverlayButton(OverlaySettings& overlays, const WindowActions& actions, QWidget* parent)
     : QToolButton(parent), overlays_(overlays), actions_(actions) {
@@ -68,7 +52,7 @@ void OverlayButton::refresh() {
     const QSignalBlocker blocker(length_);
     length_->setValue(overlays_.style().vector_length_factor);
     for (const OverlayRow& row : overlayTable())
-        actions_.overlay[static_cast<size_t>(row.kind)]->setIcon(swatch(row.colour(overlays_.style())));
+        actions_.overlay[static_cast<size_t>(row.kind)]->setIcon(swatch(row.colour(overlays_.style()), 16));
 }
 
 }  // namespace eyrie::ui
