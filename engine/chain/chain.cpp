@@ -3,7 +3,7 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
-#include "chain/stopwatch.h"
+#include "core/values/stopwatch.h"
 #include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
 

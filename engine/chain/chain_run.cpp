@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "chain/recording/chain_state.h"
-#include "chain/stopwatch.h"
 #include "core/error.h"
+#include "core/values/stopwatch.h"
 
 namespace eyrie {
 namespace {

@@ -1,36 +1,18 @@
 #include "registration/registrar.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <utility>
 
 #include "core/error.h"
+#include "core/values/stopwatch.h"
 #include "registration/estimation/point_jacobian.h"
 #include "registration/pictures/noise_level.h"
 #include "registration/pictures/scaled_to_one.h"
 
 namespace eyrie {
 namespace {
-
-/// Adds the time it lives to one stage.
-class StageTimer {
- public:
-    StageTimer(StageTimes& times, Stage stage) : times_(times), stage_(stage), start_(Clock::now()) {}
-    ~StageTimer() {
-        const std::chrono::duration<float, std::milli> passed = Clock::now() - start_;
-        times_[static_cast<std::size_t>(stage_)] += passed.count();
-    }
-    StageTimer(const StageTimer&) = delete;
-    StageTimer& operator=(const StageTimer&) = delete;
-
- private:
-    using Clock = std::chrono::steady_clock;
-    StageTimes& times_;
-    Stage stage_;
-    Clock::time_point start_;
-};
 
 cv::Matx33d powerOf(const cv::Matx33d& m, int exponent) {
     cv::Matx33d result = cv::Matx33d::eye();
@@ -84,7 +66,7 @@ RegisteredFrame Registrar::next(const Frame& frame, StageTimes* times) {
     RegisteredFrame result;
     bool repeats = false;
     {
-        const StageTimer timer(spent, Stage::tracking_corners);
+        const Stopwatch timer(spent, Stage::tracking_corners);
         current_.build(frame.gray);
         current_noise_ = noiseLevel(current_.level(0));
         repeats = anchor_ && repetition_.repeats(difference(anchor_->pyramid.level(0), current_.level(0)));
@@ -173,7 +155,7 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, Re
     Match match;
     cv::Matx33d start;
     {
-        const StageTimer timer(times, Stage::tracking_corners);
+        const Stopwatch timer(times, Stage::tracking_corners);
         const auto coarse = CoarseRegistration(*estimator_, options_.feature_search)
                                 .find(anchor.corners, anchor.pyramid, current_, predictionsFor(anchor), noise);
         if (!coarse) {
@@ -183,7 +165,7 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, Re
         start = coarse->matrix;
         match.positions = tracker_.track(anchor.corners, anchor.pyramid, current_, start, noise, anchor.frames_ago + 1);
     }
-    const StageTimer timer(times, Stage::homography);
+    const Stopwatch timer(times, Stage::homography);
     const Correspondences points =
         tracker_.correspondences(anchor.corners, match.positions, anchor.pyramid.size(), noise);
     const int tracked = static_cast<int>(
@@ -234,7 +216,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
         before.emplace_back(corner.id, position);
     }
     {
-        const StageTimer timer(times, Stage::tracking_corners);
+        const Stopwatch timer(times, Stage::tracking_corners);
         tracker_.advance(anchor.corners, match.positions, match.fit, current_.smooth(), anchor.frames_ago + 1,
                          std::max(1.0, 0.4 * detector_.spacing()));
     }
@@ -297,7 +279,7 @@ RegisteredFrame Registrar::failedFrame(const Frame& frame, RegistrationFailure f
 }
 
 void Registrar::replenish(Anchor& anchor, StageTimes& times) {
-    const StageTimer timer(times, Stage::corners);
+    const Stopwatch timer(times, Stage::corners);
     CornerSurroundings surroundings;
     surroundings.living = positionsOf(anchor.corners);
     for (const TrackedCorner& corner : anchor.corners.corners) {

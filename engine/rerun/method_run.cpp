@@ -6,8 +6,8 @@
 
 #include "chain/chain.h"
 #include "chain/recording/classified_vehicles.h"
-#include "chain/stopwatch.h"
 #include "core/error.h"
+#include "core/values/stopwatch.h"
 #include "detection/sliding_window/global_sliding_window.h"
 #include "detection/sliding_window/model_location.h"
 

@@ -67,7 +67,7 @@ class Fuzzing(Part):
         corpus.mkdir()
         line = [
             self._folder / target.program, *target.options, f"-runs={target.runs}", f"-seed={random.randrange(1, 2**31)}",
-            f"-max_len={target.max_len}", f"-dict={DICTIONARY}", "-timeout=10", "-rss_limit_mb=1500", "-verbosity=0",
+            f"-max_len={target.max_len}", f"-dict={DICTIONARY}", "-timeout=60", "-rss_limit_mb=1500", "-verbosity=0",
             "-print_final_stats=1", "-detect_leaks=0", f"-artifact_prefix={found}/", corpus, self._corpus / target.seeds,
         ]  # fmt: skip
         environment = dict(os.environ, UBSAN_OPTIONS="print_stacktrace=1", TMPDIR=str(folder))

@@ -1,6 +1,8 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "core/error.h"
 #include "store/label_samples.h"
 #include "store/labels/annotation_store.h"
@@ -77,6 +79,23 @@ TEST_F(TamperedProject, NumbersThatCannotBeAreRefused) {
         test::writeSampleProject(path_, 1);
         tamper(command);
         expectDamaged(words);
+    }
+}
+
+TEST_F(TamperedProject, NewObjectsGetNumbersOfTheirOwnWhateverTheCounterSays) {
+    for (const char* value : {"-1e308", "0", "2147483647", "9e18", "'many'"}) {
+        std::filesystem::remove(path_);
+        test::writeSampleProject(path_, 1);
+        ProjectFile project = ProjectFile::open(path_);
+        std::set<ObjectId> known;
+        for (int round = 0; round < 3; ++round) {
+            AnnotationStore store(project, 1);
+            const ObjectId id = store.newObjectId();
+            EXPECT_GT(id, 0);
+            EXPECT_TRUE(known.insert(id).second) << value;
+            EXPECT_NO_THROW(store.apply(test::sampleEdit(id))) << value;
+            tamper(std::string("UPDATE label_counter SET value = ") + value + " WHERE kind = 'object'");
+        }
     }
 }
 

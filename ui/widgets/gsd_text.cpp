@@ -3,6 +3,8 @@
 #include <QLocale>
 #include <cmath>
 
+#include "core/values/scene_scale.h"
+
 namespace eyrie::ui {
 
 std::optional<double> gsdFromText(const QString& text) {

@@ -6,6 +6,7 @@
 
 #include "cli/reports/figure_text.h"
 #include "core/error.h"
+#include "core/values/scene_scale.h"
 
 namespace eyrie::cli {
 namespace {
@@ -55,10 +56,10 @@ FrameRange VideoArguments::range() const {
 }
 
 void checkGsd(double gsd) {
-    if (!(gsd >= 0.001 && gsd <= 100)) {
-        throw Error(ErrorKind::parameter,
-                    "--gsd " + numberText(gsd) +
-                        ": expected metres per pixel from 0.001 to 100, e.g. 0.3; leave it out when unknown");
+    if (!(gsd >= kSmallestGsd && gsd <= kLargestGsd)) {
+        throw Error(ErrorKind::parameter, "--gsd " + numberText(gsd) + ": expected metres per pixel from " +
+                                              numberText(kSmallestGsd) + " to " + numberText(kLargestGsd) +
+                                              ", e.g. 0.3; leave it out when unknown");
     }
 }
 

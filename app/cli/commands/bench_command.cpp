@@ -11,7 +11,6 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "chain/chain.h"
-#include "chain/stopwatch.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/video_arguments.h"
@@ -21,6 +20,7 @@
 #include "cli/reports/preview_times.h"
 #include "cli/reports/sweep_times.h"
 #include "core/error.h"
+#include "core/values/stopwatch.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
 

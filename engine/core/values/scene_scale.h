@@ -2,6 +2,10 @@
 
 namespace eyrie {
 
+/// The smallest and the largest ground sampling distance that a person may give, metres per pixel.
+inline constexpr double kSmallestGsd = 0.001;
+inline constexpr double kLargestGsd = 100;
+
 /// Turns physical lengths and speeds into pixels, once, where a stage is built.
 struct SceneScale {
     double gsd_m_per_px = 0.25;  ///< ground sampling distance, metres per pixel, > 0

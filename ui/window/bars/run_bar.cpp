@@ -8,6 +8,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "core/values/scene_scale.h"
 #include "review/run_text.h"
 #include "widgets/gsd_text.h"
 #include "widgets/message_bar.h"
