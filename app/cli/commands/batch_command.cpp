@@ -15,7 +15,7 @@ namespace eyrie::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenSteps{100};
-constexpr std::chrono::seconds kBetweenLooks{2};
+constexpr std::chrono::seconds kBetweenListings{2};
 
 bool anyFailed(const Batch& batch) {
     for (const BatchRow& row : batch.rows()) {
@@ -87,7 +87,7 @@ int runWatch(const BatchArguments& arguments, double settle_s) {
     for (bool working = true; working || !interrupt.token().stop_requested();) {
         const auto now = std::chrono::steady_clock::now();
         if (interrupt.token().stop_requested()) batch.stop();
-        if (now - looked >= kBetweenLooks && !interrupt.token().stop_requested()) {
+        if (now - looked >= kBetweenListings && !interrupt.token().stop_requested()) {
             arrivals.look(arguments.places, batch);
             looked = now;
         }
