@@ -25,6 +25,8 @@ enum ExitCode {
 int exitCodeOf(ErrorKind kind);
 
 void addRunCommand(CLI::App& app, int& exit_code);
+void addBatchCommand(CLI::App& app, int& exit_code);
+void addWatchCommand(CLI::App& app, int& exit_code);
 void addEvaluateCommand(CLI::App& app, int& exit_code);
 void addRenderCommand(CLI::App& app, int& exit_code);
 void addParamsCommand(CLI::App& app, int& exit_code);

@@ -45,6 +45,8 @@ int commandOf(int argc, char** argv) {
         "(results so far are kept).");
     int exit_code = eyrie::cli::exit_ok;
     eyrie::cli::addRunCommand(app, exit_code);
+    eyrie::cli::addBatchCommand(app, exit_code);
+    eyrie::cli::addWatchCommand(app, exit_code);
     eyrie::cli::addEvaluateCommand(app, exit_code);
     eyrie::cli::addEventsCommand(app, exit_code);
     eyrie::cli::addReportCommand(app, exit_code);

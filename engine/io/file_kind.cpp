@@ -117,9 +117,12 @@ FileKind kindOfFile(const std::filesystem::path& path) {
     if (isImage(bytes)) return FileKind::image;
     if (isVideo(bytes)) return FileKind::video;
     if (isText(bytes)) return kindOfText(bytes);
+    return hasVideoName(path) ? FileKind::video : FileKind::other;
+}
+
+bool hasVideoName(const std::filesystem::path& path) {
     const std::string extension = lowered(path.extension().string());
-    const bool video = std::find(kVideoExtensions.begin(), kVideoExtensions.end(), extension) != kVideoExtensions.end();
-    return video ? FileKind::video : FileKind::other;
+    return std::find(kVideoExtensions.begin(), kVideoExtensions.end(), extension) != kVideoExtensions.end();
 }
 
 }  // namespace eyrie

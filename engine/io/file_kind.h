@@ -26,4 +26,7 @@ const char* nameOf(FileKind kind);
 /// the name of a video are a video. A regular file that cannot be read is `other`.
 FileKind kindOfFile(const std::filesystem::path& path);
 
+/// Whether a file is called what videos are called, whatever its bytes say.
+bool hasVideoName(const std::filesystem::path& path);
+
 }  // namespace eyrie

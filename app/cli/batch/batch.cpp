@@ -1,0 +1,227 @@
+#include "cli/batch/batch.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "cli/command.h"
+#include "core/error.h"
+#include "core/project_name.h"
+#include "io/folder.h"
+#include "store/labels/annotation_store.h"
+#include "store/runs/run_store.h"
+
+namespace eyrie::cli {
+namespace {
+
+constexpr std::chrono::seconds kBetweenLooks{5};
+
+/// The last line that a command said, without the name that it begins with.
+std::string lastWords(const std::string& errors) {
+    const std::size_t end = errors.find_last_not_of(" \r\n");
+    if (end == std::string::npos) return "ended without a word";
+    const std::size_t before = errors.find_last_of("\r\n", end);
+    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+    const std::string line = errors.substr(begin, end - begin + 1);
+    const std::string name = "eyrie-cli: ";
+    return line.starts_with(name) ? line.substr(name.size()) : line;
+}
+
+std::string signalText(int number) {
+    std::string text = "ended by signal " + std::to_string(number);
+    if (const char* name = sigabbrev_np(number)) text += std::string(" (SIG") + name + ")";
+    if (number == SIGKILL) text += "; perhaps there is too little memory for so many files at once (--jobs)";
+    return text;
+}
+
+/// Whether a project is free for a video: not there, without one yet, or holding that one.
+bool isFreeFor(const std::filesystem::path& project, const std::filesystem::path& video) {
+    if (!isFile(project)) return true;
+    try {
+        ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+        const std::vector<SequenceRecord> sequences = sequencesOf(file);
+        return sequences.empty() || std::any_of(sequences.begin(), sequences.end(), [&](const SequenceRecord& known) {
+                   return known.path == video.string();
+               });
+    } catch (const Error&) {
+        return true;  // the command that works on it will say what is wrong
+    }
+}
+
+/// The run that the batch is about, if its project has it.
+std::optional<RunRecord> runOf(const RunStore& store, const BatchRow& row, ResumeWishes wishes) {
+    wishes.video = row.input.path.string();
+    return chooseRun(store, row.project.string(), wishes).run;
+}
+
+/// Takes over what its project says of an input; answers whether there is a finished run.
+bool takeFacts(BatchRow& row, const ResumeWishes& wishes) {
+    if (!isFile(row.project)) return false;
+    ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
+    const RunStore store(file);
+    const std::optional<RunRecord> run = runOf(store, row, wishes);
+    if (!run) return false;
+    row.frames = run->frames_done;
+    const std::vector<FrameSummary> frames = store.frameSummaries(run->id);
+    row.unregistered = static_cast<int>(std::count_if(frames.begin(), frames.end(), [](const FrameSummary& frame) {
+        return frame.state == RegistrationState::failed;
+    }));
+    const std::vector<TrackSummary> tracks = store.tracks(run->id);
+    row.tracks = static_cast<int>(
+        std::count_if(tracks.begin(), tracks.end(), [](const TrackSummary& track) { return track.confirmed; }));
+    return run->state == RunState::finished;
+}
+
+bool isOver(BatchState state) {
+    return state != BatchState::waiting && state != BatchState::working;
+}
+
+}  // namespace
+
+Batch::Batch(BatchOptions options) : options_(std::move(options)) {}
+
+Batch::~Batch() = default;
+
+void Batch::add(const std::vector<BatchInput>& inputs, bool anew) {
+    for (const BatchInput& input : inputs) {
+        BatchRow row;
+        row.input = input;
+        row.project = projectFor(input);
+        row.anew = anew;
+        rows_.push_back(std::move(row));
+    }
+}
+
+std::filesystem::path Batch::projectFor(const BatchInput& input) const {
+    const std::filesystem::path whole = options_.out / (input.name.string() + kProjectEnding);
+    std::filesystem::path plain = options_.out / input.name;
+    plain.replace_extension(kProjectEnding);
+    const bool taken = std::any_of(rows_.begin(), rows_.end(), [&](const BatchRow& row) {
+        return row.project == plain && row.input.path != input.path;
+    });
+    return isFolder(input.path) || taken || !isFreeFor(plain, input.path) ? whole : plain;
+}
+
+bool Batch::step() {
+    for (auto at = works_.begin(); at != works_.end();) {
+        const auto how = at->second.program->ended();
+        if (!how) {
+            lookAt(at->second, rows_[at->first]);
+            ++at;
+            continue;
+        }
+        const std::size_t row = at->first;
+        rows_[row].seconds = std::chrono::duration<double>(Clock::now() - at->second.begun).count();
+        at = works_.erase(at);
+        end(row, *how);
+    }
+    while (!stopping_ && next_ < rows_.size() && works_.size() < static_cast<std::size_t>(options_.jobs))
+        begin(next_++);
+    return !works_.empty() || (!stopping_ && next_ < rows_.size());
+}
+
+void Batch::stop() {
+    if (std::exchange(stopping_, true)) return;
+    for (auto& [row, work] : works_) work.program->stop();
+}
+
+void Batch::begin(std::size_t number) {
+    BatchRow& row = rows_[number];
+    if (!row.input.fault.empty()) return close(number, BatchState::failed, row.input.fault);
+    try {
+        if (!row.anew && takeFacts(row, options_.wishes)) return close(number, BatchState::done_before, "");
+    } catch (const Error& error) {
+        return close(number, BatchState::failed, error.what());
+    }
+    std::error_code failed;
+    std::filesystem::create_directories(row.project.parent_path(), failed);
+    if (failed) {
+        return close(number, BatchState::failed,
+                     row.project.parent_path().string() + ": the folder cannot be made: " + failed.message());
+    }
+    std::vector<std::string> words{"run", row.input.path.string(), "--project", row.project.string(), "--quiet"};
+    if (!row.anew) words.emplace_back("--resume");
+    words.insert(words.end(), options_.run_words.begin(), options_.run_words.end());
+    Work work;
+    work.program = std::make_unique<ChildProgram>(words);
+    work.begun = work.looked = Clock::now();
+    row.state = BatchState::working;
+    works_.emplace(number, std::move(work));
+    record(row);
+}
+
+void Batch::end(std::size_t number, const ChildEnd& how) {
+    BatchRow& row = rows_[number];
+    std::string fault;
+    try {
+        takeFacts(row, options_.wishes);
+    } catch (const Error& error) {
+        fault = error.what();
+    }
+    if (how.signal != 0) return close(number, BatchState::failed, signalText(how.signal));
+    if (how.exit_code == exit_stopped) return close(number, BatchState::stopped, "");
+    if (how.exit_code != exit_ok) return close(number, BatchState::failed, lastWords(how.errors));
+    close(number, fault.empty() ? BatchState::done : BatchState::failed, fault);
+}
+
+void Batch::close(std::size_t number, BatchState state, const std::string& message) {
+    rows_[number].state = state;
+    rows_[number].message = message;
+    record(rows_[number]);
+}
+
+void Batch::lookAt(Work& work, const BatchRow& row) {
+    if (Clock::now() - work.looked < kBetweenLooks) return;
+    work.looked = Clock::now();
+    try {
+        if (!isFile(row.project)) return;
+        ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
+        const auto run = runOf(RunStore(file), row, options_.wishes);
+        if (run) work.share = run->frames_done / static_cast<double>(run->last_frame - run->first_frame + 1);
+    } catch (const Error&) {
+        // It is only looked at for the time that is left.
+    }
+}
+
+void Batch::record(const BatchRow& row) {
+    try {
+        addToBatchLog(options_.out / (options_.record + ".jsonl"), row);
+        if (isOver(row.state)) writeBatchSummary(options_.out / (options_.record + ".csv"), rows_);
+        record_fault_.clear();
+    } catch (const Error& error) {
+        record_fault_ = error.what();  // the work is worth more than its record
+    }
+}
+
+double Batch::share() const {
+    double done = 0;
+    double all = 0;
+    for (std::size_t at = 0; at < rows_.size(); ++at) {
+        const double bytes = static_cast<double>(rows_[at].input.bytes) + 1;
+        const auto work = works_.find(at);
+        all += bytes;
+        if (isOver(rows_[at].state)) done += bytes;
+        if (work != works_.end()) done += bytes * std::clamp(work->second.share, 0.0, 1.0);
+    }
+    return all > 0 ? done / all : 1;
+}
+
+double Batch::secondsLeft() const {
+    double done = 0;
+    double left = 0;
+    for (std::size_t at = 0; at < rows_.size(); ++at) {
+        const double bytes = static_cast<double>(rows_[at].input.bytes) + 1;
+        const BatchState state = rows_[at].state;
+        const auto work = works_.find(at);
+        const double share = work != works_.end() ? std::clamp(work->second.share, 0.0, 1.0) : 0;
+        if (state == BatchState::done) done += bytes;
+        if (state == BatchState::working) done += bytes * share;
+        if (!isOver(state)) left += bytes * (1 - share);
+    }
+    const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+    return done > 0 ? seconds * left / done : -1;
+}
+
+}  // namespace eyrie::cli

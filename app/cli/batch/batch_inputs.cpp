@@ -1,0 +1,136 @@
+#include "cli/batch/batch_inputs.h"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <system_error>
+
+#include "core/error.h"
+#include "io/file_kind.h"
+#include "io/folder.h"
+#include "io/video/image_sequence.h"
+
+namespace eyrie::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::int64_t lastWrite(const fs::path& path) {
+    std::error_code failed;
+    const auto time = fs::last_write_time(path, failed);
+    return failed ? 0 : time.time_since_epoch().count();
+}
+
+std::uintmax_t sizeOf(const fs::path& path) {
+    std::error_code failed;
+    const std::uintmax_t size = fs::file_size(path, failed);
+    return failed ? 0 : size;
+}
+
+BatchInput ofFile(const fs::path& path, const fs::path& name) {
+    BatchInput input{fs::absolute(path).lexically_normal(), name, sizeOf(path), lastWrite(path), {}};
+    if (!isFile(path)) input.fault = "no such file";
+    return input;
+}
+
+BatchInput ofImages(const fs::path& folder, const fs::path& name, const std::vector<fs::path>& images) {
+    BatchInput input{fs::absolute(folder).lexically_normal(), name, 0, 0, {}};
+    for (const fs::path& image : images) {
+        input.bytes += sizeOf(image);
+        input.changed_ns = std::max(input.changed_ns, lastWrite(image));
+    }
+    return input;
+}
+
+/// Also one that has no bytes yet, or no longer: it is told, not left out.
+bool isCalledVideo(const fs::path& path) {
+    return kindOfFile(path) == FileKind::video || (kindOfFile(path) == FileKind::empty && hasVideoName(path));
+}
+
+class Search {
+ public:
+    void look(const fs::path& folder, const fs::path& name) {
+        std::error_code failed;
+        if (!seen_.insert(fs::canonical(folder, failed)).second) return;
+        std::vector<fs::path> entries;
+        try {
+            entries = entriesOf(folder);
+        } catch (const Error& error) {
+            found.push_back({fs::absolute(folder).lexically_normal(), name, 0, 0, error.what()});
+            return;
+        }
+        std::sort(entries.begin(), entries.end());
+        std::vector<fs::path> images;
+        bool has_video = false;
+        for (const fs::path& entry : entries) {
+            const fs::path called = name / entry.filename();
+            if (entry.filename().string().starts_with('.')) continue;
+            if (isFolder(entry)) {
+                look(entry, called);
+            } else if (isFile(entry) && ImageSequence::isImageFile(entry)) {
+                images.push_back(entry);
+            } else if (isFile(entry) && isCalledVideo(entry)) {
+                found.push_back(ofFile(entry, called));
+                has_video = true;
+            }
+        }
+        if (!images.empty() && !has_video) found.push_back(ofImages(folder, name, images));
+    }
+
+    std::vector<BatchInput> found;
+
+ private:
+    std::set<fs::path> seen_;
+};
+
+fs::path lastName(const fs::path& place) {
+    const fs::path whole = fs::absolute(place).lexically_normal();
+    return whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+}
+
+}  // namespace
+
+std::vector<BatchInput> findInputs(const std::vector<std::string>& places) {
+    Search search;
+    for (const std::string& place : places) {
+        if (isFolder(place)) {
+            // One folder's own name says nothing; of several it keeps apart what they hold.
+            search.look(place, places.size() > 1 ? lastName(place) : fs::path());
+        } else {
+            search.found.push_back(ofFile(place, lastName(place)));
+        }
+    }
+    for (BatchInput& input : search.found) {
+        if (input.name.empty()) input.name = lastName(input.path);  // the only place is a folder of images
+    }
+    std::sort(search.found.begin(), search.found.end(),
+              [](const BatchInput& a, const BatchInput& b) { return a.name < b.name; });
+    const auto repeated = std::unique(search.found.begin(), search.found.end(),
+                                      [](const BatchInput& a, const BatchInput& b) { return a.path == b.path; });
+    search.found.erase(repeated, search.found.end());
+    return search.found;
+}
+
+Shard shardFrom(const std::string& text) {
+    Shard shard;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, shard.part);
+    const bool divided = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+    const auto second = divided ? std::from_chars(first.ptr + 1, end, shard.parts) : first;
+    if (!divided || second.ec != std::errc() || second.ptr != end || shard.parts < 1 || shard.part < 1 ||
+        shard.part > shard.parts) {
+        throw Error(ErrorKind::parameter,
+                    "--shard " + text + ": expected PART/PARTS with PART from 1 to PARTS, e.g. 2/8");
+    }
+    return shard;
+}
+
+std::vector<BatchInput> shardOf(const std::vector<BatchInput>& inputs, const Shard& shard) {
+    std::vector<BatchInput> part;
+    for (std::size_t at = static_cast<std::size_t>(shard.part - 1); at < inputs.size();
+         at += static_cast<std::size_t>(shard.parts))
+        part.push_back(inputs[at]);
+    return part;
+}
+
+}  // namespace eyrie::cli

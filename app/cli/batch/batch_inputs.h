@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace eyrie::cli {
+
+/// A video or a folder of images that a batch works on.
+struct BatchInput {
+    std::filesystem::path path;   ///< absolute
+    std::filesystem::path name;   ///< as it is told and where its project goes, relative: "monday/a.mp4"
+    std::uintmax_t bytes = 0;     ///< of the file, or of all images
+    std::int64_t changed_ns = 0;  ///< when it, or the newest image, was last written
+    std::string fault;            ///< not empty: it cannot be read, and why
+
+    bool operator==(const BatchInput&) const = default;
+};
+
+/// All videos in the files and folders that were named, and in the folders within, by name. A folder that holds images
+/// and no video is one input. Hidden files, and folders reached a second time through links, are left out; what cannot
+/// be looked into is an input with a fault. Files that were named themselves are taken for what they are said to be.
+std::vector<BatchInput> findInputs(const std::vector<std::string>& places);
+
+/// Part `part` (from 1) of `parts`; together they are everything, once.
+struct Shard {
+    int part = 1;
+    int parts = 1;
+};
+/// "2/8". Throws Error(parameter).
+Shard shardFrom(const std::string& text);
+/// What falls to a shard of inputs in the order of findInputs().
+std::vector<BatchInput> shardOf(const std::vector<BatchInput>& inputs, const Shard& shard);
+
+}  // namespace eyrie::cli

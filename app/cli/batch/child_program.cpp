@@ -1,0 +1,88 @@
+#include "cli/batch/child_program.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.h"
+
+namespace eyrie::cli {
+namespace {
+
+constexpr off_t kErrorsKept = 16384;  ///< bytes
+
+std::string tailOf(int file) {
+    const off_t size = lseek(file, 0, SEEK_END);
+    std::string text(static_cast<std::size_t>(std::clamp<off_t>(size, 0, kErrorsKept)), '\0');
+    const ssize_t got = pread(file, text.data(), text.size(), std::max<off_t>(0, size - kErrorsKept));
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+    return text;
+}
+
+/// In the child; only calls that are safe between fork and exec.
+[[noreturn]] void become(char* const* words, int errors, pid_t parent) {
+    setpgid(0, 0);  // Ctrl-C at the terminal is for the parent, who passes it on once
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(127);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    const int nothing = open("/dev/null", O_RDWR);
+    dup2(nothing, STDIN_FILENO);
+    dup2(nothing, STDOUT_FILENO);
+    dup2(errors, STDERR_FILENO);
+    execv("/proc/self/exe", words);
+    _exit(127);
+}
+
+}  // namespace
+
+ChildProgram::ChildProgram(const std::vector<std::string>& words) {
+    errors_ = memfd_create("errors", MFD_CLOEXEC);
+    std::vector<std::string> kept{"eyrie-cli"};
+    kept.insert(kept.end(), words.begin(), words.end());
+    std::vector<char*> pointers;
+    for (std::string& word : kept) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    const pid_t parent = getpid();
+    process_ = errors_ < 0 ? -1 : fork();
+    if (process_ == 0) become(pointers.data(), errors_, parent);
+    if (process_ < 0) {
+        const std::string reason = std::strerror(errno);
+        if (errors_ >= 0) close(errors_);
+        throw Error(ErrorKind::internal, "cannot start another process: " + reason);
+    }
+}
+
+ChildProgram::~ChildProgram() {
+    if (process_ > 0) {
+        kill(process_, SIGTERM);
+        waitpid(process_, nullptr, 0);
+    }
+    close(errors_);
+}
+
+void ChildProgram::stop() {
+    if (process_ > 0) kill(process_, SIGTERM);
+}
+
+std::optional<ChildEnd> ChildProgram::ended() {
+    int status = 0;
+    const pid_t done = process_ > 0 ? waitpid(process_, &status, WNOHANG) : -1;
+    if (done == 0 || (done < 0 && errno == EINTR)) return std::nullopt;
+    process_ = -1;
+    ChildEnd end;
+    if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+    if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+    end.errors = tailOf(errors_);
+    return end;
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace eyrie::cli {
+
+/// How a child ended.
+struct ChildEnd {
+    int exit_code = 0;   ///< 0 for one that a signal ended
+    int signal = 0;      ///< 0: it ended by itself
+    std::string errors;  ///< the last of what it wrote to standard error
+};
+
+/// This program once more as a process of its own, so that a file that brings it down brings down nothing else. It gets
+/// no input; what it prints goes nowhere. It is asked to stop when this process ends, however that ends.
+class ChildProgram {
+ public:
+    /// `words`: command and arguments. Throws Error(internal) when no process can be made. Only to be called from the
+    /// thread that lives as long as the process.
+    explicit ChildProgram(const std::vector<std::string>& words);
+    ~ChildProgram();
+    ChildProgram(const ChildProgram&) = delete;
+    ChildProgram& operator=(const ChildProgram&) = delete;
+
+    /// Asks it to stop, as Ctrl-C does.
+    void stop();
+    /// How it ended; nothing while it works. Does not wait.
+    std::optional<ChildEnd> ended();
+
+ private:
+    pid_t process_ = -1;
+    int errors_ = -1;
+};
+
+}  // namespace eyrie::cli

@@ -1,0 +1,239 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "io/video/video_writer.h"
+#include "store/project/project_file.h"
+#include "store/runs/run_store.h"
+#include "support/moving_scene.h"
+#include "support/places.h"
+#include "support/process.h"
+
+namespace eyrie {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::UnorderedElementsAre;
+
+namespace fs = std::filesystem;
+
+constexpr int kFrames = 60;
+
+/// A clip drawn once for all tests.
+fs::path drawnClip() {
+    static const test::TemporaryFolder folder;
+    static const fs::path path = [] {
+        test::MovingScene scene;
+        scene.frames = kFrames;
+        VideoWriter writer(folder / "clip.mp4", scene.size, {});
+        cv::Mat colours;
+        for (int i = 0; i < kFrames; ++i) {
+            cv::cvtColor(scene.draw(i), colours, cv::COLOR_GRAY2BGR);
+            writer.write(colours);
+        }
+        writer.finish();
+        return folder / "clip.mp4";
+    }();
+    return path;
+}
+
+class Batches : public testing::Test {
+ protected:
+    std::string at(const std::string& name) const { return (folder / name).string(); }
+    void put(const std::string& name) const {
+        fs::create_directories((folder / name).parent_path());
+        fs::copy_file(drawnClip(), folder / name);
+    }
+    void write(const std::string& name, const std::string& text) const {
+        fs::create_directories((folder / name).parent_path());
+        std::ofstream(folder / name) << text;
+    }
+    std::string textOf(const std::string& name) const {
+        std::stringstream text;
+        text << std::ifstream(folder / name).rdbuf();
+        return text.str();
+    }
+    std::vector<std::string> command(const std::string& name, const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> words{
+            test::programPath("eyrie-cli"), name, at("in"), "--out", at("out"), "--gsd", "0.2"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    test::ProcessResult batch(const std::vector<std::string>& more = {}) const {
+        return test::runProcess(command("batch", more));
+    }
+    std::vector<RunRecord> runsOf(const std::string& project) const {
+        try {
+            ProjectFile file = ProjectFile::open(at(project), ProjectFile::Mode::read_only);
+            return RunStore(file).runs();
+        } catch (const Error&) {
+            return {};
+        }
+    }
+    bool isFinished(const std::string& project) const {
+        const auto runs = runsOf(project);
+        return runs.size() == 1 && runs[0].state == RunState::finished && runs[0].frames_done == kFrames;
+    }
+    /// The names of files that the summary has in a state.
+    std::vector<std::string> inState(const std::string& state, const std::string& summary = "out/batch.csv") const {
+        std::vector<std::string> names;
+        std::istringstream lines(textOf(summary));
+        for (std::string line; std::getline(lines, line);) {
+            if (line.find("," + state + ",") == std::string::npos) continue;
+            names.push_back(fs::path(line.substr(0, line.find(','))).lexically_relative(folder / "in").string());
+        }
+        return names;
+    }
+    static void waitFor(const std::function<bool()>& condition) {
+        for (int i = 0; i < 12000 && !condition(); ++i) usleep(5000);
+        ASSERT_TRUE(condition());
+    }
+
+    const test::TemporaryFolder folder;
+};
+
+TEST_F(Batches, everyFileGetsAProjectAndBadOnesAreListed) {
+    put("in/a.mp4");
+    put("in/deep/er/b.mp4");
+    write("in/broken.mp4", std::string(5000, '\1'));
+    write("in/empty.mp4", "");
+    write("in/notes.txt", "not for us");
+    put("in/.hidden.mp4");
+    test::MovingScene scene;
+    fs::create_directories(folder / "in/images");
+    for (int i = 0; i < 12; ++i) cv::imwrite(at("in/images/" + std::to_string(10 + i) + ".png"), scene.draw(i));
+    fs::create_directory_symlink(folder / "in", folder / "in/deep/again");
+
+    const auto result = batch({"--jobs", "2"});
+    EXPECT_EQ(result.exit_code, 3) << result.errors;
+    EXPECT_THAT(result.output, HasSubstr("5 files: 3 done, 2 failed"));
+    EXPECT_THAT(result.output, HasSubstr("failed       broken.mp4: "));
+    EXPECT_TRUE(isFinished("out/a.eyrie"));
+    EXPECT_TRUE(isFinished("out/deep/er/b.eyrie"));
+    EXPECT_EQ(runsOf("out/images.eyrie").at(0).frames_done, 12);
+    EXPECT_THAT(inState("done"), ElementsAre("a.mp4", "deep/er/b.mp4", "images"));
+    EXPECT_THAT(inState("failed"), ElementsAre("broken.mp4", "empty.mp4"));
+    std::istringstream log(textOf("out/batch.jsonl"));
+    int ended = 0;
+    for (std::string line; std::getline(log, line);) {
+        const auto entry = nlohmann::json::parse(line);
+        if (entry["event"] != "working") ++ended;
+        if (entry["event"] == "done" && entry["file"] == at("in/a.mp4")) {
+            EXPECT_EQ(entry["frames"], kFrames);
+            EXPECT_GE(entry["tracks"], 1);
+        }
+    }
+    EXPECT_EQ(ended, 5);
+}
+
+TEST_F(Batches, startedAgainSkipsWhatIsDoneAndDoesWhatCame) {
+    put("in/a.mp4");
+    ASSERT_EQ(batch().exit_code, 0);
+    put("in/b.mp4");
+    const auto result = batch();
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output, HasSubstr("2 files: 1 done, 1 done before"));
+    EXPECT_TRUE(isFinished("out/a.eyrie"));
+    EXPECT_TRUE(isFinished("out/b.eyrie"));
+    // Other options are another piece of work.
+    EXPECT_THAT(batch({"--frames", "0:9"}).output, HasSubstr("2 files: 2 done"));
+}
+
+TEST_F(Batches, goesOnAfterAKill) {
+    for (const char* name : {"in/a.mp4", "in/b.mp4", "in/c.mp4"}) put(name);
+    test::Process process(command("batch", {"--jobs", "2"}));
+    waitFor([&] { return !runsOf("out/a.eyrie").empty() && runsOf("out/a.eyrie")[0].frames_done > 5; });
+    kill(process.pid(), SIGKILL);
+    process.wait();
+    // Those at work end by themselves, so that nobody holds their projects.
+    waitFor([&] {
+        const auto a = runsOf("out/a.eyrie");
+        const auto b = runsOf("out/b.eyrie");
+        return (a.empty() || !a[0].live) && (b.empty() || !b[0].live);
+    });
+    const auto result = batch();
+    EXPECT_EQ(result.exit_code, 0) << result.errors << result.output;
+    for (const char* project : {"out/a.eyrie", "out/b.eyrie", "out/c.eyrie"})
+        EXPECT_TRUE(isFinished(project)) << project;
+}
+
+TEST_F(Batches, stopsWhenAskedAndSaysSo) {
+    for (const char* name : {"in/a.mp4", "in/b.mp4"}) put(name);
+    test::Process process(command("batch", {"--jobs", "1"}));
+    waitFor([&] { return !runsOf("out/a.eyrie").empty() && runsOf("out/a.eyrie")[0].frames_done > 5; });
+    kill(process.pid(), SIGTERM);
+    const auto result = process.wait();
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_THAT(result.errors, HasSubstr("the same command goes on"));
+    EXPECT_THAT(inState("stopped"), ElementsAre("a.mp4"));
+    EXPECT_TRUE(runsOf("out/b.eyrie").empty());
+    EXPECT_EQ(batch().exit_code, 0);
+    EXPECT_TRUE(isFinished("out/a.eyrie"));
+}
+
+TEST_F(Batches, shardsDoEveryFileOnce) {
+    std::vector<std::string> all;
+    for (const char* name : {"a", "b", "c", "d", "e"}) put("in/" + std::string(name) + ".mp4");
+    for (const char* shard : {"1/3", "2/3", "3/3"}) {
+        ASSERT_EQ(batch({"--shard", shard, "--frames", "0:9"}).exit_code, 0);
+        const std::string part(1, shard[0]);
+        for (const std::string& name : inState("done", "out/batch-" + part + "-of-3.csv")) all.push_back(name);
+    }
+    EXPECT_THAT(all, UnorderedElementsAre("a.mp4", "b.mp4", "c.mp4", "d.mp4", "e.mp4"));
+}
+
+TEST_F(Batches, filesThatDifferInTheirEndingGetProjectsOfTheirOwn) {
+    put("in/a.mp4");
+    put("in/a.mov");
+    ASSERT_EQ(batch().exit_code, 0);
+    ASSERT_EQ(batch().exit_code, 0) << "the second time, too";
+    EXPECT_TRUE(isFinished("out/a.eyrie"));
+    EXPECT_TRUE(isFinished("out/a.mp4.eyrie"));
+    EXPECT_FALSE(fs::exists(at("out/a.mov.eyrie")));
+}
+
+TEST_F(Batches, aFileIsTakenOnceItHasArrived) {
+    fs::create_directories(folder / "in");
+    test::Process process(command("watch", {"--settle", "3"}));
+    std::ifstream clip(drawnClip(), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(clip), {}};
+    std::ofstream arriving(folder / "in/a.mp4", std::ios::binary);
+    const std::size_t part = bytes.size() / 8 + 1;
+    for (std::size_t from = 0; from < bytes.size(); from += part) {
+        arriving.write(bytes.data() + from, static_cast<std::streamsize>(std::min(part, bytes.size() - from)));
+        arriving.flush();
+        usleep(500000);  // it comes slowly
+    }
+    waitFor([&] { return isFinished("out/a.eyrie"); });
+    kill(process.pid(), SIGTERM);
+    EXPECT_EQ(process.wait().exit_code, 130);
+    EXPECT_THAT(inState("failed", "out/watch.csv"), ElementsAre()) << "it was not tried half";
+    EXPECT_THAT(inState("done", "out/watch.csv"), ElementsAre("a.mp4"));
+}
+
+TEST_F(Batches, whatCannotBeIsRefusedBeforeTheWork) {
+    put("in/a.mp4");
+    for (const char* shard : {"0/3", "4/3", "1/0", "x", "1/2/3"}) {
+        const auto result = batch({"--shard", shard});
+        EXPECT_EQ(result.exit_code, 2) << shard;
+        EXPECT_THAT(result.errors, HasSubstr("2/8"));
+    }
+    EXPECT_EQ(batch({"--gsd", "-1"}).exit_code, 2);
+    EXPECT_EQ(test::runProcess({test::programPath("eyrie-cli"), "batch", at("absent"), "--out", at("out")}).exit_code,
+              3);
+    EXPECT_EQ(test::runProcess({test::programPath("eyrie-cli"), "batch", at("in"), "--out", at("in/a.mp4")}).exit_code,
+              4);
+    write("out/batch.csv/x", "a folder where the summary should be");
+    EXPECT_EQ(batch().exit_code, 4);
+    EXPECT_FALSE(fs::exists(at("out/a.eyrie")));
+}
+
+}  // namespace
+}  // namespace eyrie
