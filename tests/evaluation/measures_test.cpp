@@ -324,6 +324,29 @@ TEST(Measures, SeveralOverlapsGiveTheSameAsEachAlone) {
     }
 }
 
+TEST(Measures, NoneSaysThatAWorseResultIsBetter) {
+    // Found late, by two tracks, not at its place, and not at the end; and something that is not there.
+    const OneObject right = oneObject(std::vector<int>(10, 4));
+    OneObject wrong = oneObject({0, 4, 4, 0, 5, 5, 6, 6, 0, 0});
+    for (auto& [frame, records] : wrong.result) {
+        for (BoxRecord& record : records) {
+            record.box.centre.x += 1;
+            record.box.length += 2;
+            record.box.width += 1;
+            record.box.heading += 0.05;
+        }
+        records.push_back(car(frame, 30, 500));
+    }
+    const auto best = listMeasures(evaluate(right.truth, right.result, at(0.5)));
+    const auto worse = listMeasures(evaluate(wrong.truth, wrong.result, at(0.5)));
+    for (std::size_t k = 0; k < best.size(); ++k) {
+        if (best[k].key == "partially_tracked" || best[k].key == "result_tracks") continue;  // they only describe
+        ASSERT_TRUE(best[k].value && worse[k].value) << best[k].key;
+        const double gain = *best[k].value - *worse[k].value;
+        EXPECT_GE(best[k].higher_is_better ? gain : -gain, 0) << best[k].key;
+    }
+}
+
 TEST(Measures, RenamingTheTracksChangesNothing) {
     const OneObject scene = oneObject({4, 4, 0, 7, 5, 5, 6, 6, 0, 0});
     BoxesByFrame renamed = scene.result;
