@@ -2,7 +2,9 @@
 
 #include <QFont>
 #include <QRectF>
+#include <compare>
 #include <optional>
+#include <string_view>
 
 #include "canvas/overlay_colours.h"
 #include "canvas/view_frame.h"
@@ -13,9 +15,12 @@ class QPainter;
 
 namespace eyrie::ui {
 
-/// The kinds of overlay, in the order they are painted.
-enum class OverlayKind { rois, corners, vectors, clusters, ground_truth, detections, tracks, stacks, verdicts };
-inline constexpr int kOverlayKindCount = 9;
+/// A kind of overlay. Every layer declares its own, `kKind`.
+struct OverlayKind {
+    std::string_view word;  ///< by which settings know it, so it stays
+
+    auto operator<=>(const OverlayKind&) const = default;
+};
 
 /// How overlays are drawn, whichever frame they belong to.
 struct OverlayStyle {
@@ -45,7 +50,6 @@ struct OverlayScene {
 class OverlayLayer {
  public:
     virtual ~OverlayLayer() = default;
-    virtual OverlayKind kind() const = 0;
     virtual void paint(QPainter& painter, const OverlayScene& scene) const = 0;
 };
 

@@ -7,7 +7,8 @@ namespace eyrie::ui {
 /// Tracks: boxes with heading, trail and id; coasting ones dashed, the selected one stronger.
 class TrackLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::tracks; }
+    static constexpr OverlayKind kKind{"tracks"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 
  private:
