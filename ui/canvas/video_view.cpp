@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "canvas/canvas_tool.h"
+#include "canvas/caption_placer.h"
 #include "canvas/edged_painter.h"
 #include "canvas/layers/overlay_table.h"
 #include "canvas/layers/track_layer.h"
@@ -184,9 +185,10 @@ void VideoView::paint(QPainter& painter) const {
     label_font.setBold(true);
     painter.setFont(label_font);
     if (frame_.result) {
-        const OverlayScene scene{frame_,          *frame_.result,
-                                 transform_,      settings_.style(),
-                                 selected_track_, QRectF(rect()).adjusted(-8, -8, 8, 8)};
+        const QRectF view = QRectF(rect()).adjusted(-8, -8, 8, 8);
+        CaptionPlacer captions(view);
+        const OverlayScene scene{frame_,          *frame_.result, transform_, settings_.style(),
+                                 selected_track_, view,           captions};
         for (const auto& [kind, layer] : layers_)
             if (settings_.isVisible(kind)) layer->paint(painter, scene);
         if (tool_ == nullptr) paintInspectedArea(painter);

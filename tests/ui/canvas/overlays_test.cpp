@@ -6,6 +6,7 @@
 #include "canvas/layers/detection_layer.h"
 #include "canvas/layers/image_stack_layer.h"
 #include "canvas/layers/overlay_table.h"
+#include "canvas/layers/speed_layer.h"
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/vector_layer.h"
 #include "canvas/video_view.h"
@@ -205,6 +206,50 @@ class OverlaysTest : public QObject {
         QCOMPARE(paint(result), shown);
         QVERIFY(trackAt(*result, settings_.style(), {200, 150}, 0));
         settings_.setMinScore(0);
+    }
+
+    void speedsAreWrittenOnlyWhenSwitchedOn() {
+        auto result = empty();
+        result->tracks.push_back(track(3, TrackStatus::confirmed));
+        result->tracks.back().velocity = {3, 4};
+        const auto painted = [&](const SceneScale& scale) {
+            ViewFrame frame = frameWith(result);
+            frame.scale = scale;
+            view_->setFrame(frame);
+            return view_->picture();
+        };
+        showOnly(std::nullopt);
+        const QColor colour = settings_.style().colours.track;
+        QCOMPARE(count(painted({}), colour), 0);
+        showOnly(SpeedLayer::kKind);
+        const QImage in_pixels = painted({});
+        QVERIFY(count(in_pixels, colour) > 30);
+        QVERIFY(in_pixels != painted({0.2, 25, true}));  // 90 km/h
+        settings_.setMinScore(0.7);
+        result->tracks.back().score = 0.6;
+        QCOMPARE(count(painted({}), colour), 0);
+        settings_.setMinScore(0);
+    }
+
+    /// The number and the speed of a track both want the place above its box.
+    void captionsOfDifferentOverlaysDoNotLieOnEachOther() {
+        auto result = empty();
+        result->tracks.push_back(track(3, TrackStatus::confirmed));
+        result->tracks.back().box = {{200, 150}, 60, 30, 0};
+        const auto dark = [](const QImage& picture, const QRectF& where) {  // the ground of a caption
+            int found = 0;
+            for (int y = static_cast<int>(where.top()); y < where.bottom(); ++y)
+                for (int x = static_cast<int>(where.left()); x < where.right(); ++x)
+                    if (picture.pixelColor(x, y).value() < 60) ++found;
+            return found;
+        };
+        showOnly(SpeedLayer::kKind);
+        const QImage alone = paint(result);
+        const QRectF box(view_->transform().viewFromImage({170, 135}), view_->transform().viewFromImage({230, 165}));
+        const QRectF below(box.left() - 40, box.bottom() + 2, box.width() + 80, 30);
+        QCOMPARE(dark(alone, below), 0);
+        settings_.setVisible(TrackLayer::kKind, true);
+        QVERIFY(dark(paint(result), below) > 100);
     }
 
     void theSmallestOfNestedTracksIsHit() {

@@ -15,6 +15,7 @@
 #include "canvas/layers/detection_layer.h"
 #include "canvas/layers/image_stack_layer.h"
 #include "canvas/layers/roi_layer.h"
+#include "canvas/layers/speed_layer.h"
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/truth_layer.h"
 #include "canvas/layers/vector_layer.h"
@@ -109,9 +110,9 @@ class MainWindowTest : public QObject {
         window.show();
         QVERIFY(QTest::qWaitForWindowActive(&window));
         const std::pair<Qt::Key, OverlayKind> keys[] = {
-            {Qt::Key_C, CornerLayer::kKind}, {Qt::Key_V, VectorLayer::kKind},    {Qt::Key_M, ClusterLayer::kKind},
-            {Qt::Key_R, RoiLayer::kKind},    {Qt::Key_D, DetectionLayer::kKind}, {Qt::Key_T, TrackLayer::kKind},
-            {Qt::Key_U, TruthLayer::kKind},  {Qt::Key_S, ImageStackLayer::kKind}};
+            {Qt::Key_C, CornerLayer::kKind}, {Qt::Key_V, VectorLayer::kKind},     {Qt::Key_M, ClusterLayer::kKind},
+            {Qt::Key_R, RoiLayer::kKind},    {Qt::Key_D, DetectionLayer::kKind},  {Qt::Key_T, TrackLayer::kKind},
+            {Qt::Key_U, TruthLayer::kKind},  {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_H, SpeedLayer::kKind}};
         for (const auto& [key, kind] : keys) {
             const bool before = window.overlays().isVisible(kind);
             QTest::keyClick(&window, key);

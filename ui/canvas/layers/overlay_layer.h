@@ -15,6 +15,8 @@ class QPainter;
 
 namespace eyrie::ui {
 
+class CaptionPlacer;
+
 /// A kind of overlay. Every layer declares its own, `kKind`.
 struct OverlayKind {
     std::string_view word;  ///< by which settings know it, so it stays
@@ -42,7 +44,8 @@ struct OverlayScene {
     const ViewTransform& transform;
     const OverlayStyle& style;
     std::optional<TrackId> selected_track;
-    QRectF view;  ///< what lies outside need not be drawn; logical px
+    QRectF view;              ///< what lies outside need not be drawn; logical px
+    CaptionPlacer& captions;  ///< of all layers, so that none writes over another
 };
 
 /// Draws one kind of thing over the video. Painters come in view coordinates (logical px), antialiasing on; a layer

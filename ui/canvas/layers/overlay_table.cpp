@@ -7,6 +7,7 @@
 #include "canvas/layers/detection_layer.h"
 #include "canvas/layers/image_stack_layer.h"
 #include "canvas/layers/roi_layer.h"
+#include "canvas/layers/speed_layer.h"
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/truth_layer.h"
 #include "canvas/layers/vector_layer.h"
@@ -51,6 +52,8 @@ const std::vector<OverlayRow>& overlayTable() {
         row<DetectionLayer>(QT_TRANSLATE_NOOP("Overlay", "&Detections"), Qt::Key_D, false, false, true,
                             paletteColour<&Colours::detection>),
         row<TrackLayer>(QT_TRANSLATE_NOOP("Overlay", "&Tracks"), Qt::Key_T, true, false, true,
+                        paletteColour<&Colours::track>),
+        row<SpeedLayer>(QT_TRANSLATE_NOOP("Overlay", "S&peeds of tracks"), Qt::Key_H, false, false, false,
                         paletteColour<&Colours::track>),
         row<ImageStackLayer>(QT_TRANSLATE_NOOP("Overlay", "Image &stacks"), Qt::Key_S, false, false, false,
                              paletteColour<&Colours::stack>),

@@ -14,7 +14,6 @@ class TrackLayer : public OverlayLayer {
  private:
     void paintTrails(QPainter& painter, const OverlayScene& scene) const;
     void paintBoxes(QPainter& painter, const OverlayScene& scene) const;
-    void paintLabels(QPainter& painter, const OverlayScene& scene) const;
 };
 
 /// The track whose box lies under an image point, the smallest if several do; `margin` px around boxes count as hit.
