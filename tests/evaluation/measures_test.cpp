@@ -182,6 +182,24 @@ TEST(TrackingMeasures, TwentyPercentIsNotMostlyLost) {
     EXPECT_EQ(evaluate(one.truth, one.result, at(0.5)).tracking->mostly_lost, 1);
 }
 
+TEST(TrackingMeasures, InitialisationIsTheMeanTimeUntilAnObjectIsFirstFound) {
+    // The car far away is found at once, the other after three frames; that it is lost again later does not matter.
+    OneObject scene = oneObject({0, 0, 0, 4, 4, 0, 0, 5, 5, 5});
+    for (const Convention convention : {Convention::thesis, Convention::trackeval}) {
+        const Measures m = evaluate(scene.truth, scene.result, at(0.5, convention));
+        EXPECT_EQ(m.tracks.truth[0].until_found, 3);
+        EXPECT_EQ(m.tracks.truth[1].until_found, 0);
+        EXPECT_DOUBLE_EQ(m.tracking->initialisation_frames, 3 / 2.0);
+    }
+    scene.truth[1][0].ignore = true;
+    EXPECT_DOUBLE_EQ(evaluate(scene.truth, scene.result, at(0.5)).tracking->initialisation_frames, 2 / 2.0)
+        << "where it does not count nobody waits for it";
+    const OneObject never = oneObject(std::vector<int>(10, 0));
+    EXPECT_DOUBLE_EQ(evaluate(never.truth, never.result, at(0.5)).tracking->initialisation_frames, 10 / 2.0);
+    const BoxesByFrame one = boxes({car(0, 1, 100)});
+    EXPECT_EQ(evaluate({}, one, at(0.5, Convention::trackeval)).tracking->initialisation_frames, 0);
+}
+
 TEST(TrackingMeasures, AnObjectThatIsIgnoredForAWhileIsNotLost) {
     OneObject scene = oneObject({4, 4, 0, 0, 4, 4, 4, 4, 4, 4});
     for (const int frame : {2, 3}) scene.truth[frame][0].ignore = true;
