@@ -5,7 +5,7 @@
 namespace eyrie {
 namespace {
 
-/// Which way a measure improves; of those that only describe (boxes, tracks) nobody asks.
+/// Which way a measure improves; `higher` for those that only describe, such as the number of objects.
 enum class Better { higher, lower };
 
 /// Gathers measures; those of an absent group have no value.
