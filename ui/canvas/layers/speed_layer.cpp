@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "canvas/layers/track_captions.h"
+#include "canvas/track_captions.h"
 #include "widgets/display_text.h"
 
 namespace eyrie::ui {

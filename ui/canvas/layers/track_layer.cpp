@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "canvas/edged_painter.h"
-#include "canvas/layers/track_captions.h"
+#include "canvas/track_captions.h"
 
 namespace eyrie::ui {
 

@@ -1,4 +1,4 @@
-#include "canvas/layers/track_captions.h"
+#include "canvas/track_captions.h"
 
 #include <QFontMetricsF>
 #include <QPainter>
