@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "canvas/layers/place_mark.h"
+#include "canvas/marks/place_mark.h"
 #include "canvas/overlay_settings.h"
 #include "canvas/view_frame.h"
 #include "canvas/view_transform.h"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "canvas/layers/stack_mark.h"
-#include "canvas/layers/verdict_mark.h"
+#include "canvas/marks/stack_mark.h"
+#include "canvas/marks/verdict_mark.h"
 #include "canvas/trail.h"
 #include "core/labels/box_record.h"
 #include "core/values/frame_result.h"
