@@ -45,6 +45,7 @@ struct NamedMeasure {
     std::string help;             ///< one line
     std::optional<double> value;  ///< empty where it is not defined
     int decimals = 4;             ///< 0 for counts
+    bool higher_is_better = true;
 };
 
 /// All scalar measures in the order of the thesis; HOTA and its parts as means over the thresholds.

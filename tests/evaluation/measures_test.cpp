@@ -182,6 +182,24 @@ TEST(TrackingMeasures, TwentyPercentIsNotMostlyLost) {
     EXPECT_EQ(evaluate(one.truth, one.result, at(0.5)).tracking->mostly_lost, 1);
 }
 
+TEST(TrackingMeasures, InitialisationIsTheMeanTimeUntilAnObjectIsFirstFound) {
+    // The car far away is found at once, the other after three frames; that it is lost again later does not matter.
+    OneObject scene = oneObject({0, 0, 0, 4, 4, 0, 0, 5, 5, 5});
+    for (const Convention convention : {Convention::thesis, Convention::trackeval}) {
+        const Measures m = evaluate(scene.truth, scene.result, at(0.5, convention));
+        EXPECT_EQ(m.tracks.truth[0].until_found, 3);
+        EXPECT_EQ(m.tracks.truth[1].until_found, 0);
+        EXPECT_DOUBLE_EQ(m.tracking->initialisation_frames, 3 / 2.0);
+    }
+    scene.truth[1][0].ignore = true;
+    EXPECT_DOUBLE_EQ(evaluate(scene.truth, scene.result, at(0.5)).tracking->initialisation_frames, 2 / 2.0)
+        << "where it does not count nobody waits for it";
+    const OneObject never = oneObject(std::vector<int>(10, 0));
+    EXPECT_DOUBLE_EQ(evaluate(never.truth, never.result, at(0.5)).tracking->initialisation_frames, 10 / 2.0);
+    const BoxesByFrame one = boxes({car(0, 1, 100)});
+    EXPECT_EQ(evaluate({}, one, at(0.5, Convention::trackeval)).tracking->initialisation_frames, 0);
+}
+
 TEST(TrackingMeasures, AnObjectThatIsIgnoredForAWhileIsNotLost) {
     OneObject scene = oneObject({4, 4, 0, 0, 4, 4, 4, 4, 4, 4});
     for (const int frame : {2, 3}) scene.truth[frame][0].ignore = true;
@@ -321,6 +339,29 @@ TEST(Measures, SeveralOverlapsGiveTheSameAsEachAlone) {
         for (std::size_t k = 0; k < listed.size(); ++k) {
             EXPECT_EQ(listed[k].value, listed_alone[k].value) << listed[k].key;
         }
+    }
+}
+
+TEST(Measures, NoneSaysThatAWorseResultIsBetter) {
+    // Found late, by two tracks, not at its place, and not at the end; and something that is not there.
+    const OneObject right = oneObject(std::vector<int>(10, 4));
+    OneObject wrong = oneObject({0, 4, 4, 0, 5, 5, 6, 6, 0, 0});
+    for (auto& [frame, records] : wrong.result) {
+        for (BoxRecord& record : records) {
+            record.box.centre.x += 1;
+            record.box.length += 2;
+            record.box.width += 1;
+            record.box.heading += 0.05;
+        }
+        records.push_back(car(frame, 30, 500));
+    }
+    const auto best = listMeasures(evaluate(right.truth, right.result, at(0.5)));
+    const auto worse = listMeasures(evaluate(wrong.truth, wrong.result, at(0.5)));
+    for (std::size_t k = 0; k < best.size(); ++k) {
+        if (best[k].key == "partially_tracked" || best[k].key == "result_tracks") continue;  // they only describe
+        ASSERT_TRUE(best[k].value && worse[k].value) << best[k].key;
+        const double gain = *best[k].value - *worse[k].value;
+        EXPECT_GE(best[k].higher_is_better ? gain : -gain, 0) << best[k].key;
     }
 }
 

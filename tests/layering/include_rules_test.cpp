@@ -78,7 +78,7 @@ struct WindowRoom {
 };
 
 const std::map<std::string, WindowRoom> allowed_in_window = {
-    {"canvas", {{}, {"core"}}},
+    {"canvas", {{"widgets"}, {"core"}}},
     {"widgets", {{}, {"core", "store"}}},
     {"session", {{"canvas"}, {"core", "chain", "rerun", "io", "scene", "store"}}},
     {"workspace", {{"canvas", "widgets", "session"}, {"core"}}},

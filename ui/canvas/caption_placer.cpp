@@ -13,6 +13,10 @@ constexpr double kLabelGap = 3;
 CaptionPlacer::CaptionPlacer(const QRectF& view, std::vector<QRectF> objects)
     : view_(view), objects_(std::move(objects)) {}
 
+void CaptionPlacer::keepClearOf(std::vector<QRectF> objects) {
+    objects_ = std::move(objects);
+}
+
 std::optional<QRectF> CaptionPlacer::place(const QRectF& object, QSizeF label) {
     const double centred_x = object.center().x() - label.width() / 2;
     const double centred_y = object.center().y() - label.height() / 2;

@@ -4,8 +4,15 @@
 
 namespace eyrie::ui {
 
+void OverlayProfile::set(OverlayKind kind, bool shown) {
+    if (shown)
+        visible.insert(kind);
+    else
+        visible.erase(kind);
+}
+
 OverlaySettings::OverlaySettings(QObject* parent) : QObject(parent) {
-    for (const OverlayRow& row : overlayTable()) profile_.visible[static_cast<size_t>(row.kind)] = row.in_tune;
+    for (const OverlayRow& row : overlayTable()) profile_.set(row.kind, row.in_tune);
 }
 
 template <class Value>
@@ -16,7 +23,9 @@ void OverlaySettings::adopt(Value& field, Value value) {
 }
 
 void OverlaySettings::setVisible(OverlayKind kind, bool visible) {
-    adopt(profile_.visible[static_cast<size_t>(kind)], visible);
+    OverlayProfile profile = profile_;
+    profile.set(kind, visible);
+    setProfile(profile);
 }
 
 void OverlaySettings::setProfile(const OverlayProfile& profile) {

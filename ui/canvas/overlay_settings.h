@@ -1,7 +1,7 @@
 #pragma once
 
 #include <QObject>
-#include <array>
+#include <set>
 
 #include "canvas/layers/overlay_layer.h"
 
@@ -9,8 +9,9 @@ namespace eyrie::ui {
 
 /// Which kinds of overlay are shown: what each workspace keeps for itself.
 struct OverlayProfile {
-    std::array<bool, kOverlayKindCount> visible{};
+    std::set<OverlayKind> visible;
 
+    void set(OverlayKind kind, bool shown);
     bool operator==(const OverlayProfile&) const = default;
 };
 
@@ -22,7 +23,7 @@ class OverlaySettings : public QObject {
     /// Shows what tuning the chain shows at first.
     explicit OverlaySettings(QObject* parent = nullptr);
 
-    bool isVisible(OverlayKind kind) const { return profile_.visible[static_cast<size_t>(kind)]; }
+    bool isVisible(OverlayKind kind) const { return profile_.visible.contains(kind); }
     void setVisible(OverlayKind kind, bool visible);
     const OverlayProfile& profile() const { return profile_; }
     void setProfile(const OverlayProfile& profile);

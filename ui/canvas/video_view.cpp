@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "canvas/canvas_tool.h"
+#include "canvas/caption_placer.h"
 #include "canvas/edged_painter.h"
 #include "canvas/layers/overlay_table.h"
 #include "canvas/layers/track_layer.h"
@@ -26,7 +27,7 @@ constexpr double kInspectedWidth = 2.2;
 }  // namespace
 
 VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(parent), settings_(settings) {
-    for (const OverlayRow& row : overlayTable()) layers_.push_back(row.make());
+    for (const OverlayRow& row : overlayTable()) layers_.emplace_back(row.kind, row.make());
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setAttribute(Qt::WA_OpaquePaintEvent);
@@ -184,11 +185,12 @@ void VideoView::paint(QPainter& painter) const {
     label_font.setBold(true);
     painter.setFont(label_font);
     if (frame_.result) {
-        const OverlayScene scene{frame_,          *frame_.result,
-                                 transform_,      settings_.style(),
-                                 selected_track_, QRectF(rect()).adjusted(-8, -8, 8, 8)};
-        for (const auto& layer : layers_)
-            if (settings_.isVisible(layer->kind())) layer->paint(painter, scene);
+        const QRectF view = QRectF(rect()).adjusted(-8, -8, 8, 8);
+        CaptionPlacer captions(view);
+        const OverlayScene scene{frame_,          *frame_.result, transform_, settings_.style(),
+                                 selected_track_, view,           captions};
+        for (const auto& [kind, layer] : layers_)
+            if (settings_.isVisible(kind)) layer->paint(painter, scene);
         if (tool_ == nullptr) paintInspectedArea(painter);
     }
     // Marks of the review are in the way of who draws.
@@ -316,9 +318,8 @@ void VideoView::mouseReleaseEvent(QMouseEvent* event) {
     if (!was_click || !frame_.result || tool_ != nullptr) return;
     const double margin = kHitMargin / transform_.scale();
     const QPointF point = transform_.imageFromView(event->position());
-    emit trackClicked(settings_.isVisible(OverlayKind::tracks)
-                          ? trackAt(*frame_.result, settings_.style(), point, margin)
-                          : std::nullopt);
+    emit trackClicked(settings_.isVisible(TrackLayer::kKind) ? trackAt(*frame_.result, settings_.style(), point, margin)
+                                                             : std::nullopt);
     emit placeClicked(point, margin);
 }
 

@@ -3,9 +3,10 @@
 #include <QWidget>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "canvas/layers/place_mark.h"
+#include "canvas/marks/place_mark.h"
 #include "canvas/overlay_settings.h"
 #include "canvas/view_frame.h"
 #include "canvas/view_transform.h"
@@ -105,7 +106,7 @@ class VideoView : public QWidget {
     bool toolTakes(bool (CanvasTool::*handler)(const QMouseEvent&, const CanvasPlace&), const QMouseEvent& event);
 
     OverlaySettings& settings_;
-    std::vector<std::unique_ptr<OverlayLayer>> layers_;
+    std::vector<std::pair<OverlayKind, std::unique_ptr<OverlayLayer>>> layers_;
     ViewFrame frame_;
     ViewTransform transform_;
     std::optional<TrackId> selected_track_;

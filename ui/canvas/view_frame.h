@@ -4,11 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "canvas/layers/stack_mark.h"
-#include "canvas/layers/verdict_mark.h"
+#include "canvas/marks/stack_mark.h"
+#include "canvas/marks/verdict_mark.h"
 #include "canvas/trail.h"
 #include "core/labels/box_record.h"
 #include "core/values/frame_result.h"
+#include "core/values/scene_scale.h"
 
 namespace eyrie::ui {
 
@@ -19,6 +20,7 @@ struct ViewFrame {
     std::int64_t time_us = 0;
     QImage image;                               ///< null when the picture could not be read
     std::shared_ptr<const FrameResult> result;  ///< null when the run has no such frame
+    SceneScale scale;                           ///< of the run that the result is of
     std::vector<Trail> trails;                  ///< ascending track id
     std::vector<BoxRecord> ground_truth;
     bool evaluated = false;             ///< the frame was compared with ground truth

@@ -83,6 +83,7 @@ void ProjectSession::liveFrameCame() {
     current_frame_ = frame->index;
     emit frameChanged(current_frame_);
     view_frame_ = std::move(*frame);
+    view_frame_.scale = scale();
     emit viewFrameChanged(view_frame_);
 }
 

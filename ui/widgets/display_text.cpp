@@ -35,6 +35,10 @@ QString speedText(double px_per_frame, const SceneScale& scale) {
     return numberText(shownSpeed(px_per_frame, scale), scale.gsd_known ? 1 : 2) + QLatin1Char(' ') + speedUnit(scale);
 }
 
+QString shortSpeedText(double px_per_frame, const SceneScale& scale) {
+    return numberText(shownSpeed(px_per_frame, scale), scale.gsd_known ? 0 : 1) + QLatin1Char(' ') + speedUnit(scale);
+}
+
 QString lengthText(double px, const SceneScale& scale) {
     return numberText(shownLength(px, scale), 1) + QLatin1Char(' ') + lengthUnit(scale);
 }

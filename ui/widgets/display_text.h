@@ -21,6 +21,8 @@ double shownSpeed(double px_per_frame, const SceneScale& scale);
 QString numberText(double value, int decimals);
 /// "41.2 km/h" or "1.73 px/frame".
 QString speedText(double px_per_frame, const SceneScale& scale);
+/// Without decimals that nobody can rely on, for places with little room: "41 km/h" or "1.7 px/frame".
+QString shortSpeedText(double px_per_frame, const SceneScale& scale);
 /// "4.4 m" or "12.7 px".
 QString lengthText(double px, const SceneScale& scale);
 /// "4.9 s", "2:04.9", "1:02:04".

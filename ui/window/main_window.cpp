@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "canvas/layers/image_stack_layer.h"
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "label/canvas/label_timeline.h"
@@ -202,7 +203,7 @@ void MainWindow::wireInspection() {
         canvas_->setStacks(view->wish.frame, stackMarks(*view));
     });
     connect(&overlays_, &OverlaySettings::changed, inspection_,
-            [this] { inspection_->wantStackOverlay(overlays_.isVisible(OverlayKind::stacks)); });
+            [this] { inspection_->wantStackOverlay(overlays_.isVisible(ImageStackLayer::kKind)); });
     review_->stacks().setCommands({
         .show_place =
             [this](QPointF place) {

@@ -137,12 +137,11 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
     section(tr("Overlays"));
     for (const OverlayRow& row : overlayTable()) {
         QAction* action = addToggle(overlayName(row), {nullptr, {QKeySequence(row.key)}}, overlays.isVisible(row.kind));
-        overlay[static_cast<size_t>(row.kind)] = action;
+        overlay[row.kind] = action;
         bindSwitches(this, {{action, [&overlays, kind = row.kind](bool on) { overlays.setVisible(kind, on); }}});
     }
     connect(&overlays, &OverlaySettings::changed, this, [this, &overlays] {
-        for (const OverlayRow& row : overlayTable())
-            overlay[static_cast<size_t>(row.kind)]->setChecked(overlays.isVisible(row.kind));
+        for (const OverlayRow& row : overlayTable()) overlay.at(row.kind)->setChecked(overlays.isVisible(row.kind));
     });
     const OverlayStyle& style = overlays.style();
     labels = addToggle(tr("Track la&bels"), {nullptr, {QKeySequence(Qt::Key_B)}}, style.labels);

@@ -4,6 +4,7 @@
 #include <QList>
 #include <QObject>
 #include <array>
+#include <map>
 
 #include "canvas/overlay_settings.h"
 #include "workspace/key_bindings.h"
@@ -32,7 +33,7 @@ class WindowActions : public QObject {
     QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
     QAction *why, *live_preview, *compare, *train;
     std::array<QAction*, kWorkspaceCount> workspace;
-    std::array<QAction*, kOverlayKindCount> overlay;
+    std::map<OverlayKind, QAction*> overlay;
     QAction *labels, *trails, *rejected, *tentative, *longer_vectors, *shorter_vectors, *colour_blind;
     QAction *keys, *about;
 

@@ -14,12 +14,16 @@ const QString kCurrent = QStringLiteral("current");
 const QString kLayout = QStringLiteral("/layout");
 const QString kOverlays = QStringLiteral("/overlays");
 
+QString wordOf(OverlayKind kind) {
+    return QString::fromLatin1(kind.word.data(), static_cast<qsizetype>(kind.word.size()));
+}
+
 OverlayProfile firstProfile(WorkspaceKind kind) {
     OverlayProfile profile;
     for (const OverlayRow& row : overlayTable())
-        profile.visible[static_cast<std::size_t>(row.kind)] = kind == WorkspaceKind::review  ? row.in_review
-                                                              : kind == WorkspaceKind::label ? row.in_label
-                                                                                             : row.in_tune;
+        profile.set(row.kind, kind == WorkspaceKind::review  ? row.in_review
+                              : kind == WorkspaceKind::label ? row.in_label
+                                                             : row.in_tune);
     return profile;
 }
 
@@ -67,8 +71,9 @@ QVariantMap Workspaces::state() {
     state[kCurrent] = wordOf(current_);
     for (const WorkspaceKind kind : allWorkspaces()) {
         if (look(kind).layout.isEmpty()) continue;
-        QVariantList shown;
-        for (const bool visible : look(kind).overlays.visible) shown << visible;
+        QVariantMap shown;
+        for (const OverlayRow& row : overlayTable())
+            shown[wordOf(row.kind)] = look(kind).overlays.visible.contains(row.kind);
         state[wordOf(kind) + kLayout] = look(kind).layout;
         state[wordOf(kind) + kOverlays] = shown;
     }
@@ -78,10 +83,11 @@ QVariantMap Workspaces::state() {
 void Workspaces::restore(const QVariantMap& state) {
     for (const WorkspaceKind kind : allWorkspaces()) {
         look(kind).layout = state.value(wordOf(kind) + kLayout).toByteArray();
-        const QVariantList visible = state.value(wordOf(kind) + kOverlays).toList();
-        if (visible.size() != kOverlayKindCount) continue;
-        for (qsizetype i = 0; i < visible.size(); ++i)
-            look(kind).overlays.visible[static_cast<std::size_t>(i)] = visible[i].toBool();
+        // What is not known of an overlay, which the version before did not have, is as at the first start.
+        look(kind).overlays = firstProfile(kind);
+        const QVariantMap shown = state.value(wordOf(kind) + kOverlays).toMap();
+        for (const OverlayRow& row : overlayTable())
+            if (shown.contains(wordOf(row.kind))) look(kind).overlays.set(row.kind, shown[wordOf(row.kind)].toBool());
     }
     show(workspaceOf(state.value(kCurrent).toString()).value_or(WorkspaceKind::review));
 }

@@ -1,6 +1,7 @@
 #include "cli/reports/comparison_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -29,60 +30,41 @@ std::string left(const std::string& text, std::size_t width) {
     return text + std::string(width - std::min(width, text.size()), ' ');
 }
 
-/// A measure of the tables; empty where a result has none.
+/// A measure of the tables, by its key in listMeasures().
 struct MeasureColumn {
     const char* title;
     const char* key;
     std::size_t width;
     int decimals;
-    std::optional<double> (*value)(const Measures&);
 };
 
-std::optional<double> ofTracking(const Measures& m, double (*read)(const TrackingMeasures&)) {
-    if (!m.tracking) return std::nullopt;
-    return read(*m.tracking);
-}
+constexpr std::array kColumns{
+    MeasureColumn{"TP", "tp", 7, 0},
+    MeasureColumn{"FP", "fp", 7, 0},
+    MeasureColumn{"FN", "fn", 7, 0},
+    MeasureColumn{"precision", "precision", 10, 3},
+    MeasureColumn{"recall", "recall", 8, 3},
+    MeasureColumn{"f-score", "f_score", 8, 3},
+    MeasureColumn{"N-MODA", "n_moda", 8, 3},
+    MeasureColumn{"N-MODP", "n_modp", 8, 3},
+    MeasureColumn{"MOTA", "mota", 8, 3},
+    MeasureColumn{"MOTP", "motp", 8, 3},
+    MeasureColumn{"IDS", "id_switches", 6, 0},
+    MeasureColumn{"MT", "mostly_tracked", 5, 0},
+    MeasureColumn{"PT", "partially_tracked", 5, 0},
+    MeasureColumn{"MLT", "mostly_lost", 5, 0},
+    MeasureColumn{"FM", "fragments", 5, 0},
+};
 
-const std::vector<MeasureColumn>& columns() {
-    static const std::vector<MeasureColumn> all{
-        {"TP", "tp", 7, 0, [](const Measures& m) { return std::optional<double>(m.detection.true_positives); }},
-        {"FP", "fp", 7, 0, [](const Measures& m) { return std::optional<double>(m.detection.false_positives); }},
-        {"FN", "fn", 7, 0, [](const Measures& m) { return std::optional<double>(m.detection.false_negatives); }},
-        {"precision", "precision", 10, 3, [](const Measures& m) { return std::optional(m.detection.precision); }},
-        {"recall", "recall", 8, 3, [](const Measures& m) { return std::optional(m.detection.recall); }},
-        {"f-score", "f_score", 8, 3, [](const Measures& m) { return std::optional(m.detection.f_score); }},
-        {"N-MODA", "n_moda", 8, 3, [](const Measures& m) { return std::optional(m.detection.n_moda); }},
-        {"N-MODP", "n_modp", 8, 3, [](const Measures& m) { return std::optional(m.detection.n_modp); }},
-        {"MOTA", "mota", 8, 3,
-         [](const Measures& m) { return ofTracking(m, [](const TrackingMeasures& t) { return t.mota; }); }},
-        {"MOTP", "motp", 8, 3,
-         [](const Measures& m) { return ofTracking(m, [](const TrackingMeasures& t) { return t.motp; }); }},
-        {"IDS", "id_switches", 6, 0,
-         [](const Measures& m) {
-             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.id_switches); });
-         }},
-        {"MT", "mostly_tracked", 5, 0,
-         [](const Measures& m) {
-             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.mostly_tracked); });
-         }},
-        {"PT", "partially_tracked", 5, 0,
-         [](const Measures& m) {
-             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.partially_tracked); });
-         }},
-        {"MLT", "mostly_lost", 5, 0,
-         [](const Measures& m) {
-             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.mostly_lost); });
-         }},
-        {"FM", "fragments", 5, 0,
-         [](const Measures& m) {
-             return ofTracking(m, [](const TrackingMeasures& t) { return double(t.fragments); });
-         }},
-    };
-    return all;
+/// Empty where the result has no such measure.
+std::optional<double> valueOf(const MeasureColumn& column, const Measures& measures) {
+    for (const NamedMeasure& measure : listMeasures(measures))
+        if (measure.key == column.key) return measure.value;
+    return std::nullopt;
 }
 
 std::string valueText(const MeasureColumn& column, const Measures& measures) {
-    const std::optional<double> value = column.value(measures);
+    const std::optional<double> value = valueOf(column, measures);
     if (!value) return "-";
     return column.decimals == 0 ? number("%.0f", *value) : number("%.3f", *value);
 }
@@ -97,11 +79,11 @@ void addBlock(std::string& text, const std::vector<ComparisonRow>& rows) {
     for (const ComparisonRow& row : rows) width = std::max(width, row.name().size() + 1);
     text += '\n';
     text += left("T_ov " + number("%g", rows.front().measures.overlap), width);
-    for (const MeasureColumn& column : columns()) text += right(column.title, column.width);
+    for (const MeasureColumn& column : kColumns) text += right(column.title, column.width);
     text += right("ms", 8) + "\n";
     for (const ComparisonRow& row : rows) {
         text += left(row.name(), width);
-        for (const MeasureColumn& column : columns()) text += right(valueText(column, row.measures), column.width);
+        for (const MeasureColumn& column : kColumns) text += right(valueText(column, row.measures), column.width);
         text += right(number("%.1f", row.ms_per_frame), 8) + "\n";
     }
     if (rows.size() < 2) return;
@@ -171,7 +153,7 @@ std::string tableText(const ComparisonReport& report) {
 
 std::string csvText(const ComparisonReport& report) {
     std::string text = "method,stacking,tracking,overlap";
-    for (const MeasureColumn& column : columns()) text += std::string(",") + column.key;
+    for (const MeasureColumn& column : kColumns) text += std::string(",") + column.key;
     text +=
         ",ms_per_frame,f_score_low,f_score_high,f_score_difference,f_score_difference_low,f_score_difference_high,"
         "mota_difference,mota_difference_low,mota_difference_high\n";
@@ -182,8 +164,8 @@ std::string csvText(const ComparisonReport& report) {
         for (const ComparisonRow& row : rows) {
             text += row.method + (row.stacking ? ",1" : ",0") + (row.tracking ? ",1" : ",0") +
                     number(",%g", row.measures.overlap);
-            for (const MeasureColumn& column : columns()) {
-                const std::optional<double> value = column.value(row.measures);
+            for (const MeasureColumn& column : kColumns) {
+                const std::optional<double> value = valueOf(column, row.measures);
                 text += value ? number(",%.6g", *value) : ",";
             }
             text += number(",%.3f", row.ms_per_frame) + number(",%.6g", row.f_score.low) +

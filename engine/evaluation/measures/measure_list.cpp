@@ -5,15 +5,20 @@
 namespace eyrie {
 namespace {
 
+/// Which way a measure improves; `higher` for those that only describe, such as the number of objects.
+enum class Better { higher, lower };
+
 /// Gathers measures; those of an absent group have no value.
 class List {
  public:
     void begin(const char* group) { group_ = group; }
-    void count(const char* key, const char* label, const char* help, std::optional<double> value) {
-        measures_.push_back({group_, key, label, help, value, 0});
+    void count(const char* key, const char* label, const char* help, std::optional<double> value,
+               Better better = Better::higher) {
+        real(key, label, help, value, 0, better);
     }
-    void real(const char* key, const char* label, const char* help, std::optional<double> value, int decimals = 4) {
-        measures_.push_back({group_, key, label, help, value, decimals});
+    void real(const char* key, const char* label, const char* help, std::optional<double> value, int decimals = 4,
+              Better better = Better::higher) {
+        measures_.push_back({group_, key, label, help, value, decimals, better == Better::higher});
     }
     std::vector<NamedMeasure> take() { return std::move(measures_); }
 
@@ -37,14 +42,15 @@ void listDetection(List& list, const DetectionMeasures& d) {
     list.begin("detection");
     list.count("ground_truth", "objects", "boxes of the ground truth that count", d.ground_truth);
     list.count("tp", "TP", "true positives", d.true_positives);
-    list.count("fp", "FP", "false positives", d.false_positives);
-    list.count("fn", "FN", "false negatives", d.false_negatives);
+    list.count("fp", "FP", "false positives", d.false_positives, Better::lower);
+    list.count("fn", "FN", "false negatives", d.false_negatives, Better::lower);
     list.count("ignored_results", "ignored results", "results that are not counted", d.ignored_results);
     list.real("precision", "precision", "TP / (TP + FP)", d.precision);
     list.real("recall", "recall", "TP / (TP + FN)", d.recall);
     list.real("f_score", "f-score", "harmonic mean of precision and recall", d.f_score);
     list.real("n_moda", "N-MODA", "1 - (FN + FP) / objects", d.n_moda);
     list.real("n_modp", "N-MODP", "mean overlap of the true positives", d.n_modp);
+    list.real("fp_per_frame", "FP per frame", "FP / frames", d.false_positives_per_frame, 3, Better::lower);
 }
 
 void listTracking(List& list, const Measures& m) {
@@ -52,23 +58,27 @@ void listTracking(List& list, const Measures& m) {
     list.begin("tracking");
     list.real("mota", "MOTA", "1 - (FN + FP + ID switches) / objects", of(t, &TrackingMeasures::mota));
     list.real("motp", "MOTP", "mean overlap of the matched pairs", of(t, &TrackingMeasures::motp));
-    list.count("id_switches", "ID switches", "times an object's id changes", of(t, &TrackingMeasures::id_switches));
+    list.count("id_switches", "ID switches", "times an object's id changes", of(t, &TrackingMeasures::id_switches),
+               Better::lower);
     const bool thesis = m.convention == Convention::thesis;
     list.count("mostly_tracked", "MT", thesis ? "tracked for 80 % or more" : "tracked for more than 80 %",
                of(t, &TrackingMeasures::mostly_tracked));
     list.count("partially_tracked", "PT", "neither mostly tracked nor mostly lost",
                of(t, &TrackingMeasures::partially_tracked));
-    list.count("mostly_lost", "MLT", "tracked for less than 20 %", of(t, &TrackingMeasures::mostly_lost));
+    list.count("mostly_lost", "MLT", "tracked for less than 20 %", of(t, &TrackingMeasures::mostly_lost),
+               Better::lower);
     list.count("fragments", thesis ? "FM" : "Frag",
                thesis ? "changes from tracked to not tracked" : "tracked runs - 1 per object",
-               of(t, &TrackingMeasures::fragments));
+               of(t, &TrackingMeasures::fragments), Better::lower);
+    list.real("initialisation_frames", "TID, frames", "mean frames of an object until it is first found",
+              of(t, &TrackingMeasures::initialisation_frames), 1, Better::lower);
     list.count("gt_tracks", "true tracks", "tracks of the ground truth", of(t, &TrackingMeasures::truth_tracks));
     list.count("result_tracks", "result tracks", "tracks of the result", of(t, &TrackingMeasures::result_tracks));
     list.begin("identity");
     list.real("idf1", "IDF1", "boxes under the right identity", of(m.identity, &IdentityMeasures::idf1));
     list.count("idtp", "IDTP", "identity true positives", of(m.identity, &IdentityMeasures::idtp));
-    list.count("idfp", "IDFP", "identity false positives", of(m.identity, &IdentityMeasures::idfp));
-    list.count("idfn", "IDFN", "identity false negatives", of(m.identity, &IdentityMeasures::idfn));
+    list.count("idfp", "IDFP", "identity false positives", of(m.identity, &IdentityMeasures::idfp), Better::lower);
+    list.count("idfn", "IDFN", "identity false negatives", of(m.identity, &IdentityMeasures::idfn), Better::lower);
     list.real("hota", "HOTA", "mean over overlaps 0.05 to 0.95", meanIfKnown(m.hota, &HotaMeasures::hota));
     list.real("det_a", "DetA", "detection part of HOTA", meanIfKnown(m.hota, &HotaMeasures::det_a));
     list.real("ass_a", "AssA", "association part of HOTA", meanIfKnown(m.hota, &HotaMeasures::ass_a));
@@ -79,14 +89,16 @@ void listBoxErrors(List& list, const BoxErrors& e) {
     const auto known = [&](double value) { return e.pairs > 0 ? std::optional<double>(value) : std::nullopt; };
     const auto heading = [&](double value) { return e.has_headings ? known(value) : std::nullopt; };
     list.begin("boxes");
-    list.real("centre_error_px", "centre error, px", "mean distance of the centres", known(e.centre_px), 2);
-    list.real("length_error_px", "length error, px", "mean absolute", known(e.length_px), 2);
-    list.real("length_bias_px", "length bias, px", "mean of result - truth", known(e.length_bias_px), 2);
-    list.real("width_error_px", "width error, px", "mean absolute", known(e.width_px), 2);
-    list.real("width_bias_px", "width bias, px", "mean of result - truth", known(e.width_bias_px), 2);
+    list.real("centre_error_px", "centre error, px", "mean distance of the centres", known(e.centre_px), 2,
+              Better::lower);
+    list.real("length_error_px", "length error, px", "mean absolute", known(e.length_px), 2, Better::lower);
+    list.real("length_bias_px", "length bias, px", "mean of result - truth", known(e.length_bias_px), 2, Better::lower);
+    list.real("width_error_px", "width error, px", "mean absolute", known(e.width_px), 2, Better::lower);
+    list.real("width_bias_px", "width bias, px", "mean of result - truth", known(e.width_bias_px), 2, Better::lower);
     list.real("heading_error_deg", "heading error, deg", "mean absolute, front and rear distinguished",
-              heading(e.heading_degrees), 2);
-    list.real("axis_error_deg", "axis error, deg", "mean absolute, modulo 180", heading(e.heading_axis_degrees), 2);
+              heading(e.heading_degrees), 2, Better::lower);
+    list.real("axis_error_deg", "axis error, deg", "mean absolute, modulo 180", heading(e.heading_axis_degrees), 2,
+              Better::lower);
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ TrackTallies tallyTracks(const EvaluationInput& input, const std::vector<FrameMa
             const auto truth = static_cast<std::size_t>(trackOf(frame.truth, frame.truth_tracks, index));
             TruthTrackTally& tally = tallies.truth[truth];
             ++tally.frames;
+            if (tally.matched == 0) ++tally.until_found;
             if (thesis && memory[truth].tracked) {
                 ++tally.fragments;
                 memory[truth].tracked = false;
@@ -73,7 +74,9 @@ TrackingMeasures trackingMeasures(const TrackTallies& tallies, const DetectionMe
     TrackingMeasures m;
     m.truth_tracks = static_cast<int>(tallies.truth.size());
     m.result_tracks = static_cast<int>(tallies.results.size());
+    double until_found = 0;
     for (const TruthTrackTally& tally : tallies.truth) {
+        until_found += tally.until_found;
         m.id_switches += tally.switches;
         m.fragments += thesis ? tally.fragments : std::max(tally.tracked_runs - 1, 0);
         const double share = static_cast<double>(tally.matched) / std::max(tally.frames, 1);
@@ -85,6 +88,7 @@ TrackingMeasures trackingMeasures(const TrackTallies& tallies, const DetectionMe
             ++m.partially_tracked;
         }
     }
+    m.initialisation_frames = until_found / std::max(m.truth_tracks, 1);
     const double objects = std::max(detection.ground_truth, 1);
     const double errors = detection.false_negatives + detection.false_positives;
     const double log_switches = m.id_switches > 0 ? std::log10(m.id_switches) : 0;

@@ -14,6 +14,7 @@ struct TruthTrackTally {
     int matched = 0;       ///< of those, with a result
     int switches = 0;      ///< times its result's id differs from the last one it had
     int fragments = 0;     ///< changes from tracked to not tracked (thesis)
+    int until_found = 0;   ///< frames in which it counts before its first result; all if it has none
     int tracked_runs = 0;  ///< uninterrupted stretches of being tracked (trackeval)
     double overlap_sum = 0;
 };
@@ -40,6 +41,9 @@ struct TrackingMeasures {
     int partially_tracked = 0;
     int mostly_lost = 0;  ///< MLT: less than 20 %
     int fragments = 0;    ///< FM; see Convention
+    /// TID, track initialisation duration (Caesar et al., CVPR 2020), in frames: how long an object counts on average
+    /// before it is found for the first time; one that is never found counts with all its frames.
+    double initialisation_frames = 0;
     int truth_tracks = 0;
     int result_tracks = 0;
     double mota_log = 0;   ///< MOTA with log10(switches)

@@ -3,31 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/error.h"
 
 namespace eyrie {
 namespace {
 
-constexpr const char* kFalsePerFrame = "fp_per_frame";
-
-bool higherIsBetter(const std::string& key) {
-    static const std::set<std::string> lower{"fp",        "fn",   "id_switches", "mostly_lost",
-                                             "fragments", "idfp", "idfn",        kFalsePerFrame};
-    if (lower.count(key) > 0) return false;
-    return key.find("_error_") == std::string::npos && key.find("_bias_") == std::string::npos;
-}
-
 std::vector<MeasureText> allMeasures() {
     std::vector<MeasureText> all;
     Measures empty;
-    for (const NamedMeasure& m : listMeasures(empty)) {
-        all.push_back({m.key, m.group, m.label, m.help, m.decimals, higherIsBetter(m.key)});
-        if (m.key == "n_modp") {
-            all.push_back({kFalsePerFrame, m.group, "false alarms per frame", "FP / frames", 3, false});
-        }
-    }
+    for (const NamedMeasure& m : listMeasures(empty))
+        all.push_back({m.key, m.group, m.label, m.help, m.decimals, m.higher_is_better});
     return all;
 }
 
@@ -49,7 +35,6 @@ SweepFigures figuresOf(const Measures& measures, int clip, bool tracks) {
         if (m.value && std::isfinite(*m.value) && (tracks || (m.group != "tracking" && m.group != "identity")))
             figures.values.emplace_back(m.key, *m.value);
     }
-    figures.values.emplace_back(kFalsePerFrame, measures.detection.false_positives_per_frame);
     return figures;
 }
 

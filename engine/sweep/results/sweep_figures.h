@@ -14,7 +14,7 @@ struct SweepFigures {
     int clip = 0;         ///< position in the plan
     bool tracks = false;  ///< otherwise detections
     double overlap = 0;
-    std::vector<std::pair<std::string, double>> values;  ///< keys of listMeasures(), and fp_per_frame
+    std::vector<std::pair<std::string, double>> values;  ///< keys of listMeasures()
 
     std::optional<double> at(const std::string& key) const;
 };

@@ -1,7 +1,14 @@
 #include <QTest>
 #include <random>
 
+#include "canvas/layers/cluster_layer.h"
+#include "canvas/layers/corner_layer.h"
+#include "canvas/layers/detection_layer.h"
+#include "canvas/layers/image_stack_layer.h"
+#include "canvas/layers/overlay_table.h"
+#include "canvas/layers/speed_layer.h"
 #include "canvas/layers/track_layer.h"
+#include "canvas/layers/vector_layer.h"
 #include "canvas/video_view.h"
 
 namespace eyrie::ui {
@@ -52,7 +59,7 @@ class OverlaysTest : public QObject {
         return view_->picture();
     }
     void showOnly(std::optional<OverlayKind> kind) {
-        for (int k = 0; k < kOverlayKindCount; ++k) settings_.setVisible(static_cast<OverlayKind>(k), false);
+        for (const OverlayRow& row : overlayTable()) settings_.setVisible(row.kind, false);
         if (kind) settings_.setVisible(*kind, true);
     }
 
@@ -72,7 +79,7 @@ class OverlaysTest : public QObject {
         const QColor second = stackColour(2);
         const std::vector<StackMark> stacks{{1, {100, 100}, 0, 30, {{90, 95}, {108, 104}}},
                                             {2, {300, 200}, 1, 12, {{310, 190}}}};
-        showOnly(OverlayKind::stacks);
+        showOnly(ImageStackLayer::kKind);
         view_->setStacks(6, stacks);  // of another frame: too late
         QCOMPARE(count(view_->picture(), first), 0);
         view_->setStacks(7, stacks);
@@ -104,24 +111,24 @@ class OverlaysTest : public QObject {
         result->detections.push_back(detection);
         result->tracks.push_back(track(3, TrackStatus::confirmed));
         const OverlayColours& colours = settings_.style().colours;
-        const std::pair<OverlayKind, QColor> kinds[] = {{OverlayKind::corners, colours.stationary_corner},
-                                                        {OverlayKind::vectors, colours.motion_vector},
-                                                        {OverlayKind::clusters, colours.cluster},
-                                                        {OverlayKind::detections, colours.detection},
-                                                        {OverlayKind::tracks, colours.track}};
+        const std::pair<OverlayKind, QColor> kinds[] = {{CornerLayer::kKind, colours.stationary_corner},
+                                                        {VectorLayer::kKind, colours.motion_vector},
+                                                        {ClusterLayer::kKind, colours.cluster},
+                                                        {DetectionLayer::kKind, colours.detection},
+                                                        {TrackLayer::kKind, colours.track}};
         showOnly(std::nullopt);
         const QImage bare = paint(result);
         for (const auto& [kind, colour] : kinds) {
             QCOMPARE(count(bare, colour), 0);
             showOnly(kind);
-            QVERIFY2(count(paint(result), colour) > 30, qPrintable(QString::number(static_cast<int>(kind))));
+            QVERIFY2(count(paint(result), colour) > 30, kind.word.data());
         }
     }
 
     void aVectorIsAsLongAsItsMotionTimesTheFactor() {
         auto result = empty();
         result->motion.motion_vectors.push_back({1, {100, 150}, {3, 0}, 9});
-        showOnly(OverlayKind::vectors);
+        showOnly(VectorLayer::kKind);
         settings_.setVectorLengthFactor(10);  // 30 px of image, 60 of screen at scale 2
         const QImage picture = paint(result);
         const QPointF from = view_->transform().viewFromImage({100, 150});
@@ -143,7 +150,7 @@ class OverlaysTest : public QObject {
         Detection detection;
         detection.box = {{200, 150}, 40, 20, 0};
         result->detections.push_back(detection);
-        showOnly(OverlayKind::detections);
+        showOnly(DetectionLayer::kKind);
         const auto width_of_left_side = [&] {
             const QImage picture = paint(result);
             const QPointF left = view_->transform().viewFromImage({180, 150});
@@ -167,7 +174,7 @@ class OverlaysTest : public QObject {
         rejected.box = {{100, 100}, 40, 20, 0};
         rejected.rejection = Rejection::outlier;
         result->detections.push_back(rejected);
-        showOnly(OverlayKind::detections);
+        showOnly(DetectionLayer::kKind);
         settings_.setRejectedDetections(false);
         const QImage without = paint(result);
         settings_.setRejectedDetections(true);
@@ -176,7 +183,7 @@ class OverlaysTest : public QObject {
 
         auto tentative = empty();
         tentative->tracks.push_back(track(5, TrackStatus::tentative));
-        showOnly(OverlayKind::tracks);
+        showOnly(TrackLayer::kKind);
         settings_.setTentativeTracks(false);
         QVERIFY(!trackAt(*tentative, settings_.style(), {200, 150}, 0));
         const QImage hidden = paint(tentative);
@@ -190,7 +197,7 @@ class OverlaysTest : public QObject {
         auto result = empty();
         result->tracks.push_back(track(5, TrackStatus::confirmed));
         result->tracks.back().score = 0.6;
-        showOnly(OverlayKind::tracks);
+        showOnly(TrackLayer::kKind);
         const QImage shown = paint(result);
         settings_.setMinScore(0.7);
         QVERIFY(shown != paint(result));
@@ -199,6 +206,50 @@ class OverlaysTest : public QObject {
         QCOMPARE(paint(result), shown);
         QVERIFY(trackAt(*result, settings_.style(), {200, 150}, 0));
         settings_.setMinScore(0);
+    }
+
+    void speedsAreWrittenOnlyWhenSwitchedOn() {
+        auto result = empty();
+        result->tracks.push_back(track(3, TrackStatus::confirmed));
+        result->tracks.back().velocity = {3, 4};
+        const auto painted = [&](const SceneScale& scale) {
+            ViewFrame frame = frameWith(result);
+            frame.scale = scale;
+            view_->setFrame(frame);
+            return view_->picture();
+        };
+        showOnly(std::nullopt);
+        const QColor colour = settings_.style().colours.track;
+        QCOMPARE(count(painted({}), colour), 0);
+        showOnly(SpeedLayer::kKind);
+        const QImage in_pixels = painted({});
+        QVERIFY(count(in_pixels, colour) > 30);
+        QVERIFY(in_pixels != painted({0.2, 25, true}));  // 90 km/h
+        settings_.setMinScore(0.7);
+        result->tracks.back().score = 0.6;
+        QCOMPARE(count(painted({}), colour), 0);
+        settings_.setMinScore(0);
+    }
+
+    /// The number and the speed of a track both want the place above its box.
+    void captionsOfDifferentOverlaysDoNotLieOnEachOther() {
+        auto result = empty();
+        result->tracks.push_back(track(3, TrackStatus::confirmed));
+        result->tracks.back().box = {{200, 150}, 60, 30, 0};
+        const auto dark = [](const QImage& picture, const QRectF& where) {  // the ground of a caption
+            int found = 0;
+            for (int y = static_cast<int>(where.top()); y < where.bottom(); ++y)
+                for (int x = static_cast<int>(where.left()); x < where.right(); ++x)
+                    if (picture.pixelColor(x, y).value() < 60) ++found;
+            return found;
+        };
+        showOnly(SpeedLayer::kKind);
+        const QImage alone = paint(result);
+        const QRectF box(view_->transform().viewFromImage({170, 135}), view_->transform().viewFromImage({230, 165}));
+        const QRectF below(box.left() - 40, box.bottom() + 2, box.width() + 80, 30);
+        QCOMPARE(dark(alone, below), 0);
+        settings_.setVisible(TrackLayer::kKind, true);
+        QVERIFY(dark(paint(result), below) > 100);
     }
 
     void theSmallestOfNestedTracksIsHit() {
@@ -213,7 +264,7 @@ class OverlaysTest : public QObject {
     void theColourBlindPaletteIsAnother() {
         auto result = empty();
         result->tracks.push_back(track(3, TrackStatus::confirmed));
-        showOnly(OverlayKind::tracks);
+        showOnly(TrackLayer::kKind);
         const QImage thesis = paint(result);
         settings_.setPalette(PaletteKind::colour_blind);
         QVERIFY(thesis != paint(result));
@@ -234,7 +285,7 @@ class OverlaysTest : public QObject {
             state.box.centre = {x(random), y(random)};
             result->tracks.push_back(state);
         }
-        for (int k = 0; k < kOverlayKindCount; ++k) settings_.setVisible(static_cast<OverlayKind>(k), true);
+        for (const OverlayRow& row : overlayTable()) settings_.setVisible(row.kind, true);
         view_->resize(1600, 1000);
         view_->setFrame(frameWith(result));
         view_->picture();

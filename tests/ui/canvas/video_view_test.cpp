@@ -5,6 +5,7 @@
 #include <QWheelEvent>
 
 #include "canvas/image_convert.h"
+#include "canvas/layers/track_layer.h"
 
 namespace eyrie::ui {
 
@@ -141,7 +142,7 @@ class VideoViewTest : public QObject {
         view.setFrame(frame);
         QCOMPARE(view.transform().imageSize(), QSize(200, 100));
         const QImage with = view.picture();
-        settings.setVisible(OverlayKind::tracks, false);
+        settings.setVisible(TrackLayer::kKind, false);
         QVERIFY(with != view.picture());
     }
 

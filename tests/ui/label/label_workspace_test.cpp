@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "canvas/layers/corner_layer.h"
+#include "canvas/layers/track_layer.h"
 #include "label/canvas/label_timeline.h"
 #include "label/computing/label_fitting.h"
 #include "label/lists/object_inspector.h"
@@ -25,15 +27,15 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         auto* objects = window->findChild<QDockWidget*>(QStringLiteral("objects"));
         auto* runs = window->findChild<QDockWidget*>(QStringLiteral("runs"));
         QVERIFY(objects->isVisible() && !runs->isVisible());
-        QVERIFY(!window->overlays().isVisible(OverlayKind::tracks));
+        QVERIFY(!window->overlays().isVisible(TrackLayer::kKind));
         key(*window, Qt::Key_C);  // copies a box here, corners there
-        QVERIFY(!window->overlays().isVisible(OverlayKind::corners));
+        QVERIFY(!window->overlays().isVisible(CornerLayer::kKind));
         key(*window, Qt::Key_1, Qt::ControlModifier);
         QVERIFY(!window->labelling().active());
         QVERIFY(!objects->isVisible() && runs->isVisible());
-        QVERIFY(window->overlays().isVisible(OverlayKind::tracks));
+        QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
         key(*window, Qt::Key_C);
-        QVERIFY(window->overlays().isVisible(OverlayKind::corners));
+        QVERIFY(window->overlays().isVisible(CornerLayer::kKind));
         key(*window, Qt::Key_2, Qt::ControlModifier);
         QVERIFY(window->labelling().active());
         QVERIFY(objects->isVisible() && !runs->isVisible());

@@ -63,6 +63,9 @@ class SessionRunsTest : public QObject {
         QCOMPARE(stored.clusters.size(), live->result->clusters.size());
         QCOMPARE(stored.detections.size(), live->result->detections.size());
         QCOMPARE(session.viewFrame().image, live->image);
+        QVERIFY(live->scale.gsd_known);
+        QCOMPARE(session.viewFrame().scale.gsd_m_per_px, live->scale.gsd_m_per_px);
+        QCOMPARE(session.viewFrame().scale.gsd_known, live->scale.gsd_known);
     }
 
     void stoppingKeepsWhatIsDone() {

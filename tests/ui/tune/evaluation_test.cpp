@@ -7,6 +7,7 @@
 #include <QThread>
 #include <fstream>
 
+#include "canvas/layers/track_layer.h"
 #include "canvas/layers/verdict_layer.h"
 #include "canvas/video_view.h"
 #include "label/label_workspace.h"
@@ -221,10 +222,10 @@ class EvaluationTest : public QObject {
     void theOtherOverlaysComeBack() {
         const auto window = evaluatingWindow();
         QVERIFY(window);
-        QVERIFY(!window->overlays().isVisible(OverlayKind::tracks));
+        QVERIFY(!window->overlays().isVisible(TrackLayer::kKind));
         for (const DockId id : {DockId::evaluation, DockId::errors}) window->docks().dock(id)->hide();
-        QVERIFY(window->overlays().isVisible(OverlayKind::tracks));
-        QVERIFY(window->overlays().isVisible(OverlayKind::verdicts));
+        QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
+        QVERIFY(window->overlays().isVisible(VerdictLayer::kKind));
     }
 
     void anErrorIsAskedWhy() {

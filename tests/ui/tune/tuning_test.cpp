@@ -236,6 +236,7 @@ class TuningTest : public QObject {
         QVERIFY(waitFor([&] { return a.frame().index == 45 && b.frame().index == 45; }));
         QVERIFY(a.frame().result && b.frame().result);
         QVERIFY(!b.frame().result->motion.motion_vectors.empty());
+        QVERIFY(a.frame().scale.gsd_known && b.frame().scale.gsd_known);
         comparison.goToFrame(59);  // not computed
         QCOMPARE(comparison.frame(), 50);
         comparison.goToFrame(0);

@@ -201,6 +201,8 @@ class ModelsTest : public QObject {
     void textsOfNumbers() {
         QCOMPARE(speedText(2, {0.25, 25, true}), QStringLiteral("45.0 km/h"));
         QCOMPARE(speedText(2, {0.25, 25, false}), QStringLiteral("2.00 px/frame"));
+        QCOMPARE(shortSpeedText(2, {0.25, 25, true}), QStringLiteral("45 km/h"));
+        QCOMPARE(shortSpeedText(2, {0.25, 25, false}), QStringLiteral("2.0 px/frame"));
         QCOMPARE(lengthText(10, {0.25, 25, true}), QStringLiteral("2.5 m"));
         QCOMPARE(numberText(std::numeric_limits<double>::infinity(), 1), QStringLiteral("–"));
         QCOMPARE(localTimeText("yesterday"), QStringLiteral("yesterday"));

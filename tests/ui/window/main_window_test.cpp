@@ -10,6 +10,15 @@
 #include <QTreeWidget>
 #include <algorithm>
 
+#include "canvas/layers/cluster_layer.h"
+#include "canvas/layers/corner_layer.h"
+#include "canvas/layers/detection_layer.h"
+#include "canvas/layers/image_stack_layer.h"
+#include "canvas/layers/roi_layer.h"
+#include "canvas/layers/speed_layer.h"
+#include "canvas/layers/track_layer.h"
+#include "canvas/layers/truth_layer.h"
+#include "canvas/layers/vector_layer.h"
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "tune/inspect/inspection.h"
@@ -101,10 +110,9 @@ class MainWindowTest : public QObject {
         window.show();
         QVERIFY(QTest::qWaitForWindowActive(&window));
         const std::pair<Qt::Key, OverlayKind> keys[] = {
-            {Qt::Key_C, OverlayKind::corners},      {Qt::Key_V, OverlayKind::vectors},
-            {Qt::Key_M, OverlayKind::clusters},     {Qt::Key_R, OverlayKind::rois},
-            {Qt::Key_D, OverlayKind::detections},   {Qt::Key_T, OverlayKind::tracks},
-            {Qt::Key_U, OverlayKind::ground_truth}, {Qt::Key_S, OverlayKind::stacks}};
+            {Qt::Key_C, CornerLayer::kKind}, {Qt::Key_V, VectorLayer::kKind},     {Qt::Key_M, ClusterLayer::kKind},
+            {Qt::Key_R, RoiLayer::kKind},    {Qt::Key_D, DetectionLayer::kKind},  {Qt::Key_T, TrackLayer::kKind},
+            {Qt::Key_U, TruthLayer::kKind},  {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_H, SpeedLayer::kKind}};
         for (const auto& [key, kind] : keys) {
             const bool before = window.overlays().isVisible(kind);
             QTest::keyClick(&window, key);
@@ -313,9 +321,9 @@ class MainWindowTest : public QObject {
         QVERIFY(window);
         auto* field = window->findChild<QLineEdit*>(QStringLiteral("gsd"));
         field->setFocus();
-        const bool before = window->overlays().isVisible(OverlayKind::corners);
+        const bool before = window->overlays().isVisible(CornerLayer::kKind);
         QTest::keyClicks(field, QStringLiteral("c1f"));
-        QCOMPARE(window->overlays().isVisible(OverlayKind::corners), before);
+        QCOMPARE(window->overlays().isVisible(CornerLayer::kKind), before);
         QVERIFY(field->text().contains(QStringLiteral("c1f")));
     }
 

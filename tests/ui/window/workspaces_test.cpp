@@ -6,7 +6,12 @@
 #include <QTest>
 #include <QTreeWidget>
 
+#include "canvas/layers/cluster_layer.h"
+#include "canvas/layers/corner_layer.h"
+#include "canvas/layers/detection_layer.h"
 #include "canvas/layers/overlay_table.h"
+#include "canvas/layers/track_layer.h"
+#include "canvas/layers/vector_layer.h"
 #include "canvas/video_view.h"
 #include "label/label_actions.h"
 #include "label/label_workspace.h"
@@ -65,7 +70,7 @@ class WorkspacesTest : public QObject {
         QVERIFY(window);
         QCOMPARE(window->workspaces().current(), WorkspaceKind::review);
         for (const OverlayRow& row : overlayTable())
-            QCOMPARE(window->overlays().isVisible(row.kind), row.kind == OverlayKind::tracks);
+            QCOMPARE(window->overlays().isVisible(row.kind), row.kind == TrackLayer::kKind);
         QVERIFY(shown(*window, DockId::tracks) && shown(*window, DockId::inspector));
         QVERIFY(!shown(*window, DockId::parameters) && !shown(*window, DockId::stages));
     }
@@ -76,11 +81,11 @@ class WorkspacesTest : public QObject {
         go(*window, Qt::Key_3);
         QCOMPARE(window->workspaces().current(), WorkspaceKind::tune);
         QVERIFY(shown(*window, DockId::parameters) && shown(*window, DockId::why) && shown(*window, DockId::sweeps));
-        QVERIFY(window->overlays().isVisible(OverlayKind::clusters));
+        QVERIFY(window->overlays().isVisible(ClusterLayer::kKind));
         go(*window, Qt::Key_2);
         QVERIFY(window->labelling().active());
         QVERIFY(shown(*window, DockId::objects) && !shown(*window, DockId::tracks));
-        QVERIFY(!window->overlays().isVisible(OverlayKind::tracks));
+        QVERIFY(!window->overlays().isVisible(TrackLayer::kKind));
         go(*window, Qt::Key_1);
         QVERIFY(!window->labelling().active());
         QVERIFY(shown(*window, DockId::tracks) && !shown(*window, DockId::objects));
@@ -97,9 +102,9 @@ class WorkspacesTest : public QObject {
         QTest::keyClick(window.get(), Qt::Key_V);  // off: it is on here at first
         go(*window, Qt::Key_1);
         QVERIFY(!shown(*window, DockId::runs));
-        QVERIFY(window->overlays().isVisible(OverlayKind::vectors));
+        QVERIFY(window->overlays().isVisible(VectorLayer::kKind));
         go(*window, Qt::Key_3);
-        QVERIFY(!window->overlays().isVisible(OverlayKind::vectors));
+        QVERIFY(!window->overlays().isVisible(VectorLayer::kKind));
     }
 
     void allIsRememberedFromOneStartToTheNext() {
@@ -116,7 +121,23 @@ class WorkspacesTest : public QObject {
         QCOMPARE(second->workspaces().current(), WorkspaceKind::tune);
         go(*second, Qt::Key_1);
         QVERIFY(!shown(*second, DockId::inspector));
-        QVERIFY(second->overlays().isVisible(OverlayKind::corners));
+        QVERIFY(second->overlays().isVisible(CornerLayer::kKind));
+    }
+
+    void anOverlayThatSettingsDoNotKnowIsShownAsAtTheFirstStart() {
+        const auto window = this->window();
+        QVERIFY(window);
+        go(*window, Qt::Key_3);
+        QTest::keyClick(window.get(), Qt::Key_V);
+        QTest::keyClick(window.get(), Qt::Key_M);
+        QVariantMap state = window->workspaces().state();
+        QVariantMap shown = state[QStringLiteral("tune/overlays")].toMap();
+        QCOMPARE(shown.size(), static_cast<qsizetype>(overlayTable().size()));
+        QCOMPARE(shown.remove(QStringLiteral("clusters")), 1);
+        state[QStringLiteral("tune/overlays")] = shown;
+        window->workspaces().restore(state);
+        QVERIFY(window->overlays().isVisible(ClusterLayer::kKind));
+        QVERIFY(!window->overlays().isVisible(VectorLayer::kKind));
     }
 
     void theLayoutCanBeReset() {
@@ -126,7 +147,7 @@ class WorkspacesTest : public QObject {
         QTest::keyClick(window.get(), Qt::Key_T);
         window->workspaces().reset();
         QVERIFY(shown(*window, DockId::tracks) && shown(*window, DockId::inspector));
-        QVERIFY(window->overlays().isVisible(OverlayKind::tracks));
+        QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
     }
 
     void aWindowThatIsShownAgainIsAsItWasLeft() {
@@ -192,7 +213,7 @@ class WorkspacesTest : public QObject {
             const auto window = this->window();
             QVERIFY(window);
             KeySheet sheet(window->keys(), {}, window.get());
-            QAction* corners = window->actions().overlay[static_cast<std::size_t>(OverlayKind::corners)];
+            QAction* corners = window->actions().overlay.at(CornerLayer::kKind);
             sheet.choose(corners);
             sheet.setKey(QKeySequence(Qt::Key_T));
             QVERIFY2(sheet.answer().contains(QStringLiteral("Tracks")), qPrintable(sheet.answer()));
@@ -201,11 +222,11 @@ class WorkspacesTest : public QObject {
             QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_Y));
             QVERIFY(corners->toolTip().endsWith(QStringLiteral("(Y)")));
             QTest::keyClick(window.get(), Qt::Key_Y);
-            QVERIFY(window->overlays().isVisible(OverlayKind::corners));
+            QVERIFY(window->overlays().isVisible(CornerLayer::kKind));
         }
         const auto next = window();
         QVERIFY(next);
-        QAction* corners = next->actions().overlay[static_cast<std::size_t>(OverlayKind::corners)];
+        QAction* corners = next->actions().overlay.at(CornerLayer::kKind);
         QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_Y));
         next->keys().resetAll();
         QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_C));
@@ -214,7 +235,7 @@ class WorkspacesTest : public QObject {
     void aKeyThatLabellingTakesComesBack() {
         const auto window = this->window();
         QVERIFY(window);
-        QAction* detections = window->actions().overlay[static_cast<std::size_t>(OverlayKind::detections)];
+        QAction* detections = window->actions().overlay.at(DetectionLayer::kKind);
         go(*window, Qt::Key_2);
         QVERIFY(detections->shortcuts().isEmpty());  // D is the next frame here
         window->keys().setKeysOf(window->labelling().actions().next_frame, {QKeySequence(Qt::Key_F4)});

@@ -7,7 +7,8 @@ namespace eyrie::ui {
 /// Motion clusters: boxes with their heading.
 class ClusterLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::clusters; }
+    static constexpr OverlayKind kKind{"clusters"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 };
 

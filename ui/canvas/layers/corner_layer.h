@@ -7,7 +7,8 @@ namespace eyrie::ui {
 /// Corners of the ground: dots.
 class CornerLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::corners; }
+    static constexpr OverlayKind kKind{"corners"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 };
 

@@ -7,7 +7,8 @@ namespace eyrie::ui {
 /// Detections: boxes; rejected ones faint and dotted when wanted.
 class DetectionLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::detections; }
+    static constexpr OverlayKind kKind{"detections"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 };
 

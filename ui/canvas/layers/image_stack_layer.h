@@ -8,7 +8,8 @@ namespace eyrie::ui {
 /// stack in a colour of its own (fig. 5.5–5.9).
 class ImageStackLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::stacks; }
+    static constexpr OverlayKind kKind{"stacks"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 };
 

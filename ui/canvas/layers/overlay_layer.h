@@ -2,7 +2,9 @@
 
 #include <QFont>
 #include <QRectF>
+#include <compare>
 #include <optional>
+#include <string_view>
 
 #include "canvas/overlay_colours.h"
 #include "canvas/view_frame.h"
@@ -13,9 +15,14 @@ class QPainter;
 
 namespace eyrie::ui {
 
-/// The kinds of overlay, in the order they are painted.
-enum class OverlayKind { rois, corners, vectors, clusters, ground_truth, detections, tracks, stacks, verdicts };
-inline constexpr int kOverlayKindCount = 9;
+class CaptionPlacer;
+
+/// A kind of overlay. Every layer declares its own, `kKind`.
+struct OverlayKind {
+    std::string_view word;  ///< by which settings know it, so it stays
+
+    auto operator<=>(const OverlayKind&) const = default;
+};
 
 /// How overlays are drawn, whichever frame they belong to.
 struct OverlayStyle {
@@ -37,7 +44,8 @@ struct OverlayScene {
     const ViewTransform& transform;
     const OverlayStyle& style;
     std::optional<TrackId> selected_track;
-    QRectF view;  ///< what lies outside need not be drawn; logical px
+    QRectF view;              ///< what lies outside need not be drawn; logical px
+    CaptionPlacer& captions;  ///< of all layers, so that none writes over another
 };
 
 /// Draws one kind of thing over the video. Painters come in view coordinates (logical px), antialiasing on; a layer
@@ -45,7 +53,6 @@ struct OverlayScene {
 class OverlayLayer {
  public:
     virtual ~OverlayLayer() = default;
-    virtual OverlayKind kind() const = 0;
     virtual void paint(QPainter& painter, const OverlayScene& scene) const = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "canvas/layers/detection_layer.h"
 #include "canvas/layers/image_stack_layer.h"
 #include "canvas/layers/roi_layer.h"
+#include "canvas/layers/speed_layer.h"
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/truth_layer.h"
 #include "canvas/layers/vector_layer.h"
@@ -26,35 +27,39 @@ QColor falseAlarmColour(const OverlayStyle& style) {
 }
 
 template <class Layer>
-std::unique_ptr<OverlayLayer> make() {
-    return std::make_unique<Layer>();
+OverlayRow row(const char* name, Qt::Key key, bool in_review, bool in_label, bool in_tune,
+               QColor (*colour)(const OverlayStyle&)) {
+    const auto make = [] { return std::unique_ptr<OverlayLayer>(std::make_unique<Layer>()); };
+    return {Layer::kKind, name, key, in_review, in_label, in_tune, colour, make};
 }
 
 }  // namespace
 
-const std::array<OverlayRow, kOverlayKindCount>& overlayTable() {
+const std::vector<OverlayRow>& overlayTable() {
     using Colours = OverlayColours;
-    static const std::array<OverlayRow, kOverlayKindCount> table{{
-        // kind, name, key, shown at first in review, label, tune, colour, layer
-        {OverlayKind::rois, QT_TRANSLATE_NOOP("Overlay", "Motion &ROIs"), Qt::Key_R, false, false, false,
-         paletteColour<&Colours::roi>, make<RoiLayer>},
-        {OverlayKind::corners, QT_TRANSLATE_NOOP("Overlay", "Stationary &corners"), Qt::Key_C, false, false, false,
-         paletteColour<&Colours::stationary_corner>, make<CornerLayer>},
-        {OverlayKind::vectors, QT_TRANSLATE_NOOP("Overlay", "Motion &vectors"), Qt::Key_V, false, false, true,
-         paletteColour<&Colours::motion_vector>, make<VectorLayer>},
-        {OverlayKind::clusters, QT_TRANSLATE_NOOP("Overlay", "&Motion clusters"), Qt::Key_M, false, false, true,
-         paletteColour<&Colours::cluster>, make<ClusterLayer>},
-        {OverlayKind::ground_truth, QT_TRANSLATE_NOOP("Overlay", "&Ground truth"), Qt::Key_U, false, false, true,
-         paletteColour<&Colours::ground_truth>, make<TruthLayer>},
-        {OverlayKind::detections, QT_TRANSLATE_NOOP("Overlay", "&Detections"), Qt::Key_D, false, false, true,
-         paletteColour<&Colours::detection>, make<DetectionLayer>},
-        {OverlayKind::tracks, QT_TRANSLATE_NOOP("Overlay", "&Tracks"), Qt::Key_T, true, false, true,
-         paletteColour<&Colours::track>, make<TrackLayer>},
-        {OverlayKind::stacks, QT_TRANSLATE_NOOP("Overlay", "Image &stacks"), Qt::Key_S, false, false, false,
-         paletteColour<&Colours::stack>, make<ImageStackLayer>},
-        {OverlayKind::verdicts, QT_TRANSLATE_NOOP("Overlay", "Errors (found, missed, false)"), Qt::Key_Q, false, false,
-         true, falseAlarmColour, make<VerdictLayer>},
-    }};
+    static const std::vector<OverlayRow> table{
+        // name, key, shown at first in review, label, tune, colour
+        row<RoiLayer>(QT_TRANSLATE_NOOP("Overlay", "Motion &ROIs"), Qt::Key_R, false, false, false,
+                      paletteColour<&Colours::roi>),
+        row<CornerLayer>(QT_TRANSLATE_NOOP("Overlay", "Stationary &corners"), Qt::Key_C, false, false, false,
+                         paletteColour<&Colours::stationary_corner>),
+        row<VectorLayer>(QT_TRANSLATE_NOOP("Overlay", "Motion &vectors"), Qt::Key_V, false, false, true,
+                         paletteColour<&Colours::motion_vector>),
+        row<ClusterLayer>(QT_TRANSLATE_NOOP("Overlay", "&Motion clusters"), Qt::Key_M, false, false, true,
+                          paletteColour<&Colours::cluster>),
+        row<TruthLayer>(QT_TRANSLATE_NOOP("Overlay", "&Ground truth"), Qt::Key_U, false, false, true,
+                        paletteColour<&Colours::ground_truth>),
+        row<DetectionLayer>(QT_TRANSLATE_NOOP("Overlay", "&Detections"), Qt::Key_D, false, false, true,
+                            paletteColour<&Colours::detection>),
+        row<TrackLayer>(QT_TRANSLATE_NOOP("Overlay", "&Tracks"), Qt::Key_T, true, false, true,
+                        paletteColour<&Colours::track>),
+        row<SpeedLayer>(QT_TRANSLATE_NOOP("Overlay", "S&peeds of tracks"), Qt::Key_H, false, false, false,
+                        paletteColour<&Colours::track>),
+        row<ImageStackLayer>(QT_TRANSLATE_NOOP("Overlay", "Image &stacks"), Qt::Key_S, false, false, false,
+                             paletteColour<&Colours::stack>),
+        row<VerdictLayer>(QT_TRANSLATE_NOOP("Overlay", "Errors (found, missed, false)"), Qt::Key_Q, false, false, true,
+                          falseAlarmColour),
+    };
     return table;
 }
 

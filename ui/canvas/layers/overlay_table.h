@@ -2,8 +2,8 @@
 
 #include <QColor>
 #include <QString>
-#include <array>
 #include <memory>
+#include <vector>
 
 #include "canvas/layers/overlay_layer.h"
 
@@ -23,7 +23,7 @@ struct OverlayRow {
 };
 
 /// One row for each kind, in the order they are painted.
-const std::array<OverlayRow, kOverlayKindCount>& overlayTable();
+const std::vector<OverlayRow>& overlayTable();
 
 /// With its mnemonic, for menus.
 QString overlayName(const OverlayRow& row);

@@ -7,7 +7,8 @@ namespace eyrie::ui {
 /// Motion ROIs, the areas searched by the detector: dashed boxes.
 class RoiLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::rois; }
+    static constexpr OverlayKind kKind{"rois"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 };
 

@@ -1,31 +1,17 @@
 #include "canvas/layers/track_layer.h"
 
-#include <QFontMetricsF>
-#include <QPainterPath>
 #include <algorithm>
 
-#include "canvas/caption_placer.h"
 #include "canvas/edged_painter.h"
-#include "canvas/upright_in_view.h"
+#include "canvas/track_captions.h"
 
 namespace eyrie::ui {
-
-namespace {
-
-bool isShown(const TrackState& state, const OverlayStyle& style) {
-    return (state.status != TrackStatus::tentative || style.tentative_tracks) && state.score >= style.min_score;
-}
-
-bool isShown(const TrackState& state, const OverlayScene& scene) {
-    return isShown(state, scene.style) || scene.selected_track == state.id;
-}
-
-}  // namespace
 
 void TrackLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     if (scene.style.trails) paintTrails(painter, scene);
     paintBoxes(painter, scene);
-    if (scene.style.labels) paintLabels(painter, scene);
+    if (scene.style.labels)
+        paintTrackCaptions(painter, scene, [](const TrackState& state) { return QString::number(state.id); });
 }
 
 void TrackLayer::paintTrails(QPainter& painter, const OverlayScene& scene) const {
@@ -79,41 +65,6 @@ void TrackLayer::paintBoxes(QPainter& painter, const OverlayScene& scene) const 
     drawEdgedLines(painter, seen, {colours.track, colours.edge, scene.style.line_width});
     drawEdgedLines(painter, selected,
                    {colours.selected_track, colours.edge, scene.style.line_width + 1.4, selected_style});
-}
-
-void TrackLayer::paintLabels(QPainter& painter, const OverlayScene& scene) const {
-    struct Labelled {
-        const TrackState* state;
-        QRectF object;
-    };
-    std::vector<Labelled> labelled;
-    std::vector<QRectF> objects;
-    for (const TrackState& state : scene.result.tracks) {
-        if (!isShown(state, scene)) continue;
-        const QRectF object = uprightInView(state.box, scene.transform);
-        if (!object.intersects(scene.view)) continue;
-        labelled.push_back({&state, object});
-        objects.push_back(object);
-    }
-    // The order decides who is left out in a crowd: the selected one never, then the older (lower) id stays, so that
-    // labels do not flicker from frame to frame.
-    std::stable_partition(labelled.begin(), labelled.end(),
-                          [&](const Labelled& l) { return scene.selected_track == l.state->id; });
-    CaptionPlacer placer(scene.view, objects);
-    const QFontMetricsF metrics(painter.font());
-    for (const Labelled& label : labelled) {
-        const QString text = QString::number(label.state->id);
-        const QSizeF size(metrics.horizontalAdvance(text) + 6, metrics.height());
-        const auto rectangle = placer.place(label.object, size);
-        if (!rectangle) continue;
-        const bool is_selected = scene.selected_track == label.state->id;
-        painter.setPen(Qt::NoPen);
-        painter.setBrush(is_selected ? scene.style.colours.selected_track : QColor(0, 0, 0, 165));
-        painter.drawRoundedRect(*rectangle, 2.5, 2.5);
-        painter.setBrush(Qt::NoBrush);
-        painter.setPen(is_selected ? QColor(0, 0, 0) : scene.style.colours.track);
-        painter.drawText(*rectangle, Qt::AlignCenter, text);
-    }
 }
 
 std::optional<TrackId> trackAt(const FrameResult& result, const OverlayStyle& style, QPointF image_point,

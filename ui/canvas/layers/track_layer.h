@@ -7,13 +7,13 @@ namespace eyrie::ui {
 /// Tracks: boxes with heading, trail and id; coasting ones dashed, the selected one stronger.
 class TrackLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::tracks; }
+    static constexpr OverlayKind kKind{"tracks"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 
  private:
     void paintTrails(QPainter& painter, const OverlayScene& scene) const;
     void paintBoxes(QPainter& painter, const OverlayScene& scene) const;
-    void paintLabels(QPainter& painter, const OverlayScene& scene) const;
 };
 
 /// The track whose box lies under an image point, the smallest if several do; `margin` px around boxes count as hit.

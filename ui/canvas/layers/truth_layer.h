@@ -7,7 +7,8 @@ namespace eyrie::ui {
 /// Ground truth: boxes; objects that count neither way dotted.
 class TruthLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::ground_truth; }
+    static constexpr OverlayKind kKind{"ground_truth"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 };
 

@@ -8,7 +8,8 @@ namespace eyrie::ui {
 /// ground.
 class VectorLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::vectors; }
+    static constexpr OverlayKind kKind{"vectors"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 };
 

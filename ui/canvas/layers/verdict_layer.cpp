@@ -27,13 +27,13 @@ QRectF boundsOf(const OrientedBox& box, const ViewTransform& transform) {
 void paintTexts(QPainter& painter, const OverlayScene& scene) {
     std::vector<QRectF> objects;
     for (const VerdictMark& mark : scene.frame.verdicts) objects.push_back(boundsOf(mark.box, scene.transform));
-    CaptionPlacer placer(scene.view, objects);
+    scene.captions.keepClearOf(objects);
     const QFontMetricsF metrics(painter.font());
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const VerdictMark& mark = scene.frame.verdicts[i];
         if (mark.text.isEmpty() || !scene.view.intersects(objects[i])) continue;
         const QSizeF size(metrics.horizontalAdvance(mark.text) + 6, metrics.height() + 1);
-        const auto place = placer.place(objects[i], size);
+        const auto place = scene.captions.place(objects[i], size);
         if (!place) continue;
         painter.fillRect(*place, QColor(12, 12, 14, 215));
         painter.setPen(verdictColour(mark.kind, scene.style.palette));

@@ -13,7 +13,8 @@ QString verdictText(VerdictKind kind);
 /// found is drawn thin, so that errors stand out; missed objects are dashed, since no result is there.
 class VerdictLayer : public OverlayLayer {
  public:
-    OverlayKind kind() const override { return OverlayKind::verdicts; }
+    static constexpr OverlayKind kKind{"verdicts"};
+
     void paint(QPainter& painter, const OverlayScene& scene) const override;
 };
 

@@ -25,12 +25,15 @@ StoredFrames::StoredFrames(const std::filesystem::path& project, int run_id, int
       store_(project_),
       run_id_(run_id),
       trail_length_(trail_length),
-      results_(kResultBudget) {}
+      results_(kResultBudget) {
+    if (const auto run = store_.run(run_id)) scale_ = run->scale;
+}
 
 void StoredFrames::addTo(ViewFrame& frame) {
     frame.result = result(frame.index);
     if (!frame.result) return;
     if (frame.image.isNull()) frame.time_us = frame.result->motion.time_us;
+    frame.scale = scale_;
     frame.trails = trails(frame.index);
 }
 

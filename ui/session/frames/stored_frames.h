@@ -16,7 +16,7 @@ class StoredFrames {
  public:
     StoredFrames(const std::filesystem::path& project, int run_id, int trail_length);
 
-    /// Fills result, trails and, if it has none, time; leaves the frame as it is when the run does not have it.
+    /// Fills result, scale, trails and, if it has none, time; leaves the frame as it is when the run does not have it.
     void addTo(ViewFrame& frame);
     /// Reads a frame into memory for later; false when the run does not have it.
     bool prepare(FrameIndex frame);
@@ -30,6 +30,7 @@ class StoredFrames {
     RunStore store_;
     int run_id_;
     int trail_length_;
+    SceneScale scale_;
     LruCache<FrameIndex, std::shared_ptr<const FrameResult>> results_;
     std::map<FrameIndex, Homography> homographies_;  ///< current from previous, by current frame
 };

@@ -23,11 +23,15 @@ constexpr int kSideReadAhead = 8;  ///< frames
 struct SideFrames {
     std::unique_ptr<StoredFrames> stored;
     std::shared_ptr<const ComputedFrames> computed;
+    SceneScale scale;  ///< of what is computed
 
     bool open() const { return stored || computed; }
     void addTo(ViewFrame& frame) const {
         if (stored) stored->addTo(frame);
-        if (computed) computed->addTo(frame);
+        if (computed) {
+            frame.scale = scale;
+            computed->addTo(frame);
+        }
     }
     bool prepare(FrameIndex frame) const { return !stored || stored->prepare(frame); }
 };
@@ -46,10 +50,13 @@ class ComparisonLoader::Worker {
         try {
             const auto side = [&](const ComparisonSide& wanted, const std::shared_ptr<ComputedFrames>& frames) {
                 SideFrames made;
-                if (wanted.options)
-                    made.computed = frames;
-                else
+                if (!wanted.options) {
                     made.stored = std::make_unique<StoredFrames>(pair.project, wanted.run_id, kTrailLength);
+                    return made;
+                }
+                made.computed = frames;
+                ProjectFile project = ProjectFile::open(pair.project, ProjectFile::Mode::read_only);
+                if (const auto run = RunStore(project).run(wanted.run_id)) made.scale = run->scale;
                 return made;
             };
             first_ = side(pair.first, computed.first);

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "canvas/layers/verdict_mark.h"
+#include "canvas/marks/verdict_mark.h"
 #include "diagnosis/run_evaluation.h"
 #include "session/background/background_query.h"
 #include "session/project_session.h"

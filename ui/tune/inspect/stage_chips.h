@@ -3,7 +3,7 @@
 #include <opencv2/core/types.hpp>
 #include <vector>
 
-#include "canvas/layers/stack_mark.h"
+#include "canvas/marks/stack_mark.h"
 #include "tune/inspect/replay_loader.h"
 #include "widgets/chip_grid.h"
 

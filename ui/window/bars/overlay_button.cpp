@@ -52,7 +52,7 @@ void OverlayButton::refresh() {
     const QSignalBlocker blocker(length_);
     length_->setValue(overlays_.style().vector_length_factor);
     for (const OverlayRow& row : overlayTable())
-        actions_.overlay[static_cast<size_t>(row.kind)]->setIcon(swatch(row.colour(overlays_.style()), 16));
+        actions_.overlay.at(row.kind)->setIcon(swatch(row.colour(overlays_.style()), 16));
 }
 
 }  // namespace eyrie::ui

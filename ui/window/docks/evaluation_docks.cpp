@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "canvas/layers/verdict_layer.h"
 #include "canvas/video_view.h"
 #include "label/label_workspace.h"
 #include "tune/evaluate/error_chips.h"
@@ -122,7 +123,7 @@ void EvaluationDocks::showErrorsAlone() {
     } else if (!other_overlays_) {
         other_overlays_ = overlays_.profile();
         OverlayProfile errors;
-        errors.visible[static_cast<std::size_t>(OverlayKind::verdicts)] = true;
+        errors.set(VerdictLayer::kKind, true);
         overlays_.setProfile(errors);
     }
 }
@@ -131,7 +132,7 @@ void EvaluationDocks::giveOverlaysBack() {
     if (!other_overlays_) return;
     OverlayProfile before = *std::exchange(other_overlays_, std::nullopt);
     // Switched off meanwhile, verdicts stay so.
-    before.visible[static_cast<std::size_t>(OverlayKind::verdicts)] &= overlays_.isVisible(OverlayKind::verdicts);
+    if (!overlays_.isVisible(VerdictLayer::kKind)) before.set(VerdictLayer::kKind, false);
     overlays_.setProfile(before);
 }
 

@@ -1,0 +1,58 @@
+#include "canvas/track_captions.h"
+
+#include <QFontMetricsF>
+#include <QPainter>
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "canvas/caption_placer.h"
+#include "canvas/upright_in_view.h"
+
+namespace eyrie::ui {
+
+bool isShown(const TrackState& state, const OverlayStyle& style) {
+    return (state.status != TrackStatus::tentative || style.tentative_tracks) && state.score >= style.min_score;
+}
+
+bool isShown(const TrackState& state, const OverlayScene& scene) {
+    return isShown(state, scene.style) || scene.selected_track == state.id;
+}
+
+void paintTrackCaptions(QPainter& painter, const OverlayScene& scene,
+                        const std::function<QString(const TrackState&)>& text_of) {
+    struct Labelled {
+        const TrackState* state;
+        QRectF object;
+    };
+    std::vector<Labelled> labelled;
+    std::vector<QRectF> objects;
+    for (const TrackState& state : scene.result.tracks) {
+        if (!isShown(state, scene)) continue;
+        const QRectF object = uprightInView(state.box, scene.transform);
+        if (!object.intersects(scene.view)) continue;
+        labelled.push_back({&state, object});
+        objects.push_back(object);
+    }
+    // The order decides who is left out in a crowd: the selected one never, then the older (lower) id stays, so that
+    // labels do not flicker from frame to frame.
+    std::stable_partition(labelled.begin(), labelled.end(),
+                          [&](const Labelled& l) { return scene.selected_track == l.state->id; });
+    scene.captions.keepClearOf(std::move(objects));
+    const QFontMetricsF metrics(painter.font());
+    for (const Labelled& label : labelled) {
+        const QString text = text_of(*label.state);
+        const QSizeF size(metrics.horizontalAdvance(text) + 6, metrics.height());
+        const auto rectangle = scene.captions.place(label.object, size);
+        if (!rectangle) continue;
+        const bool is_selected = scene.selected_track == label.state->id;
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(is_selected ? scene.style.colours.selected_track : QColor(0, 0, 0, 165));
+        painter.drawRoundedRect(*rectangle, 2.5, 2.5);
+        painter.setBrush(Qt::NoBrush);
+        painter.setPen(is_selected ? QColor(0, 0, 0) : scene.style.colours.track);
+        painter.drawText(*rectangle, Qt::AlignCenter, text);
+    }
+}
+
+}  // namespace eyrie::ui
