@@ -9,6 +9,17 @@
 
 namespace eyrie {
 
+namespace {
+
+std::string verdictFields(const Verdict* verdict) {
+    if (verdict == nullptr) return ",,,,,,";
+    return std::string(",") + nameOf(verdict->judgement) + ',' + csvField(verdict->note) + ',' +
+           csvField(tagText(verdict->tags)) + (verdict->starred ? ",1," : ",0,") + csvField(verdict->person) + ',' +
+           csvField(verdict->when_utc);
+}
+
+}  // namespace
+
 std::string videoClockText(double seconds) {
     const auto tenths = static_cast<long long>(std::floor(std::abs(seconds) * 10 + 1e-6));
     const long long minutes = tenths / 600;
@@ -23,11 +34,13 @@ std::string videoClockText(double seconds) {
     return text;
 }
 
-void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock) {
+void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock,
+                   const std::vector<const Verdict*>& verdicts) {
     std::string text =
         "kind,first_frame,last_frame,start_s,end_s,clock,tracks,figure,unit,zone,sense,frame,x,y,ground_frame,"
-        "ground_x,ground_y\n";
-    for (const Event& event : events) {
+        "ground_x,ground_y,verdict,note,tags,starred,person,when_utc\n";
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const Event& event = events[i];
         std::string tracks;
         for (const TrackId id : event.tracks) tracks += (tracks.empty() ? "" : " ") + std::to_string(id);
         const bool counts = event.unit != FigureUnit::none;
@@ -38,7 +51,7 @@ void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& 
                 csvField(event.zone) + ',' + nameOf(event.sense) + ',' + std::to_string(event.frame) + ',' +
                 fixedText(event.place.x, 2) + ',' + fixedText(event.place.y, 2) + ',' +
                 std::to_string(event.ground_frame) + ',' + fixedText(event.ground.x, 2) + ',' +
-                fixedText(event.ground.y, 2) + '\n';
+                fixedText(event.ground.y, 2) + verdictFields(verdicts.empty() ? nullptr : verdicts.at(i)) + '\n';
     }
     writeFileAtomically(path, text);
 }

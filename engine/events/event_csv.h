@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/review/verdict.h"
 #include "events/event.h"
 
 namespace eyrie {
@@ -16,7 +17,9 @@ using FrameClock = std::function<double(FrameIndex)>;
 std::string videoClockText(double seconds);
 
 /// Columns kind, first_frame, last_frame, start_s, end_s, clock, tracks (separated by blanks), figure, unit, zone,
-/// sense, frame, x, y, ground_frame, ground_x, ground_y. Throws Error(output).
-void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock);
+/// sense, frame, x, y, ground_frame, ground_x, ground_y, verdict, note, tags, starred, person, when_utc. `verdicts`: of
+/// each event, null for none; or empty. Throws Error(output).
+void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock,
+                   const std::vector<const Verdict*>& verdicts = {});
 
 }  // namespace eyrie

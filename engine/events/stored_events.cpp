@@ -44,6 +44,8 @@ StoredTracks readTracks(const RunStore& store, const RunRecord& run) {
         EventTrack& track = tracks[state.id];
         track.id = state.id;
         track.boxes.push_back({frame, state.box});
+        // The same in all states of a finished run.
+        found.scores[state.id] = state.score;
     });
     for (auto& [id, track] : tracks) found.tracks.push_back(std::move(track));
     return found;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,11 @@ namespace eyrie {
 
 /// What events are computed from.
 struct StoredTracks {
-    std::vector<EventTrack> tracks;  ///< of the run's result, ascending ids
-    Footage footage;                 ///< no frames where the run has none
-    std::vector<double> shown_s;     ///< when each of its frames is shown, s from the beginning of the video
-    int unregistered = 0;            ///< frames that could not be registered onto the one before
+    std::vector<EventTrack> tracks;    ///< of the run's result, ascending ids
+    Footage footage;                   ///< no frames where the run has none
+    std::vector<double> shown_s;       ///< when each of its frames is shown, s from the beginning of the video
+    int unregistered = 0;              ///< frames that could not be registered onto the one before
+    std::map<TrackId, double> scores;  ///< of each track, 0 … 1, the surer the higher
 
     /// Seconds at which a frame is shown; by the frame rate where the run does not know it.
     double secondsOf(FrameIndex frame) const;

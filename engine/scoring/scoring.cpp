@@ -7,7 +7,7 @@
 namespace eyrie {
 namespace {
 
-std::string rangeText(const FrameSpan& frames) {
+std::string rangeText(const ScoredFrames& frames) {
     return std::to_string(frames.first) + " to " + std::to_string(frames.second);
 }
 
@@ -15,7 +15,7 @@ bool holdsBoxes(const BoxesByFrame::value_type& frame) {
     return !frame.second.empty();
 }
 
-void keepFrames(GroundTruth& truth, const FrameSpan& covered) {
+void keepFrames(GroundTruth& truth, const ScoredFrames& covered) {
     BoxesByFrame within(truth.boxes.lower_bound(covered.first), truth.boxes.upper_bound(covered.second));
     if (std::none_of(within.begin(), within.end(), holdsBoxes)) {
         std::string known = "none at all";
@@ -39,7 +39,7 @@ void keepFrames(GroundTruth& truth, const FrameSpan& covered) {
 
 }  // namespace
 
-Scoring scoringOf(GroundTruth truth, const EvaluationOptions& wishes, const std::optional<FrameSpan>& covered) {
+Scoring scoringOf(GroundTruth truth, const EvaluationOptions& wishes, const std::optional<ScoredFrames>& covered) {
     Scoring scoring{std::move(truth), wishes};
     GroundTruth& kept = scoring.truth;
     const bool upright = allUpright(kept.boxes);
@@ -54,7 +54,7 @@ Scoring scoringOf(GroundTruth truth, const EvaluationOptions& wishes, const std:
     return scoring;
 }
 
-FrameSpan coveredFrames(const RunRecord& run) {
+ScoredFrames coveredFrames(const RunRecord& run) {
     return {run.first_frame, run.first_frame + run.frames_done - 1};
 }
 

@@ -16,7 +16,7 @@ SweepInput openClip(SweepClip& clip, const ClipFrames::Open& open, FrameRange ra
     clip.first_frame = frames.first();
     clip.last_frame = frames.last();
     wishes.image_size = clip.size;
-    input.scoring = scoringOf(std::move(truth), wishes, FrameSpan{clip.first_frame, clip.last_frame});
+    input.scoring = scoringOf(std::move(truth), wishes, ScoredFrames{clip.first_frame, clip.last_frame});
     clip.upright = input.scoring.options.upright;
     clip.digest = digestOf(frames.reader().read(clip.first_frame), input.scoring.truth.boxes);
     return input;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "store/project/project_file.h"
+#include "store/review/review_store.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_store.h"
 #include "support/places.h"
@@ -77,6 +78,24 @@ class EventsCommand : public testing::Test {
             writer.write(result);
         }
         writer.finish(RunState::finished, "");
+    }
+    /// Says something about the vehicle in one frame, as if in an earlier run.
+    void judge(EventKind kind, int frame, Judgement judgement, const std::string& note) const {
+        ProjectFile project = ProjectFile::open(folder_ / "p.eyrie");
+        ReviewStore store(project, 1);
+        Verdict verdict;
+        verdict.id = store.newVerdictId();
+        verdict.subject.kind = kind;
+        verdict.subject.first_frame = verdict.subject.last_frame = verdict.subject.frame = frame;
+        verdict.subject.first_s = verdict.subject.last_s = frame / 25.0;
+        verdict.subject.place = {wayAt(frame) - 0.25 * frame + 20, 200};
+        verdict.judgement = judgement;
+        verdict.note = note;
+        verdict.tags = {"lorry"};
+        verdict.starred = true;
+        verdict.person = "Ada";
+        verdict.when_utc = "2026-11-21T08:00:00Z";
+        store.apply({"Judge", {{std::nullopt, verdict}}, {}});
     }
     test::TemporaryFolder folder_;
 };
@@ -153,6 +172,42 @@ TEST_F(EventsCommand, BadZonesAreRefusedWithTheirPlace) {
         EXPECT_THAT(result.errors, HasSubstr(words));
         EXPECT_FALSE(std::filesystem::exists(folder_ / "none.csv"));
     }
+}
+
+TEST_F(EventsCommand, VerdictsAreShownWithWhoSaidSoAndWhen) {
+    judge(EventKind::stops, 330, Judgement::relevant, "at the gate,\nlights on");
+    const auto result = call({"--project", "@p.eyrie", "--csv", "@e.csv"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output, AllOf(HasSubstr(" verdict "), HasSubstr(" relevant * "), HasSubstr("3 events"),
+                                     HasSubstr("\"at the gate, lights on\"  [lorry]  Ada  2026-11-21T08:00:00Z\n"),
+                                     Not(HasSubstr("could not be carried over"))));
+    const std::string table = textOf("e.csv");
+    EXPECT_THAT(table, HasSubstr(",ground_frame,ground_x,ground_y,verdict,note,tags,starred,person,when_utc\n"));
+    EXPECT_THAT(table, HasSubstr(",relevant,\"at the gate, lights on\",lorry,1,Ada,2026-11-21T08:00:00Z\n"));
+    EXPECT_THAT(table, HasSubstr(",,,,,,\nst")) << "nobody said anything about the first one";
+}
+
+TEST_F(EventsCommand, EventsCanBeChosenByTheirVerdict) {
+    judge(EventKind::stops, 330, Judgement::not_relevant, "");
+    const auto hidden = call({"--project", "@p.eyrie", "--verdict", "open,relevant"});
+    EXPECT_THAT(hidden.output, HasSubstr("2 events of 1 tracks: 1 appears, 1 stands"));
+    EXPECT_THAT(call({"--project", "@p.eyrie", "--verdict", "not-relevant"}).output,
+                HasSubstr("1 event of 1 tracks: 1 stops"));
+    const auto wrong = call({"--project", "@p.eyrie", "--verdict", "good"});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.errors, HasSubstr("there are: open, relevant, not relevant, unsure"));
+}
+
+TEST_F(EventsCommand, VerdictsThatNoEventTakesUpAreListed) {
+    judge(EventKind::stops, 150, Judgement::relevant, "earlier");
+    judge(EventKind::crosses, 237, Judgement::unsure, "");
+    const auto result = call({"--project", "@p.eyrie"});
+    EXPECT_THAT(result.output, AllOf(HasSubstr("2 verdicts could not be carried over to this run:"),
+                                     HasSubstr("frame 150     0:06.0     relevant *     no such event near"),
+                                     HasSubstr("\"earlier\"")));
+    const auto near = call({"--project", "@p.eyrie", "--kind", "stops", "--set", "review.carry_time=20"});
+    EXPECT_THAT(near.output, AllOf(HasSubstr(" relevant * "), Not(HasSubstr("could not be carried over"))));
+    EXPECT_THAT(call({"--project", "@p.eyrie", "--verdict", "unsure"}).output, HasSubstr("1 verdict could not be"));
 }
 
 TEST_F(EventsCommand, EndsAsTheOtherCommandsDo) {

@@ -67,7 +67,7 @@ TEST_F(ScoringTest, onlyFramesThatTheResultCoversCount) {
     const Scoring all = scoringOf(truth(0.5), {}, std::nullopt);
     EXPECT_EQ(all.truth.boxes.size(), 10U);
     EXPECT_THAT(all.truth.remarks, IsEmpty());
-    const Scoring some = scoringOf(truth(0.5), {}, FrameSpan{15, 40});
+    const Scoring some = scoringOf(truth(0.5), {}, ScoredFrames{15, 40});
     EXPECT_EQ(some.truth.boxes.size(), 5U);
     EXPECT_THAT(some.truth.remarks, ElementsAre(HasSubstr("covers frames 15 to 40, so 5 of 10")));
 }
@@ -75,7 +75,7 @@ TEST_F(ScoringTest, onlyFramesThatTheResultCoversCount) {
 TEST_F(ScoringTest, aTruthOfOtherFramesIsRefused) {
     const auto messageOf = [](GroundTruth truth) {
         try {
-            scoringOf(std::move(truth), {}, FrameSpan{100, 200});
+            scoringOf(std::move(truth), {}, ScoredFrames{100, 200});
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::input);
             return std::string(error.what());

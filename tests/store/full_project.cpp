@@ -6,6 +6,9 @@
 #include "store/label_samples.h"
 #include "store/labels/annotation_store.h"
 #include "store/project/project_presets.h"
+#include "store/review/review_store.h"
+#include "store/review/seen_store.h"
+#include "store/review_samples.h"
 #include "store/runs/comparison_store.h"
 #include "store/runs/sweep_store.h"
 #include "store/samples.h"
@@ -24,6 +27,11 @@ void writeFullProject(const std::filesystem::path& path) {
     rest.reviews = TailChange<ReviewMark>{0, {}, {sampleMark(1)}};
     labels.apply(rest);
     labels.undo();
+    ReviewStore review(project, 1);
+    for (int i = 0; i < kFullVerdicts; ++i) review.apply(sampleJudging(review.newVerdictId()));
+    review.apply(sampleBookmarking(review.newBookmarkId()));
+    review.undo();
+    addSeen(project, 1, "Ada", {{0, 20}, {40, 50}});
     savePreset(project, {"dusk", "", {{"gradient.quantile", "0.3"}, {"motion.min_speed", "2"}}});
     SweepStore sweeps(project);
     const int sweep = sweeps.add("quantile", 3, R"({"axes": []})");

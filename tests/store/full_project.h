@@ -8,6 +8,7 @@ namespace eyrie::test {
 
 inline constexpr int kFullFrames = 40;
 inline constexpr int kFullObjects = 12;
+inline constexpr int kFullVerdicts = 30;
 
 /// Two runs, labels with steps of work, presets, a sweep and a comparison; one file, without a log.
 void writeFullProject(const std::filesystem::path& path);

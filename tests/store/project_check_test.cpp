@@ -48,7 +48,7 @@ TEST_F(CheckTest, AHealthyProjectIsGoodInEveryRespectAndUntouched) {
     const std::string before = test::bytesOf(path_);
     const HealthReport report = checkProject(path_);
     EXPECT_TRUE(report.healthy());
-    EXPECT_EQ(report.items.size(), 9U);
+    EXPECT_EQ(report.items.size(), 10U);
     for (const HealthItem& item : report.items) EXPECT_EQ(item.health, Health::good) << item.subject << item.words;
     EXPECT_EQ(test::bytesOf(path_), before);
     int entries = 0;

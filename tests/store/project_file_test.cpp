@@ -120,11 +120,26 @@ TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
 
 TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
     test::writeSampleProject(path_, 2);
-    makeDatabase({"DROP VIEW v_frames", "DROP VIEW v_detections", "DROP VIEW v_track_states", "DROP VIEW v_tracks",
-                  "DROP VIEW v_runs", "ALTER TABLE frame DROP COLUMN picture",
-                  "ALTER TABLE frame DROP COLUMN reason_count", "ALTER TABLE frame DROP COLUMN reason_of",
-                  "ALTER TABLE run DROP COLUMN removed_utc", "DROP TABLE run_state",
-                  "DROP TABLE unfinished_track_state", "DROP TABLE dropped_state", "PRAGMA user_version = 5"});
+    makeDatabase({"DROP VIEW v_verdicts",
+                  "DROP VIEW v_bookmarks",
+                  "DROP VIEW v_seen",
+                  "DROP TABLE verdict",
+                  "DROP TABLE bookmark",
+                  "DROP TABLE review_step",
+                  "DROP TABLE seen",
+                  "DROP VIEW v_frames",
+                  "DROP VIEW v_detections",
+                  "DROP VIEW v_track_states",
+                  "DROP VIEW v_tracks",
+                  "DROP VIEW v_runs",
+                  "ALTER TABLE frame DROP COLUMN picture",
+                  "ALTER TABLE frame DROP COLUMN reason_count",
+                  "ALTER TABLE frame DROP COLUMN reason_of",
+                  "ALTER TABLE run DROP COLUMN removed_utc",
+                  "DROP TABLE run_state",
+                  "DROP TABLE unfinished_track_state",
+                  "DROP TABLE dropped_state",
+                  "PRAGMA user_version = 5"});
     ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);
     test::expectSame(*RunStore(project).frameResult(1, 1), test::sampleFrame(1));
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());

@@ -11,6 +11,8 @@
 #include "store/health/project_contents.h"
 #include "store/label_samples.h"
 #include "store/labels/annotation_store.h"
+#include "store/review/review_store.h"
+#include "store/review/seen_store.h"
 #include "store/samples.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
@@ -88,6 +90,13 @@ TEST_F(RepairTest, OfAHealthyProjectNothingIsLost) {
     while (labels.undo()) {
     }
     EXPECT_TRUE(labels.annotations().objects.empty());
+    ReviewStore review(project, 1);
+    EXPECT_EQ(review.undoCount(), test::kFullVerdicts);
+    EXPECT_EQ(review.redoCount(), 1);
+    while (review.undo()) {
+    }
+    EXPECT_TRUE(review.review().verdicts.empty());
+    EXPECT_EQ(seenBy(project, 1).at("Ada").size(), 2U);
 }
 
 TEST_F(RepairTest, SentencesOfAnOlderProjectBecomeWords) {

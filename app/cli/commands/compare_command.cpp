@@ -127,7 +127,7 @@ double laterMs(const StageTimes& times) {
 /// Measures every result; the first row is what the others are compared with.
 std::vector<ComparisonRow> rowsAt(double overlap, const CompareArguments& arguments, const Scoring& scoring,
                                   const std::vector<Planned>& planned, const std::vector<MethodResult>& results,
-                                  const FrameSpan& frames, double frame_rate_hz) {
+                                  const ScoredFrames& frames, double frame_rate_hz) {
     const BoxesByFrame& truth = scoring.truth.boxes;
     EvaluationOptions options = scoring.options;
     options.overlap = overlap;
@@ -204,7 +204,7 @@ int compare(const CompareArguments& arguments) {
 
     EvaluationOptions wishes = arguments.evaluation.options;
     wishes.image_size = video.size;
-    const Scoring scoring = scoringOf(std::move(truth), wishes, FrameSpan{range.first, reached});
+    const Scoring scoring = scoringOf(std::move(truth), wishes, ScoredFrames{range.first, reached});
     report.sequence = arguments.sequence;
     report.ground_truth = scoring.truth.name;
     report.frames = reached - range.first + 1;

@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <memory>
 
 #include "cli/arguments/earlier_state.h"
@@ -9,11 +8,13 @@
 #include "cli/arguments/preset_arguments.h"
 #include "cli/command.h"
 #include "cli/project_runs.h"
+#include "cli/reports/event_table.h"
 #include "cli/reports/figure_text.h"
 #include "events/event_csv.h"
 #include "events/event_search.h"
 #include "events/stored_events.h"
 #include "events/zones/zone_file.h"
+#include "store/review/review_store.h"
 
 namespace eyrie::cli {
 namespace {
@@ -22,6 +23,7 @@ struct EventArguments {
     std::string project;
     std::optional<int> run;
     std::vector<std::string> kinds;
+    std::vector<std::string> verdicts;
     std::string zones;
     std::vector<std::string> settings;
     std::string csv;
@@ -36,45 +38,49 @@ std::vector<EventKind> wantedKinds(const std::vector<std::string>& names) {
     return kinds.empty() ? allEventKinds() : kinds;
 }
 
-std::string framesText(const Event& event) {
-    const std::string first = std::to_string(event.first_frame);
-    return event.first_frame == event.last_frame ? first : first + "-" + std::to_string(event.last_frame);
+/// The verdicts that are asked for; all where nothing is.
+std::vector<Judgement> wantedJudgements(const std::vector<std::string>& names) {
+    std::vector<Judgement> wanted;
+    wanted.reserve(names.size());
+    for (const std::string& name : names) wanted.push_back(judgementOf(name));
+    if (!wanted.empty()) return wanted;
+    return {Judgement::open, Judgement::relevant, Judgement::not_relevant, Judgement::unsure};
 }
 
-std::string tracksText(const Event& event) {
-    std::string text;
-    for (const TrackId id : event.tracks) text += (text.empty() ? "" : ", ") + std::to_string(id);
-    return text;
+template <class Value>
+bool isAmong(const std::vector<Value>& values, const Value& value) {
+    return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-std::string whereText(const Event& event) {
-    char place[80];
-    std::snprintf(place, sizeof place, "%.0f, %.0f", event.place.x, event.place.y);
-    std::string text = place;
-    if (event.first_frame != event.last_frame) text += " in " + std::to_string(event.frame);
-    if (!event.zone.empty()) text += "  " + event.zone;
-    if (event.sense != CrossingSense::none) text += std::string(" ") + nameOf(event.sense);
-    return text;
+Judgement judgementIn(const Verdict* verdict) {
+    return verdict == nullptr ? Judgement::open : verdict->judgement;
 }
 
-void printEvents(const std::vector<Event>& events, const StoredTracks& stored) {
-    std::printf("%-17s %-13s %-10s %-12s %-14s %s\n", "kind", "frames", "clock", "tracks", "figure", "place");
-    std::map<EventKind, int> counts;
-    for (const Event& event : events) {
-        // A degree sign is two bytes, but one column.
-        const int width = event.unit == FigureUnit::degrees ? 15 : 14;
-        std::printf("%-17s %-13s %-10s %-12s %-*s %s\n", nameOf(event.kind), framesText(event).c_str(),
-                    videoClockText(stored.secondsOf(event.first_frame)).c_str(), tracksText(event).c_str(), width,
-                    figureText(event).c_str(), whereText(event).c_str());
-        ++counts[event.kind];
+JudgedEvents judgedEvents(const std::vector<Event>& events, const ReviewSet& review, const StoredTracks& stored,
+                          const std::vector<Zone>& zones, const ReviewOptions& options) {
+    const auto unsearched = unsearchedStretches(stored.footage, options);
+    const CarriedVerdicts carried = carryOver(review.verdicts, events, unsearched, stored, zones, options);
+    JudgedEvents judged{events, {}, carried.left, !review.verdicts.empty()};
+    for (const int id : carried.of_event) judged.verdicts.push_back(id == 0 ? nullptr : &review.verdicts.at(id));
+    return judged;
+}
+
+/// Leaves out events and verdicts of which nobody asked.
+void keepWanted(JudgedEvents& judged, const ReviewSet& review, const std::vector<EventKind>& kinds,
+                const std::vector<Judgement>& judgements) {
+    JudgedEvents kept{{}, {}, {}, judged.any};
+    for (std::size_t i = 0; i < judged.events.size(); ++i) {
+        if (!isAmong(kinds, judged.events[i].kind) || !isAmong(judgements, judgementIn(judged.verdicts[i]))) continue;
+        kept.events.push_back(judged.events[i]);
+        kept.verdicts.push_back(judged.verdicts[i]);
     }
-    std::printf("%zu event%s of %zu tracks", events.size(), events.size() == 1 ? "" : "s", stored.tracks.size());
-    const char* separator = ": ";
-    for (const auto& [kind, count] : counts) {
-        std::printf("%s%d %s", separator, count, nameOf(kind));
-        separator = ", ";
+    for (const LeftVerdict& left : judged.left) {
+        const Verdict& verdict = review.verdicts.at(left.verdict);
+        const auto& kind = verdict.subject.kind;
+        if (kind && !isAmong(kinds, *kind)) continue;
+        if (isAmong(judgements, verdict.judgement)) kept.left.push_back(left);
     }
-    std::puts("");
+    judged = std::move(kept);
 }
 
 void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& remarks) {
@@ -93,24 +99,37 @@ void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& rem
 
 void tellEvents(const EventArguments& arguments) {
     const std::vector<EventKind> kinds = wantedKinds(arguments.kinds);
+    const std::vector<Judgement> judgements = wantedJudgements(arguments.verdicts);
     EventOptions options;
-    applySettings(describeOf(options), arguments.settings);
+    ReviewOptions review_options;
+    applySettings(
+        [&](ParameterVisitor& visitor) {
+            options.describe(visitor);
+            review_options.describe(visitor);
+        },
+        arguments.settings);
     std::vector<Zone> zones;
     if (!arguments.zones.empty()) zones = readZones(arguments.zones);
     arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.project, arguments.zones});
     StoredTracks stored;
+    ReviewSet review;
     {
         ProjectFile project = openForReading(arguments.project);
         const RunStore store(project);
-        stored = readTracks(store, chosenRun(store, arguments.project, arguments.run));
+        const RunRecord run = chosenRun(store, arguments.project, arguments.run);
+        stored = readTracks(store, run);
+        review = readReview(project, run.sequence.id);
     }
     tellRemarks(stored, remarksOn(zones, stored.footage));
-    std::vector<Event> events = findEvents(stored.tracks, stored.footage, options, zones);
-    std::erase_if(events,
-                  [&](const Event& event) { return std::find(kinds.begin(), kinds.end(), event.kind) == kinds.end(); });
-    if (!arguments.csv.empty())
-        writeEventCsv(arguments.csv, events, [&](FrameIndex frame) { return stored.secondsOf(frame); });
-    printEvents(events, stored);
+    const std::vector<Event> events = findEvents(stored.tracks, stored.footage, options, zones);
+    JudgedEvents judged = judgedEvents(events, review, stored, zones, review_options);
+    keepWanted(judged, review, kinds, judgements);
+    if (!arguments.csv.empty()) {
+        writeEventCsv(
+            arguments.csv, judged.events, [&](FrameIndex frame) { return stored.secondsOf(frame); }, judged.verdicts);
+    }
+    printEvents(judged, stored);
+    printLeft(judged, review);
 }
 
 }  // namespace
@@ -124,6 +143,11 @@ void addEventsCommand(CLI::App& app, int& exit_code) {
     std::string kinds;
     for (const EventKind kind : allEventKinds()) kinds += (kinds.empty() ? "" : ", ") + std::string(nameOf(kind));
     command->add_option("--kind", arguments->kinds, "Only these kinds: " + kinds)->type_name("KIND")->delimiter(',');
+    command
+        ->add_option("--verdict", arguments->verdicts,
+                     "Only what was judged so: open (by nobody), relevant, not relevant, unsure")
+        ->type_name("VERDICT")
+        ->delimiter(',');
     command->add_option("--zone", arguments->zones, "JSON file of zones and lines to be watched")->type_name("FILE");
     command
         ->add_option("--set", arguments->settings,

@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "core/parameter.h"
 #include "events/event_options.h"
+#include "events/review/review_options.h"
 
 /// The manual page and the shell completion are made of what the program itself accepts, so that they cannot differ
 /// from it.
@@ -100,6 +101,8 @@ void printCompletion(const CLI::App& app) {
     for (const Parameter& parameter : listParameters(describeOf(chain))) parameters.insert(parameter.name + "=");
     EventOptions events;
     for (const Parameter& parameter : listParameters(describeOf(events))) parameters.insert(parameter.name + "=");
+    ReviewOptions review;
+    for (const Parameter& parameter : listParameters(describeOf(review))) parameters.insert(parameter.name + "=");
     const std::vector<std::string> presets = builtInPresets();
     std::printf(
         "# Completion of eyrie-cli for bash; made by `eyrie-cli manual --completion`.\n"

@@ -5,16 +5,10 @@
 #include <vector>
 
 #include "core/labels/annotation.h"
+#include "core/labels/change.h"
 
 /// Changes of labels as values: named, reversible, small enough to keep hundreds of.
 namespace eyrie {
-
-/// A value before and after; empty before: it is added; empty after: it is removed.
-template <class Value>
-struct Change {
-    std::optional<Value> before;
-    std::optional<Value> after;
-};
 
 /// The end of a list replaced: `kept` values stay, `removed` went, `added` came in their place.
 template <class Value>

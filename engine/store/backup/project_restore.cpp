@@ -9,6 +9,7 @@
 #include "store/database/database_error.h"
 #include "store/database/database_uri.h"
 #include "store/database/new_place.h"
+#include "store/labels/writer_lock.h"
 
 namespace eyrie {
 namespace {
@@ -24,9 +25,9 @@ SQLite::Database openBackup(const ProjectBackup& backup) {
     });
 }
 
-/// Who labels the project, where that can be told.
+/// Who labels or reviews the project, where that can be told.
 std::string holderOf(const Path& project) {
-    const auto holder = FileLock::holderOf(lockFileBeside(project, ".labelling"));
+    const auto holder = WriterLock::holderOf(project);
     return holder ? " (" + *holder + ")" : "";
 }
 

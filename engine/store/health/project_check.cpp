@@ -18,6 +18,7 @@
 #include "store/health/untouched_database.h"
 #include "store/labels/journal_check.h"
 #include "store/project/schema.h"
+#include "store/review/review_check.h"
 #include "store/runs/run_lock.h"
 
 namespace eyrie {
@@ -134,6 +135,28 @@ HealthItem lookAtLabels(SQLite::Database& database, const std::set<std::string>&
     return {"", Health::good, counted(objects, "object") + ", " + counted(steps, "step") + " of work to undo or redo"};
 }
 
+HealthItem lookAtReview(SQLite::Database& database, const std::set<std::string>& tables) {
+    if (!tables.contains("review_step") || !tables.contains("verdict") || !tables.contains("bookmark")) {
+        return {"", Health::good, "none"};
+    }
+    int steps = 0;
+    int misfits = 0;
+    for (const std::string& id : textsOf(database, "SELECT id FROM sequence")) {
+        const JournalCheck journal = checkReview(database, std::stoi(id));
+        steps += journal.done + journal.undone;
+        misfits += journal.done - journal.done_fitting + journal.undone - journal.undone_fitting;
+    }
+    if (misfits > 0) {
+        return {"", Health::damaged,
+                std::to_string(misfits) + " of " + counted(steps, "step") + " can no longer be undone or redone"};
+    }
+    const auto verdicts = database.execAndGet("SELECT count(*) FROM verdict").getInt64();
+    const auto bookmarks = database.execAndGet("SELECT count(*) FROM bookmark").getInt64();
+    return {"", Health::good,
+            counted(verdicts, "verdict") + ", " + counted(bookmarks, "bookmark") + ", " + counted(steps, "step") +
+                " to undo or redo"};
+}
+
 HealthItem lookAtRuns(const Path& path, SQLite::Database& database) {
     std::string words = counted(database.execAndGet("SELECT count(*) FROM run").getInt64(), "run");
     Health health = Health::good;
@@ -220,7 +243,7 @@ HealthReport checkProject(const Path& path, const CopyWatch& watch) {
     int looked = 0;
     const auto add = [&](const char* subject, const std::function<HealthItem()>& look) {
         examination.add(subject, look);
-        constexpr double kLooks = 6;
+        constexpr double kLooks = 7;
         if (watch.progress) watch.progress(std::min(1.0, ++looked / kLooks));
     };
     add("tables", [&]() -> HealthItem {
@@ -239,6 +262,7 @@ HealthReport checkProject(const Path& path, const CopyWatch& watch) {
     add("references", [&] { return ours ? lookAtReferences(*database) : not_looked; });
     add("values", [&] { return lookAtValues(*database, schema.tables); });
     add("labels", [&] { return lookAtLabels(*database, schema.tables); });
+    add("review", [&] { return lookAtReview(*database, schema.tables); });
     add("runs", [&] { return ours ? lookAtRuns(path, *database) : not_looked; });
     examination.add("beside it", [&] { return lookAround(path); });
     examination.add("earlier states", [&] { return lookAtBackups(path); });

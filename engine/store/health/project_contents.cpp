@@ -65,6 +65,28 @@ void readLabels(SQLite::Database& database, ProjectContents& contents) {
          [&](RowReader& row) { contents.edits = row.integer(); });
 }
 
+void readReviewContents(SQLite::Database& database, ProjectContents& contents) {
+    each(database, "verdict",
+         "SELECT id, quote(sequence_id) || quote(kind) || quote(first_frame) || quote(last_frame) || quote(frame) || "
+         "quote(x) || quote(y) || quote(zone) || quote(judgement) || quote(note) || quote(tags) || quote(starred) || "
+         "quote(person) FROM verdict",
+         [&](RowReader& row) {
+             const int id = row.integer();
+             contents.verdicts[id] = row.longText();
+         });
+    each(database, "bookmark",
+         "SELECT id, quote(sequence_id) || quote(frame) || quote(x) || quote(y) || quote(note) || quote(person) FROM "
+         "bookmark",
+         [&](RowReader& row) {
+             const int id = row.integer();
+             contents.bookmarks[id] = row.longText();
+         });
+    each(database, "seen", "SELECT coalesce(sum(last_frame - first_frame + 1), 0) FROM seen",
+         [&](RowReader& row) { contents.seen = row.wide(); });
+    each(database, "review_step", "SELECT count(*) FROM review_step WHERE undone = 0",
+         [&](RowReader& row) { contents.review_steps = row.integer(); });
+}
+
 void readPresetsAndSweeps(SQLite::Database& database, ProjectContents& contents) {
     each(database, "preset", "SELECT name, saved_utc FROM preset", [&](RowReader& row) {
         const std::string name = row.text();
@@ -137,22 +159,36 @@ void compareRuns(const ProjectContents& present, const ProjectContents& earlier,
         lines);
 }
 
-void compareLabels(const ProjectContents& present, const ProjectContents& earlier, std::vector<std::string>& lines) {
+/// How many of many things would be back, gone, or another.
+void compareMany(const std::map<int, std::string>& present, const std::map<int, std::string>& earlier,
+                 const std::string& noun, std::vector<std::string>& lines) {
     int back = 0;
     int gone = 0;
     int other = 0;
-    for (const auto& [id, object] : earlier.objects) {
-        const auto now = present.objects.find(id);
-        if (now == present.objects.end()) {
+    for (const auto& [id, thing] : earlier) {
+        const auto now = present.find(id);
+        if (now == present.end()) {
             ++back;
-        } else if (now->second != object) {
+        } else if (now->second != thing) {
             ++other;
         }
     }
-    for (const auto& [id, object] : present.objects) gone += earlier.objects.count(id) == 0 ? 1 : 0;
-    if (back > 0) lines.push_back(counted(back, "labelled object") + " would be back");
-    if (gone > 0) lines.push_back(counted(gone, "labelled object") + " would be gone");
-    if (other > 0) lines.push_back(counted(other, "labelled object") + " would be as before later changes");
+    for (const auto& [id, thing] : present) gone += earlier.count(id) == 0 ? 1 : 0;
+    if (back > 0) lines.push_back(counted(back, noun) + " would be back");
+    if (gone > 0) lines.push_back(counted(gone, noun) + " would be gone");
+    if (other > 0) lines.push_back(counted(other, noun) + " would be as before later changes");
+}
+
+void compareReview(const ProjectContents& present, const ProjectContents& earlier, std::vector<std::string>& lines) {
+    compareMany(present.verdicts, earlier.verdicts, "verdict", lines);
+    compareMany(present.bookmarks, earlier.bookmarks, "bookmark", lines);
+    compareCounts(present.seen, earlier.seen, "watched frame", lines);
+    compareCounts(present.review_steps, earlier.review_steps, "step of the review to undo", lines,
+                  "steps of the review to undo");
+}
+
+void compareLabels(const ProjectContents& present, const ProjectContents& earlier, std::vector<std::string>& lines) {
+    compareMany(present.objects, earlier.objects, "labelled object", lines);
     compareCounts(present.keyframes, earlier.keyframes, "keyframe", lines);
     const auto rows = [](const ProjectContents& contents, const char* table) {
         const auto found = contents.label_rows.find(table);
@@ -172,6 +208,7 @@ ProjectContents contentsOf(const std::filesystem::path& project) {
         ProjectContents contents;
         readRuns(*database, contents);
         readLabels(*database, contents);
+        readReviewContents(*database, contents);
         readPresetsAndSweeps(*database, contents);
         return contents;
     });
@@ -181,6 +218,7 @@ std::vector<std::string> differencesInWords(const ProjectContents& present, cons
     std::vector<std::string> lines;
     compareRuns(present, earlier, lines);
     compareLabels(present, earlier, lines);
+    compareReview(present, earlier, lines);
     compare<std::string, std::string>(
         present.presets, earlier.presets,
         [](const std::string& name, const std::string&) { return "preset" + quoted(name); },

@@ -89,8 +89,9 @@ std::vector<std::string> summaryOf(SQLite::Database& database) {
          {Kind{"labelled_object", "labelled object", "labelled objects"},
           Kind{"ignore_region", "ignore region", "ignore regions"}, Kind{"review_mark", "review mark", "review marks"},
           Kind{"edit_journal", "step of work on the labels", "steps of work on the labels"},
-          Kind{"preset", "preset", "presets"}, Kind{"sweep", "sweep", "sweeps"},
-          Kind{"sweep_point", "point of a sweep", "points of sweeps"},
+          Kind{"verdict", "verdict", "verdicts"}, Kind{"bookmark", "bookmark", "bookmarks"},
+          Kind{"review_step", "step of the review", "steps of the review"}, Kind{"preset", "preset", "presets"},
+          Kind{"sweep", "sweep", "sweeps"}, Kind{"sweep_point", "point of a sweep", "points of sweeps"},
           Kind{"comparison", "comparison", "comparisons"}}) {
         const auto count = database.execAndGet(std::string("SELECT count(*) FROM ") + kind.table).getInt64();
         if (count > 0) saved.push_back(counted(count, kind.one, kind.many));
@@ -129,6 +130,7 @@ bool fill(SQLite::Database& database, const DamagedCopy& copy, const CopyWatch& 
         append(report.lost, mendReferences(database));
         append(report.lost, mendRuns(database, frames_whole));
         append(report.lost, mendLabels(database));
+        append(report.lost, mendReview(database));
         transaction.commit();
     } catch (const SQLite::Exception& exception) {
         if (exception.getErrorCode() == SQLITE_INTERRUPT) return false;

@@ -8,6 +8,7 @@
 #include "store/labels/journal_check.h"
 #include "store/labels/label_rows.h"
 #include "store/project/sequence_rows.h"
+#include "store/review/review_check.h"
 
 namespace eyrie {
 namespace {
@@ -163,6 +164,19 @@ std::vector<std::string> mendLabels(SQLite::Database& database) {
     }
     if (dropped == 0) return {};
     return {counted(dropped, "step") + " of work on the labels that could be undone or redone"};
+}
+
+std::vector<std::string> mendReview(SQLite::Database& database) {
+    raiseCounter(database, "verdict", database.execAndGet("SELECT coalesce(max(id), 0) + 1 FROM verdict").getInt64());
+    raiseCounter(database, "bookmark", database.execAndGet("SELECT coalesce(max(id), 0) + 1 FROM bookmark").getInt64());
+    int dropped = 0;
+    for (const std::string& id : textsOf(database, "SELECT id FROM sequence")) {
+        const JournalCheck journal = checkReview(database, std::stoi(id));
+        dropReviewMisfits(database, std::stoi(id), journal);
+        dropped += journal.done - journal.done_fitting + journal.undone - journal.undone_fitting;
+    }
+    if (dropped == 0) return {};
+    return {counted(dropped, "step") + " of the review that could be undone or redone"};
 }
 
 }  // namespace eyrie

@@ -25,4 +25,7 @@ std::vector<std::string> mendRuns(SQLite::Database& database, bool frames_whole)
 /// Steps of work that no longer fit the labels are dropped; numbers of objects are never given twice.
 std::vector<std::string> mendLabels(SQLite::Database& database);
 
+/// The same of the review as of labels: next numbers, and steps that fit.
+std::vector<std::string> mendReview(SQLite::Database& database);
+
 }  // namespace eyrie

@@ -5,6 +5,8 @@
 
 #include "store/labels/packed_labels.h"
 #include "store/project/sequence_rows.h"
+#include "store/review/packed_review.h"
+#include "store/review/review_words.h"
 #include "store/runs/packed_arrays.h"
 #include "store/runs/stored_words.h"
 
@@ -28,6 +30,17 @@ std::string areShort(const std::string& columns) {
     for (std::size_t at = 0; at < columns.size();) {
         const std::size_t end = std::min(columns.find(',', at), columns.size());
         condition += (condition.empty() ? "" : " AND ") + ("octets(" + columns.substr(at, end - at) + ") <= 65536");
+        at = end + 2;
+    }
+    return condition;
+}
+
+/// Finite numbers, of columns "a, b".
+std::string areNumbers(const std::string& columns) {
+    std::string condition;
+    for (std::size_t at = 0; at < columns.size();) {
+        const std::size_t end = std::min(columns.find(',', at), columns.size());
+        condition += (condition.empty() ? "" : " AND ") + (columns.substr(at, end - at) + " BETWEEN -1e300 AND 1e300");
         at = end + 2;
     }
     return condition;
@@ -58,6 +71,7 @@ void addRowFunctions(SQLite::Database& database) {
     add("are_indices", answerReadable<unpackIndices>);
     add("are_keyframes", answerReadable<unpackKeyframes>);
     add("are_corners", answerReadable<unpackPolygon>);
+    add("is_review_step", answerReadable<unpackReview>);
 }
 
 std::vector<RowRule> rowRules() {
@@ -115,6 +129,21 @@ std::vector<RowRule> rowRules() {
          "a review mark is impossible"},
         {"object_class", areShort("name"), "name of a class is impossible"},
         {"edit_journal", "undone IN (0, 1) AND " + areShort("name, made_utc"), "a step of work cannot be read"},
+        {"verdict",
+         "id > 0 AND last_frame <= " + std::to_string(kLastFrame) + " AND " + life +
+             " AND frame BETWEEN first_frame AND last_frame AND ground_frame" + frames + " AND " +
+             areNumbers("first_s, last_s, x, y, ground_x, ground_y") + " AND " +
+             isOneOf("kind", stored::kSubjectKinds) + " AND " + isOneOf("sense", stored::kCrossingSenses) + " AND " +
+             isOneOf("judgement", stored::kJudgements) + " AND " + areShort("zone, note, tags, person, when_utc"),
+         "a verdict cannot be read", 11},
+        {"bookmark",
+         "id > 0 AND " + frame + " AND " + areNumbers("seconds") + " AND (x IS NULL) = (y IS NULL) AND " +
+             areShort("note, person, when_utc"),
+         "a bookmark cannot be read", 11},
+        {"review_step", "undone IN (0, 1) AND is_review_step(data) AND " + areShort("name, made_utc"),
+         "a step of the review cannot be read", 11},
+        {"seen", range + " AND last_frame >= first_frame AND " + areShort("person"), "what was watched is impossible",
+         11},
         {"run_parameter", areShort("name, value"), "a parameter of a run cannot be read"},
         {"preset", areShort("name, saved_utc"), "a preset cannot be read"},
         {"preset_value", areShort("preset, name, value"), "a value of a preset cannot be read"},

@@ -344,9 +344,78 @@ FROM frame JOIN v_runs ON v_runs.run = frame.run_id;
 )sql");
 }
 
+// What a person says about events: of a video, so that a new run finds it. Steps as packed bytes: packed_review.h.
+void addReview(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE verdict (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    kind TEXT NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    first_s REAL NOT NULL,
+    last_s REAL NOT NULL,
+    frame INTEGER NOT NULL,
+    x REAL NOT NULL, y REAL NOT NULL,
+    ground_frame INTEGER NOT NULL,
+    ground_x REAL NOT NULL, ground_y REAL NOT NULL,
+    zone TEXT NOT NULL,
+    sense TEXT NOT NULL,
+    judgement TEXT NOT NULL,
+    note TEXT NOT NULL,
+    tags TEXT NOT NULL,
+    starred INTEGER NOT NULL,
+    person TEXT NOT NULL,
+    when_utc TEXT NOT NULL
+);
+CREATE INDEX verdict_of_sequence ON verdict (sequence_id);
+CREATE TABLE bookmark (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    seconds REAL NOT NULL,
+    x REAL, y REAL,
+    note TEXT NOT NULL,
+    person TEXT NOT NULL,
+    when_utc TEXT NOT NULL
+);
+CREATE INDEX bookmark_of_sequence ON bookmark (sequence_id);
+CREATE TABLE review_step (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    name TEXT NOT NULL,
+    made_utc TEXT NOT NULL,
+    undone INTEGER NOT NULL,
+    data BLOB NOT NULL
+);
+CREATE INDEX review_step_of_sequence ON review_step (sequence_id, undone, id);
+CREATE TABLE seen (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    person TEXT NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL
+);
+CREATE INDEX seen_of_sequence ON seen (sequence_id, person, first_frame);
+CREATE VIEW v_verdicts AS
+SELECT verdict.id AS verdict, sequence.path AS video, verdict.kind, verdict.judgement, verdict.first_frame,
+    verdict.last_frame, verdict.first_s AS start_s, verdict.last_s AS end_s, verdict.frame, verdict.x, verdict.y,
+    verdict.zone, verdict.sense, verdict.note, verdict.tags, verdict.starred, verdict.person, verdict.when_utc
+FROM verdict JOIN sequence ON sequence.id = verdict.sequence_id;
+CREATE VIEW v_bookmarks AS
+SELECT bookmark.id AS bookmark, sequence.path AS video, bookmark.frame, bookmark.seconds, bookmark.x, bookmark.y,
+    bookmark.note, bookmark.person, bookmark.when_utc
+FROM bookmark JOIN sequence ON sequence.id = bookmark.sequence_id;
+CREATE VIEW v_seen AS
+SELECT sequence.path AS video, seen.person, seen.first_frame, seen.last_frame,
+    seen.last_frame - seen.first_frame + 1 AS frames
+FROM seen JOIN sequence ON sequence.id = seen.sequence_id;
+)sql");
+}
+
 constexpr std::array kMigrations{
     addRuns,          addLabels,    addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
-    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews};
+    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview};
 
 }  // namespace
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "events/review/carry_over.h"
+
+namespace eyrie::cli {
+
+/// Events of a run with what was said about them.
+struct JudgedEvents {
+    std::vector<Event> events;
+    std::vector<const Verdict*> verdicts;  ///< of each event, null for none
+    std::vector<LeftVerdict> left;
+    bool any = false;  ///< whether anything was said about this video
+};
+
+/// The events as a table, and how many there are of each kind.
+void printEvents(const JudgedEvents& judged, const StoredTracks& stored);
+/// The verdicts that could not be carried over, with the reasons; nothing where there are none.
+void printLeft(const JudgedEvents& judged, const ReviewSet& review);
+
+}  // namespace eyrie::cli

@@ -1,0 +1,115 @@
+#include "core/review/review_edit.h"
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "core/error.h"
+
+namespace eyrie {
+namespace {
+
+[[noreturn]] void refuseStep(const std::string& what) {
+    throw Error(ErrorKind::internal, "this step of the review cannot be made: " + what);
+}
+
+void checkText(const std::string& text, const char* what) {
+    if (text.size() <= kLongestReviewText) return;
+    throw Error(ErrorKind::parameter, std::string(what) + " of " + std::to_string(text.size()) +
+                                          " characters is too long; up to " + std::to_string(kLongestReviewText) +
+                                          " are kept");
+}
+
+void checkTime(double seconds, const std::string& who) {
+    if (!std::isfinite(seconds)) refuseStep(who + " has a time that is none");
+}
+
+void checkPoint(cv::Point2d point, const std::string& who) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuseStep(who + " has a place that is none");
+}
+
+template <class Value, class Check>
+void checkSteps(const std::map<int, Value>& present, const std::vector<Change<Value>>& changes, const char* noun,
+                const Check& check) {
+    std::set<int> seen;
+    for (const auto& change : changes) {
+        if (!change.before && !change.after) refuseStep(std::string("a change of no ") + noun);
+        if (change.before && change.after && change.before->id != change.after->id) {
+            refuseStep(std::string(noun) + " " + std::to_string(change.before->id) + " would change its number");
+        }
+        const int id = change.before ? change.before->id : change.after->id;
+        const std::string who = std::string(noun) + " " + std::to_string(id);
+        const auto there = present.find(id);
+        if (change.before && there == present.end()) refuseStep(who + " is not there");
+        if (!change.before && there != present.end()) refuseStep(who + " is there already");
+        if (change.before && !(there->second == *change.before)) refuseStep(who + " is another by now");
+        if (!seen.insert(id).second) refuseStep(who + " would be changed twice");
+        if (change.after) check(*change.after);
+    }
+}
+
+template <class Value>
+void carryOut(std::map<int, Value>& present, const std::vector<Change<Value>>& changes) {
+    for (const auto& change : changes) {
+        if (change.after) {
+            present[change.after->id] = *change.after;
+        } else {
+            present.erase(change.before->id);
+        }
+    }
+}
+
+}  // namespace
+
+ReviewEdit inverseOf(ReviewEdit edit) {
+    for (auto& change : edit.verdicts) std::swap(change.before, change.after);
+    for (auto& change : edit.bookmarks) std::swap(change.before, change.after);
+    return edit;
+}
+
+void checkEdit(const ReviewSet& set, const ReviewEdit& edit) {
+    checkSteps(set.verdicts, edit.verdicts, "verdict", checkVerdict);
+    checkSteps(set.bookmarks, edit.bookmarks, "bookmark", checkBookmark);
+}
+
+void applyEdit(ReviewSet& set, const ReviewEdit& edit) {
+    checkEdit(set, edit);
+    carryOut(set.verdicts, edit.verdicts);
+    carryOut(set.bookmarks, edit.bookmarks);
+}
+
+void checkVerdict(const Verdict& verdict) {
+    const std::string who = "verdict " + std::to_string(verdict.id);
+    const ReviewSubject& subject = verdict.subject;
+    if (verdict.id < 1) refuseStep(who + " has no number above 0");
+    if (subject.first_frame < 0 || subject.last_frame < subject.first_frame || subject.frame < subject.first_frame ||
+        subject.frame > subject.last_frame || subject.ground_frame < 0) {
+        refuseStep(who + " has a range of frames that is none");
+    }
+    checkTime(subject.first_s, who);
+    checkTime(subject.last_s, who);
+    checkPoint(subject.place, who);
+    checkPoint(subject.ground, who);
+    checkText(subject.zone, "a name of a zone");
+    checkText(verdict.note, "a note");
+    checkText(verdict.person, "a name");
+    checkText(verdict.when_utc, "a date");
+    const std::string tags = tagText(verdict.tags);
+    checkText(tags, "a list of tags");
+    if (tagsOf(tags) != verdict.tags) {
+        throw Error(ErrorKind::parameter, "tags are told once each, and have no comma and no blank at their ends");
+    }
+}
+
+void checkBookmark(const Bookmark& bookmark) {
+    const std::string who = "bookmark " + std::to_string(bookmark.id);
+    if (bookmark.id < 1) refuseStep(who + " has no number above 0");
+    if (bookmark.frame < 0) refuseStep(who + " has a frame that is none");
+    checkTime(bookmark.seconds, who);
+    if (bookmark.place) checkPoint(*bookmark.place, who);
+    checkText(bookmark.note, "a note");
+    checkText(bookmark.person, "a name");
+    checkText(bookmark.when_utc, "a date");
+}
+
+}  // namespace eyrie

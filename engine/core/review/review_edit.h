@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/labels/change.h"
+#include "core/review/verdict.h"
+
+namespace eyrie {
+
+/// One step of reviewing, as undone and redone: one verdict, or hundreds at once.
+struct ReviewEdit {
+    std::string name;  ///< for the menu: "Judge 12 events not relevant"
+    std::vector<Change<Verdict>> verdicts;
+    std::vector<Change<Bookmark>> bookmarks;
+
+    bool empty() const { return verdicts.empty() && bookmarks.empty(); }
+};
+
+/// The edit that takes the edit back.
+ReviewEdit inverseOf(ReviewEdit edit);
+
+/// Carries an edit out. Throws, changing nothing, Error(internal) when `set` is not what the edit starts from: what is
+/// to be changed is not there or is another by now, what is to be added is there already; or as checkVerdict().
+void applyEdit(ReviewSet& set, const ReviewEdit& edit);
+/// Throws what applyEdit() would, and changes nothing.
+void checkEdit(const ReviewSet& set, const ReviewEdit& edit);
+
+/// Throws Error(parameter) for a text that is too long to be kept or a tag that is none, Error(internal) for numbers
+/// and frames that cannot be.
+void checkVerdict(const Verdict& verdict);
+void checkBookmark(const Bookmark& bookmark);
+
+/// Characters (bytes) that a note, all tags or a name of a person may have.
+inline constexpr std::size_t kLongestReviewText = 60'000;
+
+}  // namespace eyrie

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "events/review/carry_over.h"
+
+namespace eyrie {
+
+/// Why something stands where it does in the queue; the first come first.
+enum class QueueGroup { not_searched, lost, rare, unsure, rest };
+/// For people: "could not be searched", "lost in mid-picture", "rare", "unsure", "others".
+const char* nameOf(QueueGroup group);
+
+/// One thing that waits for a judgement.
+struct QueueItem {
+    QueueGroup group = QueueGroup::rest;
+    bool is_event = true;   ///< false: a stretch that could not be searched
+    std::size_t index = 0;  ///< in the list of events, or of stretches
+
+    bool operator==(const QueueItem&) const = default;
+};
+
+/// Events to be looked at again: judged unsure, or of a vehicle whose track may be none (`unsure_score`).
+std::vector<bool> unsureEvents(const std::vector<Event>& events, const StoredTracks& run,
+                               const CarriedVerdicts& carried, const std::map<int, Verdict>& verdicts,
+                               const ReviewOptions& options = {});
+
+/// All events and stretches, each once, judged or not: what could not be searched, what was lost in mid-picture, kinds
+/// of which there are at most `rare_count` (the rarest first), unsure ones, the rest; in time within each group. Those
+/// lost are never rare. `unsure` is as long as `events`. Order it when events change, not with every verdict, so that
+/// things stay where they are.
+std::vector<QueueItem> reviewQueue(const std::vector<Event>& events, const std::vector<FrameSpan>& unsearched,
+                                   const std::vector<bool>& unsure, const ReviewOptions& options = {});
+
+/// Whether somebody judged it: relevant, not relevant or unsure.
+bool isJudged(const QueueItem& item, const CarriedVerdicts& carried, const std::map<int, Verdict>& verdicts);
+/// Position of the next item that is not judged, after `position` and around; nothing when all are.
+std::optional<std::size_t> nextOpen(const std::vector<QueueItem>& queue, std::size_t position,
+                                    const std::function<bool(const QueueItem&)>& judged);
+
+}  // namespace eyrie

@@ -1,0 +1,160 @@
+#include "store/review/packed_review.h"
+
+#include "core/error.h"
+#include "store/labels/label_bytes.h"
+#include "store/review/review_words.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::uint8_t kReviewFormat = 1;
+// Bytes that the smallest verdict and bookmark take.
+constexpr std::size_t kLeastVerdict = 97;
+constexpr std::size_t kLeastBookmark = 29;
+
+template <class Value, std::size_t count>
+void putWord(LabelBytesOut& out, const std::array<stored::Word<Value>, count>& words, const Value& value) {
+    for (const auto& entry : words) {
+        if (entry.value == value) return out.text(std::string(entry.word));
+    }
+    throw Error(ErrorKind::internal, "an enumerator has no word in the project file");
+}
+
+template <class Value, std::size_t count>
+Value takeWord(LabelBytesIn& in, const std::array<stored::Word<Value>, count>& words) {
+    const std::string found = in.text();
+    for (const auto& entry : words) {
+        if (entry.word == found) return entry.value;
+    }
+    in.refuse();
+    return {};
+}
+
+void putPoint(LabelBytesOut& out, cv::Point2d point) {
+    out.number(point.x);
+    out.number(point.y);
+}
+
+cv::Point2d takePoint(LabelBytesIn& in) {
+    const auto x = in.number<double>();
+    return {x, in.number<double>()};
+}
+
+void put(LabelBytesOut& out, const Verdict& verdict) {
+    const ReviewSubject& subject = verdict.subject;
+    out.number<std::int32_t>(verdict.id);
+    putWord(out, stored::kSubjectKinds, subject.kind);
+    out.number<std::int32_t>(subject.first_frame);
+    out.number<std::int32_t>(subject.last_frame);
+    out.number(subject.first_s);
+    out.number(subject.last_s);
+    out.number<std::int32_t>(subject.frame);
+    putPoint(out, subject.place);
+    out.number<std::int32_t>(subject.ground_frame);
+    putPoint(out, subject.ground);
+    out.text(subject.zone);
+    putWord(out, stored::kCrossingSenses, subject.sense);
+    putWord(out, stored::kJudgements, verdict.judgement);
+    out.text(verdict.note);
+    out.text(tagText(verdict.tags));
+    out.number(static_cast<std::uint8_t>(verdict.starred));
+    out.text(verdict.person);
+    out.text(verdict.when_utc);
+}
+
+void take(LabelBytesIn& in, Verdict& verdict) {
+    ReviewSubject& subject = verdict.subject;
+    verdict.id = in.number<std::int32_t>();
+    subject.kind = takeWord(in, stored::kSubjectKinds);
+    subject.first_frame = in.number<std::int32_t>();
+    subject.last_frame = in.number<std::int32_t>();
+    subject.first_s = in.number<double>();
+    subject.last_s = in.number<double>();
+    subject.frame = in.number<std::int32_t>();
+    subject.place = takePoint(in);
+    subject.ground_frame = in.number<std::int32_t>();
+    subject.ground = takePoint(in);
+    subject.zone = in.text();
+    subject.sense = takeWord(in, stored::kCrossingSenses);
+    verdict.judgement = takeWord(in, stored::kJudgements);
+    verdict.note = in.text();
+    verdict.tags = tagsOf(in.text());
+    verdict.starred = in.number<std::uint8_t>() != 0;
+    verdict.person = in.text();
+    verdict.when_utc = in.text();
+    if (!in.broken()) checkVerdict(verdict);
+}
+
+void put(LabelBytesOut& out, const Bookmark& bookmark) {
+    out.number<std::int32_t>(bookmark.id);
+    out.number<std::int32_t>(bookmark.frame);
+    out.number(bookmark.seconds);
+    out.number(static_cast<std::uint8_t>(bookmark.place.has_value()));
+    if (bookmark.place) putPoint(out, *bookmark.place);
+    out.text(bookmark.note);
+    out.text(bookmark.person);
+    out.text(bookmark.when_utc);
+}
+
+void take(LabelBytesIn& in, Bookmark& bookmark) {
+    bookmark.id = in.number<std::int32_t>();
+    bookmark.frame = in.number<std::int32_t>();
+    bookmark.seconds = in.number<double>();
+    if (in.number<std::uint8_t>() != 0) bookmark.place = takePoint(in);
+    bookmark.note = in.text();
+    bookmark.person = in.text();
+    bookmark.when_utc = in.text();
+    if (!in.broken()) checkBookmark(bookmark);
+}
+
+/// One byte tells which of the two sides follow: 1 before, 2 after.
+template <class Value>
+void putChanges(LabelBytesOut& out, const std::vector<Change<Value>>& changes) {
+    out.count(changes.size());
+    for (const auto& change : changes) {
+        out.number(static_cast<std::uint8_t>((change.before ? 1 : 0) + (change.after ? 2 : 0)));
+        if (change.before) put(out, *change.before);
+        if (change.after) put(out, *change.after);
+    }
+}
+
+template <class Value>
+std::vector<Change<Value>> takeChanges(LabelBytesIn& in, std::size_t least) {
+    std::vector<Change<Value>> changes;
+    for (std::size_t left = in.count(least); left > 0 && !in.broken(); --left) {
+        const auto sides = in.number<std::uint8_t>();
+        if (sides < 1 || sides > 3) in.refuse();
+        Change<Value> change;
+        if ((sides & 1) != 0) take(in, change.before.emplace());
+        if ((sides & 2) != 0) take(in, change.after.emplace());
+        if (sides == 3 && change.before->id != change.after->id) in.refuse();
+        changes.push_back(std::move(change));
+    }
+    return changes;
+}
+
+}  // namespace
+
+Bytes packReview(const ReviewEdit& edit) {
+    LabelBytesOut out;
+    out.number(kReviewFormat);
+    putChanges(out, edit.verdicts);
+    putChanges(out, edit.bookmarks);
+    return out.take();
+}
+
+std::optional<ReviewEdit> unpackReview(ByteView bytes) {
+    LabelBytesIn in(bytes);
+    if (in.number<std::uint8_t>() != kReviewFormat) return std::nullopt;
+    ReviewEdit edit;
+    try {
+        edit.verdicts = takeChanges<Verdict>(in, kLeastVerdict);
+        edit.bookmarks = takeChanges<Bookmark>(in, kLeastBookmark);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+    if (!in.complete()) return std::nullopt;
+    return edit;
+}
+
+}  // namespace eyrie

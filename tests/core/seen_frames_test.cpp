@@ -1,0 +1,89 @@
+#include "core/review/seen_frames.h"
+
+#include <gmock/gmock.h>
+
+namespace eyrie {
+
+/// For messages of failed tests.
+inline void PrintTo(const FrameSpan& span, std::ostream* out) {
+    *out << span.first << '-' << span.last;
+}
+
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// Shows frames at 25 Hz for some seconds, at a multiple of the speed and 50 pictures a second.
+struct Player {
+    SeenRecorder recorder;
+    double wall_s = 100;
+    double video_s = 0;
+
+    void play(double speed, double seconds) {
+        for (int i = 0; i <= seconds * 50; ++i) {
+            recorder.show(static_cast<int>(video_s * 25 + 1e-6), video_s, wall_s);
+            wall_s += 0.02;
+            video_s += speed * 0.02;
+        }
+    }
+};
+
+TEST(SeenFrames, SpansThatMeetAreOne) {
+    EXPECT_THAT(mergedSpans({{5, 9}, {0, 4}, {20, 30}, {25, 26}, {12, 11}}),
+                ElementsAre(FrameSpan{0, 9}, FrameSpan{20, 30}));
+    EXPECT_EQ(framesIn({{0, 9}, {20, 30}}), 21);
+    EXPECT_DOUBLE_EQ(seenShare({{0, 9}, {20, 30}}, {5, 24}), 0.5);
+    EXPECT_DOUBLE_EQ(seenShare({{0, 9}}, {5, 4}), 0);
+}
+
+TEST(SeenFrames, UpToFourTimesTheSpeedIsSeenFasterIsNot) {
+    for (const double speed : {0.25, 1.0, 4.0, -2.0}) {
+        Player player;
+        player.video_s = 20;
+        player.play(speed, 4);
+        player.recorder.interrupt(player.wall_s);
+        const auto seen = player.recorder.take();
+        ASSERT_EQ(seen.size(), 1U) << speed;
+        EXPECT_GE(framesIn(seen), std::abs(speed) * 3.4 * 25) << speed;
+        EXPECT_LE(framesIn(seen), std::abs(speed) * 4.1 * 25 + 1) << speed;
+        EXPECT_THAT(player.recorder.take(), IsEmpty()) << "told once";
+    }
+    for (const double speed : {8.0, 32.0}) {
+        Player player;
+        player.play(speed, 4);
+        player.recorder.interrupt(player.wall_s);
+        EXPECT_THAT(player.recorder.take(), IsEmpty()) << speed;
+    }
+}
+
+TEST(SeenFrames, LeapsSeeNothingBetween) {
+    Player player;
+    player.play(1, 2);
+    player.video_s = 60;
+    player.play(1, 2);
+    player.recorder.interrupt(player.wall_s);
+    EXPECT_THAT(player.recorder.take(),
+                ElementsAre(testing::Field(&FrameSpan::first, 0), testing::Field(&FrameSpan::first, 1500)));
+}
+
+TEST(SeenFrames, AStillPictureCountsOnceItStays) {
+    SeenRecorder recorder;
+    recorder.show(40, 1.6, 10);
+    recorder.show(400, 16, 10.1);
+    recorder.show(900, 36, 14);
+    recorder.interrupt(14.1);
+    EXPECT_THAT(recorder.take(), ElementsAre(FrameSpan{400, 400}));
+}
+
+TEST(SeenFrames, TheTimeBehindAnotherWindowConnectsNothing) {
+    SeenRecorder recorder;
+    recorder.show(10, 0.4, 10);
+    recorder.interrupt(11);
+    recorder.show(20, 0.8, 500);
+    recorder.interrupt(501);
+    EXPECT_THAT(recorder.take(), ElementsAre(FrameSpan{10, 10}, FrameSpan{20, 20}));
+}
+
+}  // namespace
+}  // namespace eyrie

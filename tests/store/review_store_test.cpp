@@ -1,0 +1,251 @@
+#include "store/review/review_store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "store/health/project_check.h"
+#include "store/labels/annotation_store.h"
+#include "store/review/packed_review.h"
+#include "store/review_samples.h"
+#include "store/samples.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using testing::HasSubstr;
+
+class ReviewStoreTest : public testing::Test {
+ protected:
+    void SetUp() override { ensureSequence(project_, test::sampleRun().sequence); }
+    void tamper(const std::string& command) {
+        SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+        database.exec(command);
+    }
+    static std::string errorOf(const std::function<void()>& action, ErrorKind kind) {
+        try {
+            action();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), kind) << error.what();
+            return error.what();
+        }
+        ADD_FAILURE() << "expected an error";
+        return {};
+    }
+
+    test::TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_ / "clip.eyrie";
+    ProjectFile project_ = ProjectFile::create(path_);
+};
+
+TEST_F(ReviewStoreTest, WhatWasSaidIsThereAfterARestartToTheBit) {
+    {
+        ReviewStore store(project_, 1);
+        for (int id = 1; id <= 20; ++id) store.apply(test::sampleJudging(id));
+        store.apply(test::sampleBookmarking(1));
+        Bookmark nowhere = test::sampleBookmark(2);
+        nowhere.place.reset();
+        store.apply({"Add bookmark", {}, {{std::nullopt, nowhere}}});
+    }
+    const ReviewSet read = readReview(project_, 1);
+    ASSERT_EQ(read.verdicts.size(), 20U);
+    for (int id = 1; id <= 20; ++id) EXPECT_EQ(read.verdicts.at(id), test::sampleVerdict(id)) << id;
+    EXPECT_EQ(read.bookmarks.at(1), test::sampleBookmark(1));
+    EXPECT_FALSE(read.bookmarks.at(2).place.has_value());
+    EXPECT_TRUE(checkProject(path_).healthy());
+}
+
+TEST_F(ReviewStoreTest, StepsAreTakenBackAndDoneAgainOverRestarts) {
+    {
+        ReviewStore store(project_, 1);
+        store.apply(test::sampleJudging(store.newVerdictId()));
+        Verdict other = test::sampleVerdict(1);
+        other.judgement = Judgement::unsure;
+        other.note.clear();
+        store.apply({"Judge again", {{test::sampleVerdict(1), other}}, {}});
+    }
+    {
+        ReviewStore store(project_, 1);
+        EXPECT_EQ(store.undoName(), "Judge again");
+        EXPECT_EQ(store.undo()->name, "Judge again");
+        EXPECT_EQ(store.review().verdicts.at(1), test::sampleVerdict(1));
+        store.undo();
+        EXPECT_TRUE(store.review().verdicts.empty());
+        EXPECT_FALSE(store.canUndo());
+        EXPECT_FALSE(store.undo().has_value());
+    }
+    ReviewStore store(project_, 1);
+    EXPECT_TRUE(store.review().verdicts.empty());
+    EXPECT_EQ(store.redoCount(), 2);
+    EXPECT_EQ(store.redoName(), "Judge event 1");
+    store.redo();
+    store.redo();
+    EXPECT_EQ(store.review().verdicts.at(1).judgement, Judgement::unsure);
+    EXPECT_FALSE(store.redo().has_value());
+    store.undo();
+    store.apply(test::sampleBookmarking(1));
+    EXPECT_FALSE(store.canRedo()) << "a new step ends what was undone";
+    EXPECT_EQ(store.newVerdictId(), 2) << "numbers are never used again";
+}
+
+TEST_F(ReviewStoreTest, ThousandsAtOnceAreOneStep) {
+    ReviewEdit bulk{"Judge 5000 events not relevant", {}, {}};
+    for (int id = 1; id <= 5000; ++id) bulk.verdicts.push_back({std::nullopt, test::sampleVerdict(id)});
+    {
+        ReviewStore store(project_, 1);
+        store.apply(bulk);
+        EXPECT_EQ(store.undoCount(), 1);
+    }
+    ReviewStore store(project_, 1);
+    EXPECT_EQ(store.review().verdicts.size(), 5000U);
+    EXPECT_EQ(store.undo()->verdicts.size(), 5000U);
+    EXPECT_TRUE(readReview(project_, 1).verdicts.empty());
+    store.redo();
+    EXPECT_EQ(readReview(project_, 1).verdicts.size(), 5000U);
+}
+
+TEST_F(ReviewStoreTest, WhatCannotBeIsRefusedAndNothingChanges) {
+    ReviewStore store(project_, 1);
+    store.apply(test::sampleJudging(1));
+    const auto version = store.version();
+    const auto with = [](const std::function<void(Verdict&)>& change) {
+        Verdict verdict = test::sampleVerdict(2);
+        change(verdict);
+        return ReviewEdit{"x", {{std::nullopt, verdict}}, {}};
+    };
+    errorOf([&] { store.apply(test::sampleJudging(1)); }, ErrorKind::internal);
+    errorOf([&] { store.apply({"x", {{test::sampleVerdict(7), std::nullopt}}, {}}); }, ErrorKind::internal);
+    errorOf([&] { store.apply(with([](Verdict& v) { v.subject.place.x = std::nan(""); })); }, ErrorKind::internal);
+    errorOf([&] { store.apply(with([](Verdict& v) { v.subject.last_frame = 3; })); }, ErrorKind::internal);
+    errorOf([&] { store.apply(with([](Verdict& v) { v.tags = {"a,b"}; })); }, ErrorKind::parameter);
+    EXPECT_THAT(
+        errorOf([&] { store.apply(with([](Verdict& v) { v.note.assign(70000, 'n'); })); }, ErrorKind::parameter),
+        HasSubstr("too long"));
+    EXPECT_EQ(store.version(), version);
+    EXPECT_EQ(store.undoCount(), 1);
+    store.apply({"nothing", {}, {}});
+    EXPECT_EQ(store.undoCount(), 1);
+}
+
+TEST_F(ReviewStoreTest, WhatCannotBeWrittenIsNeitherInTheFileNorInMemory) {
+    ReviewStore store(project_, 1);
+    store.apply(test::sampleJudging(1));
+    {
+        SQLite::Database other(path_.string(), SQLite::OPEN_READWRITE);
+        const SQLite::Transaction lock(other, SQLite::TransactionBehavior::EXCLUSIVE);
+        project_.database().setBusyTimeout(10);
+        errorOf([&] { store.apply(test::sampleJudging(2)); }, ErrorKind::project);
+        errorOf([&] { store.undo(); }, ErrorKind::project);
+    }
+    EXPECT_EQ(store.review().verdicts.size(), 1U);
+    EXPECT_EQ(readReview(project_, 1).verdicts.size(), 1U);
+    EXPECT_EQ(store.undoCount(), 1);
+    store.apply(test::sampleJudging(2));
+    EXPECT_EQ(readReview(project_, 1).verdicts.size(), 2U);
+}
+
+TEST_F(ReviewStoreTest, ASecondWindowReadsAndTakesOverWhenTheFirstIsClosed) {
+    auto first = std::make_unique<ReviewStore>(project_, 1);
+    ProjectFile other = ProjectFile::open(path_);
+    ReviewStore second(other, 1);
+    EXPECT_FALSE(first->readOnly());
+    EXPECT_TRUE(second.readOnly());
+    EXPECT_THAT(second.readOnlyReason(), HasSubstr("is reviewing this project"));
+    errorOf([&] { second.apply(test::sampleJudging(9)); }, ErrorKind::output);
+    EXPECT_FALSE(second.refresh());
+    first->apply(test::sampleJudging(1));
+    EXPECT_TRUE(second.refresh());
+    EXPECT_EQ(second.review().verdicts.size(), 1U);
+    EXPECT_FALSE(AnnotationStore(other, 1).readOnly()) << "another may label meanwhile";
+    first.reset();
+    EXPECT_TRUE(second.tryToWrite());
+    EXPECT_TRUE(second.undo().has_value());
+    EXPECT_TRUE(std::filesystem::exists(path_.string() + ".reviewing"));
+}
+
+TEST_F(ReviewStoreTest, VideosOfAProjectAreReviewedApart) {
+    SequenceRecord another = test::sampleRun().sequence;
+    another.path = "/videos/other.mp4";
+    const int id = ensureSequence(project_, another);
+    ReviewStore(project_, 1).apply(test::sampleJudging(1));
+    ReviewStore store(project_, id);
+    EXPECT_TRUE(store.review().verdicts.empty());
+    EXPECT_FALSE(store.canUndo());
+    EXPECT_EQ(store.newVerdictId(), 2);
+    errorOf([&] { store.apply(test::sampleJudging(1)); }, ErrorKind::internal);
+    EXPECT_EQ(readReview(project_, 1).verdicts.size(), 1U) << "nothing is taken away from the other one";
+}
+
+TEST_F(ReviewStoreTest, RowsThatNobodyWroteAreRefusedAndFoundByACheck) {
+    ReviewStore(project_, 1).apply(test::sampleJudging(1));
+    ReviewStore(project_, 1).apply(test::sampleBookmarking(1));
+    const std::pair<const char*, const char*> cases[] = {
+        {"UPDATE verdict SET kind = 'flies'", "unknown word"},
+        {"UPDATE verdict SET judgement = ''", "unknown word"},
+        {"UPDATE verdict SET first_frame = -1", "that no video has"},
+        {"UPDATE verdict SET last_frame = 2147483647", "that no video has"},
+        {"UPDATE verdict SET frame = 5", "range of frames"},
+        {"UPDATE verdict SET x = 9e999", "place"},
+        {"UPDATE verdict SET note = hex(zeroblob(50000))", "a text of 100000"},
+        {"UPDATE bookmark SET frame = -4", "that no video has"},
+        {"UPDATE bookmark SET y = NULL", "place"}};
+    for (const auto& [command, words] : cases) {
+        SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+        database.exec("CREATE TEMP TABLE v AS SELECT * FROM verdict; CREATE TEMP TABLE b AS SELECT * FROM bookmark");
+        database.exec(command);
+        EXPECT_THAT(errorOf([&] { readReview(project_, 1); }, ErrorKind::project), HasSubstr(words)) << command;
+        EXPECT_FALSE(checkProject(path_).healthy()) << command;
+        database.exec(
+            "DELETE FROM verdict; INSERT INTO verdict SELECT * FROM v; DELETE FROM bookmark; INSERT INTO "
+            "bookmark SELECT * FROM b");
+        EXPECT_TRUE(checkProject(path_).healthy()) << command;
+    }
+}
+
+TEST_F(ReviewStoreTest, StepsThatDoNotFitAreRefusedAndFoundByACheck) {
+    ReviewStore(project_, 1).apply(test::sampleJudging(1));
+    tamper("UPDATE verdict SET note = 'another'");
+    EXPECT_THAT(errorOf([&] { ReviewStore(project_, 1).undo(); }, ErrorKind::project), HasSubstr("does not fit"));
+    EXPECT_FALSE(checkProject(path_).healthy());
+    tamper("UPDATE review_step SET data = x'0102'");
+    EXPECT_THAT(errorOf([&] { ReviewStore(project_, 1).undo(); }, ErrorKind::project), HasSubstr("is broken"));
+    EXPECT_FALSE(checkProject(path_).healthy());
+}
+
+TEST_F(ReviewStoreTest, BytesOfStepsThatWereCutOrChangedAreNoSteps) {
+    ReviewEdit edit = test::sampleJudging(3);
+    edit.verdicts.push_back({test::sampleVerdict(4), std::nullopt});
+    edit.verdicts.push_back({test::sampleVerdict(9), test::sampleVerdict(9)});
+    edit.bookmarks.push_back({std::nullopt, test::sampleBookmark(5)});
+    const Bytes bytes = packReview(edit);
+    const auto whole = unpackReview(bytes);
+    ASSERT_TRUE(whole.has_value());
+    ASSERT_EQ(whole->verdicts.size(), 3U);
+    EXPECT_EQ(whole->verdicts[0].after, edit.verdicts[0].after);
+    EXPECT_EQ(whole->verdicts[1].before, edit.verdicts[1].before);
+    EXPECT_EQ(whole->bookmarks[0].after, edit.bookmarks[0].after);
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+        EXPECT_FALSE(unpackReview(ByteView(bytes).first(length)).has_value()) << length;
+    }
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+        Bytes changed = bytes;
+        changed[at] ^= std::byte{0xff};
+        unpackReview(changed);  // answers, whatever it answers
+    }
+}
+
+TEST_F(ReviewStoreTest, VerdictsGoWithTheVideoAndStayWithoutTheRun) {
+    const int run = test::writeSampleProject(path_, 2);
+    ReviewStore(project_, 1).apply(test::sampleJudging(1));
+    RunStore runs(project_);
+    runs.remove(run);
+    runs.purgeRemoved();
+    EXPECT_EQ(readReview(project_, 1).verdicts.size(), 1U);
+    SQLite::Database reader(path_.string(), SQLite::OPEN_READONLY);
+    EXPECT_EQ(reader.execAndGet("SELECT judgement FROM v_verdicts").getString(), "not relevant");
+    EXPECT_EQ(reader.execAndGet("SELECT count(*) FROM v_bookmarks, v_seen").getInt(), 0);
+}
+
+}  // namespace
+}  // namespace eyrie
