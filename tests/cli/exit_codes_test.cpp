@@ -140,7 +140,7 @@ TEST_F(ExitCodes, AnOutputThatCannotBeWrittenIsFourEverywhere) {
 TEST_F(ExitCodes, MisspeltWordsNameTheNearest) {
     expect({{{"rnu", "x"}, 2, "did you mean run?"},
             {{"evalaute"}, 2, "did you mean evaluate?"},
-            {{"dance"}, 2, "there are run, evaluate"},
+            {{"dance"}, 2, "there are run, batch"},
             {{"run", "x", "--gds", "0.1"}, 2, "did you mean --gsd?"},
             {{"run", "x", "-gsd", "0.1"}, 2, "did you mean --gsd?"},
             {{"evaluate", "--ground-thruth=x", "--project", "@p.eyrie"}, 2, "did you mean --ground-truth?"},

@@ -3,12 +3,12 @@
 #include <fstream>
 #include <iterator>
 
-#include "store/label_samples.h"
 #include "store/labels/annotation_store.h"
+#include "store/labels/label_samples.h"
 #include "store/project/project_presets.h"
+#include "store/review/review_samples.h"
 #include "store/review/review_store.h"
 #include "store/review/seen_store.h"
-#include "store/review_samples.h"
 #include "store/runs/comparison_store.h"
 #include "store/runs/sweep_store.h"
 #include "store/samples.h"

@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "store/full_project.h"
-#include "store/label_samples.h"
 #include "store/labels/annotation_store.h"
+#include "store/labels/label_samples.h"
 #include "store/project/project_file.h"
 #include "store/project/schema.h"
 #include "store/runs/result_writer.h"

@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "core/error.h"
-#include "store/label_samples.h"
 #include "store/labels/annotation_store.h"
+#include "store/labels/label_samples.h"
 #include "store/project/schema.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"

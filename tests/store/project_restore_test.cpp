@@ -11,8 +11,8 @@
 
 #include "core/error.h"
 #include "store/health/project_contents.h"
-#include "store/label_samples.h"
 #include "store/labels/annotation_store.h"
+#include "store/labels/label_samples.h"
 #include "store/project/project_presets.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "core/error.h"
-#include "store/label_samples.h"
 #include "store/labels/annotation_store.h"
+#include "store/labels/label_samples.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"

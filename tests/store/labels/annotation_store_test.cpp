@@ -9,7 +9,7 @@
 #include <random>
 
 #include "core/error.h"
-#include "store/label_samples.h"
+#include "store/labels/label_samples.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "store/label_samples.h"
+#include "store/labels/label_samples.h"
 
 namespace eyrie {
 namespace {

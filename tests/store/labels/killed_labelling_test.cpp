@@ -6,8 +6,8 @@
 #include <random>
 #include <thread>
 
-#include "store/label_samples.h"
 #include "store/labels/annotation_store.h"
+#include "store/labels/label_samples.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include "store/health/project_check.h"
 #include "store/labels/annotation_store.h"
 #include "store/review/packed_review.h"
-#include "store/review_samples.h"
+#include "store/review/review_samples.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
