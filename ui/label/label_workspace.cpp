@@ -126,10 +126,11 @@ void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::notice, this, [this](const QString& text) { parts().tell(text); });
     connect(labels_, &LabelSession::opened, this, &LabelWorkspace::labelsOpened);
     connect(labels_, &LabelSession::selectionChanged, this, &LabelWorkspace::selectionChanged);
-    connect(&around_.session, &ProjectSession::viewFrameChanged, this, &LabelWorkspace::pictureChanged);
-    connect(&around_.session, &ProjectSession::frameChanged, this, [this](FrameIndex frame) {
-        if (active_) objects_->setFrame(frame);
-    });
+    connect(&around_.session, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::picture, [this] { pictureChanged(); }},
+                                     {SessionChange::frame, [this] {
+                                          if (active_) objects_->setFrame(around_.session.currentFrame());
+                                      }}});
     for (QAction* action : {actions_->follow, actions_->follow_upright})
         bindSwitches(this, {{action, [this] { followObject(); }}});
 }

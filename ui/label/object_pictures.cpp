@@ -19,6 +19,10 @@ ObjectPictures::ObjectPictures(const LabelParts& parts, QObject* parent) : QObje
     parts_.around.docks.add(DockId::object_chips, tr("Over time"), grid_);
     wireChips();
     wireStacks();
+    connect(&parts_.around.session, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {SessionChange::frame, [this] { grid_->setMarkedCard(parts_.around.session.currentFrame()); }},
+                {SessionChange::picture, [this] { showStack(); }}});
 }
 
 // ---- chips ----------------------------------------------------------------------------------------------------------
@@ -33,7 +37,6 @@ void ObjectPictures::wireChips() {
     });
     connect(chips_, &LabelChips::ready, this, &ObjectPictures::takeChips);
     connect(grid_, &ChipGrid::cardClicked, &parts_.around.session, &ProjectSession::goToFrame);
-    connect(&parts_.around.session, &ProjectSession::frameChanged, grid_, &ChipGrid::setMarkedCard);
 }
 
 void ObjectPictures::showChips() {
@@ -73,7 +76,6 @@ void ObjectPictures::takeChips(ObjectId id, const std::vector<LabelChip>& chips)
 
 void ObjectPictures::wireStacks() {
     whenAny(&parts_.labels, this, &ObjectPictures::showStack, &LabelSession::changed, &LabelSession::selectionChanged);
-    connect(&parts_.around.session, &ProjectSession::viewFrameChanged, this, &ObjectPictures::showStack);
     const LabelActions& actions = parts_.actions;
     bindSwitches(this, {{actions.loupe,
                          [this](bool shown) {

@@ -227,25 +227,33 @@ void MainWindow::wireCanvas() {
 }
 
 void MainWindow::wireSession() {
-    connect(&session_, &ProjectSession::videoChanged, this, [this] {
-        const auto& video = session_.video();
-        canvas_->clear(video ? QSize(video->size.width, video->size.height) : QSize());
-        stack_->setCurrentIndex(video ? 1 : 0);
-    });
-    connect(&session_, &ProjectSession::viewFrameChanged, canvas_, &VideoView::setFrame);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {SessionChange::video, [this] { showVideo(); }},
+                {SessionChange::picture, [this] { showPicture(); }},
+                {SessionChange::selection, [this] { canvas_->setSelectedTrack(session_.selectedTrack()); }},
+                {SessionChange::following, [this] { actions_->follow->setChecked(session_.following()); }},
+                {{SessionChange::video, SessionChange::project, SessionChange::runs, SessionChange::current_run,
+                  SessionChange::run_started, SessionChange::run_ended, SessionChange::following},
+                 [this] { enableActions(); }},
+                {{SessionChange::video, SessionChange::project}, [this] { updateTitle(); }},
+            });
+}
+
+void MainWindow::showVideo() {
+    const auto& video = session_.video();
+    canvas_->clear(video ? QSize(video->size.width, video->size.height) : QSize());
+    stack_->setCurrentIndex(video ? 1 : 0);
+}
+
+void MainWindow::showPicture() {
+    const ViewFrame& frame = session_.viewFrame();
+    canvas_->setFrame(frame);
     // An empty picture of a run may not look as if nothing was found there.
-    connect(&session_, &ProjectSession::viewFrameChanged, this, [this, told = false](const ViewFrame& frame) mutable {
-        const bool missing = !frame.result && session_.currentRun() && !session_.running();
-        if (std::exchange(told, missing) != missing)
-            canvas_->setBadge(missing ? tr("Not processed in this run") : QString());
-    });
-    connect(&session_, &ProjectSession::viewFrameChanged, evaluation_, &EvaluationDocks::showMarks);
-    connect(&session_, &ProjectSession::selectionChanged, canvas_, &VideoView::setSelectedTrack);
-    connect(&session_, &ProjectSession::followingChanged, actions_->follow, &QAction::setChecked);
-    whenAny(&session_, this, &MainWindow::enableActions, &ProjectSession::videoChanged, &ProjectSession::projectChanged,
-            &ProjectSession::runsChanged, &ProjectSession::currentRunChanged, &ProjectSession::runStarted,
-            &ProjectSession::runFinished, &ProjectSession::followingChanged);
-    whenAny(&session_, this, &MainWindow::updateTitle, &ProjectSession::videoChanged, &ProjectSession::projectChanged);
+    const bool missing = !frame.result && session_.currentRun() && !session_.running();
+    if (std::exchange(told_missing_, missing) != missing)
+        canvas_->setBadge(missing ? tr("Not processed in this run") : QString());
+    evaluation_->showMarks();
 }
 
 void MainWindow::enableActions() {

@@ -101,7 +101,8 @@ ComparisonHeader::ComparisonHeader(ProjectSession& session, PresetLibrary& prese
             emit pairChosen();
         });
     }
-    connect(&session_, &ProjectSession::runsChanged, this, &ComparisonHeader::fill);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::runs, [this] { fill(); }}});
     connect(&presets_, &PresetLibrary::changed, this, &ComparisonHeader::fill);
     fill();
 }

@@ -96,7 +96,8 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
         shown_ = 0;
         since_.restart();
     });
-    connect(&session_, &ProjectSession::videoChanged, this, &ComparisonWindow::close);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::video, [this] { close(); }}});
     edited_.setSingleShot(true);
     edited_.setInterval(kEditsSettle_ms);
     connect(&edited_, &QTimer::timeout, this, &ComparisonWindow::parametersEdited);

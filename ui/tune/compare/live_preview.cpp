@@ -1,6 +1,7 @@
 #include "tune/compare/live_preview.h"
 
 #include "rerun/replay.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -21,11 +22,12 @@ LivePreview::LivePreview(ProjectSession& session, QObject* parent) : QObject(par
         else
             loader_.useRun(std::nullopt);
     };
-    connect(&session_, &ProjectSession::currentRunChanged, this, use_run);
-    connect(&session_, &ProjectSession::runPreparing, this, &LivePreview::end);
-    connect(&session_, &ProjectSession::viewFrameChanged, this, [this](const ViewFrame& frame) {
-        if (active_ && (!view_ || view_->frame != frame.index)) request();
-    });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::current_run, use_run},
+                                     {SessionChange::run_preparing, [this] { end(); }},
+                                     {SessionChange::picture, [this] {
+                                          if (active_ && (!view_ || view_->frame != session_.shownFrame())) request();
+                                      }}});
     connect(&loader_, &PreviewLoader::previewed, this, [this](const std::shared_ptr<const PreviewView>& view) {
         if (!active_) return;
         view_ = view;

@@ -75,6 +75,7 @@ class EvaluationSession : public QObject {
     void refreshLater();
     void refresh();
     void forget();
+    void forgetRun();
     void readTruthOfProject();
     void adopt(const std::shared_ptr<const RunEvaluation>& evaluation, const QString& obstacle);
     void keepSelection(const std::shared_ptr<const RunEvaluation>& before);

@@ -1,24 +1,23 @@
 #include "tune/inspect/inspection.h"
 
 #include "tune/inspect/cluster_choice.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
 Inspection::Inspection(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
-    connect(&session_, &ProjectSession::currentRunChanged, this, &Inspection::runChanged);
-    connect(&session_, &ProjectSession::viewFrameChanged, this, &Inspection::frameShown);
-    connect(&session_, &ProjectSession::selectionChanged, this, [this](std::optional<TrackId> track) {
-        if (track) chosen_ = false;  // one selection: the track's
-        resolve();
-        request();
-    });
-    connect(&session_, &ProjectSession::followingChanged, this, [this](bool following) {
-        if (following)
-            loader_.cancel();
-        else
-            request();
-        emit changed();
-    });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::current_run, [this] { runChanged(); }},
+                                     {SessionChange::picture, [this] { frameShown(); }},
+                                     {SessionChange::selection,
+                                      [this] {
+                                          if (session_.selectedTrack()) chosen_ = false;  // one selection: the track's
+                                          frameShown();
+                                      }},
+                                     {SessionChange::following, [this] {
+                                          request();
+                                          emit changed();
+                                      }}});
     connect(&loader_, &ReplayLoader::working, this, [this](FrameIndex frame, int left) {
         if (frame == session_.viewFrame().index) emit working(left);
     });
@@ -90,7 +89,7 @@ void Inspection::runChanged() {
     emit changed();
 }
 
-void Inspection::frameShown(const ViewFrame&) {
+void Inspection::frameShown() {
     resolve();
     request();
 }

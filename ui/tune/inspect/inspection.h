@@ -53,7 +53,7 @@ class Inspection : public QObject {
 
  private:
     void runChanged();
-    void frameShown(const ViewFrame& frame);
+    void frameShown();
     void resolve();
     void setCluster(std::optional<int> cluster);
     void remember(const FrameResult& result, int cluster);

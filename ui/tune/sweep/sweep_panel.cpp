@@ -80,8 +80,9 @@ SweepPanel::SweepPanel(ProjectSession& session, ParameterBinding& parameters, Me
     pages_->addWidget(buildResult());
     rows->addWidget(below, 1);
     connect(form_, &SweepForm::startRequested, &sweeps_, &SweepSession::start);
-    whenAny(&session_, this, &SweepPanel::showRun, &ProjectSession::currentRunChanged, &ProjectSession::runDataChanged,
-            &ProjectSession::runsChanged);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {{SessionChange::current_run, SessionChange::run_data, SessionChange::runs}, [this] { showRun(); }}});
     wireSweeps();
     showRun();
     showList();

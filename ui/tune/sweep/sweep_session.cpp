@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "sweep/sweep_lock.h"
 #include "tune/sweep/swept_runs.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -32,7 +33,8 @@ struct SweepSession::Job {
 SweepSession::SweepSession(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
     pulse_.setInterval(kPulse);
     connect(&pulse_, &QTimer::timeout, this, &SweepSession::take);
-    connect(&session_, &ProjectSession::projectChanged, this, &SweepSession::projectChanged);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::project, [this] { projectChanged(); }}});
 }
 
 SweepSession::~SweepSession() = default;

@@ -45,6 +45,15 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
     docks.watch(DockId::stages, stages_, [this](bool visible) { stages_->setLookedAt(visible); });
     docks.watch(DockId::stacks, stacks_, [this](bool visible) { stacks_->setLookedAt(visible); });
     docks.watch(DockId::statistics, statistics_, [this](bool visible) { statistics_->setLookedAt(visible); });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {{SessionChange::video, SessionChange::runs, SessionChange::current_run, SessionChange::run_started,
+                  SessionChange::run_ended},
+                 [this] { showRuns(); }},
+                {SessionChange::run_data, [this] { adoptAwaitedParameters(); }},
+                {{SessionChange::current_run, SessionChange::run_data}, [this] { showTracks(); }},
+                {SessionChange::selection, [this] { tracks_->selectId(session_.selectedTrack().value_or(0)); }},
+            });
     wireRuns();
     wireTracks();
     showRuns();
@@ -55,12 +64,9 @@ void ReviewDocks::showTrackList() {
 }
 
 void ReviewDocks::wireRuns() {
-    whenAny(&session_, this, &ReviewDocks::showRuns, &ProjectSession::videoChanged, &ProjectSession::runsChanged,
-            &ProjectSession::currentRunChanged, &ProjectSession::runStarted, &ProjectSession::runFinished);
     connect(&session_, &ProjectSession::liveFrames, this, [this] {
         if (const RunRecord* run = session_.ownRun()) runs_model_->updateRun(*run);
     });
-    connect(&session_, &ProjectSession::runDataChanged, this, &ReviewDocks::adoptAwaitedParameters);
     connect(runs_model_, &RunsModel::renameRequested, &session_, &ProjectSession::renameRun);
     runs_->setContinuable([this](int run_id) { return session_.canContinue(run_id); });
     connect(runs_, &RunsPanel::runActivated, &session_, &ProjectSession::showRun);
@@ -99,10 +105,6 @@ void ReviewDocks::showRuns() {
 }
 
 void ReviewDocks::wireTracks() {
-    whenAny(&session_, this, &ReviewDocks::showTracks, &ProjectSession::currentRunChanged,
-            &ProjectSession::runDataChanged);
-    connect(&session_, &ProjectSession::selectionChanged, this,
-            [this](std::optional<TrackId> track) { tracks_->selectId(track.value_or(0)); });
     connect(tracks_, &TracksPanel::minScoreChanged, &parts_.overlays, &OverlaySettings::setMinScore);
     connect(tracks_, &TracksPanel::trackSelected, &session_, &ProjectSession::goToTrack);
     connect(tracks_, &TracksPanel::trackActivated, this, [this](int track, int frame) {
