@@ -12,7 +12,12 @@
 
 namespace eyrie::ui {
 
-ObjectPictures::ObjectPictures(const LabelParts& parts, QObject* parent) : QObject(parent), parts_(parts) {
+namespace {
+constexpr int kChipsDelay_ms = 250;  ///< not while keys are held
+}
+
+ObjectPictures::ObjectPictures(const LabelParts& parts, QObject* parent)
+    : QObject(parent), parts_(parts), chips_due_(kChipsDelay_ms, [this] { showChips(); }) {
     chips_ = new LabelChips(parts_.around.session, parts_.labels, this);
     stacks_ = new LabelStacks(parts_.around.session, parts_.labels, this);
     grid_ = new ChipGrid;
@@ -28,9 +33,6 @@ ObjectPictures::ObjectPictures(const LabelParts& parts, QObject* parent) : QObje
 // ---- chips ----------------------------------------------------------------------------------------------------------
 
 void ObjectPictures::wireChips() {
-    chips_due_.setSingleShot(true);
-    chips_due_.setInterval(250);  // not while keys are held
-    connect(&chips_due_, &QTimer::timeout, this, &ObjectPictures::showChips);
     parts_.around.docks.watch(DockId::object_chips, this, [this](bool visible) {
         chips_looked_at_ = visible;
         if (visible) chips_due_.start();

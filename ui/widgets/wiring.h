@@ -6,6 +6,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
+#include <QSlider>
 #include <QSpinBox>
 #include <algorithm>
 #include <functional>
@@ -95,6 +96,9 @@ inline auto editedSignal(const QSpinBox*) {
 }
 inline auto editedSignal(const QDoubleSpinBox*) {
     return &QDoubleSpinBox::valueChanged;
+}
+inline auto editedSignal(const QSlider*) {
+    return &QSlider::valueChanged;
 }
 inline auto editedSignal(const QAbstractButton*) {
     return &QAbstractButton::toggled;

@@ -183,24 +183,26 @@ void MainWindow::buildWorkspaces() {
 }
 
 void MainWindow::buildEvaluation() {
-    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, overlays_, *docks_, *this);
-    connect(evaluation_, &EvaluationDocks::notice, this, &MainWindow::showNotice);
+    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, overlays_, *docks_, *messages_, *this);
     connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
     // A preview takes the verdicts away, which are those of the stored run; they come back with it.
     connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
         if (!tuning_->preview().active()) evaluation_->showMarks();
     });
-    connect(evaluation_, &EvaluationDocks::problem, this, &MainWindow::showProblem);
 }
 
 void MainWindow::wireInspection() {
     connect(canvas_, &VideoView::placeClicked, inspection_, [this](QPointF place, double margin) {
         if (!session_.selectedTrack()) inspection_->choose(place, margin);
     });
-    connect(inspection_, &Inspection::changed, canvas_, [this] { canvas_->setInspectedArea(inspection_->area()); });
-    connect(inspection_, &Inspection::replayed, canvas_, [this](const std::shared_ptr<const ReplayView>& view) {
-        canvas_->setStacks(view->wish.frame, stackMarks(*view));
-    });
+    const auto show_stacks = [this] {
+        const ReplayView& view = *inspection_->view();
+        canvas_->setStacks(view.wish.frame, stackMarks(view));
+    };
+    connect(inspection_, &Inspection::changed, canvas_,
+            Reactions<InspectionChange>{
+                {InspectionChange::choice, [this] { canvas_->setInspectedArea(inspection_->area()); }},
+                {InspectionChange::view, show_stacks}});
     connect(&overlays_, &OverlaySettings::changed, inspection_,
             [this] { inspection_->wantStackOverlay(overlays_.isVisible(OverlayKind::stacks)); });
     review_->stacks().setCommands({
@@ -280,14 +282,6 @@ void MainWindow::updateTitle() {
     if (session_.media()) parts << QString::fromStdString(session_.media()->name);
     if (!session_.project().empty()) parts << QString::fromStdString(session_.project().filename().string());
     setWindowTitle((parts << tr("Eyrie")).join(QStringLiteral(" – ")));
-}
-
-void MainWindow::showProblem(const QString& message) {
-    messages_->showMessage(MessageKind::error, message);
-}
-
-void MainWindow::showNotice(const QString& message) {
-    messages_->showMessage(MessageKind::info, message);
 }
 
 void MainWindow::focusCanvas() {

@@ -76,8 +76,6 @@ class MainWindow : public QMainWindow {
     void showVideo();
     void showPicture();
     void wireInspection();
-    void showProblem(const QString& message);
-    void showNotice(const QString& message);
     void enableActions();
     void updateTitle();
     void focusCanvas();

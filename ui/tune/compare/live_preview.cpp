@@ -1,5 +1,7 @@
 #include "tune/compare/live_preview.h"
 
+#include <functional>
+
 #include "rerun/replay.h"
 #include "widgets/wiring.h"
 
@@ -14,7 +16,14 @@ std::vector<ParameterDifference> differencesBetween(const ChainOptions& first, c
     return differences;
 }
 
-LivePreview::LivePreview(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
+LivePreview::LivePreview(ProjectSession& session, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      loader_({
+          .show = std::bind_front(&LivePreview::showView, this),
+          .show_progress = std::bind_front(&LivePreview::showProgress, this),
+          .fail = std::bind_front(&LivePreview::showProblem, this),
+      }) {
     const auto use_run = [this] {
         end();
         if (session_.currentRun() && session_.media())
@@ -28,25 +37,28 @@ LivePreview::LivePreview(ProjectSession& session, QObject* parent) : QObject(par
                                      {SessionChange::picture, [this] {
                                           if (active_ && (!view_ || view_->frame != session_.shownFrame())) request();
                                       }}});
-    connect(&loader_, &PreviewLoader::previewed, this, [this](const std::shared_ptr<const PreviewView>& view) {
-        if (!active_) return;
-        view_ = view;
-        frames_left_ = view->frames_left;
-        problem_.clear();
-        emit changed();
-    });
-    connect(&loader_, &PreviewLoader::tracksProgress, this, [this](FrameIndex frame, int left) {
-        if (!active_ || frame != session_.viewFrame().index) return;
-        frames_left_ = left;
-        emit changed();
-    });
-    connect(&loader_, &PreviewLoader::failed, this, [this](FrameIndex, const QString& message) {
-        if (!active_) return;
-        view_.reset();
-        problem_ = message;
-        emit changed();
-    });
     use_run();
+}
+
+void LivePreview::showView(const std::shared_ptr<const PreviewView>& view) {
+    if (!active_) return;
+    view_ = view;
+    frames_left_ = view->frames_left;
+    problem_.clear();
+    emit changed();
+}
+
+void LivePreview::showProgress(FrameIndex frame, int left) {
+    if (!active_ || frame != session_.shownFrame()) return;
+    frames_left_ = left;
+    emit changed();
+}
+
+void LivePreview::showProblem(const QString& message) {
+    if (!active_) return;
+    view_.reset();
+    problem_ = message;
+    emit changed();
 }
 
 void LivePreview::setEnabled(bool enabled) {

@@ -36,11 +36,11 @@ EvaluationOptions storedWishes() {
 }
 
 EvaluationSession::EvaluationSession(ProjectSession& session, QObject* parent)
-    : QObject(parent), session_(session), evaluator_(std::make_unique<RunEvaluator>()) {
+    : QObject(parent),
+      session_(session),
+      soon_(kSettle_ms, [this] { refresh(); }),
+      evaluator_(std::make_unique<RunEvaluator>()) {
     settings_.wishes = storedWishes();
-    soon_.setSingleShot(true);
-    soon_.setInterval(kSettle_ms);
-    connect(&soon_, &QTimer::timeout, this, &EvaluationSession::refresh);
     connect(&session_, &ProjectSession::changed, this,
             Reactions<SessionChange>{{SessionChange::current_run, [this] { forgetRun(); }},
                                      {SessionChange::project, [this] { readTruthOfProject(); }},

@@ -96,7 +96,7 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
     pages_->addWidget(empty_);
     pages_->addWidget(charts);
 
-    connect(scope_, &QComboBox::currentIndexChanged, this, &MotionStatisticsPanel::showFrame);
+    onEdited(this, &MotionStatisticsPanel::showFrame, scope_);
     connect(&session_, &ProjectSession::changed, this,
             Reactions<SessionChange>{{SessionChange::picture, [this] { showFrame(); }},
                                      {SessionChange::run_data, [this] { readLives(); }},

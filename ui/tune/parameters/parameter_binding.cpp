@@ -22,8 +22,7 @@ ParameterBinding::ParameterBinding(ProjectSession& session, ParameterForm& form,
         }
     });
     connect(&form_, &ParameterForm::presetChosen, this, &ParameterBinding::choosePreset);
-    connect(&form_, &ParameterForm::savePresetRequested, this, &ParameterBinding::savePreset);
-    connect(&form_, &ParameterForm::presetsRequested, this, &ParameterBinding::comparePresets);
+    form_.setCommands({.save_preset = [this] { savePreset(); }, .show_presets = [this] { comparePresets(); }});
     connect(&session_, &ProjectSession::changed, this,
             Reactions<SessionChange>{{SessionChange::project, [this] { presets_.useProject(session_.project()); }}});
     connect(&presets_, &PresetLibrary::changed, this, [this] {

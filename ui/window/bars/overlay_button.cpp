@@ -9,6 +9,7 @@
 #include <QWidgetAction>
 
 #include "canvas/layers/overlay_table.h"
+#include "widgets/wiring.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -56,7 +57,8 @@ void OverlayButton::buildMenu() {
     length_->setValue(overlays_.style().vector_length_factor);
     layout->addWidget(new QLabel(tr("Vector length"), row));
     layout->addWidget(length_, 1);
-    connect(length_, &QDoubleSpinBox::valueChanged, &overlays_, &OverlaySettings::setVectorLengthFactor);
+    onEdited(
+        this, [this] { overlays_.setVectorLengthFactor(length_->value()); }, length_);
     auto* action = new QWidgetAction(menu);
     action->setDefaultWidget(row);
     menu->addSeparator();

@@ -68,12 +68,14 @@ void ReviewDocks::wireRuns() {
         if (const RunRecord* run = session_.ownRun()) runs_model_->updateRun(*run);
     });
     connect(runs_model_, &RunsModel::renameRequested, &session_, &ProjectSession::renameRun);
-    runs_->setContinuable([this](int run_id) { return session_.canContinue(run_id); });
-    connect(runs_, &RunsPanel::runActivated, &session_, &ProjectSession::showRun);
-    connect(runs_, &RunsPanel::continueRequested, &session_, &ProjectSession::continueRun);
-    connect(runs_, &RunsPanel::removeRequested, &parts_.guard, &RunGuard::remove);
-    connect(runs_, &RunsPanel::runRequested, parts_.actions.run, &QAction::trigger);
-    connect(runs_, &RunsPanel::parametersRequested, this, &ReviewDocks::adoptParametersOf);
+    runs_->setCommands({
+        .show = [this](int run_id) { session_.showRun(run_id); },
+        .run = [this] { parts_.actions.run->trigger(); },
+        .remove = [this](int run_id) { parts_.guard.remove(run_id); },
+        .go_on = [this](int run_id) { session_.continueRun(run_id); },
+        .can_go_on = [this](int run_id) { return session_.canContinue(run_id); },
+        .use_parameters = [this](int run_id) { adoptParametersOf(run_id); },
+    });
 }
 
 void ReviewDocks::adoptParametersOf(int run_id) {
@@ -105,11 +107,14 @@ void ReviewDocks::showRuns() {
 }
 
 void ReviewDocks::wireTracks() {
-    connect(tracks_, &TracksPanel::minScoreChanged, &parts_.overlays, &OverlaySettings::setMinScore);
-    connect(tracks_, &TracksPanel::trackSelected, &session_, &ProjectSession::goToTrack);
-    connect(tracks_, &TracksPanel::trackActivated, this, [this](int track, int frame) {
-        session_.selectTrack(track);
-        session_.goToFrame(frame);
+    tracks_->setCommands({
+        .select = [this](int track) { session_.goToTrack(track); },
+        .go_to =
+            [this](int track, int frame) {
+                session_.selectTrack(track);
+                session_.goToFrame(frame);
+            },
+        .use_min_score = [this](double score) { parts_.overlays.setMinScore(score); },
     });
 }
 
