@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "exchange/project_labels.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -19,12 +20,13 @@ struct LabelSession::Opened {
 };
 
 LabelSession::LabelSession(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
-    connect(&session_, &ProjectSession::videoChanged, this, &LabelSession::close);
-    connect(&session_, &ProjectSession::projectChanged, this, &LabelSession::refreshOpen);
-    connect(&session_, &ProjectSession::ready, this, &LabelSession::refreshOpen);
-    connect(&session_, &ProjectSession::runDataChanged, this, &LabelSession::readCamera);
-    connect(&session_, &ProjectSession::currentRunChanged, this, &LabelSession::readCamera);
-    connect(&session_, &ProjectSession::runFinished, this, &LabelSession::readCamera);
+    connect(
+        &session_, &ProjectSession::changed, this,
+        Reactions<SessionChange>{
+            {SessionChange::video, [this] { close(); }},
+            {{SessionChange::project, SessionChange::opened}, [this] { refreshOpen(); }},
+            {{SessionChange::run_data, SessionChange::current_run, SessionChange::run_ended}, [this] { readCamera(); }},
+        });
     reread_.setInterval(kReread_ms);
     connect(&reread_, &QTimer::timeout, this, &LabelSession::refreshReadOnly);
 }

@@ -5,6 +5,7 @@
 #include <QMenuBar>
 #include <QTimer>
 #include <QToolBar>
+#include <functional>
 #include <numbers>
 
 #include "annotation/edits/object_pieces.h"
@@ -126,10 +127,11 @@ void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::notice, this, [this](const QString& text) { parts().tell(text); });
     connect(labels_, &LabelSession::opened, this, &LabelWorkspace::labelsOpened);
     connect(labels_, &LabelSession::selectionChanged, this, &LabelWorkspace::selectionChanged);
-    connect(&around_.session, &ProjectSession::viewFrameChanged, this, &LabelWorkspace::pictureChanged);
-    connect(&around_.session, &ProjectSession::frameChanged, this, [this](FrameIndex frame) {
-        if (active_) objects_->setFrame(frame);
-    });
+    connect(&around_.session, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::picture, [this] { pictureChanged(); }},
+                                     {SessionChange::frame, [this] {
+                                          if (active_) objects_->setFrame(around_.session.currentFrame());
+                                      }}});
     for (QAction* action : {actions_->follow, actions_->follow_upright})
         bindSwitches(this, {{action, [this] { followObject(); }}});
 }
@@ -166,34 +168,39 @@ void LabelWorkspace::pictureChanged() {
 /// What the hand does on the canvas.
 void LabelWorkspace::wireTool() {
     connect(tool_, &LabelTool::repaintNeeded, &around_.canvas, qOverload<>(&QWidget::update));
-    connect(tool_, &LabelTool::drawingChanged, actions_->draw, &QAction::setChecked);
-    connect(tool_, &LabelTool::regionDrawingChanged, actions_->region, &QAction::setChecked);
-    connect(tool_, &LabelTool::regionDrawn, editor_, &LabelEditor::addRegion);
-    connect(tool_, &LabelTool::boxDrawn, editor_, &LabelEditor::add);
-    connect(tool_, &LabelTool::boxRedrawn, this, [this](ObjectId id, FrameIndex frame, const OrientedBox& box) {
-        editor_->setBox(id, frame, box, true, tr("Redraw box of %1"));
-    });
-    connect(tool_, &LabelTool::boxChanged, this,
+    tool_->setCommands({
+        .show_drawing = [this](bool drawing) { actions_->draw->setChecked(drawing); },
+        .show_region_drawing = [this](bool drawing) { actions_->region->setChecked(drawing); },
+        .add_region = std::bind_front(&LabelEditor::addRegion, editor_),
+        .add_box = std::bind_front(&LabelEditor::add, editor_),
+        .redraw_box = [this](ObjectId id, FrameIndex frame,
+                             const OrientedBox& box) { editor_->setBox(id, frame, box, true, tr("Redraw box of %1")); },
+        .change_box =
             [this](ObjectId id, FrameIndex frame, const OrientedBox& box, bool turned, bool resized) {
                 const QString what = turned    ? tr("Turn box of %1")
                                      : resized ? tr("Resize box of %1")
                                                : tr("Move box of %1");
                 editor_->setBox(id, frame, box, turned, what);
-            });
-    connect(tool_, &LabelTool::objectClicked, this, [this](std::optional<ObjectId> id, bool add) {
-        proposals_->select(std::nullopt);
-        if (id && add)
-            labels_->toggle(*id);
-        else
-            labels_->select(id);
+            },
+        .choose_object = [this](std::optional<ObjectId> id, bool add) { chooseObject(id, add); },
+        .choose_proposal = [this](TrackId track, bool add) { chooseProposal(track, add); },
     });
-    connect(tool_, &LabelTool::proposalClicked, this, [this](TrackId track, bool add) {
-        labels_->select(std::nullopt);
-        if (add)
-            proposals_->toggle(track);
-        else
-            proposals_->select(track);
-    });
+}
+
+void LabelWorkspace::chooseObject(std::optional<ObjectId> id, bool add) {
+    proposals_->select(std::nullopt);
+    if (id && add)
+        labels_->toggle(*id);
+    else
+        labels_->select(id);
+}
+
+void LabelWorkspace::chooseProposal(TrackId track, bool add) {
+    labels_->select(std::nullopt);
+    if (add)
+        proposals_->toggle(track);
+    else
+        proposals_->select(track);
 }
 
 /// What goes on by itself: proposals that are read, boxes that are followed and refined.

@@ -54,6 +54,8 @@ class LabelWorkspace : public QObject {
     void buildMenu();
     void wireLabels();
     void wireTool();
+    void chooseObject(std::optional<ObjectId> id, bool add);
+    void chooseProposal(TrackId track, bool add);
     void wireWork();
     void wireObjects();
     ObjectEdits inspectorEdits();

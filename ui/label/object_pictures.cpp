@@ -12,28 +12,33 @@
 
 namespace eyrie::ui {
 
-ObjectPictures::ObjectPictures(const LabelParts& parts, QObject* parent) : QObject(parent), parts_(parts) {
+namespace {
+constexpr int kChipsDelay_ms = 250;  ///< not while keys are held
+}
+
+ObjectPictures::ObjectPictures(const LabelParts& parts, QObject* parent)
+    : QObject(parent), parts_(parts), chips_due_(kChipsDelay_ms, [this] { showChips(); }) {
     chips_ = new LabelChips(parts_.around.session, parts_.labels, this);
     stacks_ = new LabelStacks(parts_.around.session, parts_.labels, this);
     grid_ = new ChipGrid;
     parts_.around.docks.add(DockId::object_chips, tr("Over time"), grid_);
     wireChips();
     wireStacks();
+    connect(&parts_.around.session, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {SessionChange::frame, [this] { grid_->setMarkedCard(parts_.around.session.currentFrame()); }},
+                {SessionChange::picture, [this] { showStack(); }}});
 }
 
 // ---- chips ----------------------------------------------------------------------------------------------------------
 
 void ObjectPictures::wireChips() {
-    chips_due_.setSingleShot(true);
-    chips_due_.setInterval(250);  // not while keys are held
-    connect(&chips_due_, &QTimer::timeout, this, &ObjectPictures::showChips);
     parts_.around.docks.watch(DockId::object_chips, this, [this](bool visible) {
         chips_looked_at_ = visible;
         if (visible) chips_due_.start();
     });
     connect(chips_, &LabelChips::ready, this, &ObjectPictures::takeChips);
     connect(grid_, &ChipGrid::cardClicked, &parts_.around.session, &ProjectSession::goToFrame);
-    connect(&parts_.around.session, &ProjectSession::frameChanged, grid_, &ChipGrid::setMarkedCard);
 }
 
 void ObjectPictures::showChips() {
@@ -73,7 +78,6 @@ void ObjectPictures::takeChips(ObjectId id, const std::vector<LabelChip>& chips)
 
 void ObjectPictures::wireStacks() {
     whenAny(&parts_.labels, this, &ObjectPictures::showStack, &LabelSession::changed, &LabelSession::selectionChanged);
-    connect(&parts_.around.session, &ProjectSession::viewFrameChanged, this, &ObjectPictures::showStack);
     const LabelActions& actions = parts_.actions;
     bindSwitches(this, {{actions.loupe,
                          [this](bool shown) {

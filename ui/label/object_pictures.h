@@ -1,12 +1,12 @@
 #pragma once
 
 #include <QObject>
-#include <QTimer>
 #include <vector>
 
 #include "annotation/pictures/object_stack.h"
 #include "core/labels/annotation.h"
 #include "label/label_parts.h"
+#include "widgets/delayed_call.h"
 
 namespace eyrie::ui {
 
@@ -38,7 +38,7 @@ class ObjectPictures : public QObject {
     LabelChips* chips_;
     LabelStacks* stacks_;
     ChipGrid* grid_;
-    QTimer chips_due_;
+    DelayedCall chips_due_;
     bool chips_looked_at_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include "core/geometry/angle.h"
 #include "review/track_inspector.h"
 #include "widgets/display_text.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -86,19 +87,21 @@ InspectorPanel::InspectorPanel(ProjectSession& session, QWidget* parent) : QWidg
     layout->addWidget(facts_);
     layout->addWidget(track_page_);
 
-    connect(&session_, &ProjectSession::viewFrameChanged, this, &InspectorPanel::showFrame);
-    connect(&session_, &ProjectSession::videoChanged, this, [this] { showFrame({}); });
-    connect(&session_, &ProjectSession::selectionChanged, this, &InspectorPanel::showSelection);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::picture, [this] { showFrame(session_.viewFrame()); }},
+                                     {SessionChange::video, [this] { showFrame({}); }},
+                                     {SessionChange::selection, [this] { showSelection(); }}});
     connect(&session_, &ProjectSession::trackStatesRead, this,
             [this](TrackId track, const std::vector<TrackFrame>& states) {
                 track_->showTrack(track, states, session_.scale());
                 track_->setCurrentFrame(session_.currentFrame());
             });
     connect(track_, &TrackInspector::frameActivated, &session_, &ProjectSession::goToFrame);
-    showSelection(std::nullopt);
+    showSelection();
 }
 
-void InspectorPanel::showSelection(std::optional<TrackId> track) {
+void InspectorPanel::showSelection() {
+    const auto track = session_.selectedTrack();
     facts_->setVisible(!track);
     track_page_->setVisible(track.has_value());
     if (!track) track_->clear();

@@ -40,7 +40,7 @@ class InspectorPanel : public QWidget {
 
  private:
     void showFrame(const ViewFrame& frame);
-    void showSelection(std::optional<TrackId> track);
+    void showSelection();
     void showChip();
     void showFacts();
     void setRows(const QList<std::pair<QString, QString>>& rows);

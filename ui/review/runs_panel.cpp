@@ -14,18 +14,17 @@ RunsPanel::RunsPanel(RunsModel* model, QWidget* parent) : TablePanel(model, QStr
     emptyState()->setTexts(tr("No run yet. A run finds and follows the moving vehicles of the video; each is kept here "
                               "with its parameters and can be shown again."),
                            tr("Run with these defaults"));
-    bindCommands(this, {{emptyState()->button(), [this] { emit runRequested(); }}});
+    bindCommands(this, {{emptyState()->button(), [this] { commands_.run(); }}});
 }
 
 void RunsPanel::fillMenu(QMenu& menu, int run_id) {
-    menu.addAction(tr("Show"), this, [this, run_id] { emit runActivated(run_id); });
-    menu.addAction(tr("Use its parameters"), this, [this, run_id] { emit parametersRequested(run_id); });
+    menu.addAction(tr("Show"), this, [this, run_id] { commands_.show(run_id); });
+    menu.addAction(tr("Use its parameters"), this, [this, run_id] { commands_.use_parameters(run_id); });
     menu.addAction(tr("Rename"), QKeySequence(Qt::Key_F2), this, &RunsPanel::editName);
-    if (can_continue_ && can_continue_(run_id))
-        menu.addAction(tr("Continue"), this, [this, run_id] { emit continueRequested(run_id); });
+    if (commands_.can_go_on(run_id)) menu.addAction(tr("Continue"), this, [this, run_id] { commands_.go_on(run_id); });
     menu.addSeparator();
     menu.addAction(tr("Remove from the project"), QKeySequence(Qt::Key_Delete), this,
-                   [this, run_id] { emit removeRequested(run_id); });
+                   [this, run_id] { commands_.remove(run_id); });
 }
 
 void RunsPanel::editName() {
@@ -39,7 +38,7 @@ bool RunsPanel::eventFilter(QObject* watched, QEvent* event) {
     }
     const auto* key = static_cast<QKeyEvent*>(event);
     if (key->matches(QKeySequence::Delete)) {
-        emit removeRequested(currentId());
+        commands_.remove(currentId());
         return true;
     }
     if (key->key() == Qt::Key_F2) {

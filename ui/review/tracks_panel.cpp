@@ -36,10 +36,13 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     count_->setToolTip(tr("Tracks shown at this sensitivity, of all tracks"));
     toolRow()->addWidget(sensitivity_);
     toolRow()->addWidget(count_);
-    connect(sensitivity_, &QSlider::valueChanged, this, [this] {
-        filterTracks();
-        emit minScoreChanged(minScore());
-    });
+    onEdited(
+        this,
+        [this] {
+            filterTracks();
+            commands_.use_min_score(minScore());
+        },
+        sensitivity_);
     whenAny(model, this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
             &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::dataChanged);
     onEdited(this, &TracksPanel::filterTracks, tentative_);
@@ -85,7 +88,7 @@ void TracksPanel::setTentativeShown(bool shown) {
 void TracksPanel::activate(int track, int column) {
     const TrackSummary* summary = tracks_->recordAt(tracks_->rowOf(track));
     if (summary == nullptr) return;
-    emit trackActivated(track, column == TracksModel::last_column ? summary->last_frame : summary->first_frame);
+    commands_.go_to(track, column == TracksModel::last_column ? summary->last_frame : summary->first_frame);
 }
 
 void TracksPanel::fillMenu(QMenu& menu, int track) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <utility>
+
 #include "review/tracks_model.h"
 #include "widgets/tables/table_panel.h"
 
@@ -9,12 +12,22 @@ class QToolButton;
 
 namespace eyrie::ui {
 
+/// What the list of tracks leads to.
+struct TrackListCommands {
+    std::function<void(int track)> select = [](int) {};
+    /// The user wants to see a track: its first frame, or the last where that was clicked.
+    std::function<void(int track, int frame)> go_to = [](int, int) {};
+    /// Tracks with a lower score are not to be shown anywhere.
+    std::function<void(double score)> use_min_score = [](double) {};
+};
+
 /// The tracks of the shown run: clicking one goes to it.
 class TracksPanel : public TablePanel {
     Q_OBJECT
  public:
     /// `model` must outlive the panel.
     explicit TracksPanel(TracksModel* model, QWidget* parent = nullptr);
+    void setCommands(TrackListCommands commands) { commands_ = std::move(commands); }
     /// Whether tracks that were never confirmed are listed; at first they are not.
     void setTentativeShown(bool shown);
     /// How unsure tracks may be that are listed, 0 … 100 %: at 100 all are, at 40 those with a score of 0.6 or more.
@@ -22,15 +35,8 @@ class TracksPanel : public TablePanel {
     /// How many of the tracks are listed, "12 of 40".
     QString countText() const;
 
- signals:
-    void trackSelected(int track);
-    /// The user wants to see a track: its first frame, or the last where that was clicked.
-    void trackActivated(int track, int frame);
-    /// Tracks with a lower score are not to be shown anywhere.
-    void minScoreChanged(double score);
-
  protected:
-    void rowSelected(int track) override { emit trackSelected(track); }
+    void rowSelected(int track) override { commands_.select(track); }
     void rowClicked(int track, int column) override { activate(track, column); }
     void rowDoubleClicked(int track) override { activate(track, TracksModel::first_column); }
     void fillMenu(QMenu& menu, int track) override;
@@ -42,6 +48,7 @@ class TracksPanel : public TablePanel {
     void showCount();
     double minScore() const;
     TracksModel* tracks_;
+    TrackListCommands commands_;
     QToolButton* tentative_;
     QSlider* sensitivity_;
     QLabel* count_;

@@ -68,7 +68,7 @@ void ProjectSession::listsRead(const ProjectLists& lists) {
     if (current_run_)
         if (const RunRecord* run = findRun(*current_run_)) before = *run;
     takeLists(lists);
-    emit runsChanged();
+    emit changed(SessionChange::runs);
     if (!before) return;
     const RunRecord* now = findRun(before->id);
     if (now == nullptr || !hasGrown(*before, *now)) return;
@@ -83,7 +83,7 @@ void ProjectSession::projectFailed(const fs::path&, const QString& message) {
     emit problem(message);
     if (!project_open_) {
         project_.clear();
-        emit projectChanged();
+        emit changed(SessionChange::project);
         request();
     }
 }
@@ -108,8 +108,8 @@ void ProjectSession::saveProjectAs(const fs::path& target) {
 void ProjectSession::projectMovedTo(const ProjectLists& lists) {
     project_ = lists.project;
     takeLists(lists);
-    emit projectChanged();
-    emit runsChanged();
+    emit changed(SessionChange::project);
+    emit changed(SessionChange::runs);
     useRun(current_run_);
     emit notice(
         tr("Saved as %1. What you do from now on goes there.").arg(QString::fromStdString(lists.project.string())));
@@ -146,7 +146,7 @@ void ProjectSession::useRun(std::optional<int> run_id) {
     current_run_ = run_id;
     run_data_.reset();
     selectTrack(std::nullopt);
-    emit currentRunChanged();
+    emit changed(SessionChange::current_run);
     if (run_id) {
         loader_.useRun(RunReference{project_, *run_id}, kTrailLength);
         reader_.readRun(*run_id);
@@ -160,7 +160,7 @@ void ProjectSession::adoptGsd() {
     const RunRecord* run = current_run_ ? findRun(*current_run_) : nullptr;
     if (run == nullptr) return;
     settings_.gsd_m_per_px = run->scale.gsd_known ? run->scale.gsd_m_per_px : 0;
-    emit scaleChanged();
+    emit changed(SessionChange::scale);
 }
 
 void ProjectSession::removeRun(int run_id) {
@@ -173,7 +173,7 @@ void ProjectSession::removeRun(int run_id) {
     const RunRecord removed = *run;
     // Out of the list first, so that nobody chooses it again while it goes.
     std::erase_if(runs_, [run_id](const RunRecord& each) { return each.id == run_id; });
-    emit runsChanged();
+    emit changed(SessionChange::runs);
     if (current_run_ == run_id) useRun(std::nullopt);
     reader_.removeRun(run_id);
     emit runRemoved(removed);
@@ -182,7 +182,7 @@ void ProjectSession::removeRun(int run_id) {
 void ProjectSession::runRead(const std::shared_ptr<const RunData>& run) {
     if (current_run_ != run->record.id) return;
     run_data_ = run;
-    emit runDataChanged();
+    emit changed(SessionChange::run_data);
     if (selected_track_) reader_.readTrack(run->record.id, *selected_track_);
 }
 

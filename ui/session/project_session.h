@@ -18,6 +18,24 @@
 
 namespace eyrie::ui {
 
+/// What of a session's state is another than it was. What it is now, the session tells.
+enum class SessionChange {
+    video,    ///< another one, or none
+    project,  ///< another one, or none
+    opened,   ///< video and project are open
+    runs,     ///< the list of runs
+    current_run,
+    run_data,  ///< the lists of the current run were read
+    frame,     ///< currentFrame()
+    picture,   ///< viewFrame()
+    selection,
+    scale,  ///< the settings took over the GSD of the run shown
+    following,
+    run_preparing,  ///< a run was asked for; it starts once it is prepared, which takes some seconds without a GSD
+    run_started,    ///< ownRun()
+    run_ended
+};
+
 /// The one state the whole window shows: video, project, run, frame, selection. Everything that could block happens on
 /// other threads; calls return at once and signals tell what came of them.
 class ProjectSession : public QObject {
@@ -109,35 +127,23 @@ class ProjectSession : public QObject {
     const ResultLoader& loader() const { return loader_; }
 
  signals:
+    /// Tells whoever shows the session what to read anew; the other signals carry what the session does not keep.
+    void changed(SessionChange change);
     void openingProgress(const QString& name, double share);
     void openingEnded();
-    /// Another video, or none.
-    void videoChanged();
-    void projectChanged();
-    /// Video and project are open; `has_finished_run` tells whether the run shown is a finished one.
+    /// Follows SessionChange::opened; `has_finished_run` tells whether the run shown is a finished one.
     void ready(bool has_finished_run);
-    void runsChanged();
-    void currentRunChanged();
-    void runDataChanged();
-    void frameChanged(FrameIndex frame);
-    /// The settings took over the GSD of the run shown.
-    void scaleChanged();
-    void viewFrameChanged(const ViewFrame& frame);
-    void selectionChanged(std::optional<TrackId> track);
-    /// All stored states of the selected track; follows selectionChanged() and grows with a running run.
+    /// All stored states of the selected track; follows its selection and grows with a running run.
     void trackStatesRead(TrackId track, const std::vector<TrackFrame>& states);
-    /// A run was asked for; runStarted() follows once it is prepared, which takes some seconds without a GSD.
-    void runPreparing();
-    void runStarted(const RunRecord& record);
     void runProgress(const RunProgress& progress);
     void liveFrames(const std::vector<FrameSummary>& frames);
+    /// Follows SessionChange::run_ended: how it ended.
     void runFinished(const RunSummary& summary);
     /// Follows runFinished() when the run was stored: what came of it.
     void runSummarised(const RunRecord& run, const RunFacts& facts);
     void runRemoved(const RunRecord& run);
     /// The project is shown without its video; locateVideo() helps. `message` says so.
     void videoNotFound(const QString& message);
-    void followingChanged(bool following);
     /// Something went wrong; the text names it, the place and the remedy.
     void problem(const QString& message);
     void notice(const QString& message);

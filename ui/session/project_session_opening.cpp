@@ -96,7 +96,7 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
     project_open_ = false;
     takeLists({});
     useRun(std::nullopt);
-    emit runsChanged();
+    emit changed(SessionChange::runs);
     reader_.openFor(pending.media.name, pending.media.identity, video.info, pending.project);
 }
 
@@ -131,8 +131,8 @@ void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep
     view_frame_ = {};
     view_frame_.index = place;
     if (!keep_place) selectTrack(std::nullopt);
-    emit videoChanged();
-    emit frameChanged(current_frame_);
+    emit changed(SessionChange::video);
+    emit changed(SessionChange::frame);
 }
 
 // ---- the project ----------------------------------------------------------------------------------------------------
@@ -147,8 +147,8 @@ void ProjectSession::projectOpened(const ProjectLists& lists) {
         openVideoOfProject();
         return;
     }
-    emit projectChanged();
-    emit runsChanged();
+    emit changed(SessionChange::project);
+    emit changed(SessionChange::runs);
     const SequenceRecord* known = sequenceOfVideo();
     if (media_->given_rate_hz > 0) {
         keepFrameRate();
@@ -174,8 +174,8 @@ void ProjectSession::openVideoOfProject() {
         emit problem(tr("%1 holds neither runs nor labels. Open a video to begin.")
                          .arg(QString::fromStdString(project_.filename().string())));
     }
-    emit projectChanged();
-    emit runsChanged();
+    emit changed(SessionChange::project);
+    emit changed(SessionChange::runs);
 }
 
 void ProjectSession::closeVideo() {
@@ -188,7 +188,7 @@ void ProjectSession::closeVideo() {
     current_frame_ = 0;
     view_frame_ = {};
     useRun(std::nullopt);
-    emit videoChanged();
+    emit changed(SessionChange::video);
 }
 
 void ProjectSession::closeProject() {
@@ -198,8 +198,8 @@ void ProjectSession::closeProject() {
     project_open_ = false;
     project_.clear();
     takeLists({});
-    emit projectChanged();
-    emit runsChanged();
+    emit changed(SessionChange::project);
+    emit changed(SessionChange::runs);
 }
 
 void ProjectSession::showProject(std::optional<int> run_id) {
@@ -212,6 +212,7 @@ void ProjectSession::showProject(std::optional<int> run_id) {
     }
     useRun(run_id);
     adoptGsd();
+    emit changed(SessionChange::opened);
     emit ready(finished);
 }
 
@@ -263,7 +264,7 @@ void ProjectSession::adoptMovedVideo(const SequenceRecord& known, const std::str
     for (RunRecord& run : runs_)
         if (run.sequence.id == known.id) run.sequence.path = identity;
     reader_.relocateSequence(known.id, identity);
-    emit runsChanged();
+    emit changed(SessionChange::runs);
     emit notice(tr("The video is at %1 now; the project remembers it.").arg(QString::fromStdString(identity)));
 }
 

@@ -14,7 +14,7 @@ void ProjectSession::setFollowing(bool following) {
     if (following == following_) return;
     following_ = following;
     if (following) playback_.pause();
-    emit followingChanged(following);
+    emit changed(SessionChange::following);
 }
 
 // ---- frames ---------------------------------------------------------------------------------------------------------
@@ -37,7 +37,7 @@ void ProjectSession::showFrame(FrameIndex frame) {
     direction_ = frame < current_frame_ ? -1 : 1;
     setFollowing(false);
     current_frame_ = frame;
-    emit frameChanged(frame);
+    emit changed(SessionChange::frame);
     request();
 }
 
@@ -48,7 +48,7 @@ void ProjectSession::request() {
 void ProjectSession::frameLoaded(const ViewFrame& frame) {
     if (following_) return;  // the live picture is newer
     view_frame_ = frame;
-    emit viewFrameChanged(view_frame_);
+    emit changed(SessionChange::picture);
 }
 
 void ProjectSession::togglePlay() {
@@ -77,7 +77,7 @@ void ProjectSession::shuttle(int direction) {
 void ProjectSession::selectTrack(std::optional<TrackId> track) {
     if (track == selected_track_) return;
     selected_track_ = track;
-    emit selectionChanged(track);
+    emit changed(SessionChange::selection);
     if (track && current_run_) reader_.readTrack(*current_run_, *track);
 }
 

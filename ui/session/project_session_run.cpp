@@ -52,7 +52,7 @@ void ProjectSession::beginRun(RunRequest request) {
     run_project_ = project_;
     own_run_.reset();
     controller_.start(std::move(request));
-    emit runPreparing();
+    emit changed(SessionChange::run_preparing);
     setFollowing(true);
 }
 
@@ -64,10 +64,10 @@ void ProjectSession::liveRunStarted(const RunRecord& record) {
     if (project_ != run_project_) return;
     own_run_ = record.id;
     if (findRun(record.id) == nullptr) runs_.push_back(record);
-    emit runsChanged();
+    emit changed(SessionChange::runs);
     useRun(record.id);
     reader_.readLists();  // its record as it was stored, with the time it began
-    emit runStarted(record);
+    emit changed(SessionChange::run_started);
 }
 
 void ProjectSession::liveFrameCame() {
@@ -81,17 +81,17 @@ void ProjectSession::liveFrameCame() {
     }
     if (!frame || !following_) return;
     current_frame_ = frame->index;
-    emit frameChanged(current_frame_);
+    emit changed(SessionChange::frame);
     view_frame_ = std::move(*frame);
     view_frame_.scale = scale();
-    emit viewFrameChanged(view_frame_);
+    emit changed(SessionChange::picture);
 }
 
 void ProjectSession::liveRunEnded(const RunSummary& summary, int run_id) {
     const bool shown = project_ == run_project_;
     if (summary.outcome == RunOutcome::failed) emit problem(QString::fromStdString(summary.message));
     const bool followed = std::exchange(following_, false);
-    if (followed) emit followingChanged(false);
+    if (followed) emit changed(SessionChange::following);
     if (shown) {
         reader_.readLists();
         if (run_id != 0) reader_.readFacts(run_id);
@@ -103,6 +103,7 @@ void ProjectSession::liveRunEnded(const RunSummary& summary, int run_id) {
         if (followed) request();
     }
     own_run_.reset();
+    emit changed(SessionChange::run_ended);
     emit runFinished(summary);
 }
 

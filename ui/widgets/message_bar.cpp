@@ -72,11 +72,11 @@ void MessageStrip::setAction(const QString& text, std::function<void()> action) 
     auto* button = new QPushButton(text, this);
     auto* row = static_cast<QHBoxLayout*>(layout());
     row->insertWidget(row->count() - 1, button);
-    connect(button, &QPushButton::clicked, this, [this, action = std::move(action)] {
-        // The action may show another message; this one is done with by then.
-        emit dismissed();
-        action();
-    });
+    bindCommands(this, {{button, [this, action = std::move(action)] {
+                             // The action may show another message; this one is done with by then.
+                             emit dismissed();
+                             action();
+                         }}});
 }
 
 void MessageStrip::countUp() {

@@ -6,8 +6,11 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
+#include <QSlider>
 #include <QSpinBox>
+#include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -60,6 +63,30 @@ void whenAny(Sender* sender, Receiver* receiver, React react, Signals... told) {
     (QObject::connect(sender, told, receiver, follow), ...);
 }
 
+/// What to do when something is another than it was, for every kind of change that one signal tells of: what
+/// connect() is given for a signal with a `Change`. A list of changes and what they ask for; several may ask for the
+/// same, and one for several things, which are done in this order.
+template <typename Change>
+class Reactions {
+ public:
+    struct Reaction {
+        Reaction(Change to, std::function<void()> work) : changes{to}, react(std::move(work)) {}
+        Reaction(std::initializer_list<Change> to, std::function<void()> work) : changes(to), react(std::move(work)) {}
+        std::vector<Change> changes;
+        std::function<void()> react;
+    };
+    Reactions(std::initializer_list<Reaction> reactions) : reactions_(reactions) {}
+
+    void operator()(Change change) const {
+        for (const Reaction& reaction : reactions_)
+            if (std::find(reaction.changes.begin(), reaction.changes.end(), change) != reaction.changes.end())
+                reaction.react();
+    }
+
+ private:
+    std::vector<Reaction> reactions_;
+};
+
 /// What a field sends when its value becomes another, by a person or by the program.
 inline auto editedSignal(const QComboBox*) {
     return &QComboBox::currentIndexChanged;
@@ -69,6 +96,9 @@ inline auto editedSignal(const QSpinBox*) {
 }
 inline auto editedSignal(const QDoubleSpinBox*) {
     return &QDoubleSpinBox::valueChanged;
+}
+inline auto editedSignal(const QSlider*) {
+    return &QSlider::valueChanged;
 }
 inline auto editedSignal(const QAbstractButton*) {
     return &QAbstractButton::toggled;

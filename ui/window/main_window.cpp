@@ -184,24 +184,26 @@ void MainWindow::buildWorkspaces() {
 }
 
 void MainWindow::buildEvaluation() {
-    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, overlays_, *docks_, *this);
-    connect(evaluation_, &EvaluationDocks::notice, this, &MainWindow::showNotice);
+    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, overlays_, *docks_, *messages_, *this);
     connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
     // A preview takes the verdicts away, which are those of the stored run; they come back with it.
     connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
         if (!tuning_->preview().active()) evaluation_->showMarks();
     });
-    connect(evaluation_, &EvaluationDocks::problem, this, &MainWindow::showProblem);
 }
 
 void MainWindow::wireInspection() {
     connect(canvas_, &VideoView::placeClicked, inspection_, [this](QPointF place, double margin) {
         if (!session_.selectedTrack()) inspection_->choose(place, margin);
     });
-    connect(inspection_, &Inspection::changed, canvas_, [this] { canvas_->setInspectedArea(inspection_->area()); });
-    connect(inspection_, &Inspection::replayed, canvas_, [this](const std::shared_ptr<const ReplayView>& view) {
-        canvas_->setStacks(view->wish.frame, stackMarks(*view));
-    });
+    const auto show_stacks = [this] {
+        const ReplayView& view = *inspection_->view();
+        canvas_->setStacks(view.wish.frame, stackMarks(view));
+    };
+    connect(inspection_, &Inspection::changed, canvas_,
+            Reactions<InspectionChange>{
+                {InspectionChange::choice, [this] { canvas_->setInspectedArea(inspection_->area()); }},
+                {InspectionChange::view, show_stacks}});
     connect(&overlays_, &OverlaySettings::changed, inspection_,
             [this] { inspection_->wantStackOverlay(overlays_.isVisible(ImageStackLayer::kKind)); });
     review_->stacks().setCommands({
@@ -228,25 +230,33 @@ void MainWindow::wireCanvas() {
 }
 
 void MainWindow::wireSession() {
-    connect(&session_, &ProjectSession::videoChanged, this, [this] {
-        const auto& video = session_.video();
-        canvas_->clear(video ? QSize(video->size.width, video->size.height) : QSize());
-        stack_->setCurrentIndex(video ? 1 : 0);
-    });
-    connect(&session_, &ProjectSession::viewFrameChanged, canvas_, &VideoView::setFrame);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {SessionChange::video, [this] { showVideo(); }},
+                {SessionChange::picture, [this] { showPicture(); }},
+                {SessionChange::selection, [this] { canvas_->setSelectedTrack(session_.selectedTrack()); }},
+                {SessionChange::following, [this] { actions_->follow->setChecked(session_.following()); }},
+                {{SessionChange::video, SessionChange::project, SessionChange::runs, SessionChange::current_run,
+                  SessionChange::run_started, SessionChange::run_ended, SessionChange::following},
+                 [this] { enableActions(); }},
+                {{SessionChange::video, SessionChange::project}, [this] { updateTitle(); }},
+            });
+}
+
+void MainWindow::showVideo() {
+    const auto& video = session_.video();
+    canvas_->clear(video ? QSize(video->size.width, video->size.height) : QSize());
+    stack_->setCurrentIndex(video ? 1 : 0);
+}
+
+void MainWindow::showPicture() {
+    const ViewFrame& frame = session_.viewFrame();
+    canvas_->setFrame(frame);
     // An empty picture of a run may not look as if nothing was found there.
-    connect(&session_, &ProjectSession::viewFrameChanged, this, [this, told = false](const ViewFrame& frame) mutable {
-        const bool missing = !frame.result && session_.currentRun() && !session_.running();
-        if (std::exchange(told, missing) != missing)
-            canvas_->setBadge(missing ? tr("Not processed in this run") : QString());
-    });
-    connect(&session_, &ProjectSession::viewFrameChanged, evaluation_, &EvaluationDocks::showMarks);
-    connect(&session_, &ProjectSession::selectionChanged, canvas_, &VideoView::setSelectedTrack);
-    connect(&session_, &ProjectSession::followingChanged, actions_->follow, &QAction::setChecked);
-    whenAny(&session_, this, &MainWindow::enableActions, &ProjectSession::videoChanged, &ProjectSession::projectChanged,
-            &ProjectSession::runsChanged, &ProjectSession::currentRunChanged, &ProjectSession::runStarted,
-            &ProjectSession::runFinished, &ProjectSession::followingChanged);
-    whenAny(&session_, this, &MainWindow::updateTitle, &ProjectSession::videoChanged, &ProjectSession::projectChanged);
+    const bool missing = !frame.result && session_.currentRun() && !session_.running();
+    if (std::exchange(told_missing_, missing) != missing)
+        canvas_->setBadge(missing ? tr("Not processed in this run") : QString());
+    evaluation_->showMarks();
 }
 
 void MainWindow::enableActions() {
@@ -273,14 +283,6 @@ void MainWindow::updateTitle() {
     if (session_.media()) parts << QString::fromStdString(session_.media()->name);
     if (!session_.project().empty()) parts << QString::fromStdString(session_.project().filename().string());
     setWindowTitle((parts << tr("Eyrie")).join(QStringLiteral(" – ")));
-}
-
-void MainWindow::showProblem(const QString& message) {
-    messages_->showMessage(MessageKind::error, message);
-}
-
-void MainWindow::showNotice(const QString& message) {
-    messages_->showMessage(MessageKind::info, message);
 }
 
 void MainWindow::focusCanvas() {

@@ -73,9 +73,9 @@ class MainWindow : public QMainWindow {
     void buildWorkspaces();
     void wireCanvas();
     void wireSession();
+    void showVideo();
+    void showPicture();
     void wireInspection();
-    void showProblem(const QString& message);
-    void showNotice(const QString& message);
     void enableActions();
     void updateTitle();
     void focusCanvas();
@@ -96,6 +96,7 @@ class MainWindow : public QMainWindow {
     TimelineView* timeline_;
     LabelTimeline* label_rows_;
     RunBar* run_bar_;
+    bool told_missing_ = false;  ///< that the run has no result of the frame shown
     RunGuard* guard_;
     StatusFields* status_;
     Inspection* inspection_;

@@ -55,11 +55,17 @@ void OpenedFiles::bindActions() {
 void OpenedFiles::wireSession() {
     connect(&session_, &ProjectSession::ready, this, &OpenedFiles::becameReady);
     connect(&session_, &ProjectSession::runFinished, this, &OpenedFiles::runEnded);
-    connect(&session_, &ProjectSession::projectChanged, this, [this] {
-        if (shown_project_.empty() || session_.project().empty()) return;  // becameReady() follows
-        shown_project_ = session_.project();
-        rememberProject();
-    });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::project, [this] { followProject(); }}});
+}
+
+void OpenedFiles::followProject() {
+    const std::filesystem::path& project = session_.project();
+    if (project.empty()) return;
+    if (std::exchange(kept_, project) != project) earlier_->keepIfDue(project);
+    if (shown_project_.empty()) return;  // becameReady() follows
+    shown_project_ = project;
+    rememberProject();
 }
 
 void OpenedFiles::start(const StartOptions& options) {
@@ -152,11 +158,6 @@ void OpenedFiles::saveCopy() {
 }
 
 void OpenedFiles::wireEarlierStates() {
-    connect(&session_, &ProjectSession::projectChanged, this, [this, kept = std::filesystem::path()]() mutable {
-        if (session_.project().empty() || session_.project() == kept) return;
-        kept = session_.project();
-        earlier_->keepIfDue(kept);
-    });
     connect(earlier_, &EarlierStates::notice, this,
             [this](const QString& text) { parts_.messages.showMessage(MessageKind::info, text); });
     connect(earlier_, &EarlierStates::restored, this, [this](const std::filesystem::path& project) {

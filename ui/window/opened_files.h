@@ -56,6 +56,7 @@ class OpenedFiles : public QObject {
     void bindActions();
     void wireSession();
     void wireEarlierStates();
+    void followProject();
     void openVideo();
     void openFolder();
     void openProject();
@@ -78,6 +79,7 @@ class OpenedFiles : public QObject {
     StartOptions start_;           ///< what is still to be done of it
     bool run_when_ready_ = false;  ///< opened from the command line, by the demo or by dropping: run if there is no run
     bool play_when_done_ = false;
+    std::filesystem::path kept_;           ///< the project whose earlier states are looked after
     std::filesystem::path shown_project_;  ///< whose view is to be remembered
     std::filesystem::path restoring_;      ///< the project that was closed to become what it was
     EarlierStates* earlier_;

@@ -3,6 +3,8 @@
 #include <QMessageBox>
 #include <QPushButton>
 
+#include "widgets/wiring.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -22,10 +24,10 @@ void ask(QWidget& window, const QString& question, const QString& details, const
     for (const Answer& answer : answers) {
         QPushButton* button = box->addButton(answer.text, QMessageBox::AcceptRole);
         if (&answer == &answers.front()) box->setDefaultButton(button);
-        QObject::connect(button, &QPushButton::clicked, &window, [box, then = answer.then] {
-            box->setObjectName(QString());  // it is answered: what follows may ask the next
-            then();
-        });
+        bindCommands(&window, {{button, [box, then = answer.then] {
+                                    box->setObjectName(QString());  // it is answered: what follows may ask the next
+                                    then();
+                                }}});
     }
     box->addButton(QMessageBox::Cancel);
     QObject::connect(box, &QDialog::finished, box, [box] { box->setObjectName(QString()); });

@@ -82,7 +82,7 @@ KeySheet::KeySheet(KeyBindings& keys, const QString& first, QWidget* parent) : Q
     resize(640, 620);
 
     fill(first);
-    connect(search_, &QLineEdit::textChanged, this, &KeySheet::filter);
+    onEdited(this, &KeySheet::filter, search_);
     connect(list_, &QTreeWidget::currentItemChanged, this, &KeySheet::showChosen);
     connect(list_, &QTreeWidget::itemActivated, key_, qOverload<>(&QWidget::setFocus));
     bindCommands(this, {{set_, [this] { setKey(key_->keySequence()); }},
@@ -142,7 +142,8 @@ void KeySheet::showAllKeys() {
     showChosen();
 }
 
-void KeySheet::filter(const QString& wanted) {
+void KeySheet::filter() {
+    const QString wanted = search_->text();
     for (int i = 0; i < list_->topLevelItemCount(); ++i) {
         QTreeWidgetItem* title = list_->topLevelItem(i);
         bool any = false;

@@ -33,7 +33,7 @@ class KeySheet : public QDialog {
     void fill(const QString& first);
     void showKeys(QTreeWidgetItem* item);
     void showAllKeys();
-    void filter(const QString& wanted);
+    void filter();
     void showChosen();
     QAction* chosen() const;
 

@@ -5,6 +5,7 @@
 
 #include "canvas/timeline/timeline_view.h"
 #include "widgets/charts/stage_times_chart.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -25,31 +26,30 @@ TimelineFrame timelineFrame(const FrameSummary& frame) {
 TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline, StageTimesChart& chart,
                                  QObject* parent)
     : QObject(parent), session_(session), timeline_(timeline), chart_(chart) {
-    connect(&session_, &ProjectSession::videoChanged, this, &TimelineBinding::showVideo);
-    connect(&session_, &ProjectSession::currentRunChanged, this, &TimelineBinding::forgetRun);
-    connect(&session_, &ProjectSession::runDataChanged, this, &TimelineBinding::showRun);
-    connect(&session_, &ProjectSession::liveFrames, this, &TimelineBinding::addLive);
-    connect(&session_, &ProjectSession::selectionChanged, this, &TimelineBinding::showTrackLife);
     const auto mark = [this](FrameIndex frame) {
         timeline_.setCurrentFrame(frame);
         chart_.setCurrentFrame(frame);
     };
-    // While it plays, the mark keeps to the picture, which may be late; whoever steps or drags sees at once where to.
-    connect(&session_, &ProjectSession::frameChanged, this, [this, mark](FrameIndex frame) {
-        if (!session_.playback().playing()) mark(frame);
-    });
-    connect(&session_, &ProjectSession::viewFrameChanged, this, [this, mark](const ViewFrame& frame) {
-        if (session_.playback().playing()) mark(frame.index);
-    });
-    connect(&session_, &ProjectSession::runStarted, this, [this](const RunRecord& run) {
-        live_ = true;
-        known_before_ = false;
-        timeline_.setRunRange(std::pair(run.first_frame, run.last_frame));
-    });
-    connect(&session_, &ProjectSession::runFinished, this, [this] {
-        live_ = false;
-        timeline_.setRunRange(std::nullopt);
-    });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {SessionChange::video, [this] { showVideo(); }},
+                {SessionChange::current_run, [this] { forgetRun(); }},
+                {SessionChange::run_data, [this] { showRun(); }},
+                {SessionChange::selection, [this] { showTrackLife(); }},
+                // While it plays, the mark keeps to the picture, which may be late; whoever steps or drags sees at once
+                // where to.
+                {SessionChange::frame,
+                 [this, mark] {
+                     if (!session_.playback().playing()) mark(session_.currentFrame());
+                 }},
+                {SessionChange::picture,
+                 [this, mark] {
+                     if (session_.playback().playing()) mark(session_.shownFrame());
+                 }},
+                {SessionChange::run_started, [this] { beginLive(); }},
+                {SessionChange::run_ended, [this] { endLive(); }},
+            });
+    connect(&session_, &ProjectSession::liveFrames, this, &TimelineBinding::addLive);
     connect(&timeline_, &TimelineView::frameRequested, &session_,
             [this](FrameIndex frame, bool) { session_.goToFrame(frame); });
     connect(&chart_, &StageTimesChart::frameActivated, &session_, &ProjectSession::goToFrame);
@@ -62,8 +62,7 @@ void TimelineBinding::showVideo() {
 }
 
 void TimelineBinding::forgetRun() {
-    live_ = false;
-    timeline_.setRunRange(std::nullopt);
+    endLive();
     timeline_.setFrames({});
     timeline_.setTrackLife(std::nullopt);
     chart_.clear();
@@ -86,6 +85,17 @@ void TimelineBinding::showRun() {
     }
     timeline_.setFrames(std::move(frames));
     chart_.setFrames(session_.runData()->frames);
+}
+
+void TimelineBinding::beginLive() {
+    live_ = true;
+    known_before_ = false;
+    if (const RunRecord* run = session_.ownRun()) timeline_.setRunRange(std::pair(run->first_frame, run->last_frame));
+}
+
+void TimelineBinding::endLive() {
+    live_ = false;
+    timeline_.setRunRange(std::nullopt);
 }
 
 void TimelineBinding::addLive(const std::vector<FrameSummary>& frames) {

@@ -22,6 +22,8 @@ class TimelineBinding : public QObject {
     void showVideo();
     void forgetRun();
     void showRun();
+    void beginLive();
+    void endLive();
     void addLive(const std::vector<FrameSummary>& frames);
     void showTrackLife();
 

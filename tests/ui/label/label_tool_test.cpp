@@ -40,6 +40,7 @@ class LabelToolTest : public QObject {
         int drawings = 0, changes = 0;
         bool turned = false, resized = false;
         std::optional<ObjectId> clicked;
+        std::vector<cv::Point2d> region;
 
         Canvas() {
             view.resize(400, 300);
@@ -50,19 +51,22 @@ class LabelToolTest : public QObject {
             view.setFrame(frame);
             view.restore(2, {100, 75});
             view.setTool(&tool);
-            QObject::connect(&tool, &LabelTool::boxDrawn, [this](const OrientedBox& b, FrameIndex) {
-                drawn = b;
-                ++drawings;
+            tool.setCommands({
+                .add_region = [this](const std::vector<cv::Point2d>& corners, FrameIndex) { region = corners; },
+                .add_box =
+                    [this](const OrientedBox& b, FrameIndex) {
+                        drawn = b;
+                        ++drawings;
+                    },
+                .change_box =
+                    [this](ObjectId, FrameIndex, const OrientedBox& b, bool t, bool r) {
+                        changed = b;
+                        turned = t;
+                        resized = r;
+                        ++changes;
+                    },
+                .choose_object = [this](std::optional<ObjectId> id, bool) { clicked = id; },
             });
-            QObject::connect(&tool, &LabelTool::boxChanged,
-                             [this](ObjectId, FrameIndex, const OrientedBox& b, bool t, bool r) {
-                                 changed = b;
-                                 turned = t;
-                                 resized = r;
-                                 ++changes;
-                             });
-            QObject::connect(&tool, &LabelTool::objectClicked,
-                             [this](std::optional<ObjectId> id, bool) { clicked = id; });
         }
         QPoint at(double x, double y) const { return view.transform().viewFromImage({x, y}).toPoint(); }
         void click(double x, double y, Qt::KeyboardModifiers keys = {}) {
@@ -226,9 +230,7 @@ class LabelToolTest : public QObject {
 
     void aRegionIsDrawnCornerByCorner() {
         Canvas canvas;
-        std::vector<cv::Point2d> polygon;
-        connect(&canvas.tool, &LabelTool::regionDrawn,
-                [&](const std::vector<cv::Point2d>& corners, FrameIndex) { polygon = corners; });
+        std::vector<cv::Point2d>& polygon = canvas.region;
         canvas.tool.startRegion();
         canvas.click(20, 20);
         canvas.click(80, 20);

@@ -29,7 +29,6 @@ class SessionRunsTest : public QObject {
             QVERIFY(live.count() >= 1);
         }
         ProjectSession session;
-        QSignalSpy data(&session, &ProjectSession::runDataChanged);
         QVERIFY(openAndWait(session, test::sceneUnderTest(40)));
         QVERIFY(session.currentRun());
         QVERIFY(QTest::qWaitFor([&] { return session.runData() != nullptr; }, kPatience_ms));
@@ -46,8 +45,9 @@ class SessionRunsTest : public QObject {
         ProjectSession session;
         QVERIFY(openAndWait(session, test::sceneUnderTest(25)));
         std::optional<ViewFrame> live;
-        connect(&session, &ProjectSession::viewFrameChanged, this, [&](const ViewFrame& frame) {
-            if (session.following() && frame.result) live = frame;
+        connect(&session, &ProjectSession::changed, this, [&](SessionChange change) {
+            const ViewFrame& frame = session.viewFrame();
+            if (change == SessionChange::picture && session.following() && frame.result) live = frame;
         });
         QVERIFY(runAndWait(session));
         QVERIFY(live);

@@ -61,7 +61,9 @@ class SessionTest : public QObject {
         session.playback().setLooping(true);
         int wraps = 0;
         FrameIndex before = 9;
-        connect(&session, &ProjectSession::frameChanged, this, [&](FrameIndex frame) {
+        connect(&session, &ProjectSession::changed, this, [&](SessionChange change) {
+            if (change != SessionChange::frame) return;
+            const FrameIndex frame = session.currentFrame();
             if (frame < before) ++wraps;
             before = frame;
         });

@@ -24,11 +24,7 @@ constexpr int kNudged_ms = 1500;
 constexpr double kShortest = 2;  ///< px: clicks nearer than this are one
 }  // namespace
 
-LabelTool::LabelTool(QObject* parent) : QObject(parent) {
-    nudged_.setSingleShot(true);
-    nudged_.setInterval(kNudged_ms);
-    connect(&nudged_, &QTimer::timeout, this, &LabelTool::repaintNeeded);
-}
+LabelTool::LabelTool(QObject* parent) : QObject(parent), nudged_(kNudged_ms, [this] { emit repaintNeeded(); }) {}
 
 void LabelTool::setScene(LabelScene scene) {
     const bool other_frame = scene.frame != scene_.frame;
@@ -51,7 +47,7 @@ const LabelMark* LabelTool::selectedMark() const {
 void LabelTool::startRegion() {
     cancel();
     region_.emplace();
-    emit regionDrawingChanged(true);
+    commands_.show_region_drawing(true);
     emit repaintNeeded();
 }
 
@@ -59,7 +55,7 @@ void LabelTool::finishRegion() {
     if (!region_) return;
     const std::vector<cv::Point2d> polygon = *region_;
     cancel();
-    if (polygon.size() >= 3) emit regionDrawn(polygon, scene_.frame);
+    if (polygon.size() >= 3) commands_.add_region(polygon, scene_.frame);
 }
 
 void LabelTool::addRegionCorner(QPointF point) {
@@ -74,7 +70,7 @@ void LabelTool::startDrawing(std::optional<ObjectId> object) {
     cancel();
     redrawn_ = object;
     drawing_ = true;
-    emit drawingChanged(true);
+    commands_.show_drawing(true);
     emit repaintNeeded();
 }
 
@@ -88,8 +84,8 @@ bool LabelTool::cancel() {
     handle_.reset();
     draft_.reset();
     pressed_view_.reset();
-    if (was_drawing) emit drawingChanged(false);
-    if (was_region) emit regionDrawingChanged(false);
+    if (was_drawing) commands_.show_drawing(false);
+    if (was_region) commands_.show_region_drawing(false);
     if (something) emit repaintNeeded();
     return something;
 }
@@ -103,9 +99,9 @@ void LabelTool::finishDrawing(const OrientedBox& box) {
     const std::optional<ObjectId> object = redrawn_;
     cancel();
     if (object)
-        emit boxRedrawn(*object, frame, box);
+        commands_.redraw_box(*object, frame, box);
     else
-        emit boxDrawn(box, frame);
+        commands_.add_box(box, frame);
 }
 
 void LabelTool::updateDraft(QPointF point) {
@@ -224,12 +220,12 @@ bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
         if (dragging_ && box && scene_.selected) {
             const bool turned = handle == BoxHandle::turn;
             const bool resized = !turned && handle != BoxHandle::centre;
-            emit boxChanged(*scene_.selected, scene_.frame, *box, turned, resized);
+            commands_.change_box(*scene_.selected, scene_.frame, *box, turned, resized);
         } else if (!dragging_) {
             // A click inside the selected box may mean a smaller one in it.
             const LabelMark* hit = markAt(scene_, point, kHandleHitMargin / place.transform.scale());
             if (hit != nullptr && isObject(hit->kind))
-                emit objectClicked(hit->id, event.modifiers() & (Qt::ControlModifier | Qt::ShiftModifier));
+                commands_.choose_object(hit->id, event.modifiers() & (Qt::ControlModifier | Qt::ShiftModifier));
         }
         dragging_ = false;
         emit repaintNeeded();
@@ -239,9 +235,9 @@ bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
     const LabelMark* hit = markAt(scene_, point, kHandleHitMargin / place.transform.scale());
     const bool add = (event.modifiers() & (Qt::ControlModifier | Qt::ShiftModifier)) != 0;
     if (hit != nullptr && hit->kind == LabelKind::proposal)
-        emit proposalClicked(hit->id, add);
+        commands_.choose_proposal(hit->id, add);
     else
-        emit objectClicked(hit != nullptr ? std::optional<ObjectId>(hit->id) : std::nullopt, add);
+        commands_.choose_object(hit != nullptr ? std::optional<ObjectId>(hit->id) : std::nullopt, add);
     return false;  // the canvas ends its own press
 }
 
@@ -334,7 +330,7 @@ void LabelTool::paintLoupes(QPainter& painter, const CanvasPlace& place) const {
         loupe.image_point = place.transform.imageFromView(*cursor_view_);
         loupe.box = draft_;
         loupe.colour = drawing_ ? scene_.drawn_colour : selected ? selected->colour : Qt::white;
-    } else if (nudged_.isActive() && selected != nullptr) {
+    } else if (nudged_.pending() && selected != nullptr) {
         // All of the box, beside it; where the canvas shows it larger only the stack is worth a loupe.
         const OrientedBox& box = selected->box;
         constexpr double kShare = 0.8;

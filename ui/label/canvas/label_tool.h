@@ -3,15 +3,35 @@
 #include <QCursor>
 #include <QObject>
 #include <QPointF>
-#include <QTimer>
+#include <functional>
 #include <optional>
 
 #include "canvas/canvas_tool.h"
 #include "canvas/loupe.h"
 #include "label/canvas/box_handles.h"
 #include "label/canvas/label_mark.h"
+#include "widgets/delayed_call.h"
 
 namespace eyrie::ui {
+
+/// What the hand does on the canvas.
+struct LabelToolCommands {
+    /// Drawing, of a box or of a region, began or ended.
+    std::function<void(bool drawing)> show_drawing = [](bool) {};
+    std::function<void(bool drawing)> show_region_drawing = [](bool) {};
+    /// At least three corners, px of the frame.
+    std::function<void(const std::vector<cv::Point2d>& polygon, FrameIndex frame)> add_region =
+        [](const std::vector<cv::Point2d>&, FrameIndex) {};
+    std::function<void(const OrientedBox& box, FrameIndex frame)> add_box = [](const OrientedBox&, FrameIndex) {};
+    std::function<void(ObjectId object, FrameIndex frame, const OrientedBox& box)> redraw_box =
+        [](ObjectId, FrameIndex, const OrientedBox&) {};
+    /// `turned`: by its turning handle.
+    std::function<void(ObjectId object, FrameIndex frame, const OrientedBox& box, bool turned, bool resized)>
+        change_box = [](ObjectId, FrameIndex, const OrientedBox&, bool, bool) {};
+    /// An object was pointed at, or nothing; `add`: with Ctrl or Shift held.
+    std::function<void(std::optional<ObjectId> object, bool add)> choose_object = [](std::optional<ObjectId>, bool) {};
+    std::function<void(TrackId track, bool add)> choose_proposal = [](TrackId, bool) {};
+};
 
 /// Labels drawn and changed with the mouse. Changes nothing itself: it draws what it was given, shows a box that is
 /// being drawn or dragged, and tells what came of it.
@@ -20,6 +40,7 @@ class LabelTool : public QObject, public CanvasTool {
 
  public:
     explicit LabelTool(QObject* parent = nullptr);
+    void setCommands(LabelToolCommands commands) { commands_ = std::move(commands); }
 
     void setScene(LabelScene scene);
     const LabelScene& scene() const { return scene_; }
@@ -59,18 +80,6 @@ class LabelTool : public QObject, public CanvasTool {
  signals:
     /// Something looks different.
     void repaintNeeded();
-    void drawingChanged(bool drawing);
-    void regionDrawingChanged(bool drawing);
-    /// At least three corners, px of the frame.
-    void regionDrawn(const std::vector<cv::Point2d>& polygon, eyrie::FrameIndex frame);
-    void boxRedrawn(eyrie::ObjectId object, eyrie::FrameIndex frame, const eyrie::OrientedBox& box);
-    void boxDrawn(const eyrie::OrientedBox& box, eyrie::FrameIndex frame);
-    /// `turned`: by its turning handle.
-    void boxChanged(eyrie::ObjectId object, eyrie::FrameIndex frame, const eyrie::OrientedBox& box, bool turned,
-                    bool resized);
-    /// An object was pointed at, or nothing; `add`: with Ctrl or Shift held.
-    void objectClicked(std::optional<eyrie::ObjectId> object, bool add);
-    void proposalClicked(eyrie::TrackId track, bool add);
 
  private:
     const LabelMark* selectedMark() const;
@@ -81,12 +90,13 @@ class LabelTool : public QObject, public CanvasTool {
     void finishRegion();
     void addRegionCorner(QPointF image_point);
 
+    LabelToolCommands commands_;
     LabelScene scene_;
     bool text_shown_ = true;
     bool loupe_shown_ = true;
     bool stack_shown_ = true;
     std::optional<LoupeStack> stack_;
-    QTimer nudged_;  ///< runs while the loupe stands beside a box that keys move
+    DelayedCall nudged_;  ///< runs while the loupe stands beside a box that keys move
     bool drawing_ = false;
     std::optional<ObjectId> redrawn_;  ///< whose box is drawn; nothing: a new object's
     std::optional<QPointF> rear_;

@@ -7,6 +7,7 @@
 #include "annotation/edits/identity_edits.h"
 #include "annotation/keyframes/interpolation.h"
 #include "label/label_classes.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -47,10 +48,9 @@ LabelProposals::LabelProposals(ProjectSession& session, LabelSession& labels, QO
         emit changed();
         if (shown_) read();
     };
-    connect(&session_, &ProjectSession::currentRunChanged, this, forget);
-    connect(&session_, &ProjectSession::runFinished, this, forget);
-    connect(&labels_, &LabelSession::opened, this, forget);
-    connect(&labels_, &LabelSession::closed, this, forget);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{{SessionChange::current_run, SessionChange::run_ended}, forget}});
+    whenAny(&labels_, this, forget, &LabelSession::opened, &LabelSession::closed);
 }
 
 LabelProposals::~LabelProposals() = default;

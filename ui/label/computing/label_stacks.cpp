@@ -50,11 +50,11 @@ class LabelStacks::Pictures {
 };
 
 LabelStacks::LabelStacks(ProjectSession& session, LabelSession& labels, QObject* parent)
-    : QObject(parent), session_(session), labels_(labels), pictures_(std::make_shared<Pictures>()) {
-    due_.setSingleShot(true);
-    due_.setInterval(kWait_ms);
-    connect(&due_, &QTimer::timeout, this, &LabelStacks::begin);
-}
+    : QObject(parent),
+      session_(session),
+      labels_(labels),
+      due_(kWait_ms, [this] { begin(); }),
+      pictures_(std::make_shared<Pictures>()) {}
 
 LabelStacks::~LabelStacks() = default;
 

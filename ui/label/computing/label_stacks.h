@@ -1,11 +1,11 @@
 #pragma once
 
 #include <QObject>
-#include <QTimer>
 #include <memory>
 
 #include "annotation/pictures/object_stack.h"
 #include "label/label_session.h"
+#include "widgets/delayed_call.h"
 
 namespace eyrie::ui {
 
@@ -34,7 +34,7 @@ class LabelStacks : public QObject {
     LabelSession& labels_;
     ObjectId object_ = 0;
     FrameIndex frame_ = 0;
-    QTimer due_;
+    DelayedCall due_;
     std::shared_ptr<Pictures> pictures_;  ///< in the background only
     BackgroundQuery query_;               ///< last: stops before the rest goes
 };

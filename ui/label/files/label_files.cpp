@@ -79,7 +79,7 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
         const bool wanted = format_->currentData().toString() == QLatin1String("columns");
         form->setRowVisible(columns_, wanted);
     };
-    connect(format_, &QComboBox::currentIndexChanged, this, show_columns);
+    onEdited(this, show_columns, format_);
     onEdited(this, &LabelImportDialog::read, format_, shift_, scale_, link_);
     onFinished(this, &LabelImportDialog::read, columns_);
     bindCommands(this, {{buttons_->button(QDialogButtonBox::Ok), [this] { accept(); }},

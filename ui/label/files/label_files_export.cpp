@@ -50,10 +50,11 @@ LabelExportDialog::LabelExportDialog(LabelSession& labels, QWidget* parent)
     layout->addLayout(form);
     layout->addWidget(text_, 1);
     layout->addWidget(buttons);
-    connect(format_, &QComboBox::currentIndexChanged, this, [this, form] {
+    const auto show_columns = [this, form] {
         form->setRowVisible(columns_, format_->currentData().toString() == QLatin1String("columns"));
         showFormat();
-    });
+    };
+    onEdited(this, show_columns, format_);
     bindCommands(this, {{choose, [this] { browse(); }},
                         {export_, [this] { startExport(); }},
                         {buttons->button(QDialogButtonBox::Close), [this] { reject(); }}});

@@ -92,16 +92,18 @@ ComparisonHeader::ComparisonHeader(ProjectSession& session, PresetLibrary& prese
                                                               }}});
     for (QSpinBox* box : {from_, to_}) {
         box->setKeyboardTracking(false);
-        connect(box, &QSpinBox::valueChanged, this, [this, box] {
+        const auto follow = [this, box] {
             const QSignalBlocker quiet(box == from_ ? to_ : from_);
             if (box == from_)
                 to_->setValue(std::clamp(to_->value(), from_->value(), from_->value() + kMostComputed - 1));
             else
                 from_->setValue(std::clamp(from_->value(), to_->value() - kMostComputed + 1, to_->value()));
             emit pairChosen();
-        });
+        };
+        onEdited(this, follow, box);
     }
-    connect(&session_, &ProjectSession::runsChanged, this, &ComparisonHeader::fill);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::runs, [this] { fill(); }}});
     connect(&presets_, &PresetLibrary::changed, this, &ComparisonHeader::fill);
     fill();
 }

@@ -86,7 +86,7 @@ class ComparisonLoader::Worker {
             one.time_us = other.time_us = pictures_->timeOf(frame);
             other.image = one.image;
         }
-        task.tell([this, one = std::move(one), other = std::move(other)] { emit owner_.loaded(one, other); });
+        task.tell([this, one = std::move(one), other = std::move(other)] { owner_.answers_.show(one, other); });
         readAhead(frame + 1, kSideReadAhead);
     }
 
@@ -105,7 +105,8 @@ class ComparisonLoader::Worker {
     SideFrames second_;
 };
 
-ComparisonLoader::ComparisonLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
+ComparisonLoader::ComparisonLoader(ComparisonAnswers answers)
+    : answers_(std::move(answers)), worker_(std::make_unique<Worker>(*this)) {}
 
 ComparisonLoader::~ComparisonLoader() {
     cancel();  // of both, before either is waited for
@@ -124,21 +125,21 @@ void ComparisonLoader::usePair(const ComparisonPair& pair) {
     if (pair.second.options) computed.second = std::make_shared<ComputedFrames>(kTrailLength);
     opening_ = query_.post([worker = worker_.get(), pair,
                             computed](const BackgroundTask& task) { worker->open(pair, computed, task.stop()); },
-                           std::bind_front(&ComparisonLoader::failed, this));
+                           answers_.fail);
     const auto compare = [this, pair, computed](const BackgroundTask& task) {
         const auto tell = [&](int done, int total) {
-            task.tell([this, done, total] { emit this->computed(done, total); });
+            task.tell([this, done, total] { answers_.show_progress(done, total); });
         };
         auto comparison = std::make_shared<const SideComparison>(compareSides(pair, computed, task.stop(), tell));
-        task.tell([this, comparison = std::move(comparison)] { emit compared(comparison); });
+        task.tell([this, comparison = std::move(comparison)] { answers_.show_comparison(comparison); });
     };
-    comparing_.ask(compare, std::bind_front(&ComparisonLoader::failed, this));
+    comparing_.ask(compare, answers_.fail);
 }
 
 void ComparisonLoader::request(FrameIndex frame) {
     if (opening_.stop_requested()) return;  // no pair is shown
     query_.ask([worker = worker_.get(), frame](const BackgroundTask& task) { worker->load(frame, task); },
-               std::bind_front(&ComparisonLoader::failed, this), BackgroundQuery::Former::finish);
+               answers_.fail, BackgroundQuery::Former::finish);
 }
 
 }  // namespace eyrie::ui

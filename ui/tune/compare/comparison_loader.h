@@ -1,6 +1,7 @@
 #pragma once
 
-#include <QObject>
+#include <QString>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -40,31 +41,32 @@ struct SideComparison {
     bool exact = true;  ///< computed sides are what whole runs with their parameters would be
 };
 
+/// What becomes of what a ComparisonLoader was asked for.
+struct ComparisonAnswers {
+    std::function<void(const std::shared_ptr<const SideComparison>& comparison)> show_comparison;
+    /// Both show the same picture.
+    std::function<void(const ViewFrame& first, const ViewFrame& second)> show;
+    /// More frames of computed sides are there.
+    std::function<void(int frames_done, int frames_total)> show_progress;
+    std::function<void(const QString& message)> fail;
+};
+
 /// Reads or computes the frames of two sides together, and compares them, in the background. Of several frames asked
-/// for the newest wins. Signals arrive on the thread of this object.
-class ComparisonLoader : public QObject {
-    Q_OBJECT
-
+/// for the newest wins. Answers arrive on the thread it was made on.
+class ComparisonLoader {
  public:
-    explicit ComparisonLoader(QObject* parent = nullptr);
-    ~ComparisonLoader() override;
+    explicit ComparisonLoader(ComparisonAnswers answers);
+    ~ComparisonLoader();
 
-    /// Opens video and project; answers with compared() or failed(). Computed sides grow meanwhile, told by computed().
+    /// Opens video and project; shows the comparison or fails. Computed sides grow meanwhile.
     void usePair(const ComparisonPair& pair);
-    /// Answers with loaded(), unless a newer request comes first. A side that has no such frame yet has no result.
+    /// Shows it, unless a newer request comes first. A side that has no such frame yet has no result.
     void request(FrameIndex frame);
     void cancel();
 
- signals:
-    void compared(const std::shared_ptr<const SideComparison>& comparison);
-    /// Both show the same picture.
-    void loaded(const ViewFrame& first, const ViewFrame& second);
-    /// More frames of computed sides are there.
-    void computed(int frames_done, int frames_total);
-    void failed(const QString& message);
-
  private:
     class Worker;
+    ComparisonAnswers answers_;
     std::unique_ptr<Worker> worker_;
     std::stop_source opening_;
     BackgroundQuery comparing_;

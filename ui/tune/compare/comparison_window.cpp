@@ -64,7 +64,10 @@ QString idText(const std::optional<int>& id) {
 
 ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& presets, OverlaySettings& overlays,
                                    QWidget* parent)
-    : QWidget(parent, Qt::Window), session_(session) {
+    : QWidget(parent, Qt::Window),
+      session_(session),
+      loader_(answers()),
+      edited_(kEditsSettle_ms, [this] { parametersEdited(); }) {
     setWindowTitle(tr("A and B – Eyrie"));
     setObjectName(QStringLiteral("comparison"));
     resize(1500, 820);
@@ -85,7 +88,6 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
     layout->addWidget(header_);
     layout->addWidget(splitter, 1);
 
-    wireLoader();
     connect(header_, &ComparisonHeader::pairChosen, this, &ComparisonWindow::usePair);
     bindSwitches(this, {{&header_->wipe(), [this](bool on) { views_->setWipe(on); }},
                         {detections_, [this] { showComparison(); }}});
@@ -96,32 +98,35 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
         shown_ = 0;
         since_.restart();
     });
-    connect(&session_, &ProjectSession::videoChanged, this, &ComparisonWindow::close);
-    edited_.setSingleShot(true);
-    edited_.setInterval(kEditsSettle_ms);
-    connect(&edited_, &QTimer::timeout, this, &ComparisonWindow::parametersEdited);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::video, [this] { close(); }}});
     frame_ = session_.currentFrame();
     usePair();
 }
 
-void ComparisonWindow::wireLoader() {
-    connect(&loader_, &ComparisonLoader::loaded, this, &ComparisonWindow::showPair);
-    connect(&loader_, &ComparisonLoader::compared, this, [this](const std::shared_ptr<const SideComparison>& found) {
-        comparison_ = found;
-        header_->showProgress(0, 0);
-        showComparison();
-        if (pair_ && pair_->computes()) loader_.request(frame_);  // tracks were finished
-    });
-    connect(&loader_, &ComparisonLoader::computed, this, [this](int done, int total) {
-        header_->showProgress(done, total);
-        const bool lacks = !views_->first().frame().result || !views_->second().frame().result;
-        if (lacks && !playback_.playing()) loader_.request(frame_);
-    });
-    connect(&loader_, &ComparisonLoader::failed, this, [this](const QString& message) {
-        problem_ = message;
-        header_->showProgress(0, 0);
-        showComparison();
-    });
+ComparisonAnswers ComparisonWindow::answers() {
+    return {
+        .show_comparison =
+            [this](const std::shared_ptr<const SideComparison>& found) {
+                comparison_ = found;
+                header_->showProgress(0, 0);
+                showComparison();
+                if (pair_ && pair_->computes()) loader_.request(frame_);  // tracks were finished
+            },
+        .show = [this](const ViewFrame& first, const ViewFrame& second) { showPair(first, second); },
+        .show_progress =
+            [this](int done, int total) {
+                header_->showProgress(done, total);
+                const bool lacks = !views_->first().frame().result || !views_->second().frame().result;
+                if (lacks && !playback_.playing()) loader_.request(frame_);
+            },
+        .fail =
+            [this](const QString& message) {
+                problem_ = message;
+                header_->showProgress(0, 0);
+                showComparison();
+            },
+    };
 }
 
 QWidget* ComparisonWindow::buildTransport() {
@@ -144,10 +149,11 @@ QWidget* ComparisonWindow::buildTransport() {
                              else
                                  playback_.play(frame_);
                          }}});
-    connect(slider_, &QSlider::valueChanged, this, [this](int frame) {
-        playback_.jumped(frame);
-        goToFrame(frame);
-    });
+    const auto jump = [this] {
+        playback_.jumped(slider_->value());
+        goToFrame(slider_->value());
+    };
+    onEdited(this, jump, slider_);
     return line;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <QElapsedTimer>
-#include <QTimer>
 #include <QWidget>
 
 #include "session/frames/playback.h"
 #include "session/project_session.h"
 #include "tune/compare/comparison_loader.h"
+#include "widgets/delayed_call.h"
 
 class QCheckBox;
 class QLabel;
@@ -57,7 +57,7 @@ class ComparisonWindow : public QWidget {
  private:
     QWidget* buildTransport();
     QWidget* buildLists();
-    void wireLoader();
+    ComparisonAnswers answers();
     void playOn(FrameIndex frame);
     void usePair();
     void showPair(const ViewFrame& first, const ViewFrame& second);
@@ -73,7 +73,7 @@ class ComparisonWindow : public QWidget {
     QElapsedTimer since_;
     std::shared_ptr<const SideComparison> comparison_;
     std::optional<ComparisonPair> pair_;
-    QTimer edited_;                                           ///< computes anew once the hand rests
+    DelayedCall edited_;                                      ///< computes anew once the hand rests
     std::optional<std::pair<FrameIndex, OrientedBox>> mark_;  ///< the difference that was gone to
     QString problem_;
     ComparisonHeader* header_;

@@ -1,6 +1,9 @@
 #include "tune/compare/live_preview.h"
 
+#include <functional>
+
 #include "rerun/replay.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -13,7 +16,14 @@ std::vector<ParameterDifference> differencesBetween(const ChainOptions& first, c
     return differences;
 }
 
-LivePreview::LivePreview(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
+LivePreview::LivePreview(ProjectSession& session, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      loader_({
+          .show = std::bind_front(&LivePreview::showView, this),
+          .show_progress = std::bind_front(&LivePreview::showProgress, this),
+          .fail = std::bind_front(&LivePreview::showProblem, this),
+      }) {
     const auto use_run = [this] {
         end();
         if (session_.currentRun() && session_.media())
@@ -21,30 +31,34 @@ LivePreview::LivePreview(ProjectSession& session, QObject* parent) : QObject(par
         else
             loader_.useRun(std::nullopt);
     };
-    connect(&session_, &ProjectSession::currentRunChanged, this, use_run);
-    connect(&session_, &ProjectSession::runPreparing, this, &LivePreview::end);
-    connect(&session_, &ProjectSession::viewFrameChanged, this, [this](const ViewFrame& frame) {
-        if (active_ && (!view_ || view_->frame != frame.index)) request();
-    });
-    connect(&loader_, &PreviewLoader::previewed, this, [this](const std::shared_ptr<const PreviewView>& view) {
-        if (!active_) return;
-        view_ = view;
-        frames_left_ = view->frames_left;
-        problem_.clear();
-        emit changed();
-    });
-    connect(&loader_, &PreviewLoader::tracksProgress, this, [this](FrameIndex frame, int left) {
-        if (!active_ || frame != session_.viewFrame().index) return;
-        frames_left_ = left;
-        emit changed();
-    });
-    connect(&loader_, &PreviewLoader::failed, this, [this](FrameIndex, const QString& message) {
-        if (!active_) return;
-        view_.reset();
-        problem_ = message;
-        emit changed();
-    });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::current_run, use_run},
+                                     {SessionChange::run_preparing, [this] { end(); }},
+                                     {SessionChange::picture, [this] {
+                                          if (active_ && (!view_ || view_->frame != session_.shownFrame())) request();
+                                      }}});
     use_run();
+}
+
+void LivePreview::showView(const std::shared_ptr<const PreviewView>& view) {
+    if (!active_) return;
+    view_ = view;
+    frames_left_ = view->frames_left;
+    problem_.clear();
+    emit changed();
+}
+
+void LivePreview::showProgress(FrameIndex frame, int left) {
+    if (!active_ || frame != session_.shownFrame()) return;
+    frames_left_ = left;
+    emit changed();
+}
+
+void LivePreview::showProblem(const QString& message) {
+    if (!active_) return;
+    view_.reset();
+    problem_ = message;
+    emit changed();
 }
 
 void LivePreview::setEnabled(bool enabled) {

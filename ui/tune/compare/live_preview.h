@@ -54,6 +54,9 @@ class LivePreview : public QObject {
     void changed();
 
  private:
+    void showView(const std::shared_ptr<const PreviewView>& view);
+    void showProgress(FrameIndex frame, int left);
+    void showProblem(const QString& message);
     void request();
     void end();
 

@@ -37,7 +37,8 @@ PreviewBar::PreviewBar(LivePreview& preview, PreviewCommands commands, QWidget* 
     layout->addWidget(range_);
     layout->addWidget(run_);
     layout->addWidget(discard_);
-    connect(range_, &QSpinBox::valueChanged, &preview_, &LivePreview::setRange);
+    onEdited(
+        this, [this] { preview_.setRange(range_->value()); }, range_);
     bindCommands(this, {{run_, [this] { commands_.run(); }}, {discard_, [this] { commands_.discard(); }}});
     connect(&preview_, &LivePreview::changed, this, &PreviewBar::refresh);
     refresh();

@@ -35,7 +35,7 @@ class PreviewLoader::Worker {
             auto whole = preview_->withTracks(frame, options, range, tracks_stop, [&](int left) {
                 if (Clock::now() - told < kPreviewProgressInterval) return;
                 told = Clock::now();
-                task.tell([this, frame, left] { emit owner_.tracksProgress(frame, left); });
+                task.tell([this, frame, left] { owner_.answers_.show_progress(frame, left); });
             });
             if (whole && !tracks_stop.stop_requested()) publish(frame, std::move(*whole), 0, waited_ms, task);
         } catch (const std::exception&) {
@@ -77,7 +77,7 @@ class PreviewLoader::Worker {
         view->previewed = std::move(previewed);
         view->frames_left = left;
         view->milliseconds = waited_ms;
-        task.tell([this, view = std::shared_ptr<const PreviewView>(std::move(view))] { emit owner_.previewed(view); });
+        task.tell([this, view = std::shared_ptr<const PreviewView>(std::move(view))] { owner_.answers_.show(view); });
     }
 
     PreviewLoader& owner_;
@@ -86,7 +86,8 @@ class PreviewLoader::Worker {
     std::unique_ptr<Preview> preview_;  ///< after what it reads from
 };
 
-PreviewLoader::PreviewLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
+PreviewLoader::PreviewLoader(PreviewAnswers answers)
+    : answers_(std::move(answers)), worker_(std::make_unique<Worker>(*this)) {}
 
 PreviewLoader::~PreviewLoader() {
     tracks_.request_stop();
@@ -109,8 +110,7 @@ void PreviewLoader::request(FrameIndex frame, const ChainOptions& options, int r
                        tracks = tracks_.get_token()](const BackgroundTask& task) {
         worker->load(frame, options, range, wished, tracks, task);
     };
-    query_.ask(
-        work, [this, frame](const QString& message) { emit failed(frame, message); }, BackgroundQuery::Former::finish);
+    query_.ask(work, answers_.fail, BackgroundQuery::Former::finish);
 }
 
 void PreviewLoader::cancel() {

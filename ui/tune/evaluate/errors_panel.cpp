@@ -6,7 +6,6 @@
 #include <QMenu>
 #include <QScrollBar>
 #include <QTableView>
-#include <QTimer>
 #include <QToolButton>
 
 #include "widgets/empty_state.h"
@@ -20,7 +19,9 @@ constexpr int kChipsSettle_ms = 80;
 }
 
 ErrorsPanel::ErrorsPanel(ErrorsModel* model, QWidget* parent)
-    : TablePanel(model, QStringLiteral("errors"), parent), errors_(model), chips_due_(new QTimer(this)) {
+    : TablePanel(model, QStringLiteral("errors"), parent),
+      errors_(model),
+      chips_due_(kChipsSettle_ms, [this] { commands_.want_chips(); }) {
     table()->setAccessibleName(tr("Errors"));
     table()->setIconSize(QSize(kChipHeight * 3 / 2, kChipHeight));
     table()->verticalHeader()->setDefaultSectionSize(kChipHeight + 4);
@@ -33,9 +34,6 @@ ErrorsPanel::ErrorsPanel(ErrorsModel* model, QWidget* parent)
     layout()->addWidget(status_);
     kinds_ = filterButton(tr("All kinds"));
     causes_ = filterButton(tr("All causes"));
-    chips_due_->setSingleShot(true);
-    chips_due_->setInterval(kChipsSettle_ms);
-    connect(chips_due_, &QTimer::timeout, this, [this] { commands_.want_chips(); });
     connect(table()->verticalScrollBar(), &QScrollBar::valueChanged, this, &ErrorsPanel::wantChips);
     connect(table()->model(), &QAbstractItemModel::layoutChanged, this, &ErrorsPanel::wantChips);
     whenAny(model, this, &ErrorsPanel::rebuildMenus, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
@@ -133,7 +131,7 @@ QList<int> ErrorsPanel::rowsWithoutChip() const {
 }
 
 void ErrorsPanel::wantChips() {
-    chips_due_->start();
+    chips_due_.start();
 }
 
 void ErrorsPanel::resizeEvent(QResizeEvent* event) {

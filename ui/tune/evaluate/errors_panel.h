@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "tune/evaluate/errors_model.h"
+#include "widgets/delayed_call.h"
 #include "widgets/tables/table_panel.h"
 
 class QLabel;
-class QTimer;
 class QToolButton;
 
 namespace eyrie::ui {
@@ -67,7 +67,7 @@ class ErrorsPanel : public TablePanel {
     QString cause_;
     QToolButton* kinds_;
     QToolButton* causes_;
-    QTimer* chips_due_;
+    DelayedCall chips_due_;
     QLabel* status_;
 };
 

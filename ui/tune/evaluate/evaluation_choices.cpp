@@ -37,8 +37,8 @@ EvaluationChoices::EvaluationChoices(ProjectSession& session, EvaluationSession&
                         {other_, [this] { applySettings(); }}});
     onEdited(this, &EvaluationChoices::applySettings, overlap_, border_, vehicles_, upright_);
     connect(&evaluation_, &EvaluationSession::settingsChanged, this, &EvaluationChoices::showSettings);
-    whenAny(&session_, this, &EvaluationChoices::showRuns, &ProjectSession::runsChanged,
-            &ProjectSession::currentRunChanged);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{{SessionChange::runs, SessionChange::current_run}, [this] { showRuns(); }}});
     showSettings();
 }
 

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "core/error.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -35,26 +36,29 @@ EvaluationOptions storedWishes() {
 }
 
 EvaluationSession::EvaluationSession(ProjectSession& session, QObject* parent)
-    : QObject(parent), session_(session), evaluator_(std::make_unique<RunEvaluator>()) {
+    : QObject(parent),
+      session_(session),
+      soon_(kSettle_ms, [this] { refresh(); }),
+      evaluator_(std::make_unique<RunEvaluator>()) {
     settings_.wishes = storedWishes();
-    soon_.setSingleShot(true);
-    soon_.setInterval(kSettle_ms);
-    connect(&soon_, &QTimer::timeout, this, &EvaluationSession::refresh);
-    connect(&session_, &ProjectSession::currentRunChanged, this, [this] {
-        forget();
-        settings_.other_run.reset();
-        emit settingsChanged();
-        refreshLater();
-    });
-    connect(&session_, &ProjectSession::projectChanged, this, &EvaluationSession::readTruthOfProject);
-    connect(&session_, &ProjectSession::runFinished, this, &EvaluationSession::refreshLater);
-    connect(&session_, &ProjectSession::runDataChanged, this, [this] {
-        // A run at work grows every other second; its evaluation waits for the end.
-        if (!session_.running() && !evaluation_) refreshLater();
-    });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::current_run, [this] { forgetRun(); }},
+                                     {SessionChange::project, [this] { readTruthOfProject(); }},
+                                     {SessionChange::run_ended, [this] { refreshLater(); }},
+                                     {SessionChange::run_data, [this] {
+                                          // A run at work grows every other second; its evaluation waits for the end.
+                                          if (!session_.running() && !evaluation_) refreshLater();
+                                      }}});
 }
 
 EvaluationSession::~EvaluationSession() = default;
+
+void EvaluationSession::forgetRun() {
+    forget();
+    settings_.other_run.reset();
+    emit settingsChanged();
+    refreshLater();
+}
 
 void EvaluationSession::readTruthOfProject() {
     settings_.truth_file = QSettings().value(truthKey(session_.project())).toString().toStdString();

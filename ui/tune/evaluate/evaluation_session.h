@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QObject>
-#include <QTimer>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "diagnosis/run_evaluation.h"
 #include "session/background/background_query.h"
 #include "session/project_session.h"
+#include "widgets/delayed_call.h"
 
 namespace eyrie::ui {
 
@@ -75,6 +75,7 @@ class EvaluationSession : public QObject {
     void refreshLater();
     void refresh();
     void forget();
+    void forgetRun();
     void readTruthOfProject();
     void adopt(const std::shared_ptr<const RunEvaluation>& evaluation, const QString& obstacle);
     void keepSelection(const std::shared_ptr<const RunEvaluation>& before);
@@ -92,7 +93,7 @@ class EvaluationSession : public QObject {
     std::map<FrameIndex, std::vector<std::size_t>> mistakes_;  ///< places of switches and fragments
     QString obstacle_;
     std::optional<std::size_t> selected_;
-    QTimer soon_;
+    DelayedCall soon_;
     std::unique_ptr<RunEvaluator> evaluator_;  ///< in the background only
     BackgroundQuery query_;                    ///< last: stops before the rest goes
 };

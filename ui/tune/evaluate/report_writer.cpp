@@ -184,7 +184,7 @@ void ReportWriter::write(const std::filesystem::path& path, std::shared_ptr<cons
         }
         ReportOptions options;
         options.made_utc = QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString();
-        const auto tell = [&](double share) { task.tell([this, share] { emit progress(share); }); };
+        const auto tell = [&](double share) { task.tell([this, share] { answers_.show_progress(share); }); };
         const EvaluationReportFile report = makeEvaluationReport(*evaluation, pixels.get(), options, tell, task.stop());
         if (task.stop().stop_requested()) return;
         if (pdf)
@@ -193,12 +193,12 @@ void ReportWriter::write(const std::filesystem::path& path, std::shared_ptr<cons
             writeHtmlReport(path, report);
         task.tell([this, path] {
             working_ = false;
-            emit written(path);
+            answers_.tell_written(path);
         });
     };
     query_.post(work, [this](const QString& failure) {
         working_ = false;
-        emit failed(failure);
+        answers_.fail(failure);
     });
 }
 

@@ -45,9 +45,8 @@ class ExplanationLoader::Worker {
                 for (const CornerVerdict& corner : *corners)
                     if (around.contains(corner.position)) view->corners.push_back(corner);
             }
-            task.tell([this, view = std::shared_ptr<const ExplanationView>(std::move(view))] {
-                emit owner_.explained(view);
-            });
+            task.tell(
+                [this, view = std::shared_ptr<const ExplanationView>(std::move(view))] { owner_.answers_.show(view); });
         } catch (const std::exception&) {
             useRun(std::move(run_));  // opened anew with the next question
             throw;
@@ -61,7 +60,8 @@ class ExplanationLoader::Worker {
     std::unique_ptr<PlaceExplainer> explainer_;  ///< after what it reads from
 };
 
-ExplanationLoader::ExplanationLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
+ExplanationLoader::ExplanationLoader(ExplanationAnswers answers)
+    : answers_(std::move(answers)), worker_(std::make_unique<Worker>(*this)) {}
 
 ExplanationLoader::~ExplanationLoader() = default;
 
@@ -73,7 +73,7 @@ void ExplanationLoader::useRun(std::optional<ReplayRun> run) {
 void ExplanationLoader::ask(FrameIndex frame, const OrientedBox& area) {
     query_.ask(
         [worker = worker_.get(), frame, area](const BackgroundTask& task) { worker->explain(frame, area, task); },
-        [this, frame](const QString& message) { emit failed(frame, message); });
+        answers_.fail);
 }
 
 }  // namespace eyrie::ui

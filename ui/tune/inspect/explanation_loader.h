@@ -1,6 +1,7 @@
 #pragma once
 
-#include <QObject>
+#include <QString>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -18,27 +19,28 @@ struct ExplanationView {
     CornerVerdicts corners;  ///< on the corners in and around the area
 };
 
-/// Explains places of a stored run in the background. Of several questions the newest wins. Signals arrive on the
-/// thread of this object.
-class ExplanationLoader : public QObject {
-    Q_OBJECT
+/// What becomes of what an ExplanationLoader was asked.
+struct ExplanationAnswers {
+    std::function<void(const std::shared_ptr<const ExplanationView>& view)> show;
+    std::function<void(const QString& message)> fail;
+};
 
+/// Explains places of a stored run in the background. Of several questions the newest wins. Answers arrive on the
+/// thread it was made on.
+class ExplanationLoader {
  public:
-    explicit ExplanationLoader(QObject* parent = nullptr);
-    ~ExplanationLoader() override;
+    explicit ExplanationLoader(ExplanationAnswers answers);
+    ~ExplanationLoader();
 
     /// Touches neither video nor project before the first question.
     void useRun(std::optional<ReplayRun> run);
-    /// Answers with explained() or failed(), unless a newer question comes first.
+    /// Shows it or fails, unless a newer question comes first.
     void ask(FrameIndex frame, const OrientedBox& area);
     void cancel() { query_.cancel(); }
 
- signals:
-    void explained(const std::shared_ptr<const ExplanationView>& view);
-    void failed(FrameIndex frame, const QString& message);
-
  private:
     class Worker;
+    ExplanationAnswers answers_;
     std::unique_ptr<Worker> worker_;
     BackgroundQuery query_;  ///< last: stops before the worker goes
 };

@@ -1,38 +1,51 @@
 #include "tune/inspect/inspection.h"
 
+#include <functional>
+
 #include "tune/inspect/cluster_choice.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
-Inspection::Inspection(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
-    connect(&session_, &ProjectSession::currentRunChanged, this, &Inspection::runChanged);
-    connect(&session_, &ProjectSession::viewFrameChanged, this, &Inspection::frameShown);
-    connect(&session_, &ProjectSession::selectionChanged, this, [this](std::optional<TrackId> track) {
-        if (track) chosen_ = false;  // one selection: the track's
-        resolve();
-        request();
-    });
-    connect(&session_, &ProjectSession::followingChanged, this, [this](bool following) {
-        if (following)
-            loader_.cancel();
-        else
-            request();
-        emit changed();
-    });
-    connect(&loader_, &ReplayLoader::working, this, [this](FrameIndex frame, int left) {
-        if (frame == session_.viewFrame().index) emit working(left);
-    });
-    connect(&loader_, &ReplayLoader::replayed, this, [this](const std::shared_ptr<const ReplayView>& view) {
-        view_ = view;
-        problem_.clear();
-        emit replayed(view_);
-    });
-    connect(&loader_, &ReplayLoader::failed, this, [this](FrameIndex, const QString& message) {
-        view_.reset();
-        problem_ = message;
-        emit changed();
-    });
+Inspection::Inspection(ProjectSession& session, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      loader_({
+          .show_progress = std::bind_front(&Inspection::showProgress, this),
+          .show = std::bind_front(&Inspection::showView, this),
+          .fail = std::bind_front(&Inspection::showProblem, this),
+      }) {
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::current_run, [this] { runChanged(); }},
+                                     {SessionChange::picture, [this] { frameShown(); }},
+                                     {SessionChange::selection,
+                                      [this] {
+                                          if (session_.selectedTrack()) chosen_ = false;  // one selection: the track's
+                                          frameShown();
+                                      }},
+                                     {SessionChange::following, [this] {
+                                          request();
+                                          emit changed(InspectionChange::choice);
+                                      }}});
     runChanged();
+}
+
+void Inspection::showProgress(FrameIndex frame, int left) {
+    if (frame != session_.shownFrame()) return;
+    frames_left_ = left;
+    emit changed(InspectionChange::progress);
+}
+
+void Inspection::showView(const std::shared_ptr<const ReplayView>& view) {
+    view_ = view;
+    problem_.clear();
+    emit changed(InspectionChange::view);
+}
+
+void Inspection::showProblem(const QString& message) {
+    view_.reset();
+    problem_ = message;
+    emit changed(InspectionChange::choice);
 }
 
 void Inspection::wantStages(bool wanted) {
@@ -87,10 +100,10 @@ void Inspection::runChanged() {
         loader_.useRun(ReplayRun{*session_.media(), session_.project(), *session_.currentRun()});
     else
         loader_.useRun(std::nullopt);
-    emit changed();
+    emit changed(InspectionChange::choice);
 }
 
-void Inspection::frameShown(const ViewFrame&) {
+void Inspection::frameShown() {
     resolve();
     request();
 }
@@ -106,7 +119,7 @@ void Inspection::resolve() {
         cluster = clusterAt(*result, {place_.centre.x, place_.centre.y}, place_.length / 2);
     if (cluster) remember(*result, *cluster);
     cluster_ = cluster;
-    emit changed();
+    emit changed(InspectionChange::choice);
 }
 
 void Inspection::setCluster(std::optional<int> cluster) {
@@ -114,7 +127,7 @@ void Inspection::setCluster(std::optional<int> cluster) {
     chosen_ = result && cluster;
     if (chosen_) remember(*result, *cluster);
     cluster_ = cluster;
-    emit changed();
+    emit changed(InspectionChange::choice);
     request();
 }
 

@@ -11,6 +11,13 @@
 
 namespace eyrie::ui {
 
+/// What of an inspection is another than it was.
+enum class InspectionChange {
+    choice,    ///< another cluster, or another frame, or what can be known of it
+    progress,  ///< framesLeft()
+    view       ///< a frame was replayed: view()
+};
+
 /// Looks closer at the frame shown: follows the cluster that was chosen (by a selected track, by pointing, by stepping)
 /// through the frames, and replays them while somebody wants to see what a run does not store. Costs nothing else.
 class Inspection : public QObject {
@@ -42,18 +49,20 @@ class Inspection : public QObject {
     std::optional<OrientedBox> area() const;
     /// The newest replayed frame; null when none was wanted or the run changed.
     const std::shared_ptr<const ReplayView>& view() const { return view_; }
+    /// How many frames before the one shown are still to be replayed.
+    int framesLeft() const { return frames_left_; }
     /// Why there is none, for people; empty while it is on its way.
     const QString& problem() const { return problem_; }
 
  signals:
-    /// Another cluster, or another frame, or what can be known of it.
-    void changed();
-    void working(int frames_left);
-    void replayed(const std::shared_ptr<const ReplayView>& view);
+    void changed(InspectionChange change);
 
  private:
     void runChanged();
-    void frameShown(const ViewFrame& frame);
+    void frameShown();
+    void showProgress(FrameIndex frame, int left);
+    void showView(const std::shared_ptr<const ReplayView>& view);
+    void showProblem(const QString& message);
     void resolve();
     void setCluster(std::optional<int> cluster);
     void remember(const FrameResult& result, int cluster);
@@ -70,6 +79,7 @@ class Inspection : public QObject {
     OrientedBox place_;              ///< its box then; for clusters without corners
     std::optional<int> cluster_;
     std::shared_ptr<const ReplayView> view_;
+    int frames_left_ = 0;
     QString problem_;
 };
 

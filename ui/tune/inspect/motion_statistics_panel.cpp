@@ -12,6 +12,7 @@
 
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -95,14 +96,15 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
     pages_->addWidget(empty_);
     pages_->addWidget(charts);
 
-    connect(scope_, &QComboBox::currentIndexChanged, this, &MotionStatisticsPanel::showFrame);
-    connect(&session_, &ProjectSession::viewFrameChanged, this, &MotionStatisticsPanel::showFrame);
-    connect(&session_, &ProjectSession::runDataChanged, this, &MotionStatisticsPanel::readLives);
-    connect(&session_, &ProjectSession::currentRunChanged, this, [this] {
-        read_of_.reset();
-        counted_.reset();
-        showFrame();
-    });
+    onEdited(this, &MotionStatisticsPanel::showFrame, scope_);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::picture, [this] { showFrame(); }},
+                                     {SessionChange::run_data, [this] { readLives(); }},
+                                     {SessionChange::current_run, [this] {
+                                          read_of_.reset();
+                                          counted_.reset();
+                                          showFrame();
+                                      }}});
     connect(&reader_, &VectorLivesReader::readDone, this,
             [this](int run_id, const std::shared_ptr<const VectorLifeCounter>& lives) {
                 if (session_.currentRun() != run_id) return;

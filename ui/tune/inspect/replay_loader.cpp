@@ -67,14 +67,15 @@ class ReplayLoader::Worker {
         view->traces = replay_->trace(wish.cluster);
         if (wish.general_segmentation && !view->traces.empty())
             view->general = generalSegmentation(view->traces.front().roi, replay_->scale());
-        task.tell([this, view = std::shared_ptr<const ReplayView>(std::move(view))] { emit owner_.replayed(view); });
+        task.tell([this, view = std::shared_ptr<const ReplayView>(std::move(view))] { owner_.answers_.show(view); });
     }
 
     void tell(FrameIndex frame) {
         const auto now = std::chrono::steady_clock::now();
         if (frame >= wanted_ || now - told_ < kReplayProgressInterval) return;
         told_ = now;
-        owner_.query_.tell([this, wanted = wanted_, left = wanted_ - frame] { emit owner_.working(wanted, left); });
+        owner_.query_.tell(
+            [this, wanted = wanted_, left = wanted_ - frame] { owner_.answers_.show_progress(wanted, left); });
     }
 
     ReplayLoader& owner_;
@@ -85,7 +86,8 @@ class ReplayLoader::Worker {
     std::chrono::steady_clock::time_point told_;
 };
 
-ReplayLoader::ReplayLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
+ReplayLoader::ReplayLoader(ReplayAnswers answers)
+    : answers_(std::move(answers)), worker_(std::make_unique<Worker>(*this)) {}
 
 ReplayLoader::~ReplayLoader() = default;
 
@@ -95,8 +97,7 @@ void ReplayLoader::useRun(std::optional<ReplayRun> run) {
 }
 
 void ReplayLoader::request(const ReplayWish& wish) {
-    query_.ask([worker = worker_.get(), wish](const BackgroundTask& task) { worker->load(wish, task); },
-               [this, frame = wish.frame](const QString& message) { emit failed(frame, message); });
+    query_.ask([worker = worker_.get(), wish](const BackgroundTask& task) { worker->load(wish, task); }, answers_.fail);
 }
 
 }  // namespace eyrie::ui

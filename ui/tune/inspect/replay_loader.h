@@ -1,6 +1,7 @@
 #pragma once
 
-#include <QObject>
+#include <QString>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -39,30 +40,31 @@ struct ReplayView {
     std::optional<GeneralSegmentation> general;
 };
 
-/// Replays frames of a stored run in the background. Of several wishes the newest wins; one that is being worked on is
-/// given up, what it has done so far is kept. Signals arrive on the thread of this object.
-class ReplayLoader : public QObject {
-    Q_OBJECT
+/// What becomes of what a ReplayLoader was asked for.
+struct ReplayAnswers {
+    /// So many frames before the wanted one are still to be done.
+    std::function<void(FrameIndex frame, int frames_left)> show_progress;
+    std::function<void(const std::shared_ptr<const ReplayView>& view)> show;
+    std::function<void(const QString& message)> fail;
+};
 
+/// Replays frames of a stored run in the background. Of several wishes the newest wins; one that is being worked on is
+/// given up, what it has done so far is kept. Answers arrive on the thread it was made on.
+class ReplayLoader {
  public:
-    explicit ReplayLoader(QObject* parent = nullptr);
-    ~ReplayLoader() override;
+    explicit ReplayLoader(ReplayAnswers answers);
+    ~ReplayLoader();
 
     /// Touches neither video nor project before the first request.
     void useRun(std::optional<ReplayRun> run);
-    /// Answers with replayed() or failed(), unless a newer request comes first.
+    /// Shows it or fails, unless a newer request comes first.
     void request(const ReplayWish& wish);
     /// Gives up what is being worked on.
     void cancel() { query_.cancel(); }
 
- signals:
-    /// So many frames before the wanted one are still to be done.
-    void working(FrameIndex frame, int frames_left);
-    void replayed(const std::shared_ptr<const ReplayView>& view);
-    void failed(FrameIndex frame, const QString& message);
-
  private:
     class Worker;
+    ReplayAnswers answers_;
     std::unique_ptr<Worker> worker_;
     BackgroundQuery query_;  ///< last: stops before the worker goes
 };

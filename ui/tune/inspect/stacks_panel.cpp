@@ -35,11 +35,10 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
     layout->addLayout(options);
     layout->addLayout(pages_, 1);
 
-    connect(&inspection_, &Inspection::changed, this, &StacksPanel::refresh);
-    connect(&inspection_, &Inspection::replayed, this, &StacksPanel::showView);
-    connect(&inspection_, &Inspection::working, this, [this](int left) {
-        if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
-    });
+    connect(&inspection_, &Inspection::changed, this,
+            Reactions<InspectionChange>{{InspectionChange::choice, [this] { refresh(); }},
+                                        {InspectionChange::progress, [this] { showProgress(); }},
+                                        {InspectionChange::view, [this] { showView(inspection_.view()); }}});
     bindSwitches(this, {{whole_area_, [this] {
                              summary_->setText(tr("The stacks are being cut again …"));
                              want();
@@ -103,6 +102,10 @@ void StacksPanel::refresh() {
     pages_->setCurrentWidget(empty_);
     summary_->clear();
     whole_area_->hide();
+}
+
+void StacksPanel::showProgress() {
+    if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(inspection_.framesLeft()));
 }
 
 void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {

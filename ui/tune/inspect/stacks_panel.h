@@ -42,6 +42,7 @@ class StacksPanel : public QWidget {
 
  private:
     void refresh();
+    void showProgress();
     void showView(const std::shared_ptr<const ReplayView>& view);
     void want();
     bool stackingOff() const;

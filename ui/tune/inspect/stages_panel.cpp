@@ -46,11 +46,10 @@ StagesPanel::StagesPanel(ProjectSession& session, Inspection& inspection, QWidge
     layout->addLayout(pages_, 1);
 
     bindCommands(this, {{empty_->button(), [this] { inspection_.step(1); }}});
-    connect(&inspection_, &Inspection::changed, this, &StagesPanel::refresh);
-    connect(&inspection_, &Inspection::replayed, this, &StagesPanel::showView);
-    connect(&inspection_, &Inspection::working, this, [this](int left) {
-        if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(left));
-    });
+    connect(&inspection_, &Inspection::changed, this,
+            Reactions<InspectionChange>{{InspectionChange::choice, [this] { refresh(); }},
+                                        {InspectionChange::progress, [this] { showProgress(); }},
+                                        {InspectionChange::view, [this] { showView(inspection_.view()); }}});
     refresh();
 }
 
@@ -98,7 +97,7 @@ QWidget* StagesPanel::buildHeader() {
                         {smaller, [this] { grid_->zoomBy(1 / 1.25); }},
                         {larger, [this] { grid_->zoomBy(1.25); }},
                         {fit, [this] { grid_->fit(); }}});
-    connect(searches_, &QComboBox::currentIndexChanged, this, &StagesPanel::showSearch);
+    onEdited(this, &StagesPanel::showSearch, searches_);
     bindSwitches(this, {{general_, [this](bool on) { inspection_.wantGeneralSegmentation(on); }}});
     return header;
 }
@@ -164,6 +163,10 @@ void StagesPanel::refresh() {
         summary_->clear();
         searches_->hide();
     }
+}
+
+void StagesPanel::showProgress() {
+    if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(inspection_.framesLeft()));
 }
 
 void StagesPanel::showView(const std::shared_ptr<const ReplayView>& view) {

@@ -33,6 +33,7 @@ class StagesPanel : public QWidget {
  private:
     QWidget* buildHeader();
     void refresh();
+    void showProgress();
     void showView(const std::shared_ptr<const ReplayView>& view);
     void showSearch();
     /// Why there is nothing to be seen, and what to do; nothing when there is.

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "widgets/wiring.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -28,23 +30,25 @@ std::optional<OrientedBox> boxAt(const FrameResult& result, cv::Point2d point, d
 
 }  // namespace
 
-Why::Why(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
-    connect(&session_, &ProjectSession::currentRunChanged, this, &Why::runChanged);
-    connect(&session_, &ProjectSession::viewFrameChanged, this, &Why::frameShown);
-    connect(&session_, &ProjectSession::followingChanged, this, [this] { emit changed(); });
-    connect(&loader_, &ExplanationLoader::explained, this, [this](const std::shared_ptr<const ExplanationView>& view) {
-        view_ = view;
-        waiting_ = false;
-        problem_.clear();
-        emit changed();
-    });
-    connect(&loader_, &ExplanationLoader::failed, this, [this](FrameIndex, const QString& message) {
-        view_.reset();
-        waiting_ = false;
-        problem_ = message;
-        emit changed();
-    });
+Why::Why(ProjectSession& session, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      loader_({
+          .show = [this](const auto& view) { adopt(view, {}); },
+          .fail = [this](const QString& message) { adopt(nullptr, message); },
+      }) {
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::current_run, [this] { runChanged(); }},
+                                     {SessionChange::picture, [this] { frameShown(); }},
+                                     {SessionChange::following, [this] { emit changed(); }}});
     runChanged();
+}
+
+void Why::adopt(const std::shared_ptr<const ExplanationView>& view, const QString& problem) {
+    view_ = view;
+    waiting_ = false;
+    problem_ = problem;
+    emit changed();
 }
 
 void Why::want(bool wanted) {

@@ -43,6 +43,7 @@ class Why : public QObject {
  private:
     void runChanged();
     void frameShown();
+    void adopt(const std::shared_ptr<const ExplanationView>& view, const QString& problem);
     void request();
 
     ProjectSession& session_;

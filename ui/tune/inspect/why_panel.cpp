@@ -9,6 +9,7 @@
 
 #include "widgets/empty_state.h"
 #include "widgets/theme_colours.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -60,7 +61,8 @@ WhyPanel::WhyPanel(ProjectSession& session, Why& why, QWidget* parent) : QWidget
         if (target.startsWith(kScheme)) emit parameterChosen(target.mid(kScheme.size()));
     });
     connect(&why_, &Why::changed, this, &WhyPanel::refresh);
-    connect(&session_, &ProjectSession::viewFrameChanged, this, &WhyPanel::refresh);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::picture, [this] { refresh(); }}});
     refresh();
 }
 

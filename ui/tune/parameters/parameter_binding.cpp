@@ -7,6 +7,7 @@
 #include "tune/parameters/preset_dialog.h"
 #include "widgets/message_bar.h"
 #include "widgets/parameters/parameter_form.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -21,9 +22,9 @@ ParameterBinding::ParameterBinding(ProjectSession& session, ParameterForm& form,
         }
     });
     connect(&form_, &ParameterForm::presetChosen, this, &ParameterBinding::choosePreset);
-    connect(&form_, &ParameterForm::savePresetRequested, this, &ParameterBinding::savePreset);
-    connect(&form_, &ParameterForm::presetsRequested, this, &ParameterBinding::comparePresets);
-    connect(&session_, &ProjectSession::projectChanged, this, [this] { presets_.useProject(session_.project()); });
+    form_.setCommands({.save_preset = [this] { savePreset(); }, .show_presets = [this] { comparePresets(); }});
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::project, [this] { presets_.useProject(session_.project()); }}});
     connect(&presets_, &PresetLibrary::changed, this, [this] {
         const PresetLibrary::Preset* awaited = presets_.find(defaults_awaited_);
         if (awaited != nullptr && awaited->options) {

@@ -80,8 +80,9 @@ SweepPanel::SweepPanel(ProjectSession& session, ParameterBinding& parameters, Me
     pages_->addWidget(buildResult());
     rows->addWidget(below, 1);
     connect(form_, &SweepForm::startRequested, &sweeps_, &SweepSession::start);
-    whenAny(&session_, this, &SweepPanel::showRun, &ProjectSession::currentRunChanged, &ProjectSession::runDataChanged,
-            &ProjectSession::runsChanged);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {{SessionChange::current_run, SessionChange::run_data, SessionChange::runs}, [this] { showRun(); }}});
     wireSweeps();
     showRun();
     showList();
@@ -148,12 +149,13 @@ QWidget* SweepPanel::buildResult() {
 }
 
 void SweepPanel::wireSweeps() {
-    connect(&sweeps_, &SweepSession::sweepsChanged, this, &SweepPanel::showList);
-    connect(&sweeps_, &SweepSession::tableChanged, this, &SweepPanel::showTable);
+    connect(&sweeps_, &SweepSession::changed, this,
+            Reactions<SweepChange>{{SweepChange::sweeps, [this] { showList(); }},
+                                   {SweepChange::table, [this] { showTable(); }},
+                                   {SweepChange::running, [this] { showRunning(); }}});
     connect(&sweeps_, &SweepSession::progressed, this, &SweepPanel::showProgress);
     connect(&sweeps_, &SweepSession::failed, this, &SweepPanel::tellProblem);
     connect(&sweeps_, &SweepSession::consentNeeded, this, &SweepPanel::ask);
-    connect(&sweeps_, &SweepSession::runningChanged, this, &SweepPanel::showRunning);
     connect(&sweeps_, &SweepSession::finished, this, [this](bool whole) {
         tell(whole ? tr("The sweep is done.") : tr("The sweep was cancelled; Resume computes the rest."));
     });
@@ -184,9 +186,9 @@ void SweepPanel::bindButtons(QToolButton* copy, QToolButton* copy_picture) {
                        });
 }
 
-void SweepPanel::showRunning(bool running) {
-    progress_line_->setVisible(running);
-    form_->setRunning(running);
+void SweepPanel::showRunning() {
+    progress_line_->setVisible(sweeps_.running());
+    form_->setRunning(sweeps_.running());
     showList();
 }
 

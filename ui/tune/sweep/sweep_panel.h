@@ -41,7 +41,7 @@ class SweepPanel : public QWidget {
     void applyPoint();
     void savePoint();
     void removeSweep();
-    void showRunning(bool running);
+    void showRunning();
     void tell(const QString& text);
     void tellProblem(const QString& text);
     void showRun();

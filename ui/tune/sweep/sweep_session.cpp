@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "sweep/sweep_lock.h"
 #include "tune/sweep/swept_runs.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -32,7 +33,8 @@ struct SweepSession::Job {
 SweepSession::SweepSession(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
     pulse_.setInterval(kPulse);
     connect(&pulse_, &QTimer::timeout, this, &SweepSession::take);
-    connect(&session_, &ProjectSession::projectChanged, this, &SweepSession::projectChanged);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::project, [this] { projectChanged(); }}});
 }
 
 SweepSession::~SweepSession() = default;
@@ -42,8 +44,8 @@ void SweepSession::projectChanged() {
     selected_ = 0;
     table_.reset();
     sweeps_.clear();
-    emit sweepsChanged();
-    emit tableChanged();
+    emit changed(SweepChange::sweeps);
+    emit changed(SweepChange::table);
     refreshList();
 }
 
@@ -54,7 +56,7 @@ void SweepSession::refreshList() {
         if (project != session_.project()) return;
         if (!problem.isEmpty()) emit failed(problem);
         sweeps_ = found;
-        emit sweepsChanged();
+        emit changed(SweepChange::sweeps);
         if (selected_ == 0 && !sweeps_.empty()) select(sweeps_.back().id);
     };
     const auto work = [project, adopt](const BackgroundTask& task) {
@@ -74,7 +76,7 @@ void SweepSession::select(int sweep_id) {
         task.tell([this, project, table] {
             if (project != session_.project() || selected_ != table->id) return;
             table_ = table;
-            emit tableChanged();
+            emit changed(SweepChange::table);
         });
     };
     reader_.ask(work, std::bind_front(&SweepSession::failed, this));
@@ -90,7 +92,7 @@ void SweepSession::remove(int sweep_id) {
     if (selected_ == sweep_id) {
         selected_ = 0;
         table_.reset();
-        emit tableChanged();
+        emit changed(SweepChange::table);
     }
     refreshList();
 }
@@ -130,7 +132,7 @@ void SweepSession::begin(Job job) {
         }).join();
     });
     pulse_.start();
-    emit runningChanged(true);
+    emit changed(SweepChange::running);
     emit progressed(progress_);
 }
 
@@ -195,7 +197,7 @@ void SweepSession::work(const Job& job, const BackgroundTask& task) {
             growing_ = growing;
             selected_ = growing->id;
             table_ = growing_;
-            emit tableChanged();
+            emit changed(SweepChange::table);
             refreshList();
         });
         SweepRunOptions options;
@@ -233,7 +235,7 @@ void SweepSession::take() {
         QElapsedTimer took;
         took.start();
         grown_ = false;
-        emit tableChanged();
+        emit changed(SweepChange::table);
         showing_took_ms_ = took.elapsed();
         since_shown_.start();
     }
@@ -249,7 +251,7 @@ void SweepSession::ended(bool whole, const QString& problem) {
     pulse_.stop();
     running_ = false;
     growing_.reset();
-    emit runningChanged(false);
+    emit changed(SweepChange::running);
     if (problem.isEmpty())
         emit finished(whole);
     else

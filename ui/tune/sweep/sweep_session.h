@@ -27,6 +27,13 @@ struct SweepRequest {
     bool many_points_meant = false;  ///< the user was asked
 };
 
+/// What of the sweeps is another than it was.
+enum class SweepChange {
+    sweeps,  ///< the list
+    table,
+    running  ///< one began or ended
+};
+
 /// Sweeps over the stored run that is shown, on threads of their own; points are kept in the project as they come. Also
 /// reads the sweeps that the project holds. Signals arrive on the thread of this object.
 class SweepSession : public QObject {
@@ -55,9 +62,7 @@ class SweepSession : public QObject {
     const std::shared_ptr<const SweepTable>& table() const { return table_; }
 
  signals:
-    void sweepsChanged();
-    void tableChanged();
-    void runningChanged(bool running);
+    void changed(SweepChange change);
     void progressed(const SweepProgress& progress);
     /// The sweep ended by itself or was cancelled.
     void finished(bool whole);

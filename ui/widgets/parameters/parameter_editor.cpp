@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "widgets/real_spin_box.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 namespace {
@@ -93,10 +94,7 @@ class RealEditor : public ParameterEditor {
             slider_->show(value.toDouble());
             emit edited(value);
         });
-        connect(slider_, &QSlider::valueChanged, this, [this] {
-            field_->setValueText(slider_->text());
-            emit edited(field_->valueText());
-        });
+        onEdited(this, &RealEditor::takeSlider, slider_);
     }
     QString value() const override { return field_->valueText(); }
     void setValue(const QString& value) override {
@@ -109,6 +107,11 @@ class RealEditor : public ParameterEditor {
     }
 
  private:
+    void takeSlider() {
+        field_->setValueText(slider_->text());
+        emit edited(field_->valueText());
+    }
+
     RealSpinBox* field_;
     TuningSlider* slider_;
 };
@@ -121,11 +124,9 @@ class IntegerEditor : public ParameterEditor {
         // A number half typed is no value.
         field_->setKeyboardTracking(false);
         fill(this, field_, slider_);
-        connect(field_, &QSpinBox::valueChanged, this, [this](int value) {
-            slider_->show(value);
-            emit edited(QString::number(value));
-        });
-        connect(slider_, &QSlider::valueChanged, this, [this] { field_->setValue(slider_->text().toInt()); });
+        onEdited(this, &IntegerEditor::takeField, field_);
+        onEdited(
+            this, [this] { field_->setValue(slider_->text().toInt()); }, slider_);
     }
     QString value() const override { return QString::number(field_->value()); }
     void setValue(const QString& value) override {
@@ -140,6 +141,11 @@ class IntegerEditor : public ParameterEditor {
     }
 
  private:
+    void takeField() {
+        slider_->show(field_->value());
+        emit edited(value());
+    }
+
     QSpinBox* field_;
     TuningSlider* slider_;
 };
@@ -148,7 +154,8 @@ class FlagEditor : public ParameterEditor {
  public:
     explicit FlagEditor(QWidget* parent) : ParameterEditor(parent), field_(new QCheckBox(this)) {
         fill(this, field_);
-        connect(field_, &QCheckBox::toggled, this, [this] { emit edited(value()); });
+        onEdited(
+            this, [this] { emit edited(value()); }, field_);
     }
     QString value() const override { return field_->isChecked() ? QStringLiteral("true") : QStringLiteral("false"); }
     void setValue(const QString& value) override {
@@ -166,11 +173,11 @@ class ChoiceEditor : public ParameterEditor {
     ChoiceEditor(const Parameter& parameter, QWidget* parent) : ParameterEditor(parent), field_(new QComboBox(this)) {
         for (const std::string& choice : parameter.choices) field_->addItem(QString::fromStdString(choice));
         fill(this, field_);
-        connect(field_, &QComboBox::activated, this, [this] {
-            if (value() == shown_) return;
-            shown_ = value();
-            emit edited(shown_);
-        });
+        bindCommands(this, {{field_, [this] {
+                                 if (value() == shown_) return;
+                                 shown_ = value();
+                                 emit edited(shown_);
+                             }}});
     }
     QString value() const override { return field_->currentText(); }
     void setValue(const QString& value) override {
@@ -188,11 +195,12 @@ class WordsEditor : public ParameterEditor {
  public:
     explicit WordsEditor(QWidget* parent) : ParameterEditor(parent), field_(new QLineEdit(this)) {
         fill(this, field_);
-        connect(field_, &QLineEdit::editingFinished, this, [this] {
+        const auto take = [this] {
             if (value() == shown_) return;
             shown_ = value();
             emit edited(shown_);
-        });
+        };
+        onFinished(this, take, field_);
     }
     QString value() const override { return field_->text(); }
     void setValue(const QString& value) override {

@@ -90,8 +90,8 @@ QWidget* ParameterForm::makePresetLine() {
     all->setToolTip(tr("Compare, rename, delete, export and import presets"));
     layout->addWidget(all);
     bindCommands(this, {{presets_, [this] { emit presetChosen(presets_->currentText()); }},
-                        {all, [this] { emit presetsRequested(); }},
-                        {save_preset_, [this] { emit savePresetRequested(); }}});
+                        {all, [this] { commands_.show_presets(); }},
+                        {save_preset_, [this] { commands_.save_preset(); }}});
     return line;
 }
 

@@ -2,6 +2,7 @@
 
 #include <QStringList>
 #include <QWidget>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -21,12 +22,20 @@ namespace eyrie::ui {
 class CollapsibleSection;
 class ParameterRow;
 
+/// What the form leads to.
+struct ParameterFormCommands {
+    /// Save the current values as a preset.
+    std::function<void()> save_preset = [] {};
+    std::function<void()> show_presets = [] {};
+};
+
 /// The form of all parameters, made from their declarations: a section per group, a row per parameter, with search,
 /// help, and the way back to the defaults. It knows values as texts and nothing of the engine's options.
 class ParameterForm : public QWidget {
     Q_OBJECT
  public:
     explicit ParameterForm(QWidget* parent = nullptr);
+    void setCommands(ParameterFormCommands commands) { commands_ = std::move(commands); }
 
     /// Shows values; tells nobody. `defaults` are what "modified" and "reset" refer to, e.g. those of the preset; where
     /// it lacks a name, the present value is taken. Rows are made anew only when the declarations differ.
@@ -56,10 +65,6 @@ class ParameterForm : public QWidget {
     /// A person changed one value.
     void valueChanged(const QString& name, const QString& value);
     void presetChosen(const QString& name);
-    /// Save the current values as a preset.
-    void savePresetRequested();
-    /// Show all presets.
-    void presetsRequested();
 
  private:
     struct Group {
@@ -75,6 +80,7 @@ class ParameterForm : public QWidget {
     QWidget* makePresetLine();
     QWidget* makeSearchLine();
 
+    ParameterFormCommands commands_;
     std::vector<Parameter> declarations_;
     std::vector<Group> groups_;
     std::vector<ParameterRow*> rows_;

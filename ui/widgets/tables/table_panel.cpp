@@ -27,6 +27,7 @@ namespace eyrie::ui {
 namespace {
 
 constexpr QLatin1String kFittedKey("_fitted");
+constexpr int kWidening_ms = 1000;
 
 }  // namespace
 
@@ -40,12 +41,14 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
       table_(new QTableView(this)),
       empty_(new EmptyState(this)),
       nothing_found_(new EmptyState(this)),
-      stack_(new QStackedLayout) {
+      stack_(new QStackedLayout),
+      widening_due_(kWidening_ms, [this] { widenColumns(); }) {
     proxy_->setSourceModel(model_);
     filter_->setPlaceholderText(tr("Filter"));
     filter_->setClearButtonEnabled(true);
     filter_->setAccessibleName(tr("Show only rows with these words"));
-    connect(filter_, &QLineEdit::textChanged, this, &TablePanel::setFilterText);
+    onEdited(
+        this, [this] { setFilterText(filter_->text()); }, filter_);
     bindCommands(this, {{nothing_found_->button(), [this] { filter_->clear(); }}});
 
     tool_row_->addWidget(filter_, 1);
@@ -102,9 +105,6 @@ void TablePanel::buildTable() {
     // Widths follow the rows in view and these many more.
     table_->horizontalHeader()->setResizeContentsPrecision(100);
     restoreColumns();
-    widening_due_.setSingleShot(true);
-    widening_due_.setInterval(1000);
-    connect(&widening_due_, &QTimer::timeout, this, &TablePanel::widenColumns);
     whenAny(proxy_, this, &TablePanel::widenColumnsSoon, &QAbstractItemModel::dataChanged,
             &QAbstractItemModel::headerDataChanged, &QAbstractItemModel::rowsInserted, &QAbstractItemModel::modelReset);
     connect(table_->verticalScrollBar(), &QScrollBar::valueChanged, this, &TablePanel::widenColumnsSoon);
@@ -188,7 +188,7 @@ void TablePanel::widenColumns() {
 }
 
 void TablePanel::widenColumnsSoon() {
-    if (!widening_due_.isActive()) widening_due_.start();
+    if (!widening_due_.pending()) widening_due_.start();
 }
 
 void TablePanel::keepSelection() {
@@ -293,8 +293,7 @@ void TablePanel::showHeaderMenu(const QPoint& place) {
         action->setCheckable(true);
         action->setChecked(!header->isSectionHidden(column));
         action->setEnabled(header->isSectionHidden(column) || !only_one);
-        connect(action, &QAction::toggled, this,
-                [header, column](bool shown) { header->setSectionHidden(column, !shown); });
+        bindSwitches(this, {{action, [header, column](bool shown) { header->setSectionHidden(column, !shown); }}});
     }
     menu.exec(header->mapToGlobal(place));
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <QList>
-#include <QTimer>
 #include <QWidget>
 
+#include "widgets/delayed_call.h"
 #include "widgets/tables/table_sort_proxy.h"
 
 class QHBoxLayout;
@@ -78,7 +78,7 @@ class TablePanel : public QWidget {
     EmptyState* nothing_found_;
     QStackedLayout* stack_;
     QList<int> fitted_widths_;  ///< of a column with another width somebody chose it
-    QTimer widening_due_;
+    DelayedCall widening_due_;
     bool columns_fit_ = false;  ///< widths were remembered, or fitted to the first rows
     int kept_id_ = 0;           ///< selected by user or program; selected again when its row comes back
     bool telling_ = true;       ///< false while the program selects

@@ -9,6 +9,7 @@
 
 #include "canvas/layers/overlay_table.h"
 #include "widgets/swatch.h"
+#include "widgets/wiring.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -40,7 +41,8 @@ void OverlayButton::buildMenu() {
     length_->setValue(overlays_.style().vector_length_factor);
     layout->addWidget(new QLabel(tr("Vector length"), row));
     layout->addWidget(length_, 1);
-    connect(length_, &QDoubleSpinBox::valueChanged, &overlays_, &OverlaySettings::setVectorLengthFactor);
+    onEdited(
+        this, [this] { overlays_.setVectorLengthFactor(length_->value()); }, length_);
     auto* action = new QWidgetAction(menu);
     action->setDefaultWidget(row);
     menu->addSeparator();

@@ -101,11 +101,13 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
     layout->addWidget(last_frame_);
     layout->addStretch(1);
 
-    whenAny(&session_, this, &RunBar::refresh, &ProjectSession::videoChanged, &ProjectSession::ready,
-            &ProjectSession::scaleChanged);
-    whenAny(&session_, this, &RunBar::showGuess, &ProjectSession::runsChanged, &ProjectSession::currentRunChanged);
-    whenAny(&session_, this, &RunBar::enable, &ProjectSession::followingChanged, &ProjectSession::runStarted,
-            &ProjectSession::runFinished);
+    connect(
+        &session_, &ProjectSession::changed, this,
+        Reactions<SessionChange>{
+            {{SessionChange::video, SessionChange::opened, SessionChange::scale}, [this] { refresh(); }},
+            {{SessionChange::runs, SessionChange::current_run}, [this] { showGuess(); }},
+            {{SessionChange::following, SessionChange::run_started, SessionChange::run_ended}, [this] { enable(); }},
+        });
     refresh();
 }
 

@@ -47,22 +47,29 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     bar.addPermanentWidget(stop_);
     hideProgress();
 
-    // The number names the picture it stands under, which may come later than it was asked for.
-    whenAny(&session_, this, &StatusFields::showFrame, &ProjectSession::viewFrameChanged,
-            &ProjectSession::videoChanged);
-    whenAny(&session_, this, &StatusFields::hideProgress, &ProjectSession::openingEnded, &ProjectSession::runFinished);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                // The number names the picture it stands under, which may come later than it was asked for.
+                {{SessionChange::picture, SessionChange::video}, [this] { showFrame(); }},
+                {SessionChange::run_preparing, [this] { showPreparing(); }},
+                {SessionChange::run_started,
+                 [this] {
+                     if (const RunRecord* run = session_.ownRun())
+                         showRun({0, run->last_frame - run->first_frame + 1, 0, 0});
+                 }},
+                {SessionChange::run_ended, [this] { hideProgress(); }},
+            });
+    connect(&session_, &ProjectSession::openingEnded, this, &StatusFields::hideProgress);
     connect(&session_, &ProjectSession::openingProgress, this, &StatusFields::showOpening);
-    connect(&session_, &ProjectSession::runPreparing, this, [this] {
-        work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run …")
-                                                            : tr("estimating the scale from the traffic …"));
-        bar_->setRange(0, 0);
-        showProgress();
-    });
-    connect(&session_, &ProjectSession::runStarted, this, [this](const RunRecord& run) {
-        showRun({0, run.last_frame - run.first_frame + 1, 0, 0});
-    });
     connect(&session_, &ProjectSession::runProgress, this, &StatusFields::showRun);
     bindCommands(this, {{stop_, [this] { stop(); }}});
+}
+
+void StatusFields::showPreparing() {
+    work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run …")
+                                                        : tr("estimating the scale from the traffic …"));
+    bar_->setRange(0, 0);
+    showProgress();
 }
 
 void StatusFields::stop() {

@@ -31,6 +31,7 @@ class StatusFields : public QObject {
     void showOpening(const QString& name, double share);
     void showProgress();
     void hideProgress();
+    void showPreparing();
 
     ProjectSession& session_;
     QLabel* frame_;

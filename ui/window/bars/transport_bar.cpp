@@ -58,12 +58,11 @@ TransportBar::TransportBar(ProjectSession& session, const WindowActions& actions
                          }}});
     connect(&session_.playback(), &Playback::speedChanged, this, &TransportBar::showSpeed);
     showSpeed(session_.playback().speed());
-    connect(&session_, &ProjectSession::videoChanged, this,
-            [this] { frame_->setRange(0, session_.video() ? std::max(0, session_.video()->frame_count - 1) : 0); });
-    const auto show = [this] {
-        if (!frame_->hasFocus()) frame_->setValue(session_.shownFrame());
-    };
-    whenAny(&session_, this, show, &ProjectSession::videoChanged, &ProjectSession::viewFrameChanged);
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::video, [this] { frame_->setRange(0, session_.lastFrame()); }},
+                                     {{SessionChange::video, SessionChange::picture}, [this] {
+                                          if (!frame_->hasFocus()) frame_->setValue(session_.shownFrame());
+                                      }}});
     onFinished(this, &TransportBar::frameEdited, frame_);
 }
 

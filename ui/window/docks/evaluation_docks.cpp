@@ -17,6 +17,7 @@
 #include "tune/evaluate/report_writer.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
@@ -65,13 +66,15 @@ const MistakePlace& placeOf(const DiagnosedMistake& one) {
 }  // namespace
 
 EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, WindowActions& actions,
-                                 OverlaySettings& overlays, DockRegistry& docks, QMainWindow& window)
+                                 OverlaySettings& overlays, DockRegistry& docks, MessageBar& messages,
+                                 QMainWindow& window)
     : QObject(&window),
       session_(session),
       canvas_(canvas),
       actions_(actions),
       overlays_(overlays),
       docks_(docks),
+      messages_(messages),
       window_(window) {
     evaluation_ = new EvaluationSession(session_, this);
     panel_ = new EvaluationPanel(session_, *evaluation_);
@@ -107,6 +110,8 @@ EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, Win
     wireList();
     showErrors();
 }
+
+EvaluationDocks::~EvaluationDocks() = default;
 
 void EvaluationDocks::updateWanted() {
     evaluation_->setWanted(evaluation_looked_at_ || errors_looked_at_ || evaluation_->evaluation() != nullptr);
@@ -165,7 +170,8 @@ void EvaluationDocks::wireList() {
         .write_report = [this] { askForReport(); },
     });
     connect(chips_, &ErrorChips::ready, model_, &ErrorsModel::setChip);
-    connect(&session_, &ProjectSession::videoChanged, this, [this] { chips_->setMedia(session_.media()); });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::video, [this] { chips_->setMedia(session_.media()); }}});
 }
 
 void EvaluationDocks::goToObject(int object) {
@@ -225,8 +231,9 @@ void EvaluationDocks::wantChips() {
 void EvaluationDocks::step(int direction) {
     const int id = errors_->neighbour(direction);
     if (id == 0) {
-        emit notice(evaluation_->evaluation() ? tr("No error is listed.")
-                                              : tr("Nothing was evaluated yet: open the Evaluation dock."));
+        messages_.showMessage(MessageKind::info, evaluation_->evaluation()
+                                                     ? tr("No error is listed.")
+                                                     : tr("Nothing was evaluated yet: open the Evaluation dock."));
         return;
     }
     goTo(id);
@@ -289,11 +296,12 @@ void EvaluationDocks::join(LabelWorkspace& labelling) {
 void EvaluationDocks::correctTruth() {
     const DiagnosedMistake* one = evaluation_->selectedMistake();
     if (one == nullptr || labelling_ == nullptr) {
-        emit notice(tr("Choose an error first."));
+        messages_.showMessage(MessageKind::info, tr("Choose an error first."));
         return;
     }
     if (!evaluation_->settings().truth_file.empty()) {
-        emit notice(
+        messages_.showMessage(
+            MessageKind::info,
             tr("The ground truth is a file, which is not changed here. Import it into the project's labels "
                "(Label ▸ Import labels) and compare with these."));
         return;
@@ -312,7 +320,8 @@ void EvaluationDocks::correctTruth() {
             tr("Correct object %1; the run is scored again after every change.").arg(mistake.objects.front()));
     } else {
         labelling_->labels().select(std::nullopt);
-        emit notice(
+        messages_.showMessage(
+            MessageKind::info,
             tr("If an object is here, draw it (B) or take the track over as a proposal (P); the run is scored "
                "again after every change."));
     }
@@ -323,7 +332,7 @@ void EvaluationDocks::correctTruth() {
 void EvaluationDocks::askForReport() {
     const auto& evaluation = evaluation_->evaluation();
     if (!evaluation) {
-        emit notice(tr("Nothing was evaluated yet: open the Evaluation dock."));
+        messages_.showMessage(MessageKind::info, tr("Nothing was evaluated yet: open the Evaluation dock."));
         return;
     }
     const QString name = QFileInfo(QString::fromStdString(evaluation->run.sequence.path)).completeBaseName();
@@ -342,22 +351,26 @@ void EvaluationDocks::askForReport() {
 
 void EvaluationDocks::writeReport(const QString& path) {
     if (report_->working()) {
-        emit notice(tr("A report is being written. Wait until it is done."));
+        messages_.showMessage(MessageKind::info, tr("A report is being written. Wait until it is done."));
         return;
     }
     report_->write(path.toStdString(), evaluation_->evaluation(), session_.media(), session_.project());
 }
 
 void EvaluationDocks::wireReport() {
-    report_ = new ReportWriter(this);
-    connect(report_, &ReportWriter::progress, panel_, &EvaluationPanel::showReportProgress);
-    connect(report_, &ReportWriter::failed, this, [this](const QString& message) {
-        panel_->showReportProgress(1);
-        emit problem(message);
-    });
-    connect(report_, &ReportWriter::written, this, [this](const std::filesystem::path& path) {
-        panel_->showReportProgress(1);
-        emit notice(tr("Wrote the report %1.").arg(QString::fromStdString(path.string())));
+    report_ = std::make_unique<ReportWriter>(ReportAnswers{
+        .show_progress = [this](double share) { panel_->showReportProgress(share); },
+        .tell_written =
+            [this](const std::filesystem::path& path) {
+                panel_->showReportProgress(1);
+                messages_.showMessage(MessageKind::info,
+                                      tr("Wrote the report %1.").arg(QString::fromStdString(path.string())));
+            },
+        .fail =
+            [this](const QString& message) {
+                panel_->showReportProgress(1);
+                messages_.showMessage(MessageKind::error, message);
+            },
     });
 }
 

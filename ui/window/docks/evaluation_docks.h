@@ -2,6 +2,7 @@
 
 #include <QList>
 #include <QObject>
+#include <memory>
 #include <optional>
 
 #include "canvas/overlay_settings.h"
@@ -18,6 +19,7 @@ class ErrorsModel;
 class ErrorsPanel;
 class EvaluationPanel;
 class LabelWorkspace;
+class MessageBar;
 class ReportWriter;
 class VideoView;
 class WindowActions;
@@ -29,7 +31,8 @@ class EvaluationDocks : public QObject {
  public:
     /// Everything named must outlive it; `window` is the parent of dialogs.
     EvaluationDocks(ProjectSession& session, VideoView& canvas, WindowActions& actions, OverlaySettings& overlays,
-                    DockRegistry& docks, QMainWindow& window);
+                    DockRegistry& docks, MessageBar& messages, QMainWindow& window);
+    ~EvaluationDocks() override;
 
     /// Makes "the truth is wrong" work.
     void join(LabelWorkspace& labelling);
@@ -54,8 +57,6 @@ class EvaluationDocks : public QObject {
 
  signals:
     void whyRequested(const OrientedBox& box, const QString& about);
-    void notice(const QString& message);
-    void problem(const QString& message);
 
  private:
     void wireList();
@@ -76,6 +77,7 @@ class EvaluationDocks : public QObject {
     WindowActions& actions_;
     OverlaySettings& overlays_;
     DockRegistry& docks_;
+    MessageBar& messages_;
     QMainWindow& window_;
     LabelWorkspace* labelling_ = nullptr;
     EvaluationSession* evaluation_;
@@ -83,12 +85,12 @@ class EvaluationDocks : public QObject {
     ErrorsModel* model_;
     ErrorsPanel* errors_;
     ErrorChips* chips_;
-    ReportWriter* report_;
     bool evaluation_looked_at_ = false;
     bool errors_looked_at_ = false;
     std::optional<OverlayProfile> other_overlays_;  ///< what was shown before the errors were shown alone
     bool correcting_ = false;                       ///< the labels are open because the truth was wrong
     std::shared_ptr<const RunEvaluation> told_;
+    std::unique_ptr<ReportWriter> report_;
 };
 
 }  // namespace eyrie::ui

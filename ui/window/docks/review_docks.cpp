@@ -45,6 +45,15 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
     docks.watch(DockId::stages, stages_, [this](bool visible) { stages_->setLookedAt(visible); });
     docks.watch(DockId::stacks, stacks_, [this](bool visible) { stacks_->setLookedAt(visible); });
     docks.watch(DockId::statistics, statistics_, [this](bool visible) { statistics_->setLookedAt(visible); });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {{SessionChange::video, SessionChange::runs, SessionChange::current_run, SessionChange::run_started,
+                  SessionChange::run_ended},
+                 [this] { showRuns(); }},
+                {SessionChange::run_data, [this] { adoptAwaitedParameters(); }},
+                {{SessionChange::current_run, SessionChange::run_data}, [this] { showTracks(); }},
+                {SessionChange::selection, [this] { tracks_->selectId(session_.selectedTrack().value_or(0)); }},
+            });
     wireRuns();
     wireTracks();
     showRuns();
@@ -55,19 +64,18 @@ void ReviewDocks::showTrackList() {
 }
 
 void ReviewDocks::wireRuns() {
-    whenAny(&session_, this, &ReviewDocks::showRuns, &ProjectSession::videoChanged, &ProjectSession::runsChanged,
-            &ProjectSession::currentRunChanged, &ProjectSession::runStarted, &ProjectSession::runFinished);
     connect(&session_, &ProjectSession::liveFrames, this, [this] {
         if (const RunRecord* run = session_.ownRun()) runs_model_->updateRun(*run);
     });
-    connect(&session_, &ProjectSession::runDataChanged, this, &ReviewDocks::adoptAwaitedParameters);
     connect(runs_model_, &RunsModel::renameRequested, &session_, &ProjectSession::renameRun);
-    runs_->setContinuable([this](int run_id) { return session_.canContinue(run_id); });
-    connect(runs_, &RunsPanel::runActivated, &session_, &ProjectSession::showRun);
-    connect(runs_, &RunsPanel::continueRequested, &session_, &ProjectSession::continueRun);
-    connect(runs_, &RunsPanel::removeRequested, &parts_.guard, &RunGuard::remove);
-    connect(runs_, &RunsPanel::runRequested, parts_.actions.run, &QAction::trigger);
-    connect(runs_, &RunsPanel::parametersRequested, this, &ReviewDocks::adoptParametersOf);
+    runs_->setCommands({
+        .show = [this](int run_id) { session_.showRun(run_id); },
+        .run = [this] { parts_.actions.run->trigger(); },
+        .remove = [this](int run_id) { parts_.guard.remove(run_id); },
+        .go_on = [this](int run_id) { session_.continueRun(run_id); },
+        .can_go_on = [this](int run_id) { return session_.canContinue(run_id); },
+        .use_parameters = [this](int run_id) { adoptParametersOf(run_id); },
+    });
 }
 
 void ReviewDocks::adoptParametersOf(int run_id) {
@@ -99,15 +107,14 @@ void ReviewDocks::showRuns() {
 }
 
 void ReviewDocks::wireTracks() {
-    whenAny(&session_, this, &ReviewDocks::showTracks, &ProjectSession::currentRunChanged,
-            &ProjectSession::runDataChanged);
-    connect(&session_, &ProjectSession::selectionChanged, this,
-            [this](std::optional<TrackId> track) { tracks_->selectId(track.value_or(0)); });
-    connect(tracks_, &TracksPanel::minScoreChanged, &parts_.overlays, &OverlaySettings::setMinScore);
-    connect(tracks_, &TracksPanel::trackSelected, &session_, &ProjectSession::goToTrack);
-    connect(tracks_, &TracksPanel::trackActivated, this, [this](int track, int frame) {
-        session_.selectTrack(track);
-        session_.goToFrame(frame);
+    tracks_->setCommands({
+        .select = [this](int track) { session_.goToTrack(track); },
+        .go_to =
+            [this](int track, int frame) {
+                session_.selectTrack(track);
+                session_.goToFrame(frame);
+            },
+        .use_min_score = [this](double score) { parts_.overlays.setMinScore(score); },
     });
 }
 

@@ -86,7 +86,8 @@ void Tuning::buildPreview() {
     });
     connect(preview_, &LivePreview::changed, this, &Tuning::showPreview);
     // Queued: after the canvas got the stored frame, before it is painted.
-    connect(&parts_.session, &ProjectSession::viewFrameChanged, this, &Tuning::showPreview, Qt::QueuedConnection);
+    connect(&parts_.session, &ProjectSession::changed, this,
+            Reactions<SessionChange>{{SessionChange::picture, [this] { showPreview(); }}}, Qt::QueuedConnection);
 }
 
 void Tuning::discardPreview() {
