@@ -6,7 +6,6 @@
 #include "core/values/motion_vector.h"
 #include "core/values/scene_scale.h"
 #include "core/values/track_state.h"
-#include "tracking/appearance.h"
 #include "tracking/measurement_model.h"
 #include "tracking/track.h"
 #include "tracking/track_manager.h"
@@ -41,7 +40,11 @@ class Tracker {
     void coastThroughFailed(const FrameMotion& motion);
     void follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
                 const cv::Mat& gray);
-    void recognise(Track& track, const cv::Mat& gray);
+    void lookAtStanding(const std::vector<MovingBox>& detected, const cv::Mat& gray);
+    void lookAround(Track& track, const cv::Mat& gray);
+    void keepStanding(Track& track);
+    std::optional<OrientedBox> found(const Track& track, const cv::Mat& gray, const OrientedBox& expected,
+                                     double reach) const;
     void predict(const FrameMotion& motion);
     std::vector<MovingBox> predictedBoxes() const;
     OverlapMatrix overlapMatrix(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
@@ -63,12 +66,13 @@ class Tracker {
     TrackerOptions options_;
     MeasurementModel model_;
     TrackManager manager_;
-    AppearanceMemory looks_;
     double gate_ = 0;  ///< px
     std::vector<Track> tracks_;
     TrackId next_id_ = 1;
     int frozen_frames_ = 0;  ///< in a row, up to now
     int failed_frames_ = 0;  ///< in a row, up to now
+    int frames_ = 0;
+    bool classified_ = false;  ///< detections of a classifier were seen
 };
 
 }  // namespace eyrie

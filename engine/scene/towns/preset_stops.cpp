@@ -9,9 +9,9 @@ namespace eyrie {
 SceneDescription presetStops(std::uint32_t seed) {
     SceneDescription scene;
     scene.name = "stops";
-    scene.text = "A crossing with lights from a hovering camera: vehicles stand for 2 to 60 seconds and drive on";
+    scene.text = "A crossing with lights from a hovering camera: vehicles stand for 2 to 35 seconds and drive on";
     scene.seed = seed;
-    scene.frame_count = 2000;
+    scene.frame_count = 1300;
     scene.frame_rate_hz = 25;
     scene.gsd_m_per_px = 0.2;
     scene.image_size = {400, 300};
@@ -31,9 +31,9 @@ SceneDescription presetStops(std::uint32_t seed) {
     camera.frame_rate_hz = scene.frame_rate_hz;
     camera.shake = {1.2, 0.25, 0.001, seed + 8};
     camera.keys = {{0, {-6, 3}, height, radiansFromDegrees(-8), radiansFromDegrees(9), focal},
-                   {700, {4, -2}, height - 5, radiansFromDegrees(3), radiansFromDegrees(6), focal * 1.02},
-                   {1400, {-3, -4}, height + 5, radiansFromDegrees(12), radiansFromDegrees(8), focal},
-                   {2000, {3, 3}, height, radiansFromDegrees(5), radiansFromDegrees(10), focal}};
+                   {450, {4, -2}, height - 5, radiansFromDegrees(3), radiansFromDegrees(6), focal * 1.02},
+                   {900, {-3, -4}, height + 5, radiansFromDegrees(12), radiansFromDegrees(8), focal},
+                   {1300, {3, 3}, height, radiansFromDegrees(5), radiansFromDegrees(10), focal}};
     const cv::Rect2d seen = groundSeen(camera, scene.frame_count);
     const double margin = scene.map_margin;
     scene.base.seed = seed;
@@ -53,16 +53,16 @@ SceneDescription presetStops(std::uint32_t seed) {
     const int cross = town.addStreet(side);
     town.build();
 
-    // Reds of many lengths; those who come late to one stand for a part of it.
+    // Reds of many lengths; those who come late to one stand for a part of it. Only one street has green at a time.
     TownTraffic traffic(town, seed * 43 + 2);
     const int east = traffic.straight(street, true);
     const int west = traffic.straight(street, false);
     const int south = traffic.straight(cross, true);
     const int north = traffic.straight(cross, false);
-    traffic.redLight(east, street, cross, true, {{4, 9}, {15, 27}, {33, 37}, {45, 70}});
-    traffic.redLight(west, street, cross, false, {{-2, 6}, {14, 32}, {40, 48}, {55, 99}});
-    traffic.redLight(south, cross, street, true, {{-9, 15}, {25, 33}, {36, 50}, {66, 99}});
-    traffic.redLight(north, cross, street, false, {{6, 68}});
+    traffic.redLight(east, street, cross, true, {{3, 9}, {16, 19}, {26, 34}, {40, 45}});
+    traffic.redLight(west, street, cross, false, {{3, 9}, {18, 30}, {39, 45}});
+    traffic.redLight(south, cross, street, true, {{-9, 5.5}, {7.5, 41.5}, {43.5, 99}});
+    traffic.redLight(north, cross, street, false, {{-9, 5.5}, {7.5, 41.5}, {43.5, 99}});
     for (const int route : {east, west, south, north}) {
         const int lanes = route == east || route == west ? 2 : 1;
         for (int lane = 0; lane < lanes; ++lane) {
