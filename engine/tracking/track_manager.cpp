@@ -25,9 +25,9 @@ constexpr double kLookInterval_s = 0.1;
 constexpr double kStandingReach = 0.15;  ///< of the length by which a standing vehicle may be off its place …
 constexpr double kSmallestReach = 1.5;   ///< … and px
 constexpr int kLooksAway = 3;            ///< looks in a row that find a vehicle off its place: it creeps
-constexpr double kPlaceGain = 0.1;       ///< by which its place follows looks, for the ground is not registered exactly …
-constexpr double kPlaceDrift = 0.03;     ///< … px a look at most: no vehicle is followed by it
-constexpr double kFastestStart = 3;      ///< times stop_speed when a vehicle that stood is detected again
+constexpr double kPlaceGain = 0.1;  ///< by which its place follows looks, for the ground is not registered exactly …
+constexpr double kPlaceDrift = 0.03;  ///< … px a look at most: no vehicle is followed by it
+constexpr double kFastestStart = 3;   ///< times stop_speed when a vehicle that stood is detected again
 
 int hitsWithin(std::uint64_t history, int frames) {
     const std::uint64_t mask = frames >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << frames) - 1;
@@ -117,15 +117,19 @@ bool TrackManager::mayBeReconstructed(const Track& track) const {
     return track.reconstructed_streak < limit;
 }
 
-bool TrackManager::mayBeRecognised(const Track& track, double slow_speed, bool classified) const {
-    if (appearance_ == AppearanceUse::none || track.status == TrackStatus::tentative || !track.look) return false;
-    if (track.standstill.certain) return true;
-    if (track.recognised_streak >= max_creeping_) return false;
+bool TrackManager::hasDriven(const Track& track, bool classified) const {
     const OrientedBox box = track.filter.box();
     const cv::Point2d off = box.centre - track.origin_place;
     const double way = std::hypot(off.x, off.y) / box.length;
     const bool known = !classified || track.whole_boxes >= kWholeShare * track.hits;
-    if (track.hits < (known ? kStandingHits : sure_hits_) || way < (known ? kStandingWay : kSureWay)) return false;
+    return track.hits >= (known ? kStandingHits : sure_hits_) && way >= (known ? kStandingWay : kSureWay);
+}
+
+bool TrackManager::mayBeRecognised(const Track& track, double slow_speed, bool classified) const {
+    if (appearance_ == AppearanceUse::none || track.status == TrackStatus::tentative || !track.look) return false;
+    if (track.standstill.certain) return true;
+    if (track.recognised_streak >= max_creeping_) return false;
+    if (!hasDriven(track, classified)) return false;
     return appearance_ == AppearanceUse::lost || track.stopped ||
            track.filter.speed() < std::max(stop_speed_, slow_speed);
 }
@@ -177,8 +181,9 @@ void TrackManager::countDeparture(Track& track) const {
     if (stands.away >= kLooksAway) stands = {};
 }
 
-bool TrackManager::worthRemembering(const Track& track, double slow_speed) const {
+bool TrackManager::worthRemembering(const Track& track, double slow_speed, bool classified) const {
     if (appearance_ == AppearanceUse::none || track.status == TrackStatus::tentative || track.merged) return false;
+    if (!hasDriven(track, classified)) return false;
     return appearance_ == AppearanceUse::lost ||
            track.filter.speed() < kSoonStopped * std::max(stop_speed_, slow_speed);
 }

@@ -24,7 +24,7 @@ class TrackManager {
     /// takes part, which has known vehicles when it saw them.
     bool mayBeRecognised(const Track& track, double slow_speed, bool classified) const;
     /// Whether it is worth remembering what the track looks like.
-    bool worthRemembering(const Track& track, double slow_speed) const;
+    bool worthRemembering(const Track& track, double slow_speed, bool classified) const;
     /// Counts whether a lost track was found at its place by its look, `away` px from there; nothing: not found.
     void countStandstill(Track& track, std::optional<double> away, const OrientedBox& found) const;
     /// Lets a standing track go on when its detections lead away from its place.
@@ -60,6 +60,7 @@ class TrackManager {
     int maxFailedFrames() const { return max_failed_; }
 
  private:
+    bool hasDriven(const Track& track, bool classified) const;
     bool alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b, cv::Point2d velocity_b,
                double slow_speed) const;
     bool leaving(const Track& track, cv::Size image) const;

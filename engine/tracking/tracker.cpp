@@ -58,7 +58,7 @@ void Tracker::reset() {
 }
 
 std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vector<Detection>& detections,
-                                      TrackingTrace* trace, const cv::Mat& gray) {
+                                      TrackingTrace* trace, const PictureOfFrame& picture) {
     if (trace != nullptr) *trace = {};
     model_.startFrame(motion.image_size, motion.background_speed_sigma);
     if (isCut(motion.registration)) tracks_.clear();
@@ -71,7 +71,7 @@ std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vect
             break;
         case RegistrationState::first:
         case RegistrationState::registered:
-            follow(motion, detections, trace, gray);
+            follow(motion, detections, trace, Picture(picture));
             break;
     }
     std::vector<TrackState> states;
@@ -127,7 +127,7 @@ void Tracker::predict(const FrameMotion& motion) {
 }
 
 void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
-                     const cv::Mat& gray) {
+                     Picture picture) {
     failed_frames_ = 0;
     predict(motion);
     std::vector<const Detection*> found;
@@ -142,7 +142,7 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
         positions.push_back(static_cast<int>(i));
     }
     ++frames_;
-    lookAtStanding(detected, gray);
+    lookAtStanding(detected, picture);
     const std::vector<MovingBox> predicted = predictedBoxes();
     const OverlapMatrix matrix = overlapMatrix(detected, predicted, motion.image_size);
     const FrameAssociation association = associate(matrix, detected, predicted);
@@ -152,7 +152,7 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     for (std::size_t j = 0; j < tracks_.size(); ++j) {
         keepSeenVectors(tracks_[j].vectors, vectors);
         updateTrack(tracks_[j], association.tracks[j], found, vectors);
-        lookAround(tracks_[j], gray);
+        lookAround(tracks_[j], picture);
         manager_.count(tracks_[j], model_.slowSpeed());
     }
     if (trace != nullptr) traceEnds(motion.image_size, *trace);
@@ -282,7 +282,8 @@ void Tracker::updateTrack(Track& track, const TrackAssociation& association,
     }
     if (updated) {
         track.origin = StateOrigin::detected;
-        track.whole_boxes += association.kind == AssociationKind::matched && detectionAt(association.detection).complete;
+        track.whole_boxes +=
+            association.kind == AssociationKind::matched && detectionAt(association.detection).complete;
     } else if (options_.use_vectors && updateByVectors(track, vectors)) {
         track.origin = StateOrigin::reconstructed;
     }

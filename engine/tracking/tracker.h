@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/values/detection.h"
@@ -14,6 +15,10 @@
 
 namespace eyrie {
 
+/// The grey picture of the frame, CV_8UC1. Asked for only where a vehicle stops or stands, so that detections can be
+/// tracked anew without reading the whole video.
+using PictureOfFrame = std::function<cv::Mat()>;
+
 /// Follows objects from frame to frame by their detections and motion vectors (Teutsch ch. 6, fig. 6.6).
 class Tracker {
  public:
@@ -25,7 +30,7 @@ class Tracker {
     /// tracks are predicted, in a frozen one nothing moves, and after a cut all tracks end. `trace`, if given, receives
     /// how detections and tracks were joined.
     std::vector<TrackState> next(const FrameMotion& motion, const std::vector<Detection>& detections,
-                                 TrackingTrace* trace = nullptr, const cv::Mat& gray = {});
+                                 TrackingTrace* trace = nullptr, const PictureOfFrame& picture = {});
 
     /// Forgets all tracks; ids start from 1 again.
     void reset();
@@ -38,12 +43,28 @@ class Tracker {
  private:
     void coastThroughFrozen();
     void coastThroughFailed(const FrameMotion& motion);
+    /// Asks for the picture when it is first needed.
+    class Picture {
+     public:
+        explicit Picture(const PictureOfFrame& source) : source_(source) {}
+        const cv::Mat& gray() {
+            if (!asked_ && source_) gray_ = source_();
+            asked_ = true;
+            return gray_;
+        }
+
+     private:
+        const PictureOfFrame& source_;
+        cv::Mat gray_;
+        bool asked_ = false;
+    };
+
     void follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
-                const cv::Mat& gray);
-    void lookAtStanding(const std::vector<MovingBox>& detected, const cv::Mat& gray);
-    void lookAround(Track& track, const cv::Mat& gray);
+                Picture picture);
+    void lookAtStanding(const std::vector<MovingBox>& detected, Picture& picture);
+    void lookAround(Track& track, Picture& picture);
     void keepStanding(Track& track);
-    std::optional<OrientedBox> found(const Track& track, const cv::Mat& gray, const OrientedBox& expected,
+    std::optional<OrientedBox> found(const Track& track, Picture& picture, const OrientedBox& expected,
                                      double reach) const;
     void predict(const FrameMotion& motion);
     std::vector<MovingBox> predictedBoxes() const;

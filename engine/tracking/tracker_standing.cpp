@@ -19,10 +19,10 @@ bool isNear(const OrientedBox& a, const OrientedBox& b) {
 
 }  // namespace
 
-std::optional<OrientedBox> Tracker::found(const Track& track, const cv::Mat& gray, const OrientedBox& expected,
+std::optional<OrientedBox> Tracker::found(const Track& track, Picture& picture, const OrientedBox& expected,
                                           double reach) const {
     if (!track.look) return std::nullopt;
-    const auto match = track.look->find(gray, expected, reach);
+    const auto match = track.look->find(picture.gray(), expected, reach);
     if (!match || match->agreement < options_.appearance_agreement ||
         match->agreement < match->beside + options_.appearance_margin)
         return std::nullopt;
@@ -31,7 +31,7 @@ std::optional<OrientedBox> Tracker::found(const Track& track, const cv::Mat& gra
     return box;
 }
 
-void Tracker::lookAtStanding(const std::vector<MovingBox>& detected, const cv::Mat& gray) {
+void Tracker::lookAtStanding(const std::vector<MovingBox>& detected, Picture& picture) {
     for (Track& track : tracks_) {
         Standstill& stands = track.standstill;
         if (!stands.certain) continue;
@@ -40,20 +40,21 @@ void Tracker::lookAtStanding(const std::vector<MovingBox>& detected, const cv::M
         const bool touched = std::any_of(detected.begin(), detected.end(),
                                          [&](const MovingBox& other) { return isNear(other.box, place); });
         if (!due && !touched) continue;
-        const auto seen = found(track, gray, place, std::max(kLeastReach, TrackManager::reachOf(place) + 1));
+        const auto seen = found(track, picture, place, std::max(kLeastReach, TrackManager::reachOf(place) + 1));
         manager_.countStandstill(track, seen ? std::optional(between(seen->centre, place.centre)) : std::nullopt,
                                  seen.value_or(place));
     }
 }
 
-void Tracker::lookAround(Track& track, const cv::Mat& gray) {
+void Tracker::lookAround(Track& track, Picture& picture) {
     track.recognised = false;
     if (options_.appearance == AppearanceUse::none) return;
     if (track.origin == StateOrigin::detected || track.origin == StateOrigin::reconstructed) {
         const bool detected = track.origin == StateOrigin::detected;
         // What stands keeps the look that it has been known by.
-        if (detected && !track.standstill.certain && manager_.worthRemembering(track, model_.slowSpeed())) {
-            if (auto look = VehicleLook::of(gray, track.filter.box())) track.look = std::move(look);
+        if (detected && !track.standstill.certain &&
+            manager_.worthRemembering(track, model_.slowSpeed(), classified_)) {
+            if (auto look = VehicleLook::of(picture.gray(), track.filter.box())) track.look = std::move(look);
         }
         manager_.countDeparture(track);
         return;
@@ -63,7 +64,7 @@ void Tracker::lookAround(Track& track, const cv::Mat& gray) {
         return;
     }
     if (!manager_.mayBeRecognised(track, model_.slowSpeed(), classified_)) return;
-    const auto seen = found(track, gray, track.filter.box(), std::max(kLeastReach, gate_));
+    const auto seen = found(track, picture, track.filter.box(), std::max(kLeastReach, gate_));
     const double away = seen ? between(seen->centre, track.standstill.place.centre) : 0;
     manager_.countStandstill(track, seen ? std::optional(away) : std::nullopt, seen.value_or(track.filter.box()));
     track.recognised = seen && track.filter.update(model_.placed(*seen));

@@ -9,9 +9,10 @@ namespace eyrie {
 
 /// Where something was compared, and how well it agrees there.
 struct LookMatch {
-    cv::Point2d centre;    ///< px, of the best place
-    double agreement = 0;  ///< normalised correlation there, −1 … 1: neither brightness nor contrast of the light counts
-    double beside = 0;     ///< the best one half a vehicle away
+    cv::Point2d centre;  ///< px, of the best place
+    double agreement =
+        0;  ///< normalised correlation there, −1 … 1: neither brightness nor contrast of the light counts
+    double beside = 0;  ///< the best one half a vehicle away
 };
 
 /// What a vehicle looked like at one moment: a small grey chip of it and a narrow strip of the ground about it, in the

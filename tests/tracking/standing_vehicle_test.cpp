@@ -35,8 +35,8 @@ struct StoppingCar {
         constexpr int kBrakes = 30;
         const double deceleration = kSpeed / kBrakes;
         const double braking = std::clamp(frame - (kStops - kBrakes), 0, kBrakes);
-        const double driven = std::min(frame, kStops - kBrakes) * kSpeed + kSpeed * braking -
-                              deceleration * braking * braking / 2;
+        const double driven =
+            std::min(frame, kStops - kBrakes) * kSpeed + kSpeed * braking - deceleration * braking * braking / 2;
         const int after = std::max(0, frame - kStops - stands);
         const double started = std::min(after, kBrakes);
         return driven + deceleration * started * started / 2 + kSpeed * std::max(0, after - kBrakes) +
@@ -50,6 +50,7 @@ struct StoppingCar {
         std::vector<FrameMotionSummary> motion;
         std::map<int, std::vector<TrackState>> by_frame;
         std::vector<OrientedBox> truth;
+        int pictures = 0;  ///< that the tracker asked for
 
         /// The track that lies on the car.
         const TrackState* onCar(int frame) const {
@@ -107,8 +108,10 @@ struct StoppingCar {
                 drawn.push_back(detections.back().box);
             }
             const auto seed = static_cast<std::uint64_t>(frame + 1);
-            result.by_frame[frame] =
-                tracker.next(motion, detections, nullptr, drawnCars(drawn, seed, scene.image));
+            result.by_frame[frame] = tracker.next(motion, detections, nullptr, [&] {
+                ++result.pictures;
+                return drawnCars(drawn, seed, scene.image);
+            });
             for (const TrackState& state : result.by_frame[frame]) result.states.emplace_back(frame, state);
             result.motion.push_back({frame, motion.registration, scene.image});
         }
@@ -152,8 +155,7 @@ TEST(StandingVehicle, thatIsGoneIsLostWhenItWasLastSeen) {
     const StoppingCar::Result result = car.run();
     EXPECT_NE(result.onCar(199), nullptr);
     EXPECT_TRUE(result.by_frame.at(200 + 60).empty()) << "kept where nothing stands any more";
-    const auto finished =
-        finishTracks(result.states, result.motion, {}, MovingScene{}.scale, FoundInFrames{}, nullptr);
+    const auto finished = finishTracks(result.states, result.motion, {}, MovingScene{}.scale, FoundInFrames{}, nullptr);
     ASSERT_FALSE(finished.empty());
     EXPECT_NEAR(finished.back().first, 199, 3) << "what was only waited for does not belong to the track";
     EXPECT_EQ(finished.back().second.origin, StateOrigin::standing);
@@ -171,6 +173,13 @@ TEST(StandingVehicle, isNotEndedByWhatPassesInFrontAndDoesNotGiveItsIdAway) {
         EXPECT_GT(overlap(first->box, result.truth[static_cast<std::size_t>(frame)]), 0.5) << frame;
     }
     EXPECT_GT(result.marked(190, kStops + 250), 90) << "seen again once the way is free";
+}
+
+TEST(StandingVehicle, isLookedAtSomeTimesASecondAndWhatDrivesNotAtAll) {
+    StoppingCar car;
+    EXPECT_LT(car.run().pictures, 40 + 250 / 2);
+    car.frames = 10;
+    EXPECT_EQ(car.run().pictures, 0);
 }
 
 TEST(StandingVehicle, isNothingThatSlidesOverTheGround) {

@@ -114,7 +114,8 @@ TEST(TrackScore, DoesNotDependOnHowLongTheVehicleStands) {
         FrameMotionSummary summary = scene.motion.back();
         summary.frame = frame;
         scene.motion.push_back(summary);
-        TrackState state = CarAndCloud::stateOf(1, {200.0 + 7 * 59 + 3 * (frame - 59), 300}, {0, 0}, StateOrigin::standing);
+        TrackState state =
+            CarAndCloud::stateOf(1, {200.0 + 7 * 59 + 3 * (frame - 59), 300}, {0, 0}, StateOrigin::standing);
         stands.states.emplace_back(frame, PathState(state));
     }
     const GroundMotion ground(scene.motion);

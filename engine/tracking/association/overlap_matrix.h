@@ -14,7 +14,7 @@ struct MovingBox {
     cv::Point2d velocity{0, 0};  ///< px/frame relative to the ground
     double gate_along = 0;       ///< tracks: reach of the distance gate along the heading, px; 0: no gate
     double gate_across = 0;      ///< the same across the heading
-    double fastest = std::numeric_limits<double>::infinity();  ///< tracks: px/frame of a detection they may take
+    double fastest = std::numeric_limits<double>::infinity();   ///< tracks: px/frame of a detection they may take
     double farthest = std::numeric_limits<double>::infinity();  ///< tracks: px from their centre to that of one
 };
 

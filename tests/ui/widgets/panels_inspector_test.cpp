@@ -45,8 +45,9 @@ class InspectorTest : public QObject {
         inspector.setCurrentFrame(12);
         const QString text = inspector.text();
         // 5 px a frame at 0.25 m/px and 25 Hz are 112.5 km/h.
-        for (const char* part : {"Track 4", "frames 10 to 19, 0.4 s", "112.5 km/h", "4.5 × 2.0 m", "5 detected",
-                                 "2 reconstructed", "2 predicted", "1 standing", "106.0, 58.0 px", "53°", "confirmed, detected"}) {
+        for (const char* part :
+             {"Track 4", "frames 10 to 19, 0.4 s", "112.5 km/h", "4.5 × 2.0 m", "5 detected", "2 reconstructed",
+              "2 predicted", "1 standing", "106.0, 58.0 px", "53°", "confirmed, detected"}) {
             QVERIFY2(text.contains(QString::fromUtf8(part)), qPrintable(text));
         }
         inspector.setCurrentFrame(30);
