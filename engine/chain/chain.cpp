@@ -132,7 +132,7 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
     }
     {
         const Stopwatch watch(times, Stage::tracking);
-        result.tracks = tracker_.next(result.motion, result.detections, nullptr, frame.gray);
+        result.tracks = tracker_.next(result.motion, result.detections, nullptr, [&] { return frame.gray; });
     }
     result.stage_ms = times;
     return result;

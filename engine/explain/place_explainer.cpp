@@ -19,15 +19,14 @@ PlaceExplainer::PlaceExplainer(ReplaySource source)
 bool PlaceExplainer::followTracks(FrameIndex frame, const std::stop_token& stop) {
     Tracker tracker(source_.options.tracking, source_.scale);
     const FrameIndex first = std::max(source_.first_frame, frame - kTrackFrames);
-    const bool by_looks = source_.options.tracking.appearance != AppearanceUse::none;
     TrackingTrace trace;
     for (FrameIndex f = first; f < frame; ++f) {
         if (stop.stop_requested()) return false;
         if (const auto stored = source_.result_of(f))
-            tracker.next(stored->motion, stored->detections, nullptr, by_looks ? source_.pixels(f).gray : cv::Mat());
+            tracker.next(stored->motion, stored->detections, nullptr, [&] { return source_.pixels(f).gray; });
     }
     evidence_.unfinished = tracker.next(evidence_.result.motion, evidence_.result.detections, &trace,
-                                        by_looks ? source_.pixels(frame).gray : cv::Mat());
+                                        [&] { return source_.pixels(frame).gray; });
     evidence_.tracking = std::move(trace);
     return true;
 }

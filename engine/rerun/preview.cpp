@@ -125,8 +125,7 @@ FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
     return result;
 }
 
-cv::Mat Preview::looksOf(Known& known, const ChainOptions& options) {
-    if (options.tracking.appearance == AppearanceUse::none) return {};
+cv::Mat Preview::pictureOf(Known& known) {
     if (known.frame.gray.empty()) known.frame = source_.pixels(known.stored.motion.frame);
     return known.frame.gray;
 }
@@ -190,10 +189,10 @@ std::optional<PreviewedFrame> Preview::now(FrameIndex frame, const ChainOptions&
     for (FrameIndex before = std::max(source_.first_frame, frame - range); before < frame; ++before) {
         Known* past = known(before);
         if (past == nullptr) continue;
-        tracker.next(past->stored.motion, past->stored.detections, nullptr, looksOf(*past, options));
+        tracker.next(past->stored.motion, past->stored.detections, nullptr, [&] { return pictureOf(*past); });
     }
-    previewed.result.tracks =
-        tracker.next(previewed.result.motion, previewed.result.detections, nullptr, looksOf(*known(frame), options));
+    previewed.result.tracks = tracker.next(previewed.result.motion, previewed.result.detections, nullptr,
+                                           [&] { return pictureOf(*known(frame)); });
     previewed.tracks_final = previewed.start >= ChainStage::tracking;
     if (const Known* present = known(frame)) adoptIds(previewed.result.tracks, present->stored.tracks);
     return previewed;
@@ -212,12 +211,12 @@ std::optional<PreviewedFrame> Preview::withTracks(FrameIndex frame, const ChainO
         Known* past = known(before);
         if (past == nullptr) continue;
         const FrameResult result = secondHalf(*past, options);
-        tracker.next(result.motion, result.detections, nullptr, looksOf(*past, options));
+        tracker.next(result.motion, result.detections, nullptr, [&] { return pictureOf(*past); });
     }
     // By the longer window, which is nearer to a run.
     if (previewed->approximate) previewed->result = secondHalf(*known(frame), options);
-    previewed->result.tracks =
-        tracker.next(previewed->result.motion, previewed->result.detections, nullptr, looksOf(*known(frame), options));
+    previewed->result.tracks = tracker.next(previewed->result.motion, previewed->result.detections, nullptr,
+                                            [&] { return pictureOf(*known(frame)); });
     previewed->tracks_final = true;
     if (const Known* present = known(frame)) adoptIds(previewed->result.tracks, present->stored.tracks);
     return previewed;

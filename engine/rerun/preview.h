@@ -61,7 +61,7 @@ class Preview {
     const FrameMotion& motionOf(const Known& known) const;
     FrameResult secondHalf(Known& known, const ChainOptions& options);
     /// Pixels of a frame where tracks are known by their looks; else nothing.
-    cv::Mat looksOf(Known& known, const ChainOptions& options);
+    cv::Mat pictureOf(Known& known);
     std::optional<PreviewedFrame> byReplay(FrameIndex frame, const ChainOptions& options, const std::stop_token& stop);
     void adoptIds(std::vector<TrackState>& tracks, const std::vector<TrackState>& stored) const;
 

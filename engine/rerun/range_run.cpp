@@ -32,9 +32,8 @@ class Worker {
         std::optional<FrameResult> stored = source_.result_of(frame);
         if (!stored) return std::nullopt;
         if (tracker_) {
-            const bool by_looks = options_.tracking.appearance != AppearanceUse::none;
-            const cv::Mat gray = by_looks ? source_.pixels(frame).gray : cv::Mat();
-            stored->tracks = tracker_->next(stored->motion, stored->detections, nullptr, gray);
+            stored->tracks =
+                tracker_->next(stored->motion, stored->detections, nullptr, [&] { return source_.pixels(frame).gray; });
             return stored;
         }
         const Frame pixels = source_.pixels(frame);

@@ -273,11 +273,10 @@ std::shared_ptr<const std::vector<TimedState>> StageCache::states(const ChainOpt
         auto states = std::make_shared<std::vector<TimedState>>();
         Tracker tracker(options.tracking, scale_);
         ClipFrames::Reader reader = frames_.reader();
-        const bool by_looks = options.tracking.appearance != AppearanceUse::none;
         for (std::size_t i = 0; i < motion.size(); ++i) {
             leaveIf(stop);
-            const cv::Mat gray = by_looks ? reader.read(motion[i].frame).gray : cv::Mat();
-            for (const TrackState& state : tracker.next(motion[i], detections[i], nullptr, gray))
+            const PictureOfFrame picture = [&] { return reader.read(motion[i].frame).gray; };
+            for (const TrackState& state : tracker.next(motion[i], detections[i], nullptr, picture))
                 states->emplace_back(motion[i].frame, state);
         }
         return states;

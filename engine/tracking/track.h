@@ -1,13 +1,30 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/values/track_state.h"
 #include "tracking/association/vector_association.h"
 #include "tracking/box_kalman_filter.h"
+#include "tracking/vehicle_look.h"
 
 namespace eyrie {
+
+/// What is known of a vehicle that may stand or stands. Its place is fixed to the ground: registration carries it.
+struct Standstill {
+    bool begun = false;    ///< seen by its look alone since it was lost
+    bool certain = false;  ///< long enough at one place to be taken to stand
+    bool agrees = false;   ///< the picture at its place looks like it, as far as was looked last
+    OrientedBox place;
+    int still = 0;   ///< frames at this place until it is certain
+    int frames = 0;  ///< frames since it is certain
+    int hidden = 0;  ///< frames in a row in which the place looks different
+    int away = 0;    ///< looks in a row that found it beside its place
+
+    template <class Archive>
+    void transfer(Archive& archive);
+};
 
 /// A living track inside the tracker.
 struct Track {
@@ -31,8 +48,12 @@ struct Track {
     bool stopped = false;          ///< lost while slow
     bool recognised = false;       ///< without a detection in this frame, but found by its appearance
     int recognised_streak = 0;     ///< frames in a row
+    int whole_boxes = 0;           ///< detections that a classifier took for a whole vehicle
+    cv::Point2d origin_place;      ///< where it was first detected, carried along with the ground, px
+    std::optional<VehicleLook> look;
+    Standstill standstill;
 
-    explicit Track(const BoxMeasurement& first) : filter(first) {}
+    explicit Track(const BoxMeasurement& first) : filter(first), origin_place(first.box.centre) {}
     /// As the rest of the chain sees it.
     TrackState state() const;
 

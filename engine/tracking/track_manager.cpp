@@ -13,6 +13,21 @@ constexpr int kScoreFrames = 32;      ///< window of TrackState::score
 constexpr double kStopping = 0.7;     ///< what is left of a stopping track's velocity after a frame
 constexpr double kSoonStopped = 3;    ///< times stop_speed from which a track may stop soon
 constexpr double kAlikeSpeeds = 0.3;  ///< difference of velocities that move alike, as a share
+constexpr int kStandingHits = 10;     ///< detections after which a track may be taken for a standing vehicle …
+constexpr double kStandingWay = 1;    ///< … and vehicle lengths that it drove before
+constexpr double kWholeShare = 0.1;   ///< … and share of detections in which a classifier took it for a vehicle …
+constexpr double kSureHits_s = 2;     ///< … or, as it knows no lorries, seconds of detections …
+constexpr double kSureWay = 2;        ///< … and vehicle lengths
+constexpr double kSettle_s = 0.4;     ///< at one place, until a vehicle stands
+constexpr double kSettleReach = 0.5;  ///< px by which it may move meanwhile
+constexpr double kCreeping_s = 2;     ///< by its look alone from one place to another
+constexpr double kLookInterval_s = 0.1;
+constexpr double kStandingReach = 0.15;  ///< of the length by which a standing vehicle may be off its place …
+constexpr double kSmallestReach = 1.5;   ///< … and px
+constexpr int kLooksAway = 3;            ///< looks in a row that find a vehicle off its place: it creeps
+constexpr double kPlaceGain = 0.1;  ///< by which its place follows looks, for the ground is not registered exactly …
+constexpr double kPlaceDrift = 0.03;  ///< … px a look at most: no vehicle is followed by it
+constexpr double kFastestStart = 3;   ///< times stop_speed when a vehicle that stood is detected again
 
 int hitsWithin(std::uint64_t history, int frames) {
     const std::uint64_t mask = frames >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << frames) - 1;
@@ -51,6 +66,11 @@ TrackManager::TrackManager(const TrackerOptions& o, const SceneScale& scale)
       max_missing_(std::max(2, framesOf(o.max_missing_s, scale))),
       max_stopped_(framesOf(o.max_stopped_s, scale)),
       max_standing_(framesOf(o.max_standing_s, scale)),
+      max_hidden_(framesOf(o.max_hidden_s, scale)),
+      sure_hits_(std::max(kStandingHits, framesOf(kSureHits_s, scale))),
+      settle_(std::max(5, framesOf(kSettle_s, scale))),
+      max_creeping_(framesOf(kCreeping_s, scale)),
+      look_interval_(std::max(1, framesOf(kLookInterval_s, scale))),
       appearance_(o.appearance),
       max_leaving_(framesOf(o.max_leaving_s, scale)),
       max_failed_(std::max(3, framesOf(o.max_failed_s, scale))),
@@ -67,13 +87,15 @@ TrackManager::TrackManager(const TrackerOptions& o, const SceneScale& scale)
 
 void TrackManager::count(Track& track, double slow_speed) const {
     const bool detected = track.origin == StateOrigin::detected;
-    track.history = track.history << 1 | (detected ? 1U : 0U);
+    // What stands cannot be detected, which says nothing against it.
+    if (track.origin != StateOrigin::standing) track.history = track.history << 1 | (detected ? 1U : 0U);
     track.hits += detected;
     track.missing = detected ? 0 : track.missing + 1;
     if (detected) track.reconstructed_streak = 0;
     if (track.origin == StateOrigin::reconstructed) ++track.reconstructed_streak;
     track.predicted_streak = track.origin == StateOrigin::predicted ? track.predicted_streak + 1 : 0;
-    track.recognised_streak = track.recognised ? track.recognised_streak + 1 : 0;
+    const bool creeps = track.recognised && !track.standstill.certain;
+    track.recognised_streak = creeps ? track.recognised_streak + 1 : 0;
     if (track.recognised) track.predicted_streak = 1;
 
     if (track.status == TrackStatus::tentative) {
@@ -95,15 +117,73 @@ bool TrackManager::mayBeReconstructed(const Track& track) const {
     return track.reconstructed_streak < limit;
 }
 
-bool TrackManager::mayBeRecognised(const Track& track, double slow_speed) const {
-    if (appearance_ == AppearanceUse::none || track.status == TrackStatus::tentative) return false;
-    if (track.recognised_streak >= max_standing_) return false;
+bool TrackManager::hasDriven(const Track& track, bool classified) const {
+    const OrientedBox box = track.filter.box();
+    const cv::Point2d off = box.centre - track.origin_place;
+    const double way = std::hypot(off.x, off.y) / box.length;
+    const bool known = !classified || track.whole_boxes >= kWholeShare * track.hits;
+    return track.hits >= (known ? kStandingHits : sure_hits_) && way >= (known ? kStandingWay : kSureWay);
+}
+
+bool TrackManager::mayBeRecognised(const Track& track, double slow_speed, bool classified) const {
+    if (appearance_ == AppearanceUse::none || track.status == TrackStatus::tentative || !track.look) return false;
+    if (track.standstill.certain) return true;
+    if (track.recognised_streak >= max_creeping_) return false;
+    if (!hasDriven(track, classified)) return false;
     return appearance_ == AppearanceUse::lost || track.stopped ||
            track.filter.speed() < std::max(stop_speed_, slow_speed);
 }
 
-bool TrackManager::worthRemembering(const Track& track, double slow_speed) const {
+double TrackManager::reachOf(const OrientedBox& place) {
+    return std::max(kSmallestReach, kStandingReach * place.length);
+}
+
+double TrackManager::fastestStart(double slow_speed) const {
+    return kFastestStart * std::max(stop_speed_, slow_speed);
+}
+
+void TrackManager::countStandstill(Track& track, std::optional<double> away, const OrientedBox& found) const {
+    Standstill& stands = track.standstill;
+    stands.agrees = away.has_value();
+    if (!away) {
+        if (!stands.certain) stands = {};
+        return;
+    }
+    stands.hidden = 0;
+    if (!stands.certain) {
+        const bool at_place = stands.begun && *away <= kSettleReach;
+        if (!at_place) stands.place = found;
+        stands.still = at_place ? stands.still + 1 : 1;
+        stands.begun = true;
+        stands.certain = stands.still >= settle_;
+        return;
+    }
+    const bool at_place = *away <= reachOf(stands.place);
+    stands.away = at_place ? 0 : stands.away + 1;
+    if (stands.away >= kLooksAway) {
+        stands = {};
+    } else if (at_place) {
+        const cv::Point2d step = kPlaceGain * (found.centre - stands.place.centre);
+        const double way = std::hypot(step.x, step.y);
+        stands.place.centre += step * std::min(1.0, kPlaceDrift / std::max(way, 1e-9));
+    }
+}
+
+void TrackManager::countDeparture(Track& track) const {
+    Standstill& stands = track.standstill;
+    if (!stands.certain) {
+        stands = {};
+        return;
+    }
+    stands.hidden = 0;
+    const cv::Point2d off = track.filter.box().centre - stands.place.centre;
+    stands.away = std::hypot(off.x, off.y) <= reachOf(stands.place) ? 0 : stands.away + 1;
+    if (stands.away >= kLooksAway) stands = {};
+}
+
+bool TrackManager::worthRemembering(const Track& track, double slow_speed, bool classified) const {
     if (appearance_ == AppearanceUse::none || track.status == TrackStatus::tentative || track.merged) return false;
+    if (!hasDriven(track, classified)) return false;
     return appearance_ == AppearanceUse::lost ||
            track.filter.speed() < kSoonStopped * std::max(stop_speed_, slow_speed);
 }
@@ -132,6 +212,13 @@ std::optional<TrackManager::End> TrackManager::endOf(const Track& track, cv::Siz
     if (track.status == TrackStatus::tentative) {
         if (track.missing <= max_missing_tentative_) return std::nullopt;
         return End{"tracking.max_missing_tentative", 1.0 * track.missing, 1.0 * max_missing_tentative_};
+    }
+    const Standstill& stands = track.standstill;
+    if (stands.certain && stands.frames > max_standing_)
+        return End{"tracking.max_standing", 1.0 * stands.frames, 1.0 * max_standing_};
+    if (stands.certain) {
+        if (stands.hidden <= max_hidden_) return std::nullopt;
+        return End{"tracking.max_hidden", 1.0 * stands.hidden, 1.0 * max_hidden_};
     }
     int limit = max_missing_;
     const char* parameter = "tracking.max_missing";
@@ -204,6 +291,7 @@ void TrackManager::suppressDuplicates(std::vector<Track>& tracks, double slow_sp
                 stays.missing = stays.predicted_streak = stays.reconstructed_streak = 0;
                 stays.stopped = stays.recognised = false;
                 stays.recognised_streak = 0;
+                stays.standstill = {};
                 if (stays.status == TrackStatus::coasting) stays.status = TrackStatus::confirmed;
             }
         }

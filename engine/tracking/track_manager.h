@@ -20,10 +20,21 @@ class TrackManager {
     void count(Track& track, double slow_speed) const;
     /// Whether the track may be rebuilt from motion vectors once more.
     bool mayBeReconstructed(const Track& track) const;
-    /// Whether a track without evidence in this frame may be looked for by its appearance.
-    bool mayBeRecognised(const Track& track, double slow_speed) const;
+    /// Whether a track without evidence in this frame may be looked for by its appearance. `classified`: a classifier
+    /// takes part, which has known vehicles when it saw them.
+    bool mayBeRecognised(const Track& track, double slow_speed, bool classified) const;
     /// Whether it is worth remembering what the track looks like.
-    bool worthRemembering(const Track& track, double slow_speed) const;
+    bool worthRemembering(const Track& track, double slow_speed, bool classified) const;
+    /// Counts whether a lost track was found at its place by its look, `away` px from there; nothing: not found.
+    void countStandstill(Track& track, std::optional<double> away, const OrientedBox& found) const;
+    /// Lets a standing track go on when its detections lead away from its place.
+    void countDeparture(Track& track) const;
+    /// Frames from one look at a standing vehicle to the next.
+    int lookInterval() const { return look_interval_; }
+    /// px from its place within which a detection may belong to a vehicle that is seen to stand there.
+    static double reachOf(const OrientedBox& place);
+    /// px/frame above which a detection cannot be of a vehicle that just stood.
+    double fastestStart(double slow_speed) const;
     /// Whether the track's size is known well enough to judge detections by it.
     bool established(const Track& track) const { return track.hits >= confirm_hits_; }
     /// Whether the track was in separate parts for so long that it must be several objects.
@@ -49,6 +60,7 @@ class TrackManager {
     int maxFailedFrames() const { return max_failed_; }
 
  private:
+    bool hasDriven(const Track& track, bool classified) const;
     bool alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b, cv::Point2d velocity_b,
                double slow_speed) const;
     bool leaving(const Track& track, cv::Size image) const;
@@ -60,6 +72,11 @@ class TrackManager {
     int max_missing_;
     int max_stopped_;
     int max_standing_;
+    int max_hidden_;
+    int sure_hits_;
+    int settle_;
+    int max_creeping_;
+    int look_interval_;
     AppearanceUse appearance_;
     int max_leaving_;
     int max_failed_;

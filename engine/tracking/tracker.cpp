@@ -14,7 +14,6 @@ namespace eyrie {
 namespace {
 
 constexpr int kGrowthsToBelieve = 2;  ///< detections in a row beyond the box after which the box was too small
-constexpr double kLeastReach = 2;     ///< px around the prediction in which an object is looked for by its looks
 constexpr int kHitsToBeMerged = 3;    ///< detections that show a track beside an established one to be real
 
 const SceneScale& checked(const SceneScale& scale) {
@@ -47,19 +46,19 @@ Tracker::Tracker(const TrackerOptions& options, const SceneScale& scale)
     : options_(options),
       model_(options, checked(scale)),
       manager_(options, scale),
-      looks_(options.appearance_agreement),
       gate_(std::max(options.distance_gate_px, scale.px(options.distance_gate_m))) {}
 
 void Tracker::reset() {
     tracks_.clear();
-    looks_.clear();
     next_id_ = 1;
     frozen_frames_ = 0;
     failed_frames_ = 0;
+    frames_ = 0;
+    classified_ = false;
 }
 
 std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vector<Detection>& detections,
-                                      TrackingTrace* trace, const cv::Mat& gray) {
+                                      TrackingTrace* trace, const PictureOfFrame& picture) {
     if (trace != nullptr) *trace = {};
     model_.startFrame(motion.image_size, motion.background_speed_sigma);
     if (isCut(motion.registration)) tracks_.clear();
@@ -72,7 +71,7 @@ std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vect
             break;
         case RegistrationState::first:
         case RegistrationState::registered:
-            follow(motion, detections, trace, gray);
+            follow(motion, detections, trace, Picture(picture));
             break;
     }
     std::vector<TrackState> states;
@@ -85,7 +84,8 @@ void Tracker::coastThroughFrozen() {
     ++frozen_frames_;
     for (Track& track : tracks_) {
         ++track.age;
-        track.origin = StateOrigin::predicted;
+        const bool stands = track.standstill.certain && track.standstill.agrees;
+        track.origin = stands ? StateOrigin::standing : StateOrigin::predicted;
         if (track.status == TrackStatus::confirmed) track.status = TrackStatus::coasting;
     }
 }
@@ -98,6 +98,8 @@ void Tracker::coastThroughFailed(const FrameMotion& motion) {
         track.filter.smear({1, 0});
         track.filter.smear({0, 1});
         track.origin = StateOrigin::predicted;
+        // It must be found anew, for its place may be off by as much.
+        track.standstill = {};
         if (track.status == TrackStatus::confirmed) track.status = TrackStatus::coasting;
     }
     const bool lost = failed_frames_ > manager_.maxFailedFrames();
@@ -112,6 +114,12 @@ void Tracker::predict(const FrameMotion& motion) {
         if (frozen_frames_ > 0) track.filter.smear(frozen_frames_ * track.filter.velocity());
         track.filter.predict(map, model_.processNoise());
         const double scale = std::sqrt(track.filter.box().area() / area_before);
+        track.origin_place = map.apply(track.origin_place);
+        OrientedBox& place = track.standstill.place;
+        place.heading = map.turned(place.centre, place.heading);
+        place.centre = map.apply(place.centre);
+        place.length *= scale;
+        place.width *= scale;
         for (AssociatedVector& vector : track.vectors) vector.in_box *= scale;
         ++track.age;
     }
@@ -119,7 +127,7 @@ void Tracker::predict(const FrameMotion& motion) {
 }
 
 void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
-                     const cv::Mat& gray) {
+                     Picture picture) {
     failed_frames_ = 0;
     predict(motion);
     std::vector<const Detection*> found;
@@ -128,10 +136,13 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     for (std::size_t i = 0; i < detections.size(); ++i) {
         const Detection& detection = detections[i];
         if (!usable(detection)) continue;
+        classified_ = classified_ || detection.complete;
         found.push_back(&detection);
         detected.push_back({detection.box, detection.velocity, 0, 0});
         positions.push_back(static_cast<int>(i));
     }
+    ++frames_;
+    lookAtStanding(detected, picture);
     const std::vector<MovingBox> predicted = predictedBoxes();
     const OverlapMatrix matrix = overlapMatrix(detected, predicted, motion.image_size);
     const FrameAssociation association = associate(matrix, detected, predicted);
@@ -141,15 +152,11 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     for (std::size_t j = 0; j < tracks_.size(); ++j) {
         keepSeenVectors(tracks_[j].vectors, vectors);
         updateTrack(tracks_[j], association.tracks[j], found, vectors);
-        recognise(tracks_[j], gray);
+        lookAround(tracks_[j], picture);
         manager_.count(tracks_[j], model_.slowSpeed());
     }
     if (trace != nullptr) traceEnds(motion.image_size, *trace);
-    std::erase_if(tracks_, [&](const Track& track) {
-        const bool over = manager_.ended(track, motion.image_size);
-        if (over) looks_.forget(track.id);
-        return over;
-    });
+    std::erase_if(tracks_, [&](const Track& track) { return manager_.ended(track, motion.image_size); });
     manager_.suppressDuplicates(tracks_, model_.slowSpeed());
     if (trace != nullptr) {
         for (TracedTrack& traced : trace->tracks) {
@@ -162,15 +169,6 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     if (options_.use_vectors) associateMotionVectors(vectors);
 }
 
-void Tracker::recognise(Track& track, const cv::Mat& gray) {
-    track.recognised = false;
-    if (track.origin == StateOrigin::detected && manager_.worthRemembering(track, model_.slowSpeed()))
-        looks_.remember(track.id, gray, track.filter.box());
-    if (track.origin != StateOrigin::predicted || !manager_.mayBeRecognised(track, model_.slowSpeed())) return;
-    const auto found = looks_.find(track.id, gray, track.filter.box(), std::max(kLeastReach, gate_));
-    track.recognised = found && track.filter.update(model_.placed(*found));
-}
-
 std::vector<MovingBox> Tracker::predictedBoxes() const {
     std::vector<MovingBox> boxes;
     for (const Track& track : tracks_) {
@@ -179,6 +177,11 @@ std::vector<MovingBox> Tracker::predictedBoxes() const {
             const cv::Point2d along = moving.box.direction();
             moving.gate_along = gate_ + 2 * track.filter.positionDeviation(along);
             moving.gate_across = gate_ + 2 * track.filter.positionDeviation({-along.y, along.x});
+        }
+        if (track.standstill.certain) {
+            moving.fastest = manager_.fastestStart(model_.slowSpeed());
+            // As long as the vehicle is seen at its place, what moves elsewhere is another one.
+            if (track.standstill.agrees) moving.farthest = 2 * TrackManager::reachOf(track.standstill.place);
         }
         boxes.push_back(moving);
     }
@@ -279,6 +282,8 @@ void Tracker::updateTrack(Track& track, const TrackAssociation& association,
     }
     if (updated) {
         track.origin = StateOrigin::detected;
+        track.whole_boxes +=
+            association.kind == AssociationKind::matched && detectionAt(association.detection).complete;
     } else if (options_.use_vectors && updateByVectors(track, vectors)) {
         track.origin = StateOrigin::reconstructed;
     }
@@ -330,6 +335,7 @@ void Tracker::startTracks(const std::vector<const Detection*>& detections, const
         track.id = next_id_++;
         if (trace != nullptr) trace->started.emplace_back(positions[i], track.id);
         track.whole_hits = 1;
+        track.whole_boxes = detection.complete;
         track.filter.pointForward(model_.slowSpeed());
         if (options_.confirm_hits <= 1) track.status = TrackStatus::confirmed;
         born.push_back(std::move(track));
@@ -348,7 +354,8 @@ void Tracker::associateMotionVectors(const FrameVectors& vectors) {
     std::vector<VectorClaim> claims;
     for (Track& track : tracks_) {
         VectorClaim claim{track.filter.box(), track.filter.velocity(), true, true, &track.vectors};
-        claim.may_gain = track.origin != StateOrigin::predicted && !track.merged;
+        claim.may_gain = track.origin == StateOrigin::detected || track.origin == StateOrigin::reconstructed;
+        claim.may_gain = claim.may_gain && !track.merged;
         claim.learns = track.origin == StateOrigin::detected;
         claims.push_back(claim);
     }

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/values/detection.h"
 #include "core/values/motion_vector.h"
 #include "core/values/scene_scale.h"
 #include "core/values/track_state.h"
-#include "tracking/appearance.h"
 #include "tracking/measurement_model.h"
 #include "tracking/track.h"
 #include "tracking/track_manager.h"
@@ -14,6 +14,10 @@
 #include "tracking/tracking_trace.h"
 
 namespace eyrie {
+
+/// The grey picture of the frame, CV_8UC1. Asked for only where a vehicle stops or stands, so that detections can be
+/// tracked anew without reading the whole video.
+using PictureOfFrame = std::function<cv::Mat()>;
 
 /// Follows objects from frame to frame by their detections and motion vectors (Teutsch ch. 6, fig. 6.6).
 class Tracker {
@@ -26,7 +30,7 @@ class Tracker {
     /// tracks are predicted, in a frozen one nothing moves, and after a cut all tracks end. `trace`, if given, receives
     /// how detections and tracks were joined.
     std::vector<TrackState> next(const FrameMotion& motion, const std::vector<Detection>& detections,
-                                 TrackingTrace* trace = nullptr, const cv::Mat& gray = {});
+                                 TrackingTrace* trace = nullptr, const PictureOfFrame& picture = {});
 
     /// Forgets all tracks; ids start from 1 again.
     void reset();
@@ -39,9 +43,29 @@ class Tracker {
  private:
     void coastThroughFrozen();
     void coastThroughFailed(const FrameMotion& motion);
+    /// Asks for the picture when it is first needed.
+    class Picture {
+     public:
+        explicit Picture(const PictureOfFrame& source) : source_(source) {}
+        const cv::Mat& gray() {
+            if (!asked_ && source_) gray_ = source_();
+            asked_ = true;
+            return gray_;
+        }
+
+     private:
+        const PictureOfFrame& source_;
+        cv::Mat gray_;
+        bool asked_ = false;
+    };
+
     void follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
-                const cv::Mat& gray);
-    void recognise(Track& track, const cv::Mat& gray);
+                Picture picture);
+    void lookAtStanding(const std::vector<MovingBox>& detected, Picture& picture);
+    void lookAround(Track& track, Picture& picture);
+    void keepStanding(Track& track);
+    std::optional<OrientedBox> found(const Track& track, Picture& picture, const OrientedBox& expected,
+                                     double reach) const;
     void predict(const FrameMotion& motion);
     std::vector<MovingBox> predictedBoxes() const;
     OverlapMatrix overlapMatrix(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
@@ -63,12 +87,13 @@ class Tracker {
     TrackerOptions options_;
     MeasurementModel model_;
     TrackManager manager_;
-    AppearanceMemory looks_;
     double gate_ = 0;  ///< px
     std::vector<Track> tracks_;
     TrackId next_id_ = 1;
     int frozen_frames_ = 0;  ///< in a row, up to now
     int failed_frames_ = 0;  ///< in a row, up to now
+    int frames_ = 0;
+    bool classified_ = false;  ///< detections of a classifier were seen
 };
 
 }  // namespace eyrie

@@ -125,7 +125,20 @@ void describeLife(TrackerOptions& o, const ParameterDeclarer& declare) {
          "that were slow; a vehicle that stands keeps its track and its id until it moves on.",
          ""});
     declare.real("tracking.appearance_agreement", o.appearance_agreement, 0.1, 1,
-                 {"", "Lowest normalised correlation at which a lost track counts as found again.", ""});
+                 {"",
+                  "Lowest normalised correlation at which a place looks like the vehicle. It does not depend on how "
+                  "bright the light is.",
+                  ""});
+    declare.real("tracking.appearance_margin", o.appearance_margin, 0, 1,
+                 {"",
+                  "How much better the vehicle's look must agree with its place than with the picture half a vehicle "
+                  "beside it.",
+                  ""});
+    declare.real("tracking.max_hidden", o.max_hidden_s, 0, 60,
+                 {"s",
+                  "How long the place of a standing vehicle may look different, as something passes in front of it, "
+                  "before its track ends.",
+                  ""});
     declare.real("tracking.max_standing", o.max_standing_s, 0, 3600,
                  {"s", "How long a track is kept by its appearance alone.", ""});
     declare.real("tracking.max_failed", o.max_failed_s, 0, 60,
@@ -227,6 +240,7 @@ TrackerOptions TrackerOptions::thesis() {
     options.max_supported_s = 0;
     options.stop_speed_m_s = 0;
     options.max_leaving_s = 0;
+    options.appearance = AppearanceUse::none;
     options.min_visible = 0;
     options.suppress_duplicates = false;
     options.complete_at_border = false;

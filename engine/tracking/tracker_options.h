@@ -14,7 +14,7 @@ enum class SplitMergeRule {
 /// Which lost tracks are looked for by what they looked like.
 enum class AppearanceUse {
     none,
-    stopped,  ///< those that were slow when they got lost
+    stopped,  ///< vehicles that were slow when they got lost
     lost      ///< all reliable ones
 };
 
@@ -55,9 +55,11 @@ struct TrackerOptions {
     double stop_speed_m_s = 2.0;
     double max_stopped_s = 1.0;
     double max_leaving_s = 3.0;
-    AppearanceUse appearance = AppearanceUse::none;
-    double appearance_agreement = 0.85;
-    double max_standing_s = 60;
+    AppearanceUse appearance = AppearanceUse::stopped;
+    double appearance_agreement = 0.7;
+    double appearance_margin = 0.1;
+    double max_hidden_s = 2;
+    double max_standing_s = 600;
     double max_failed_s = 0.5;
     double min_visible = 0.02;
     bool suppress_duplicates = true;

@@ -17,28 +17,29 @@ void BoxKalmanFilter::transfer(Archive& archive) {
 }
 
 template <class Archive>
+void VehicleLook::transfer(Archive& archive) {
+    archive(chip_, box_, step_);
+    archive.require(chip_.type() == CV_8UC1 && !chip_.empty() && step_ > 0, "a track that looks like nothing");
+}
+
+template <class Archive>
+void Standstill::transfer(Archive& archive) {
+    archive(begun, certain, agrees, place, still, frames, hidden, away);
+}
+
+template <class Archive>
 void Track::transfer(Archive& archive) {
     archive.word(status, TrackStatus::coasting);
-    archive.word(origin, StateOrigin::predicted);
+    archive.word(origin, StateOrigin::standing);
     archive(id, filter, vectors, history, age, hits, missing, reconstructed_streak, predicted_streak, size_streak,
-            growth_streak, whole_hits, parts_streak, abreast_streak, merged, stopped, recognised, recognised_streak);
-}
-
-template <class Archive>
-void AppearanceMemory::Template::transfer(Archive& archive) {
-    archive(chip, box);
-    archive.require(chip.type() == CV_8UC1 && !chip.empty(), "a track that looks like nothing");
-}
-
-template <class Archive>
-void AppearanceMemory::transfer(Archive& archive) {
-    archive(templates_);
+            growth_streak, whole_hits, parts_streak, abreast_streak, merged, stopped, recognised, recognised_streak,
+            whole_boxes, origin_place, look, standstill);
 }
 
 template <class Archive>
 void Tracker::transfer(Archive& archive) {
     archive.items(tracks_, [] { return Track(BoxMeasurement{}); });
-    archive(looks_, next_id_, frozen_frames_, failed_frames_);
+    archive(next_id_, frozen_frames_, failed_frames_, frames_, classified_);
     for (const Track& track : tracks_) archive.require(track.id < next_id_, "a track from the future");
 }
 

@@ -131,6 +131,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"tracking.slow_speed", "0"},
         {"tracking.visible_overlap", "false"},
         {"tracking.max_leaving", "0"},
+        {"tracking.appearance", "none"},
         {"tracking.measure_velocity", "false"},
         {"tracking.complete_at_border", "false"},
         {"tracking.adapt_size", "false"},

@@ -55,7 +55,7 @@ void expectRealTraffic(const SceneDescription& scene) {
 }  // namespace
 
 TEST(ScenePreset, namesAreKnownAndOthersRefused) {
-    EXPECT_EQ(scenePresetNames(), (std::vector<std::string>{"seq1", "seq2", "egtest01", "demo"}));
+    EXPECT_EQ(scenePresetNames(), (std::vector<std::string>{"seq1", "seq2", "egtest01", "demo", "stops"}));
     try {
         scenePreset("seq3");
         FAIL();

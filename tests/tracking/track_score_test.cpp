@@ -103,6 +103,30 @@ TEST(TrackScore, DoubtsWhatSticksToTheImageUnlessItLookedLikeAVehicle) {
         << "a camera that hovers tells nothing";
 }
 
+TEST(TrackScore, DoesNotDependOnHowLongTheVehicleStands) {
+    CarAndCloud scene;
+    TrackPath drives{1, {}};
+    for (const auto& [frame, state] : scene.states) {
+        if (state.id == 1) drives.states.emplace_back(frame, PathState(state));
+    }
+    TrackPath stands = drives;
+    for (FrameIndex frame = kFrames; frame < 10 * kFrames; ++frame) {
+        FrameMotionSummary summary = scene.motion.back();
+        summary.frame = frame;
+        scene.motion.push_back(summary);
+        TrackState state =
+            CarAndCloud::stateOf(1, {200.0 + 7 * 59 + 3 * (frame - 59), 300}, {0, 0}, StateOrigin::standing);
+        stands.states.emplace_back(frame, PathState(state));
+    }
+    const GroundMotion ground(scene.motion);
+    const TrackEvidence before = evidenceOf(drives, 20, ground, kScale);
+    const TrackEvidence after = evidenceOf(stands, 20, ground, kScale);
+    EXPECT_EQ(after.detected, before.detected);
+    EXPECT_EQ(after.life_s, before.life_s);
+    EXPECT_NEAR(after.flow_ratio, before.flow_ratio, 0.05);
+    EXPECT_NEAR(probabilityOf(after), probabilityOf(before), 0.01);
+}
+
 TEST(TrackScore, DropsTheCloudAndKeepsTheCar) {
     CarAndCloud scene;
     const auto result = scene.finished(CarAndCloud::car);

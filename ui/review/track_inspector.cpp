@@ -122,7 +122,7 @@ void TrackInspector::showWhole() {
     double fastest = 0;
     double length = 0;
     double width = 0;
-    std::array<int, 3> origins{};
+    std::array<int, 4> origins{};
     bool confirmed = false;
     for (const TrackFrame& state : states_) {
         speed += speedOf(state.state) / count;
@@ -142,7 +142,9 @@ void TrackInspector::showWhole() {
     speed_->setText(tr("%1, at most %2").arg(speedText(speed, scale_), speedText(fastest, scale_)));
     size_->setText(sizeText(length, width, scale_));
     QStringList counts;
-    for (const StateOrigin origin : {StateOrigin::detected, StateOrigin::reconstructed, StateOrigin::predicted}) {
+    for (const StateOrigin origin :
+         {StateOrigin::detected, StateOrigin::reconstructed, StateOrigin::predicted, StateOrigin::standing}) {
+        if (origin == StateOrigin::standing && origins[static_cast<std::size_t>(origin)] == 0) continue;
         counts << QStringLiteral("<font color=\"%1\">■</font> %2 %3")
                       .arg(originColour(origin, palette()).name())
                       .arg(origins[static_cast<std::size_t>(origin)])

@@ -10,6 +10,8 @@ const char* nameOf(StateOrigin origin) {
             return "reconstructed";
         case StateOrigin::predicted:
             return "predicted";
+        case StateOrigin::standing:
+            return "standing";
     }
     return "";
 }

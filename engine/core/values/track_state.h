@@ -19,7 +19,8 @@ enum class TrackStatus : std::uint8_t {
 enum class StateOrigin : std::uint8_t {
     detected,       ///< updated by a detection
     reconstructed,  ///< updated by a box rebuilt from associated motion vectors
-    predicted       ///< the Kalman prediction alone
+    predicted,      ///< the Kalman prediction alone
+    standing        ///< it stands: the picture at its place on the ground goes on to look like it
 };
 
 /// One object in one frame. A track is the sequence of its states with one id.

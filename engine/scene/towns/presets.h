@@ -11,5 +11,6 @@ SceneDescription presetSeq1(std::uint32_t seed);
 SceneDescription presetSeq2(std::uint32_t seed);
 SceneDescription presetEgTest01(std::uint32_t seed);
 SceneDescription presetDemo(std::uint32_t seed);
+SceneDescription presetStops(std::uint32_t seed);
 
 }  // namespace eyrie

@@ -14,8 +14,11 @@ struct Preset {
     std::uint32_t seed;
 };
 
-constexpr std::array<Preset, 4> kPresets{
-    {{"seq1", presetSeq1, 1}, {"seq2", presetSeq2, 1}, {"egtest01", presetEgTest01, 1}, {"demo", presetDemo, 1}}};
+constexpr std::array<Preset, 5> kPresets{{{"seq1", presetSeq1, 1},
+                                          {"seq2", presetSeq2, 1},
+                                          {"egtest01", presetEgTest01, 1},
+                                          {"demo", presetDemo, 1},
+                                          {"stops", presetStops, 1}}};
 
 }  // namespace
 

@@ -53,9 +53,10 @@ inline constexpr std::array<Word<TrackDrop>, 7> kTrackDrops{{{TrackDrop::unconfi
                                                              {TrackDrop::hardly_detected, "hardly detected"},
                                                              {TrackDrop::could_stand, "could stand"},
                                                              {TrackDrop::unlikely, "unlikely"}}};
-inline constexpr std::array<Word<StateOrigin>, 3> kStateOrigins{{{StateOrigin::detected, "detected"},
+inline constexpr std::array<Word<StateOrigin>, 4> kStateOrigins{{{StateOrigin::detected, "detected"},
                                                                  {StateOrigin::reconstructed, "reconstructed"},
-                                                                 {StateOrigin::predicted, "predicted"}}};
+                                                                 {StateOrigin::predicted, "predicted"},
+                                                                 {StateOrigin::standing, "standing"}}};
 
 inline constexpr std::array<Word<ObjectOrigin>, 4> kObjectOrigins{
     {{ObjectOrigin::hand, "hand"},

@@ -30,6 +30,13 @@ bool moveAlike(cv::Point2d a, cv::Point2d b, const OverlapGate& gate) {
     return std::abs(turnBetween(std::atan2(a.y, a.x), std::atan2(b.y, b.x))) <= gate.max_turn;
 }
 
+/// Whether a track that stands may be of the same vehicle as a detection.
+bool mayTake(const MovingBox& track, const MovingBox& detection) {
+    if (std::hypot(detection.velocity.x, detection.velocity.y) > track.fastest) return false;
+    const cv::Point2d apart = detection.box.centre - track.box.centre;
+    return std::hypot(apart.x, apart.y) <= track.farthest;
+}
+
 /// 1 where the centres agree, falling to 0 at the edge of the gate.
 double gateCloseness(const MovingBox& detection, const MovingBox& track, double max_size_ratio) {
     if (!(track.gate_along > 0) || !(track.gate_across > 0)) return 0;
@@ -58,7 +65,7 @@ OverlapMatrix::OverlapMatrix(const std::vector<MovingBox>& detections, const std
                 std::abs(detection.box.centre.y - track.box.centre.y) > reach) {
                 continue;
             }
-            if (!moveAlike(detection.velocity, track.velocity, gate)) continue;
+            if (!mayTake(track, detection) || !moveAlike(detection.velocity, track.velocity, gate)) continue;
             BoxRelation relation;
             relation.detection = static_cast<int>(i);
             relation.track = static_cast<int>(j);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <opencv2/core/types.hpp>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct MovingBox {
     cv::Point2d velocity{0, 0};  ///< px/frame relative to the ground
     double gate_along = 0;       ///< tracks: reach of the distance gate along the heading, px; 0: no gate
     double gate_across = 0;      ///< the same across the heading
+    double fastest = std::numeric_limits<double>::infinity();   ///< tracks: px/frame of a detection they may take
+    double farthest = std::numeric_limits<double>::infinity();  ///< tracks: px from their centre to that of one
 };
 
 /// When a detection may belong to a track.

@@ -23,6 +23,8 @@ std::optional<FlowComparison> comparedWithFlow(const TrackPath& path, const Grou
     for (std::size_t i = 0; i < states.size(); i += kWindowStep) {
         const auto& [first, begin] = states[i];
         const auto& [last, end] = states[std::min(i + kWindow, states.size() - 1)];
+        // A vehicle that stands says nothing about how it moves.
+        if (begin.origin == StateOrigin::standing || end.origin == StateOrigin::standing) continue;
         const int frames = last - first;
         if (frames < (i == 0 ? 1 : kShortestWindow)) continue;
         const auto there = ground.carried({begin.box, {0, 0}}, first, last, true);

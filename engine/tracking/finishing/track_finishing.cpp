@@ -64,12 +64,12 @@ bool leftTheImage(const TrackPath& path, const GroundMotion& ground) {
     return ground.cutByBorder(path.states.back().second.box, path.lastFrame());
 }
 
-/// `stop_speed`: px/frame below which a lost object is taken to stand where it was.
+/// `stop_speed`: px/frame below which a lost object is taken to stand where it was, unless its place was looked at.
 void trimPredictedEnd(TrackPath& path, const GroundMotion& ground, double stop_speed) {
     if (leftTheImage(path, ground)) return;
     std::size_t seen = path.states.size();
     while (seen > 0 && path.states[seen - 1].second.origin == StateOrigin::predicted) --seen;
-    if (seen > 0) {
+    if (seen > 0 && path.states[seen - 1].second.origin != StateOrigin::standing) {
         const cv::Point2d velocity = path.states[seen - 1].second.velocity;
         if (std::hypot(velocity.x, velocity.y) < stop_speed) return;
     }

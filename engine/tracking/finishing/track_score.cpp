@@ -43,7 +43,7 @@ std::array<double, kFigures> figuresOf(const TrackEvidence& e) {
 TrackEvidence evidenceOf(const TrackPath& path, int looks, const GroundMotion& ground, const SceneScale& scale) {
     TrackEvidence evidence;
     const int detected = path.statesOf(StateOrigin::detected);
-    const auto states = static_cast<double>(path.states.size());
+    const auto states = std::max(1.0, static_cast<double>(path.states.size()) - path.statesOf(StateOrigin::standing));
     evidence.detected = detected / states;
     evidence.looked_alike = static_cast<double>(looks) / std::max(1, detected);
     evidence.life_s = states / scale.frame_rate_hz;

@@ -15,6 +15,7 @@ double weightOf(const PathState& state) {
         case StateOrigin::detected:
             return 1;
         case StateOrigin::reconstructed:
+        case StateOrigin::standing:
             return 0.6;
         case StateOrigin::predicted:
             break;

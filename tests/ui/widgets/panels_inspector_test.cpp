@@ -23,7 +23,8 @@ std::vector<TrackFrame> life() {
         state.state.status = TrackStatus::confirmed;
         state.state.origin = i < 5   ? StateOrigin::detected
                              : i < 7 ? StateOrigin::reconstructed
-                                     : StateOrigin::predicted;
+                             : i < 9 ? StateOrigin::predicted
+                                     : StateOrigin::standing;
         states.push_back(state);
     }
     return states;
@@ -44,8 +45,9 @@ class InspectorTest : public QObject {
         inspector.setCurrentFrame(12);
         const QString text = inspector.text();
         // 5 px a frame at 0.25 m/px and 25 Hz are 112.5 km/h.
-        for (const char* part : {"Track 4", "frames 10 to 19, 0.4 s", "112.5 km/h", "4.5 × 2.0 m", "5 detected",
-                                 "2 reconstructed", "3 predicted", "106.0, 58.0 px", "53°", "confirmed, detected"}) {
+        for (const char* part :
+             {"Track 4", "frames 10 to 19, 0.4 s", "112.5 km/h", "4.5 × 2.0 m", "5 detected", "2 reconstructed",
+              "2 predicted", "1 standing", "106.0, 58.0 px", "53°", "confirmed, detected"}) {
             QVERIFY2(text.contains(QString::fromUtf8(part)), qPrintable(text));
         }
         inspector.setCurrentFrame(30);
@@ -94,7 +96,8 @@ class InspectorTest : public QObject {
         const auto colourAt = [&](int x) { return image.pixelColor(static_cast<int>(x * scale), 3); };
         QCOMPARE(colourAt(20), originColour(StateOrigin::detected, bar.palette()));
         QCOMPARE(colourAt(60), originColour(StateOrigin::reconstructed, bar.palette()));
-        QCOMPARE(colourAt(90), originColour(StateOrigin::predicted, bar.palette()));
+        QCOMPARE(colourAt(80), originColour(StateOrigin::predicted, bar.palette()));
+        QCOMPARE(colourAt(95), originColour(StateOrigin::standing, bar.palette()));
     }
 
     void looksRightInBothThemes() {

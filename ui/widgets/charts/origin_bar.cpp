@@ -26,13 +26,16 @@ QColor originColour(StateOrigin origin, const QPalette& palette) {
         case StateOrigin::predicted:
             colour = QColor(230, 159, 0);
             break;
+        case StateOrigin::standing:
+            colour = QColor(0, 114, 178);
+            break;
     }
     return isDark(palette) ? colour.lighter(115) : colour;
 }
 
 OriginBar::OriginBar(QWidget* parent) : QWidget(parent) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    setToolTip(tr("The track's life: detected, reconstructed or predicted. Click to go there."));
+    setToolTip(tr("The track's life: detected, reconstructed, predicted or standing. Click to go there."));
 }
 
 void OriginBar::setStates(const std::vector<TrackFrame>& states) {
