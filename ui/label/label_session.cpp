@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "exchange/project_labels.h"
+#include "session/project/person_name.h"
 
 namespace eyrie::ui {
 
@@ -264,11 +265,7 @@ void LabelSession::setDrawnClass(const std::string& name) {
 }
 
 QString LabelSession::person() {
-    for (const char* variable : {"USER", "LOGNAME", "USERNAME"}) {
-        const QString name = qEnvironmentVariable(variable);
-        if (!name.isEmpty()) return name;
-    }
-    return tr("somebody");
+    return personName();
 }
 
 }  // namespace eyrie::ui
