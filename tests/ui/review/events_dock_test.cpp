@@ -8,6 +8,7 @@
 
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
+#include "review/events/event_review.h"
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
 #include "review/inspector_panel.h"
@@ -121,6 +122,23 @@ class EventsDockTest : public QObject {
         QCOMPARE(window->events().panel().currentId(), idAt(*window, 0));
         QVERIFY(test::shows(window->session(), found.frameAt(0)));
         QCOMPARE(window->session().selectedTrack(), std::optional(found.eventAt(0)->tracks.front()));
+    }
+
+    void aPlaceOutOfViewIsCentredAndAWholePictureIsLeftAlone() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        VideoView& canvas = window->canvas();
+        canvas.fit();
+        const QPointF corner = canvas.transform().viewFromImage({0, 0});
+        const int id = idAt(*window, 0);
+        window->events().show(id);
+        QCOMPARE(canvas.transform().viewFromImage({0, 0}), corner);
+        canvas.restore(40, {0, 0});
+        const cv::Point2d place = window->events().model().found()->eventAt(0)->place;
+        const QPointF image_place(place.x, place.y);
+        QVERIFY(!canvas.rect().contains(canvas.transform().viewFromImage(image_place).toPoint()));
+        window->events().show(id);
+        QVERIFY(canvas.rect().contains(canvas.transform().viewFromImage(image_place).toPoint()));
     }
 
     void aKeyJudgesAndGoesOn() {

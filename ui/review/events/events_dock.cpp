@@ -5,6 +5,7 @@
 
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
+#include "review/events/event_review.h"
 #include "review/events/event_text.h"
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
@@ -235,9 +236,9 @@ void EventsDock::bringIntoView(QPointF place) {
     if (seen.contains(canvas.transform().viewFromImage(place))) return;
     // Where the whole picture is shown there is nothing to bring nearer.
     const QSizeF size = canvas.frame().image.size();
-    const QRectF picture(canvas.transform().viewFromImage({0, 0}),
-                         canvas.transform().viewFromImage({size.width(), size.height()}));
-    if (!size.isEmpty() && QRectF(canvas.rect()).contains(picture.normalized())) return;
+    const QRectF pixels(canvas.transform().viewFromImage({0, 0}),  // centres of the outermost ones
+                        canvas.transform().viewFromImage({size.width() - 1, size.height() - 1}));
+    if (!size.isEmpty() && QRectF(canvas.rect()).contains(pixels.normalized())) return;
     canvas.centreOn(place);
 }
 

@@ -1,16 +1,25 @@
 #pragma once
 
 #include <QObject>
+#include <QPointF>
 #include <QTimer>
+#include <memory>
+#include <optional>
+#include <vector>
 
-#include "review/events/event_review.h"
+namespace eyrie {
+struct StoredTracks;
+enum class Judgement;
+}  // namespace eyrie
 
 namespace eyrie::ui {
 
 class DockRegistry;
+class EventReview;
 class EventsModel;
 class EventsPanel;
 class MessageBar;
+class ProjectSession;
 class TimelineView;
 class VideoView;
 class WindowActions;

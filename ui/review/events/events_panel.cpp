@@ -51,10 +51,10 @@ EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidg
     header_->setWordWrap(true);
     auto* rows = static_cast<QVBoxLayout*>(layout());
     rows->insertWidget(0, header_);
-    rows->setStretch(2, 3);
+    rows->setStretch(2, 2);
     buildFilters();
     buildButtons();
-    rows->addWidget(thresholds_, 2);
+    rows->addWidget(thresholds_, 3);
     thresholds_->hide();
     filterEvents();
 }
