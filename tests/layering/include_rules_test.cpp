@@ -82,7 +82,7 @@ const std::map<std::string, WindowRoom> allowed_in_window = {
     {"widgets", {{}, {"core", "store"}}},
     {"session", {{"canvas"}, {"core", "chain", "rerun", "io", "scene", "store"}}},
     {"workspace", {{"canvas", "widgets", "session"}, {"core"}}},
-    {"review", {{"canvas", "widgets", "session", "workspace"}, {"core", "chain", "store"}}},
+    {"review", {{"canvas", "widgets", "session", "workspace"}, {"core", "chain", "events", "store"}}},
     {"label",
      {{"canvas", "widgets", "session", "workspace"}, {"core", "annotation", "exchange", "formats", "io", "store"}}},
     {"tune", {{"canvas", "widgets", "session", "workspace"}, {}}},

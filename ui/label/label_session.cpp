@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "exchange/project_labels.h"
+#include "session/project/person_name.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -266,11 +267,7 @@ void LabelSession::setDrawnClass(const std::string& name) {
 }
 
 QString LabelSession::person() {
-    for (const char* variable : {"USER", "LOGNAME", "USERNAME"}) {
-        const QString name = qEnvironmentVariable(variable);
-        if (!name.isEmpty()) return name;
-    }
-    return tr("somebody");
+    return personName();
 }
 
 }  // namespace eyrie::ui

@@ -18,6 +18,7 @@
 #include "canvas/video_view.h"
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
+#include "review/events/events_dock.h"
 #include "tune/compare/live_preview.h"
 #include "tune/inspect/inspection.h"
 #include "tune/inspect/stacks_panel.h"
@@ -64,6 +65,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     inspection_ = new Inspection(session_, this);
     docks_ = new DockRegistry(*this);
     review_ = new ReviewDocks({session_, *inspection_, *docks_, *actions_, overlays_, *guard_, *messages_});
+    events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
     buildEvaluation();
@@ -178,6 +180,7 @@ void MainWindow::buildWorkspaces() {
         for (const DockId id : allDocks())
             docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
         labelling_->setActive(kind == WorkspaceKind::label);
+        events_->setActive(kind != WorkspaceKind::label);
         evaluation_->enterWorkspace(kind);
     });
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());

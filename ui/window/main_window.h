@@ -14,6 +14,7 @@ namespace eyrie::ui {
 
 class DockRegistry;
 class EvaluationDocks;
+class EventsDock;
 class Inspection;
 class LabelTimeline;
 class LabelWorkspace;
@@ -56,6 +57,7 @@ class MainWindow : public QMainWindow {
     ReviewDocks& review() { return *review_; }
     Workspaces& workspaces() { return *workspaces_; }
     LabelWorkspace& labelling() { return *labelling_; }
+    EventsDock& events() { return *events_; }
     EvaluationDocks& evaluation() { return *evaluation_; }
     Tuning& tuning() { return *tuning_; }
 
@@ -102,6 +104,7 @@ class MainWindow : public QMainWindow {
     Inspection* inspection_;
     DockRegistry* docks_;
     ReviewDocks* review_;
+    EventsDock* events_;
     EvaluationDocks* evaluation_;
     Tuning* tuning_;
     LabelWorkspace* labelling_;

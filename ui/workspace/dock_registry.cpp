@@ -27,6 +27,8 @@ const char* nameOf(DockId id) {
             return "runs";
         case DockId::tracks:
             return "tracks";
+        case DockId::events:
+            return "events";
         case DockId::inspector:
             return "inspector";
         case DockId::errors:
@@ -66,13 +68,13 @@ struct Columns {
 Columns columnsOf(WorkspaceKind workspace) {
     switch (workspace) {
         case WorkspaceKind::review:
-            return {{DockId::tracks, DockId::runs}, {DockId::inspector}};
+            return {{DockId::events, DockId::tracks, DockId::runs}, {DockId::inspector}};
         case WorkspaceKind::label:
             return {{DockId::objects}, {DockId::object, DockId::object_chips}};
         case WorkspaceKind::tune:
             break;
     }
-    return {{DockId::runs, DockId::tracks, DockId::errors},
+    return {{DockId::runs, DockId::tracks, DockId::events, DockId::errors},
             {DockId::inspector, DockId::stages, DockId::stacks, DockId::parameters, DockId::why, DockId::evaluation,
              DockId::sweeps, DockId::stage_times, DockId::statistics}};
 }

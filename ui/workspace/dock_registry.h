@@ -16,6 +16,7 @@ namespace eyrie::ui {
 enum class DockId {
     runs,
     tracks,
+    events,
     inspector,
     errors,
     evaluation,
@@ -30,7 +31,7 @@ enum class DockId {
     object,
     object_chips
 };
-inline constexpr int kDockCount = 15;
+inline constexpr int kDockCount = 16;
 
 constexpr std::array<DockId, kDockCount> allDocks() {
     std::array<DockId, kDockCount> ids{};

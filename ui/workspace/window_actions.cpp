@@ -61,6 +61,8 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     faster = add(tr("Faster"), {nullptr, {QKeySequence(Qt::Key_BracketRight), QKeySequence(Qt::Key_Period)}});
     loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(Qt::Key_O)}}, false);
 
+    addEvents();
+
     section(tr("Evaluation"));
     next_error = add(tr("&Next error"), {"go-next", {QKeySequence(Qt::Key_N), QKeySequence(Qt::Key_F8)}});
     previous_error =
@@ -131,6 +133,29 @@ QAction* WindowActions::addToggle(const QString& text, const Look& look, bool ch
     action->setCheckable(true);
     action->setChecked(checked);
     return action;
+}
+
+void WindowActions::addEvents() {
+    section(tr("Events"));
+    next_event = add(tr("&Next event"), {"go-next", {QKeySequence(tr("Ctrl+Down"))}});
+    previous_event = add(tr("&Previous event"), {"go-previous", {QKeySequence(tr("Ctrl+Up"))}});
+    next_open_event = add(tr("Next event to &judge"), {nullptr, {QKeySequence(tr("Ctrl+J"))}});
+    relevant = add(
+        tr("&Relevant"),
+        {nullptr, {QKeySequence(Qt::Key_Y)}, QT_TR_NOOP("Judge the selected events relevant, and go on to the next")});
+    not_relevant =
+        add(tr("Not rele&vant"),
+            {nullptr, {QKeySequence(Qt::Key_I)}, QT_TR_NOOP("Judge the selected events not relevant, and go on")});
+    unsure =
+        add(tr("&Unsure"),
+            {nullptr, {QKeySequence(Qt::Key_H)}, QT_TR_NOOP("Look at the selected events again later, and go on")});
+    take_back = add(tr("&Take the verdict back"), {nullptr, {QKeySequence(Qt::Key_Backspace)}});
+    star = add(tr("&Star or unstar"), {nullptr, {QKeySequence(tr("*"))}, QT_TR_NOOP("Star the selected events")});
+    note = add(tr("&Write a note"), {nullptr, {QKeySequence(tr("Ctrl+E"))}});
+    undo_verdict = add(tr("U&ndo"), {"edit-undo",
+                                     {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
+                                     QT_TR_NOOP("Take the last verdict, star or note back")});
+    redo_verdict = add(tr("Re&do"), {"edit-redo", {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))}});
 }
 
 void WindowActions::addOverlays(OverlaySettings& overlays) {

@@ -31,6 +31,8 @@ class WindowActions : public QObject {
         *shuttle_stop, *shuttle_on, *slower, *faster, *loop;
     QAction *fit, *one_to_one, *zoom_in, *zoom_out, *full_screen, *deselect;
     QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
+    QAction *next_event, *previous_event, *next_open_event, *relevant, *not_relevant, *unsure, *take_back, *star, *note,
+        *undo_verdict, *redo_verdict;
     QAction *why, *live_preview, *compare, *train;
     std::array<QAction*, kWorkspaceCount> workspace;
     std::map<OverlayKind, QAction*> overlay;
@@ -46,6 +48,7 @@ class WindowActions : public QObject {
     void section(const QString& title);
     QAction* add(const QString& text, const Look& look);
     QAction* addToggle(const QString& text, const Look& look, bool checked);
+    void addEvents();
     void addOverlays(OverlaySettings& overlays);
 
     QWidget* parent_;

@@ -107,17 +107,17 @@ class LabelHelpTest : public QObject, test::Labelling {
         QVERIFY(keyframes() <= usual);
         const TrackId first = proposals.pending()[0]->track;
         const TrackId second = proposals.pending()[1]->track;
-        emit window->labelling().tool().proposalClicked(first, false);
-        emit window->labelling().tool().proposalClicked(second, true);
+        window->labelling().tool().commands().choose_proposal(first, false);
+        window->labelling().tool().commands().choose_proposal(second, true);
         QCOMPARE(proposals.selection(), (std::vector<TrackId>{first, second}));
         key(*window, Qt::Key_Return);
         QCOMPARE(labels.annotations().objects.size(), std::size_t(2));
         QCOMPARE(proposals.pending().size(), offered - 2);
         key(*window, Qt::Key_Z, Qt::ControlModifier);  // one step
         QCOMPARE(labels.annotations().objects.size(), std::size_t(0));
-        emit window->labelling().tool().proposalClicked(first, false);
-        emit window->labelling().tool().proposalClicked(second, true);
-        emit window->labelling().tool().proposalClicked(second, true);
+        window->labelling().tool().commands().choose_proposal(first, false);
+        window->labelling().tool().commands().choose_proposal(second, true);
+        window->labelling().tool().commands().choose_proposal(second, true);
         QCOMPARE(proposals.selection(), std::vector<TrackId>{first});
     }
 

@@ -17,6 +17,9 @@ constexpr double kRulerHeight = 22;
 constexpr double kQualityHeight = 14;
 constexpr double kTrackHeight = 14;
 constexpr double kGap = 6;
+constexpr double kMarkHeight = 12;
+constexpr double kMarkReach = 5;  ///< px beside a mark that count as on it
+constexpr int kHeight = 104;
 
 QColor blend(const QColor& a, const QColor& b, double share) {
     const auto mix = [share](int from, int to) { return static_cast<int>(std::lround(from + (to - from) * share)); };
@@ -40,7 +43,7 @@ double badness(const TimelineFrame& frame) {
 }  // namespace
 
 struct TimelineView::Rows {
-    QRectF ruler, quality, activity, track;
+    QRectF ruler, quality, marks, activity, track;
 };
 
 QColor qualityColour(const TimelineFrame& frame) {
@@ -68,6 +71,7 @@ void TimelineView::setTimes(std::vector<std::int64_t> times_us) {
     frames_.clear();
     track_life_.reset();
     run_range_.reset();
+    setMarks({}, {});
     axis_.setFrameCount(static_cast<int>(times_us_.size()));
     axis_.showAll();
     current_ = 0;
@@ -104,6 +108,31 @@ void TimelineView::setTrackLife(std::optional<std::pair<FrameIndex, FrameIndex>>
     update();
 }
 
+int TimelineView::wantedHeight() const {
+    return kHeight + (marks_.empty() ? 0 : static_cast<int>(kMarkHeight + kGap - 2));
+}
+
+void TimelineView::setMarks(const QString& row_name, std::vector<TimelineMark> marks,
+                            std::function<QString(int id)> describe) {
+    const int height = wantedHeight();
+    marks_name_ = row_name;
+    marks_ = TimelineMarks(std::move(marks));
+    describe_mark_ = std::move(describe);
+    if (wantedHeight() != height) updateGeometry();
+    update();
+}
+
+std::optional<QPointF> TimelineView::placeOfMark(int id) const {
+    const TimelineMark* mark = marks_.find(id);
+    if (mark == nullptr) return std::nullopt;
+    const QPointF place(axis_.centreOf(mark->frame), rows().marks.center().y());
+    return place.x() >= axis_.left() && place.x() <= axis_.right() ? std::optional(place) : std::nullopt;
+}
+
+const TimelineMark* TimelineView::markAt(QPointF place) const {
+    return rows().marks.contains(place) ? marks_.nearest(place.x(), axis_, kMarkReach) : nullptr;
+}
+
 void TimelineView::setPalette(PaletteKind palette) {
     colours_ = overlayColours(palette);
     update();
@@ -126,8 +155,10 @@ TimelineView::Rows TimelineView::rows() const {
     rows.ruler = QRectF(left, 0, width, kRulerHeight);
     rows.quality = QRectF(left, rows.ruler.bottom() + 2, width, kQualityHeight);
     rows.track = QRectF(left, height() - kTrackHeight - 4, width, kTrackHeight);
+    const double top = rows.quality.bottom() + (marks_.empty() ? 0 : kGap - 2);
+    rows.marks = QRectF(left, top, width, marks_.empty() ? 0 : kMarkHeight);
     rows.activity =
-        QRectF(left, rows.quality.bottom() + kGap, width, rows.track.top() - kGap - rows.quality.bottom() - kGap);
+        QRectF(left, rows.marks.bottom() + kGap, width, rows.track.top() - kGap - rows.marks.bottom() - kGap);
     return rows;
 }
 
@@ -147,6 +178,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
     };
     name(row.ruler, tr("Time"));
     name(row.quality, tr("Registration"));
+    if (!marks_.empty()) name(row.marks, marks_name_);
     if (frames_.empty()) {
         name(row.activity, tr("Activity"));
     } else {
@@ -164,6 +196,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
     painter.save();
     painter.setClipRect(QRectF(axis_.left() - 1, 0, axis_.right() - axis_.left() + 2, height()));
     paintQuality(painter, row.quality);
+    paintMarks(painter, row.marks);
     paintActivity(painter, row.activity);
     paintTrackLife(painter, row.track);
     painter.restore();
@@ -228,6 +261,14 @@ void TimelineView::paintQuality(QPainter& painter, const QRectF& row) const {
         }
         frame = end;
     }
+}
+
+void TimelineView::paintMarks(QPainter& painter, const QRectF& row) const {
+    if (marks_.empty()) return;
+    painter.fillRect(row, palette().color(QPalette::Base));
+    for (const TimelineMarks::Stroke& stroke : marks_.strokes(axis_))
+        painter.fillRect(QRectF(stroke.x - 1, row.top() + 1, TimelineMarks::kStrokeWidth, row.height() - 2),
+                         stroke.colour);
 }
 
 void TimelineView::paintActivity(QPainter& painter, const QRectF& row) const {
@@ -354,7 +395,10 @@ QString TimelineView::describeFrame(FrameIndex frame) const {
 bool TimelineView::event(QEvent* event) {
     if (event->type() == QEvent::ToolTip && axis_.frameCount() > 0) {
         const auto* help = static_cast<QHelpEvent*>(event);
-        if (help->pos().x() >= axis_.left())
+        const TimelineMark* mark = markAt(help->pos());
+        if (mark != nullptr && describe_mark_)
+            QToolTip::showText(help->globalPos(), describe_mark_(mark->id), this);
+        else if (help->pos().x() >= axis_.left())
             QToolTip::showText(help->globalPos(), describeFrame(axis_.frameAt(help->pos().x())), this);
         return true;
     }
@@ -364,6 +408,10 @@ bool TimelineView::event(QEvent* event) {
 
 void TimelineView::mousePressEvent(QMouseEvent* event) {
     if (event->button() != Qt::LeftButton || axis_.frameCount() == 0) return;
+    if (const TimelineMark* mark = markAt(event->position())) {
+        emit markClicked(mark->id);
+        return;
+    }
     scrubbing_ = true;
     emit frameRequested(axis_.frameAt(event->position().x()), true);
 }

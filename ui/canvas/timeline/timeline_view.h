@@ -1,12 +1,14 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "canvas/overlay_colours.h"
 #include "canvas/timeline/timeline_axis.h"
+#include "canvas/timeline/timeline_marks.h"
 #include "core/values/corner.h"
 
 namespace eyrie::ui {
@@ -41,18 +43,25 @@ class TimelineView : public QWidget {
     void setRunRange(std::optional<std::pair<FrameIndex, FrameIndex>> range);
     /// First and last frame and the name of the selected track.
     void setTrackLife(std::optional<std::pair<FrameIndex, FrameIndex>> life, const QString& name = {});
+    /// Small marks in a row of their own, which is there while there are any; `describe` says what a mark is.
+    void setMarks(const QString& row_name, std::vector<TimelineMark> marks,
+                  std::function<QString(int id)> describe = {});
+    const TimelineMarks& marks() const { return marks_; }
+    /// Where a mark is drawn; nothing when it is out of view.
+    std::optional<QPointF> placeOfMark(int id) const;
     void setPalette(PaletteKind palette);
 
     FrameIndex currentFrame() const { return current_; }
     const TimelineAxis& axis() const { return axis_; }
     void showAll();
 
-    QSize sizeHint() const override { return {600, 104}; }
-    QSize minimumSizeHint() const override { return {240, 104}; }
+    QSize sizeHint() const override { return {600, wantedHeight()}; }
+    QSize minimumSizeHint() const override { return {240, wantedHeight()}; }
 
  signals:
     /// The user wants to see this frame; `scrubbing` while the mouse is held.
     void frameRequested(FrameIndex frame, bool scrubbing);
+    void markClicked(int id);
 
  protected:
     bool event(QEvent* event) override;
@@ -69,7 +78,11 @@ class TimelineView : public QWidget {
     Rows rows() const;
     void layoutAxis();
     void paintRuler(QPainter& painter, const QRectF& row) const;
+    int wantedHeight() const;
     void paintQuality(QPainter& painter, const QRectF& row) const;
+    void paintMarks(QPainter& painter, const QRectF& row) const;
+    /// The mark under a place of the widget.
+    const TimelineMark* markAt(QPointF place) const;
     void paintActivity(QPainter& painter, const QRectF& row) const;
     void paintTrackLife(QPainter& painter, const QRectF& row) const;
     void paintCursor(QPainter& painter) const;
@@ -86,6 +99,9 @@ class TimelineView : public QWidget {
     std::optional<std::pair<FrameIndex, FrameIndex>> run_range_;
     std::optional<std::pair<FrameIndex, FrameIndex>> track_life_;
     QString track_name_;
+    QString marks_name_;
+    TimelineMarks marks_;
+    std::function<QString(int id)> describe_mark_;
     OverlayColours colours_ = overlayColours(PaletteKind::thesis);
     FrameIndex current_ = 0;
     bool scrubbing_ = false;

@@ -41,6 +41,7 @@ class LabelTool : public QObject, public CanvasTool {
  public:
     explicit LabelTool(QObject* parent = nullptr);
     void setCommands(LabelToolCommands commands) { commands_ = std::move(commands); }
+    const LabelToolCommands& commands() const { return commands_; }
 
     void setScene(LabelScene scene);
     const LabelScene& scene() const { return scene_; }

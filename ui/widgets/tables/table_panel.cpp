@@ -49,7 +49,10 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
     filter_->setAccessibleName(tr("Show only rows with these words"));
     onEdited(
         this, [this] { setFilterText(filter_->text()); }, filter_);
-    bindCommands(this, {{nothing_found_->button(), [this] { filter_->clear(); }}});
+    bindCommands(this, {{nothing_found_->button(), [this] {
+                             filter_->clear();
+                             showHidden();
+                         }}});
 
     tool_row_->addWidget(filter_, 1);
     stack_->addWidget(table_);
@@ -141,6 +144,19 @@ int TablePanel::currentId() const {
                                                                                             : rows.first());
 }
 
+QList<int> TablePanel::selectedIds() const {
+    QList<int> rows;
+    for (const QModelIndex& row : table_->selectionModel()->selectedRows()) rows << row.row();
+    std::sort(rows.begin(), rows.end());
+    QList<int> ids;
+    for (const int row : rows) ids << idOf(proxy_->index(row, 0));
+    return ids;
+}
+
+QString TablePanel::hiddenText() const {
+    return tr("All entries are hidden.");
+}
+
 void TablePanel::selectId(int id) {
     const QScopedValueRollback<bool> quiet(telling_, false);
     kept_id_ = id;
@@ -204,9 +220,9 @@ void TablePanel::showTableOrEmptyState() {
     if (model_->rowCount() == 0) {
         stack_->setCurrentWidget(empty_);
     } else if (proxy_->rowCount() == 0) {
-        nothing_found_->setTexts(filter_->text().isEmpty() ? tr("All entries are hidden.")
-                                                           : tr("No entry contains “%1”.").arg(filter_->text()),
-                                 filter_->text().isEmpty() ? QString() : tr("Show all"));
+        nothing_found_->setTexts(
+            filter_->text().isEmpty() ? hiddenText() : tr("No entry contains “%1”.").arg(filter_->text()),
+            filter_->text().isEmpty() && !canShowHidden() ? QString() : tr("Show all"));
         stack_->setCurrentWidget(nothing_found_);
     } else {
         stack_->setCurrentWidget(table_);

@@ -31,6 +31,8 @@ class TablePanel : public QWidget {
     void selectId(int id);
     /// The selected rows, or all shown ones when none is selected, as tab-separated text with headers.
     QString selectedText() const;
+    /// Ids of all selected rows, from top to bottom.
+    QList<int> selectedIds() const;
     void setFilterText(const QString& text);
 
     QTableView* table() const { return table_; }
@@ -48,6 +50,11 @@ class TablePanel : public QWidget {
     virtual void rowDoubleClicked(int /*id*/) {}
     /// Adds entries to the menu of a row.
     virtual void fillMenu(QMenu&, int /*id*/) {}
+    /// What is said, and what the button beside it does, while there are rows but none is shown.
+    virtual QString hiddenText() const;
+    virtual void showHidden() {}
+    /// Whether showHidden() helps.
+    virtual bool canShowHidden() const { return false; }
     bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:

@@ -1,0 +1,260 @@
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QTableView>
+#include <QTest>
+#include <map>
+
+#include "canvas/overlay_settings.h"
+#include "review/events/event_thresholds.h"
+#include "review/events/events_panel.h"
+#include "ui/support/ui_support.h"
+#include "widgets/collapsible_section.h"
+#include "widgets/parameters/parameter_row.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+Event happening(EventKind kind, TrackId track, FrameIndex frame) {
+    Event event;
+    event.kind = kind;
+    event.tracks = {track};
+    event.first_frame = event.frame = event.last_frame = frame;
+    return event;
+}
+
+std::shared_ptr<const FoundEvents> found(std::vector<Event> events, int frames = 100, bool searched = true) {
+    auto run = std::make_shared<StoredTracks>();
+    if (searched) run->footage.camera = CameraMotion::standing(0, frames - 1);
+    run->footage.image_size = {240, 180};
+    run->footage.last_frame = frames - 1;
+    run->footage.scale.frame_rate_hz = 25;
+    return inOrder(run, std::move(events), {});
+}
+
+/// Six stops, a U-turn and a vehicle that was lost.
+std::vector<Event> someEvents() {
+    std::vector<Event> events;
+    for (int i = 0; i < 6; ++i) events.push_back(happening(EventKind::stops, i + 1, 10 * i));
+    events.push_back(happening(EventKind::turns_back, 7, 50));
+    events.push_back(happening(EventKind::lost, 8, 80));
+    return events;
+}
+
+/// Counts the texts it is asked for.
+class CountingModel : public EventsModel {
+ public:
+    using EventsModel::EventsModel;
+    QVariant data(const QModelIndex& index, int role) const override {
+        if (role == Qt::DisplayRole) ++texts;
+        return EventsModel::data(index, role);
+    }
+    mutable int texts = 0;
+};
+
+}  // namespace
+
+/// The list of events by itself: order, filters, counts, notes, limits, and how much work many events are.
+class EventsListTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+    std::unique_ptr<OverlaySettings> overlays_;
+    std::unique_ptr<QWidget> window_;
+    std::unique_ptr<WindowActions> actions_;
+    std::map<std::size_t, Verdict> verdicts_;
+
+    const Verdict* verdictAt(std::size_t position) const {
+        const auto at = verdicts_.find(position);
+        return at == verdicts_.end() ? nullptr : &at->second;
+    }
+    void give(EventsModel& model, const std::shared_ptr<const FoundEvents>& events) const {
+        model.setEvents(events, [this](std::size_t position) { return verdictAt(position); });
+    }
+    void judge(EventsModel& model, std::size_t position, Judgement judgement) {
+        verdicts_[position].judgement = judgement;
+        model.setVerdict(position, verdictAt(position));
+    }
+    static QStringList kindsShown(const EventsPanel& panel) {
+        QStringList kinds;
+        const auto* shown = panel.table()->model();
+        for (int row = 0; row < shown->rowCount(); ++row)
+            kinds << shown->index(row, EventsModel::kind_column).data().toString();
+        return kinds;
+    }
+
+ private slots:
+    void init() {
+        home_ = std::make_unique<test::OwnHome>();
+        overlays_ = std::make_unique<OverlaySettings>();
+        window_ = std::make_unique<QWidget>();
+        actions_ = std::make_unique<WindowActions>(*overlays_, window_.get());
+        verdicts_.clear();
+    }
+    void cleanup() {
+        actions_.reset();
+        window_.reset();
+        overlays_.reset();
+        home_.reset();
+    }
+
+    void whatMattersMostComesFirst() {
+        EventsModel model;
+        give(model, found(someEvents()));
+        const EventsPanel panel(&model, *actions_);
+        const QString stops = QStringLiteral("Stops");
+        QCOMPARE(kindsShown(panel), QStringList({QStringLiteral("Lost"), QStringLiteral("Turns back"), stops, stops,
+                                                 stops, stops, stops, stops}));
+    }
+
+    void whatCouldNotBeSearchedIsListedAndExplained() {
+        EventsModel model;
+        give(model, found(someEvents(), 100, false));
+        const EventsPanel panel(&model, *actions_);
+        QCOMPARE(kindsShown(panel).front(), QStringLiteral("Not searched"));
+        const QModelIndex first = model.index(0, EventsModel::kind_column);
+        QVERIFY(first.data(Qt::ToolTipRole).toString().contains(QStringLiteral("Look for yourself")));
+    }
+
+    void hiddenEventsAreCounted() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        panel.showCounts(0);
+        QCOMPARE(panel.headerText(), QStringLiteral("0 of 8 judged"));
+        judge(model, 0, Judgement::relevant);
+        panel.kinds().setShown(static_cast<int>(EventKind::stops), false);
+        QCOMPARE(kindsShown(panel), QStringList({QStringLiteral("Lost"), QStringLiteral("Turns back")}));
+        QCOMPARE(panel.headerText(), QStringLiteral("1 of 8 judged · 2 of 8 shown"));
+        panel.verdicts().setCurrentIndex(1);
+        QCOMPARE(kindsShown(panel), QStringList(QStringLiteral("Turns back")));
+        panel.showCounts(2);
+        QVERIFY(panel.headerText().contains(QStringLiteral("without event")));
+    }
+
+    void whereAllIsHiddenItSaysSoAndShowsItAgain() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        panel.resize(400, 400);
+        panel.show();
+        panel.kinds().showAll(false);
+        QVERIFY(kindsShown(panel).isEmpty());
+        QVERIFY(!panel.table()->isVisible());
+        QVERIFY(test::says(panel, QStringLiteral("None of the 8")));
+        QVERIFY(test::press(panel, QStringLiteral("Show all")));
+        QCOMPARE(kindsShown(panel).size(), 8);
+    }
+
+    void theNextToJudgeIsTheNextOneShown() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        const auto id = [&](int row) { return model.recordAt(row)->id; };
+        judge(model, 1, Judgement::unsure);
+        QCOMPARE(panel.nextOpen({id(0)}), std::optional(id(2)));
+        QCOMPARE(panel.nextOpen({id(7)}), std::optional(id(0)));  // around
+        panel.kinds().setShown(static_cast<int>(EventKind::stops), false);
+        QCOMPARE(panel.nextOpen({id(0)}), std::nullopt);
+        panel.selectId(id(0));
+        QCOMPARE(panel.neighbour(1), std::optional(id(1)));
+        QCOMPARE(panel.neighbour(-1), std::nullopt);
+    }
+
+    void anEventStaysSelectedWhenLimitsChange() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        const int id = model.recordAt(4)->id;
+        panel.selectId(id);
+        std::vector<Event> fewer = someEvents();
+        fewer.erase(fewer.begin());
+        give(model, found(fewer));
+        QCOMPARE(panel.currentId(), id);
+        QCOMPARE(model.found()->eventAt(static_cast<std::size_t>(model.rowOf(id)))->tracks, std::vector<TrackId>{3});
+    }
+
+    void aNoteIsWrittenInPlace() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        panel.resize(600, 400);
+        panel.show();
+        QSignalSpy edited(&model, &EventsModel::noteEdited);
+        const int id = model.recordAt(2)->id;
+        panel.selectId(id);
+        QTest::keyClick(panel.table(), Qt::Key_F2);
+        auto* editor = panel.table()->viewport()->findChild<QLineEdit*>();
+        QVERIFY(editor != nullptr);
+        QTest::keyClicks(editor, QStringLiteral("white van"));
+        QTest::keyClick(editor, Qt::Key_Return);
+        QVERIFY(QTest::qWaitFor([&] { return edited.count() == 1; }, test::kPatience_ms));
+        QCOMPARE(edited.front().front().toInt(), id);
+        QCOMPARE(edited.front().back().toString(), QStringLiteral("white van"));
+    }
+
+    void limitsAreKeptAndShownWithTheirCounts() {
+        {
+            EventThresholds limits;
+            QSignalSpy edited(&limits, &EventThresholds::edited);
+            limits.setValue(QStringLiteral("events.over"), QStringLiteral("70"));
+            QCOMPARE(edited.count(), 1);
+            QCOMPARE(limits.options().over_kmh, 70.0);
+            limits.setValue(QStringLiteral("events.over"), QStringLiteral("fast"));
+            QCOMPARE(edited.count(), 1);
+            EventKindsButton::Counts counts{};
+            counts.at(static_cast<std::size_t>(EventKind::over_speed)) = 12;
+            limits.setCounts(counts);
+            bool told = false;
+            for (const auto* title : limits.findChildren<QToolButton*>())
+                told = told || title->text() == QStringLiteral("Over speed 12, Under speed 0");
+            QVERIFY(told);
+        }
+        EventThresholds limits;
+        QCOMPARE(limits.options().over_kmh, 70.0);
+        limits.resetAll();
+        QCOMPARE(limits.options().over_kmh, EventOptions().over_kmh);
+        QCOMPARE(EventThresholds().options().over_kmh, EventOptions().over_kmh);
+    }
+
+    void everyLimitIsInTheForm() {
+        const EventThresholds limits;
+        EventOptions options;
+        QCOMPARE(limits.findChildren<ParameterRow*>().size(),
+                 static_cast<qsizetype>(listParameters(describeOf(options)).size()));
+    }
+
+    void tenThousandEventsAreLittleWork() {
+        std::vector<Event> many;
+        many.reserve(10'000);
+        for (int i = 0; i < 10'000; ++i) many.push_back(happening(static_cast<EventKind>(i % kEventKinds), i, i));
+        CountingModel model;
+        EventsPanel panel(&model, *actions_);
+        panel.resize(500, 500);
+        panel.show();
+        give(model, found(many, 10'000));
+        panel.showCounts(0);
+        QCoreApplication::processEvents();
+        // Texts are made of rows in view, and of some more for the widths of columns.
+        QVERIFY2(model.texts < 20'000, qPrintable(QString::number(model.texts)));
+        QSignalSpy resets(&model, &QAbstractItemModel::modelReset);
+        model.texts = 0;
+        for (int i = 0; i < 10; ++i) {
+            judge(model, static_cast<std::size_t>(500 * i), Judgement::relevant);
+            panel.showCounts(0);
+            panel.selectId(*panel.nextOpen({model.recordAt(500 * i)->id}));
+            QCoreApplication::processEvents();
+        }
+        QCOMPARE(resets.count(), 0);
+        QVERIFY2(model.texts < 20'000, qPrintable(QString::number(model.texts)));
+        QCOMPARE(panel.headerText(), QStringLiteral("10 of 10000 judged"));
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::EventsListTest)
+#include "events_list_test.moc"

@@ -1,0 +1,75 @@
+#include <QTest>
+
+#include "canvas/timeline/timeline_view.h"
+#include "canvas/video_view.h"
+#include "label/label_workspace.h"
+#include "review/events/event_thresholds.h"
+#include "review/events/events_dock.h"
+#include "review/events/events_panel.h"
+#include "ui/session/session_support.h"
+#include "widgets/message_bar.h"
+#include "window/main_window.h"
+#include "workspace/dock_registry.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+using test::kPatience_ms;
+
+/// The dock of events among the others of the window.
+class EventsWindowTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+
+    static std::unique_ptr<MainWindow> windowWithEvents() {
+        auto window = std::make_unique<MainWindow>();
+        window->resize(1280, 720);
+        window->show();
+        if (!QTest::qWaitForWindowActive(window.get())) return nullptr;
+        if (!test::openAndWait(window->session(), test::sceneUnderTest(60)) || !test::runAndWait(window->session()))
+            return nullptr;
+        window->messages().setMaximumHeight(0);  // notices pass
+        EventThresholds& limits = window->events().panel().thresholds();
+        limits.setValue(QStringLiteral("events.over"), QStringLiteral("5"));
+        limits.setValue(QStringLiteral("events.over_time"), QStringLiteral("0.2"));
+        window->docks().raise(DockId::events);
+        const auto found = [&] { return window->events().model().rowCount() >= 2; };
+        return QTest::qWaitFor(found, kPatience_ms) ? std::move(window) : nullptr;
+    }
+
+ private slots:
+    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void cleanup() { home_.reset(); }
+
+    void labellingHasItsOwnKeysAndNoMarks() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        QVERIFY(window->actions().relevant->isEnabled());
+        QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
+        QVERIFY(window->labelling().active());
+        QVERIFY(window->timeline().marks().empty());
+        QVERIFY(!window->actions().relevant->isEnabled());
+        QTest::keyClick(window.get(), Qt::Key_1, Qt::ControlModifier);
+        QVERIFY(window->actions().relevant->isEnabled());
+        QVERIFY(!window->timeline().marks().empty());
+    }
+
+    void theVideoKeepsHalfOfASmallWindow() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        for (const Qt::Key key : {Qt::Key_1, Qt::Key_3}) {
+            QTest::keyClick(window.get(), key, Qt::ControlModifier);
+            QTest::qWait(0);
+            QCOMPARE(window->size(), QSize(1280, 720));
+            QVERIFY2(
+                window->canvas().width() >= 640 && window->canvas().height() >= 360,
+                qPrintable(QStringLiteral("%1 x %2").arg(window->canvas().width()).arg(window->canvas().height())));
+        }
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::EventsWindowTest)
+#include "events_window_test.moc"

@@ -1,0 +1,310 @@
+#include "review/events/event_review.h"
+
+#include <QDateTime>
+#include <algorithm>
+#include <exception>
+#include <unordered_map>
+#include <utility>
+
+#include "core/error.h"
+#include "session/project/person_name.h"
+#include "widgets/wiring.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr int kSearchDelay_ms = 250;  ///< while a threshold is being changed
+constexpr int kRereadVerdicts_ms = 2000;
+}  // namespace
+
+/// Verdicts as they were read in the background.
+struct EventReview::Opened {
+    std::unique_ptr<ProjectFile> project;
+    std::unique_ptr<ReviewStore> store;
+};
+
+EventReview::EventReview(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {SessionChange::video, [this] { close(); }},
+                {{SessionChange::project, SessionChange::current_run, SessionChange::run_data, SessionChange::run_ended},
+                 [this] { refresh(); }},
+            });
+    search_due_.setSingleShot(true);
+    search_due_.setInterval(kSearchDelay_ms);
+    connect(&search_due_, &QTimer::timeout, this, &EventReview::search);
+    reread_.setInterval(kRereadVerdicts_ms);
+    connect(&reread_, &QTimer::timeout, this, &EventReview::refreshReadOnly);
+}
+
+EventReview::~EventReview() = default;
+
+void EventReview::setWanted() {
+    if (std::exchange(wanted_, true)) return;
+    refresh();
+}
+
+void EventReview::setOptions(const EventOptions& options) {
+    options_ = options;
+    if (key_) search_due_.start();
+}
+
+// ---- following the session ------------------------------------------------------------------------------------------
+
+void EventReview::refresh() {
+    if (!wanted_) return;
+    const auto& data = session_.runData();
+    const auto current = session_.currentRun();
+    if (!data || !current || data->record.id != *current || session_.project().empty()) {
+        if (!current) close();
+        return;
+    }
+    const RunKey key{session_.project(), data->record.id, data->frames.size(), data->tracks.size()};
+    const RunRecord* own = session_.ownRun();
+    if (data->record.live || (own != nullptr && own->id == data->record.id && session_.running())) {
+        if (state_ == State::at_work) return;
+        close();
+        setState(State::at_work);
+        return;
+    }
+    if (key_ == key) return;
+    const bool other_run = !key_ || key_->project != key.project || key_->run != key.run;
+    key_ = key;
+    data_ = data;
+    tracks_.reset();
+    search_query_.cancel();
+    if (other_run) {
+        found_.reset();
+        setState(State::searching);
+    }
+    if (store_ && store_project_ == key.project && store_sequence_ == data->record.sequence.id)
+        search();
+    else
+        openStore(data->record.sequence.id);
+}
+
+void EventReview::close() {
+    store_query_.cancel();
+    search_query_.cancel();
+    search_due_.stop();
+    reread_.stop();
+    key_.reset();
+    data_.reset();
+    tracks_.reset();
+    found_.reset();
+    store_.reset();
+    project_.reset();
+    setState(State::nothing);
+}
+
+void EventReview::setState(State state) {
+    state_ = state;
+    emit changed();
+}
+
+void EventReview::fail(const QString& message) {
+    found_.reset();
+    emit problem(message);
+    setState(State::failed);
+}
+
+void EventReview::openStore(int sequence_id) {
+    store_.reset();
+    project_.reset();
+    store_project_ = key_->project;
+    store_sequence_ = sequence_id;
+    const auto work = [this, path = store_project_, sequence_id](const BackgroundTask& task) {
+        auto opened = std::make_shared<Opened>();
+        try {
+            opened->project = std::make_unique<ProjectFile>(ProjectFile::open(path));
+        } catch (const Error&) {  // events of a project that cannot be written can be looked at
+            opened->project = std::make_unique<ProjectFile>(ProjectFile::open(path, ProjectFile::Mode::read_only));
+        }
+        opened->store = std::make_unique<ReviewStore>(*opened->project, sequence_id);
+        task.tell([this, opened] {
+            project_ = std::move(opened->project);
+            store_ = std::move(opened->store);
+            if (store_->readOnly()) reread_.start();
+            search();
+        });
+    };
+    store_query_.ask(work, [this](const QString& message) { fail(message); });
+}
+
+void EventReview::search() {
+    search_due_.stop();
+    if (!key_ || !store_) return;
+    const auto work = [this, key = *key_, data = data_, tracks = tracks_, options = options_,
+                       verdicts = store_->review().verdicts,
+                       version = store_->version()](const BackgroundTask& task) mutable {
+        if (!tracks) {
+            ProjectFile project = ProjectFile::open(key.project, ProjectFile::Mode::read_only);
+            tracks = std::make_shared<const StoredTracks>(readTracks(RunStore(project), data->record));
+            task.tell([this, tracks] { tracks_ = tracks; });
+        }
+        if (task.stop().stop_requested()) return;
+        const auto found = findAndOrder(tracks, options, verdicts);
+        task.tell([this, found, version] { adopt(found, version); });
+    };
+    search_query_.ask(
+        work, [this](const QString& message) { fail(message); }, BackgroundQuery::Former::finish);
+}
+
+void EventReview::adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version) {
+    // While they were searched for, another run may have been chosen, or something judged.
+    if (!key_ || found->run != tracks_ || !store_) return;
+    if (version != store_->version()) {
+        search();
+        return;
+    }
+    found_ = found;
+    carried_ = found->carried;
+    setState(State::found);
+}
+
+void EventReview::refreshReadOnly() {
+    if (!store_ || !store_->readOnly()) {
+        reread_.stop();
+        return;
+    }
+    try {
+        if (store_->refresh()) search();  // finds the events of verdicts that another window made
+    } catch (const std::exception& error) {
+        reread_.stop();
+        emit problem(QString::fromUtf8(error.what()));
+    }
+}
+
+// ---- verdicts -------------------------------------------------------------------------------------------------------
+
+int& EventReview::verdictIdAt(std::size_t position) {
+    const QueueItem& item = found_->queue.at(position);
+    return item.is_event ? carried_.of_event.at(item.index) : carried_.of_stretch.at(item.index);
+}
+
+int EventReview::verdictIdAt(std::size_t position) const {
+    const QueueItem& item = found_->queue.at(position);
+    return item.is_event ? carried_.of_event.at(item.index) : carried_.of_stretch.at(item.index);
+}
+
+const Verdict* EventReview::verdictAt(std::size_t position) const {
+    if (!store_ || position >= count()) return nullptr;
+    const auto verdict = store_->review().verdicts.find(verdictIdAt(position));
+    return verdict == store_->review().verdicts.end() ? nullptr : &verdict->second;
+}
+
+bool EventReview::isJudged(std::size_t position) const {
+    const Verdict* verdict = verdictAt(position);
+    return verdict != nullptr && verdict->judgement != Judgement::open;
+}
+
+std::size_t EventReview::judgedCount() const {
+    std::size_t judged = 0;
+    for (std::size_t i = 0; i < count(); ++i) judged += isJudged(i) ? 1 : 0;
+    return judged;
+}
+
+bool EventReview::mayJudge() {
+    if (!store_ || !found_) return false;
+    if (store_->readOnly()) emit notice(QString::fromStdString(store_->readOnlyReason()));
+    return !store_->readOnly();
+}
+
+std::vector<Judged> EventReview::judgedAt(const std::vector<std::size_t>& positions) const {
+    std::vector<Judged> things;
+    for (const std::size_t position : positions) {
+        const Verdict* before = verdictAt(position);
+        things.push_back({found_->subjectAt(position), before != nullptr ? std::optional(*before) : std::nullopt});
+    }
+    return things;
+}
+
+Judge EventReview::whoJudges() const {
+    return {personName().toStdString(), QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString()};
+}
+
+bool EventReview::apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions) {
+    if (edit.empty()) return false;
+    try {
+        store_->apply(edit);
+    } catch (const std::exception& error) {
+        emit problem(QString::fromUtf8(error.what()));
+        return false;
+    }
+    // New verdicts come in the order of what was judged.
+    auto change = edit.verdicts.begin();
+    for (const std::size_t position : positions) {
+        change = std::find_if(change, edit.verdicts.end(),
+                              [](const Change<Verdict>& each) { return !each.before && each.after; });
+        if (change == edit.verdicts.end()) break;
+        if (change->after->subject != found_->subjectAt(position)) continue;
+        verdictIdAt(position) = change->after->id;
+        ++change;
+    }
+    emit verdictsChanged(positions);
+    return true;
+}
+
+bool EventReview::judge(const std::vector<std::size_t>& positions, Judgement judgement) {
+    if (!mayJudge()) return false;
+    return apply(judgeAs(judgement, judgedAt(positions), whoJudges(), [this] { return store_->newVerdictId(); }),
+                 positions);
+}
+
+bool EventReview::setStarred(const std::vector<std::size_t>& positions, bool starred) {
+    if (!mayJudge()) return false;
+    const QString one = starred ? tr("Star an event") : tr("Unstar an event");
+    const QString several = (starred ? tr("Star %1 events") : tr("Unstar %1 events")).arg(positions.size());
+    const std::string name = (positions.size() == 1 ? one : several).toStdString();
+    const ReviewEdit edit = changeVerdicts(
+        judgedAt(positions), [starred](Verdict& verdict) { verdict.starred = starred; }, name, whoJudges(),
+        [this] { return store_->newVerdictId(); });
+    return apply(edit, positions);
+}
+
+bool EventReview::setNote(std::size_t position, const QString& note) {
+    if (!mayJudge()) return false;
+    const ReviewEdit edit = changeVerdicts(
+        judgedAt({position}), [&note](Verdict& verdict) { verdict.note = note.trimmed().toStdString(); },
+        tr("Change a note").toStdString(), whoJudges(), [this] { return store_->newVerdictId(); });
+    return apply(edit, {position});
+}
+
+void EventReview::undo() {
+    goBack([this] { return store_->undo(); });
+}
+
+void EventReview::redo() {
+    goBack([this] { return store_->redo(); });
+}
+
+void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step) {
+    if (!mayJudge()) return;
+    std::optional<ReviewEdit> edit;
+    try {
+        edit = step();
+    } catch (const std::exception& error) {
+        emit problem(QString::fromUtf8(error.what()));
+        return;
+    }
+    if (!edit) return;
+    std::unordered_map<int, std::size_t> places;
+    for (std::size_t i = 0; i < count(); ++i)
+        if (verdictIdAt(i) != 0) places[verdictIdAt(i)] = i;
+    std::vector<std::size_t> positions;
+    bool lost = false;  // a verdict of an earlier day came back, whose event was not looked for
+    for (const Change<Verdict>& change : edit->verdicts) {
+        const int id = (change.before ? change.before : change.after)->id;
+        const auto place = places.find(id);
+        if (place != places.end())
+            positions.push_back(place->second);
+        else
+            lost = lost || store_->review().verdicts.contains(id);
+    }
+    std::sort(positions.begin(), positions.end());
+    if (lost) search();
+    emit verdictsChanged(positions);
+    emit wentBack(positions);
+}
+
+}  // namespace eyrie::ui

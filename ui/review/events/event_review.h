@@ -1,0 +1,123 @@
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "events/review/judging.h"
+#include "review/events/found_events.h"
+#include "session/background/background_query.h"
+#include "session/project_session.h"
+#include "store/review/review_store.h"
+
+namespace eyrie::ui {
+
+/// The events of the run shown and what is said about them: searched for in the background as soon as they are wanted,
+/// judged on the window's own thread, where a verdict takes a few milliseconds. Events are named by their place in the
+/// queue.
+class EventReview : public QObject {
+    Q_OBJECT
+
+ public:
+    enum class State {
+        nothing,    ///< no run
+        at_work,    ///< the run is not done yet
+        searching,  ///< for the first time in this run
+        found,
+        failed
+    };
+
+    /// The session must outlive it.
+    explicit EventReview(ProjectSession& session, QObject* parent = nullptr);
+    ~EventReview() override;
+
+    /// Somebody wants to see events, now and of every run to come. Until then nothing is read, and the right to judge
+    /// is not taken.
+    void setWanted();
+    /// Searches with other thresholds; of several in a short time the last counts.
+    void setOptions(const EventOptions& options);
+
+    State state() const { return state_; }
+    /// Null unless events were found.
+    const std::shared_ptr<const FoundEvents>& found() const { return found_; }
+    std::size_t count() const { return found_ ? found_->queue.size() : 0; }
+
+    /// What is said about an event; null: nothing.
+    const Verdict* verdictAt(std::size_t position) const;
+    bool isJudged(std::size_t position) const;
+    std::size_t judgedCount() const;
+    /// Verdicts on this video for which this run has no event.
+    std::size_t leftCount() const { return found_ ? found_->carried.left.size() : 0; }
+
+    /// Each is one step that can be undone. What goes wrong is told by problem(), or notice() where another window
+    /// judges; they answer whether anything was changed.
+    bool judge(const std::vector<std::size_t>& positions, Judgement judgement);
+    bool setStarred(const std::vector<std::size_t>& positions, bool starred);
+    bool setNote(std::size_t position, const QString& note);
+    void undo();
+    void redo();
+    bool canUndo() const { return store_ && !store_->readOnly() && store_->canUndo(); }
+    bool canRedo() const { return store_ && !store_->readOnly() && store_->canRedo(); }
+    /// "Judge 12 events not relevant"; empty when there is nothing to undo.
+    QString undoName() const { return store_ ? QString::fromStdString(store_->undoName()) : QString(); }
+    QString redoName() const { return store_ ? QString::fromStdString(store_->redoName()) : QString(); }
+
+ signals:
+    /// Another state(), or other events.
+    void changed();
+    void verdictsChanged(const std::vector<std::size_t>& positions);
+    /// Verdicts were undone or done again; these are the events.
+    void wentBack(const std::vector<std::size_t>& positions);
+    void problem(const QString& message);
+    void notice(const QString& message);
+
+ private:
+    struct Opened;
+    /// What of a run the events depend on; it is read again while the project changes otherwise.
+    struct RunKey {
+        std::filesystem::path project;
+        int run = 0;
+        std::size_t frames = 0;
+        std::size_t tracks = 0;
+        bool operator==(const RunKey&) const = default;
+    };
+
+    void refresh();
+    void close();
+    void openStore(int sequence_id);
+    void search();
+    void adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version);
+    void setState(State state);
+    void fail(const QString& message);
+    void refreshReadOnly();
+    int& verdictIdAt(std::size_t position);
+    int verdictIdAt(std::size_t position) const;
+    bool mayJudge();
+    bool apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions);
+    std::vector<Judged> judgedAt(const std::vector<std::size_t>& positions) const;
+    Judge whoJudges() const;
+    void goBack(const std::function<std::optional<ReviewEdit>()>& step);
+
+    ProjectSession& session_;
+    bool wanted_ = false;
+    State state_ = State::nothing;
+    std::optional<RunKey> key_;
+    std::shared_ptr<const RunData> data_;
+    EventOptions options_;
+    std::shared_ptr<const StoredTracks> tracks_;  ///< of the run above, once they were read
+    std::shared_ptr<const FoundEvents> found_;
+    CarriedVerdicts carried_;  ///< which event has which verdict now
+    std::filesystem::path store_project_;
+    int store_sequence_ = 0;
+    std::unique_ptr<ProjectFile> project_;
+    std::unique_ptr<ReviewStore> store_;
+    QTimer search_due_;
+    QTimer reread_;  ///< what another window judges is read now and then
+    BackgroundQuery store_query_;
+    BackgroundQuery search_query_;  ///< last: both stop before the rest goes
+};
+
+}  // namespace eyrie::ui

@@ -1,0 +1,129 @@
+#include "review/events/event_text.h"
+
+#include <QCoreApplication>
+#include <QPainter>
+#include <QPixmap>
+#include <array>
+#include <cmath>
+
+#include "canvas/timeline/timeline_axis.h"
+#include "widgets/display_text.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+QString eventWord(const char* text) {
+    return QCoreApplication::translate("Events", text);
+}
+
+QPixmap judgementPixmap(Judgement judgement, bool dark) {
+    constexpr int kSize = 14;
+    constexpr int kScale = 2;
+    QPixmap pixmap(kSize * kScale, kSize * kScale);
+    pixmap.setDevicePixelRatio(kScale);
+    pixmap.fill(Qt::transparent);
+    QPainter painter(&pixmap);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(judgementColour(judgement, dark), 2, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    switch (judgement) {
+        case Judgement::open:
+            painter.drawEllipse(QPointF(7, 7), 2, 2);
+            break;
+        case Judgement::relevant:
+            painter.drawPolyline(QPolygonF({QPointF(2.5, 7.5), QPointF(5.5, 10.5), QPointF(11.5, 3.5)}));
+            break;
+        case Judgement::not_relevant:
+            painter.drawLine(QPointF(3.5, 3.5), QPointF(10.5, 10.5));
+            painter.drawLine(QPointF(3.5, 10.5), QPointF(10.5, 3.5));
+            break;
+        case Judgement::unsure: {
+            QFont font = painter.font();
+            font.setPixelSize(13);
+            font.setBold(true);
+            painter.setFont(font);
+            painter.drawText(QRectF(0, 0, kSize, kSize), Qt::AlignCenter, QStringLiteral("?"));
+            break;
+        }
+    }
+    return pixmap;
+}
+
+}  // namespace
+
+QString listedKindText(int listed_kind) {
+    if (listed_kind >= kEventKinds) return eventWord(QT_TRANSLATE_NOOP("Events", "Not searched"));
+    QString text = QString::fromLatin1(nameOf(static_cast<EventKind>(listed_kind)));
+    text[0] = text[0].toUpper();
+    return text;
+}
+
+QString eventClockText(const FoundEvents& found, std::size_t position) {
+    const double seconds = found.run->secondsOf(found.framesAt(position).first);
+    return QString::fromStdString(timeText(std::llround(seconds * 1e6), 1));
+}
+
+QString eventTracksText(const FoundEvents& found, std::size_t position) {
+    const Event* event = found.eventAt(position);
+    QStringList ids;
+    if (event != nullptr)
+        for (const TrackId id : event->tracks) ids << QString::number(id);
+    return ids.join(QStringLiteral(", "));
+}
+
+QString eventFigureText(const FoundEvents& found, std::size_t position) {
+    const Event* event = found.eventAt(position);
+    if (event != nullptr) return QString::fromStdString(figureText(*event));
+    const FrameSpan frames = found.framesAt(position);
+    return durationText(found.run->secondsOf(frames.last) - found.run->secondsOf(frames.first) +
+                        1 / found.run->footage.scale.frame_rate_hz);
+}
+
+QString eventTipText(const FoundEvents& found, std::size_t position) {
+    const FrameSpan frames = found.framesAt(position);
+    const Event* event = found.eventAt(position);
+    QString text = listedKindText(listedKindAt(found, position));
+    if (event != nullptr && !event->zone.empty()) text += QLatin1Char(' ') + QString::fromStdString(event->zone);
+    if (event != nullptr && event->sense != CrossingSense::none)
+        text += QLatin1Char(' ') + QString::fromLatin1(nameOf(event->sense));
+    text += frames.first == frames.last
+                ? eventWord(QT_TRANSLATE_NOOP("Events", ": frame %1")).arg(frames.first)
+                : eventWord(QT_TRANSLATE_NOOP("Events", ": frames %1 to %2")).arg(frames.first).arg(frames.last);
+    if (event == nullptr)
+        return text + QLatin1Char('\n') +
+               eventWord(QT_TRANSLATE_NOOP(
+                   "Events", "The camera's motion is unknown here, so no event is found. Look for yourself."));
+    return text + QLatin1Char('\n') +
+           eventWord(QT_TRANSLATE_NOOP("Events", "Place in the queue: %1"))
+               .arg(QString::fromLatin1(nameOf(found.queue.at(position).group)));
+}
+
+QString judgementText(Judgement judgement) {
+    if (judgement == Judgement::open) return {};
+    QString text = QString::fromLatin1(nameOf(judgement));
+    text[0] = text[0].toUpper();
+    return text;
+}
+
+QColor judgementColour(Judgement judgement, bool dark) {
+    switch (judgement) {
+        case Judgement::open:
+            break;
+        case Judgement::relevant:
+            return dark ? QColor(88, 200, 110) : QColor(24, 128, 56);
+        case Judgement::not_relevant:
+            return dark ? QColor(150, 150, 150) : QColor(128, 128, 128);
+        case Judgement::unsure:
+            return dark ? QColor(240, 180, 60) : QColor(178, 112, 0);
+    }
+    return dark ? QColor(110, 170, 245) : QColor(30, 100, 200);
+}
+
+QIcon judgementIcon(Judgement judgement, bool dark) {
+    static std::array<std::array<QIcon, 4>, 2> icons;
+    QIcon& icon = icons.at(dark ? 1 : 0).at(static_cast<std::size_t>(judgement));
+    if (icon.isNull()) icon = QIcon(judgementPixmap(judgement, dark));
+    return icon;
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <QColor>
+#include <QIcon>
+#include <QString>
+
+#include "review/events/found_events.h"
+
+/// Events and verdicts in words and colours.
+namespace eyrie::ui {
+
+/// "Stops"; of a kind as it is listed, the last being what could not be searched.
+QString listedKindText(int listed_kind);
+/// When the event begins: "1:02.4".
+QString eventClockText(const FoundEvents& found, std::size_t position);
+/// "12, 15"; empty for a stretch that could not be searched.
+QString eventTracksText(const FoundEvents& found, std::size_t position);
+/// "43 km/h"; of what has no figure, how long it lasts.
+QString eventFigureText(const FoundEvents& found, std::size_t position);
+/// Kind, zone and sense, frames and place in the queue, for tooltips.
+QString eventTipText(const FoundEvents& found, std::size_t position);
+
+/// "Relevant"; empty while it is not judged.
+QString judgementText(Judgement judgement);
+/// Told apart from each other on light and dark grounds, and by shape, too, where drawn as icons.
+QColor judgementColour(Judgement judgement, bool dark);
+QIcon judgementIcon(Judgement judgement, bool dark);
+
+}  // namespace eyrie::ui

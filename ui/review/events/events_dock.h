@@ -1,0 +1,80 @@
+#pragma once
+
+#include <QObject>
+#include <QPointF>
+#include <QTimer>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace eyrie {
+struct StoredTracks;
+enum class Judgement;
+}  // namespace eyrie
+
+namespace eyrie::ui {
+
+class DockRegistry;
+class EventReview;
+class EventsModel;
+class EventsPanel;
+class MessageBar;
+class ProjectSession;
+class TimelineView;
+class VideoView;
+class WindowActions;
+
+/// What the dock of events works on. All must outlive it.
+struct EventsParts {
+    ProjectSession& session;
+    VideoView& canvas;
+    TimelineView& timeline;
+    DockRegistry& docks;
+    WindowActions& actions;
+    MessageBar& messages;
+};
+
+/// The dock of events, its commands and its marks on the timeline: how they follow the session and each other.
+class EventsDock : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit EventsDock(const EventsParts& parts);
+
+    EventReview& review() { return *review_; }
+    EventsPanel& panel() { return *panel_; }
+    EventsModel& model() { return *model_; }
+
+    /// Whether keys and marks are wanted: labelling has others.
+    void setActive(bool active);
+    /// Shows an event: its frame, its track, its place.
+    void show(int id);
+
+ private:
+    void bindCommands();
+    void wireReview();
+    void showEvents();
+    void explainNothing();
+    void showVerdicts(const std::vector<std::size_t>& positions);
+    void showMarks();
+    void showMarksSoon();
+    void enableActions();
+    void chooseAndShow(std::optional<int> id);
+    void judge(Judgement judgement);
+    void toggleStars();
+    /// Selected events as places in the queue.
+    std::vector<std::size_t> selectedPlaces() const;
+    std::optional<std::size_t> placeOf(int id) const;
+    void bringIntoView(QPointF place);
+    QString markText(int id) const;
+
+    EventsParts parts_;
+    EventReview* review_;
+    EventsModel* model_;
+    EventsPanel* panel_;
+    QTimer marks_due_;
+    std::shared_ptr<const StoredTracks> listed_run_;  ///< whose events have their ids
+    bool active_ = true;
+};
+
+}  // namespace eyrie::ui

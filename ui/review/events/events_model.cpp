@@ -1,0 +1,165 @@
+#include "review/events/events_model.h"
+
+#include <utility>
+
+#include "review/events/event_text.h"
+#include "widgets/tables/table_roles.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+void takeOver(EventEntry& entry, const Verdict* verdict) {
+    entry.judgement = verdict != nullptr ? verdict->judgement : Judgement::open;
+    entry.starred = verdict != nullptr && verdict->starred;
+    entry.note = verdict != nullptr ? QString::fromStdString(verdict->note) : QString();
+}
+
+}  // namespace
+
+void EventsModel::setEvents(const std::shared_ptr<const FoundEvents>& found,
+                            const std::function<const Verdict*(std::size_t)>& verdict_at) {
+    std::vector<EventEntry> entries;
+    std::map<EventIdentity, int> doubles;
+    for (std::size_t i = 0; found && i < found->queue.size(); ++i) {
+        entries.push_back({idAt(*found, i, doubles), i, Judgement::open, false, {}});
+        takeOver(entries.back(), verdict_at(i));
+    }
+    found_ = found;
+    replaceRecords(std::move(entries));
+}
+
+void EventsModel::setVerdict(std::size_t position, const Verdict* verdict) {
+    const int row = static_cast<int>(position);
+    if (recordAt(row) == nullptr) return;
+    EventEntry entry = *recordAt(row);
+    takeOver(entry, verdict);
+    changeRecord(row, std::move(entry));
+}
+
+void EventsModel::setDark(bool dark) {
+    if (std::exchange(dark_, dark) == dark || rowCount() == 0) return;
+    emit dataChanged(index(0, 0), index(rowCount() - 1, column_count - 1), {Qt::DecorationRole});
+}
+
+void EventsModel::forgetIds() {
+    ids_.clear();
+}
+
+int EventsModel::idAt(const FoundEvents& found, std::size_t position, std::map<EventIdentity, int>& doubles) {
+    const Event* event = found.eventAt(position);
+    const FrameSpan frames = found.framesAt(position);
+    EventIdentity identity{listedKindAt(found, position), event != nullptr ? event->tracks : std::vector<TrackId>(),
+                           frames.first, frames.last, 0};
+    std::get<4>(identity) = doubles[identity]++;
+    const auto [place, is_new] = ids_.try_emplace(identity, next_id_);
+    if (is_new) ++next_id_;
+    return place->second;
+}
+
+QVariant EventsModel::data(const QModelIndex& index, int role) const {
+    const EventEntry* entry = recordAt(index.row());
+    if (entry == nullptr || !index.isValid() || !found_ || entry->position >= found_->queue.size()) return {};
+    const int column = index.column();
+    switch (role) {
+        case Qt::DisplayRole:
+            return textOf(*entry, column);
+        case Qt::EditRole:
+            return column == note_column ? QVariant(entry->note) : QVariant();
+        case Qt::ToolTipRole:
+            return eventTipText(*found_, entry->position);
+        case Qt::DecorationRole:
+            return column == kind_column ? QVariant(judgementIcon(entry->judgement, dark_)) : QVariant();
+        case Qt::TextAlignmentRole:
+            return column == kind_column || column == verdict_column || column == note_column
+                       ? QVariant()
+                       : QVariant(Qt::AlignRight | Qt::AlignVCenter);
+        case sort_role:
+            return sortValueOf(*entry, column);
+        case id_role:
+            return entry->id;
+        default:
+            return {};
+    }
+}
+
+QString EventsModel::textOf(const EventEntry& entry, int column) const {
+    switch (column) {
+        case place_column:
+            return (entry.starred ? QStringLiteral("★ ") : QString()) + QString::number(entry.position + 1);
+        case time_column:
+            return eventClockText(*found_, entry.position);
+        case kind_column:
+            return listedKindText(listedKindAt(*found_, entry.position));
+        case tracks_column:
+            return eventTracksText(*found_, entry.position);
+        case figure_column:
+            return eventFigureText(*found_, entry.position);
+        case verdict_column:
+            return judgementText(entry.judgement);
+        case note_column:
+            return entry.note;
+        default:
+            return {};
+    }
+}
+
+QVariant EventsModel::sortValueOf(const EventEntry& entry, int column) const {
+    const Event* event = found_->eventAt(entry.position);
+    switch (column) {
+        case place_column:
+            return static_cast<int>(entry.position);
+        case time_column:
+            return found_->framesAt(entry.position).first;
+        case tracks_column:
+            return event != nullptr && !event->tracks.empty() ? event->tracks.front() : 0;
+        case figure_column:
+            // Figures of different units stand apart.
+            return event != nullptr ? static_cast<int>(event->unit) * 1e6 + event->figure : -1.0;
+        case verdict_column:
+            return static_cast<int>(entry.judgement);
+        default:
+            return textOf(entry, column);
+    }
+}
+
+QVariant EventsModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation != Qt::Horizontal || (role != Qt::DisplayRole && role != Qt::ToolTipRole))
+        return RecordModel::headerData(section, orientation, role);
+    const bool tip = role == Qt::ToolTipRole;
+    switch (section) {
+        case place_column:
+            return tip ? tr("Place in the queue: what could not be searched, lost in mid-picture, rare, unsure, the "
+                            "rest. ★: starred")
+                       : tr("#");
+        case time_column:
+            return tip ? tr("When it begins") : tr("Time");
+        case kind_column:
+            return tip ? tr("What happened") : tr("Kind");
+        case tracks_column:
+            return tip ? tr("Tracks it happened to") : tr("Tracks");
+        case figure_column:
+            return tip ? tr("Speed, duration, angle or distance, depending on the kind") : tr("Figure");
+        case verdict_column:
+            return tip ? tr("Relevant, not relevant or unsure") : tr("Verdict");
+        case note_column:
+            return tip ? tr("Your note; press F2 or click twice to write") : tr("Note");
+        default:
+            return {};
+    }
+}
+
+Qt::ItemFlags EventsModel::flags(const QModelIndex& index) const {
+    const Qt::ItemFlags flags = RecordModel::flags(index);
+    return index.isValid() && index.column() == note_column ? flags | Qt::ItemIsEditable : flags;
+}
+
+bool EventsModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+    const EventEntry* entry = recordAt(index.row());
+    if (entry == nullptr || role != Qt::EditRole || index.column() != note_column) return false;
+    if (value.toString().trimmed() == entry->note) return false;
+    emit noteEdited(entry->id, value.toString());
+    return true;
+}
+
+}  // namespace eyrie::ui

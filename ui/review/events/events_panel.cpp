@@ -1,0 +1,246 @@
+#include "review/events/events_panel.h"
+
+#include <QComboBox>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QMenu>
+#include <QTableView>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "review/events/event_thresholds.h"
+#include "widgets/tables/table_roles.h"
+#include "widgets/theme_colours.h"
+#include "widgets/wiring.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+/// Choices of the box of verdicts.
+enum VerdictFilter { kAllVerdicts, kToJudge, kRelevant, kNotRelevant, kUnsure, kStarred, kWithNote };
+
+QToolButton* buttonOf(QAction* action, const QString& text) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    button->setText(text);
+    button->setFocusPolicy(Qt::NoFocus);  // keys go on working on the list
+    // The button takes over the action's text whenever that changes.
+    QObject::connect(action, &QAction::changed, button, [button, text] { button->setText(text); });
+    return button;
+}
+
+}  // namespace
+
+EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidget* parent)
+    : TablePanel(model, QStringLiteral("events"), parent),
+      events_(model),
+      actions_(actions),
+      header_(new QLabel(this)),
+      kinds_(new EventKindsButton(this)),
+      verdicts_(new QComboBox(this)),
+      thresholds_(new EventThresholds(this)) {
+    table()->setAccessibleName(tr("Events"));
+    events_->setDark(isDark(palette()));
+    header_->setContentsMargins(4, 2, 4, 0);
+    header_->setTextFormat(Qt::PlainText);
+    header_->setWordWrap(true);
+    auto* rows = static_cast<QVBoxLayout*>(layout());
+    rows->insertWidget(0, header_);
+    rows->setStretch(2, 2);
+    buildFilters();
+    buildButtons();
+    rows->addWidget(thresholds_, 3);
+    thresholds_->hide();
+    filterEvents();
+}
+
+void EventsPanel::buildFilters() {
+    verdicts_->addItems({tr("All verdicts"), tr("To judge"), tr("Relevant"), tr("Not relevant"), tr("Unsure"),
+                         tr("Starred"), tr("With a note")});
+    verdicts_->setAccessibleName(tr("Verdicts that are listed"));
+    verdicts_->setToolTip(tr("Which events are listed, by verdict"));
+    verdicts_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    verdicts_->setMinimumContentsLength(8);
+    toolRow()->addWidget(kinds_);
+    toolRow()->addWidget(verdicts_);
+    onEdited(this, &EventsPanel::filterEvents, verdicts_);
+    connect(kinds_, &EventKindsButton::edited, this, &EventsPanel::filterEvents);
+}
+
+void EventsPanel::buildButtons() {
+    auto* line = new QWidget(this);
+    auto* buttons = new QHBoxLayout(line);
+    buttons->setContentsMargins(2, 0, 2, 2);
+    buttons->setSpacing(2);
+    buttons->addWidget(buttonOf(actions_.relevant, tr("Relevant")));
+    buttons->addWidget(buttonOf(actions_.not_relevant, tr("Not relevant")));
+    buttons->addWidget(buttonOf(actions_.unsure, tr("Unsure")));
+    buttons->addWidget(buttonOf(actions_.star, QStringLiteral("★")));
+    buttons->addWidget(buttonOf(actions_.undo_verdict, tr("Undo")));
+    buttons->addStretch(1);
+    auto* limits = new QToolButton;
+    limits->setText(tr("Limits"));
+    limits->setToolTip(tr("From when on something is an event"));
+    limits->setCheckable(true);
+    buttons->addWidget(limits);
+    bindSwitches(this, {{limits, [this](bool on) { thresholds_->setVisible(on); }}});
+    layout()->addWidget(line);
+}
+
+// ---- filtering ------------------------------------------------------------------------------------------------------
+
+bool EventsPanel::isListed(const EventEntry& entry) const {
+    const auto& found = events_->found();
+    if (!found || entry.position >= found->queue.size() || !kinds_->shows(listedKindAt(*found, entry.position)))
+        return false;
+    switch (verdicts_->currentIndex()) {
+        case kToJudge:
+            return entry.judgement == Judgement::open;
+        case kRelevant:
+            return entry.judgement == Judgement::relevant;
+        case kNotRelevant:
+            return entry.judgement == Judgement::not_relevant;
+        case kUnsure:
+            return entry.judgement == Judgement::unsure;
+        case kStarred:
+            return entry.starred;
+        case kWithNote:
+            return !entry.note.isEmpty();
+        default:
+            return true;
+    }
+}
+
+void EventsPanel::filterEvents() {
+    thresholds_->setKindsShown(*kinds_);
+    proxy().setRowFilter([this](int row) {
+        const EventEntry* entry = events_->recordAt(row);
+        return entry != nullptr && isListed(*entry);
+    });
+    showHeader();
+    emit listingChanged();
+}
+
+QString EventsPanel::hiddenText() const {
+    return events_->rowCount() == 1
+               ? tr("The only event is not of the kinds and verdicts that are listed.")
+               : tr("None of the %1 events is of the kinds and verdicts that are listed.").arg(events_->rowCount());
+}
+
+void EventsPanel::showHidden() {
+    verdicts_->setCurrentIndex(kAllVerdicts);
+    kinds_->showAll();
+}
+
+// ---- counting -------------------------------------------------------------------------------------------------------
+
+void EventsPanel::showCounts(std::size_t left) {
+    left_ = left;
+    EventKindsButton::Counts counts{};
+    for (int row = 0; row < events_->rowCount(); ++row)
+        ++counts.at(static_cast<std::size_t>(listedKindAt(*events_->found(), events_->recordAt(row)->position)));
+    kinds_->setCounts(counts);
+    thresholds_->setCounts(counts);
+    showHeader();
+}
+
+QString EventsPanel::headerText() const {
+    const int all = events_->rowCount();
+    int judged = 0;
+    int listed = 0;
+    for (int row = 0; row < all; ++row) {
+        const EventEntry& entry = *events_->recordAt(row);
+        judged += entry.judgement != Judgement::open ? 1 : 0;
+        listed += isListed(entry) ? 1 : 0;
+    }
+    if (all == 0) return {};
+    QString text = tr("%1 of %2 judged").arg(judged).arg(all);
+    if (listed < all) text += tr(" · %1 of %2 shown").arg(listed).arg(all);
+    if (left_ > 0)
+        text += left_ == 1 ? tr(" · 1 verdict without event") : tr(" · %1 verdicts without event").arg(left_);
+    return text;
+}
+
+void EventsPanel::showHeader() {
+    header_->setText(headerText());
+    header_->setToolTip(left_ > 0 ? tr("Verdicts on this video for which this run, with these limits, has no event. "
+                                       "They are kept.")
+                                  : QString());
+}
+
+// ---- going ----------------------------------------------------------------------------------------------------------
+
+int EventsPanel::shownRowOf(int id) const {
+    const auto* shown = table()->model();
+    for (int row = 0; id != 0 && row < shown->rowCount(); ++row)
+        if (shown->index(row, 0).data(id_role).toInt() == id) return row;
+    return -1;
+}
+
+const EventEntry* EventsPanel::shownAt(int row) const {
+    const auto* shown = static_cast<const TableSortProxy*>(table()->model());
+    return events_->recordAt(shown->mapToSource(shown->index(row, 0)).row());
+}
+
+std::optional<int> EventsPanel::neighbour(int rows) const {
+    const auto* shown = table()->model();
+    const int current = shownRowOf(currentId());
+    const int row = current < 0 ? 0 : current + rows;
+    if (row < 0 || row >= shown->rowCount()) return std::nullopt;
+    return shown->index(row, 0).data(id_role).toInt();
+}
+
+std::optional<int> EventsPanel::nextOpen(const QList<int>& ids) const {
+    const auto* shown = table()->model();
+    const int count = shown->rowCount();
+    const int from = ids.isEmpty() ? -1 : shownRowOf(ids.back());
+    for (int step = 1; step <= count; ++step) {
+        const int row = (from + step) % count;
+        const int id = shown->index(row, 0).data(id_role).toInt();
+        const EventEntry* entry = shownAt(row);
+        if (entry != nullptr && entry->judgement == Judgement::open && !ids.contains(id)) return id;
+    }
+    return std::nullopt;
+}
+
+void EventsPanel::editNote(int id) {
+    const int row = shownRowOf(id);
+    if (row < 0) return;
+    table()->setColumnHidden(EventsModel::note_column, false);
+    const QModelIndex note = table()->model()->index(row, EventsModel::note_column);
+    table()->scrollTo(note);
+    table()->edit(note);
+}
+
+void EventsPanel::rowDoubleClicked(int id) {
+    if (table()->currentIndex().column() == EventsModel::note_column)
+        editNote(id);
+    else
+        emit eventChosen(id);
+}
+
+void EventsPanel::fillMenu(QMenu& menu, int id) {
+    menu.addActions({actions_.relevant, actions_.not_relevant, actions_.unsure, actions_.take_back, actions_.star});
+    menu.addAction(tr("Write a note"), this, [this, id] { editNote(id); });
+}
+
+bool EventsPanel::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == table() && event->type() == QEvent::KeyPress &&
+        static_cast<QKeyEvent*>(event)->key() == Qt::Key_F2 && currentId() != 0) {
+        editNote(currentId());
+        return true;
+    }
+    return TablePanel::eventFilter(watched, event);
+}
+
+void EventsPanel::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::PaletteChange) events_->setDark(isDark(palette()));
+    TablePanel::changeEvent(event);
+}
+
+}  // namespace eyrie::ui

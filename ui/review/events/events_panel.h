@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+
+#include "review/events/event_kinds_button.h"
+#include "review/events/events_model.h"
+#include "widgets/tables/table_panel.h"
+
+class QComboBox;
+class QLabel;
+
+namespace eyrie::ui {
+
+class EventThresholds;
+class WindowActions;
+
+/// The queue of events: how many are judged and shown, the list, the keys that judge as buttons, and the thresholds.
+class EventsPanel : public TablePanel {
+    Q_OBJECT
+
+ public:
+    /// `model` and `actions` must outlive the panel.
+    EventsPanel(EventsModel* model, const WindowActions& actions, QWidget* parent = nullptr);
+
+    EventKindsButton& kinds() { return *kinds_; }
+    EventThresholds& thresholds() { return *thresholds_; }
+    /// Which verdicts are listed: all, to judge, relevant, not relevant, unsure, starred, with a note.
+    QComboBox& verdicts() { return *verdicts_; }
+
+    /// Counts kinds and verdicts anew; `left`: verdicts without an event in this run.
+    void showCounts(std::size_t left);
+    /// "214 of 380 judged" and "38 of 380 shown".
+    QString headerText() const;
+    /// Whether an event is listed by kind and verdict; words in the filter line are not asked.
+    bool isListed(const EventEntry& entry) const;
+
+    /// Id of the row `rows` below (above) the current one in the order shown, the first one if none is current;
+    /// nothing at the end.
+    std::optional<int> neighbour(int rows) const;
+    /// The next row below `ids` and around that is not judged, in the order shown.
+    std::optional<int> nextOpen(const QList<int>& ids) const;
+    /// Starts writing the note of an event.
+    void editNote(int id);
+
+ signals:
+    /// The user wants to see an event.
+    void eventChosen(int id);
+    void listingChanged();
+
+ protected:
+    void rowSelected(int id) override { emit eventChosen(id); }
+    void rowClicked(int id, int /*column*/) override { emit eventChosen(id); }
+    void rowDoubleClicked(int id) override;
+    void fillMenu(QMenu& menu, int id) override;
+    QString hiddenText() const override;
+    bool canShowHidden() const override { return true; }
+    void showHidden() override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+ private:
+    void buildFilters();
+    void buildButtons();
+    void filterEvents();
+    void showHeader();
+    /// Row in the order shown, −1 for none.
+    int shownRowOf(int id) const;
+    const EventEntry* shownAt(int row) const;
+
+    EventsModel* events_;
+    const WindowActions& actions_;
+    QLabel* header_;
+    EventKindsButton* kinds_;
+    QComboBox* verdicts_;
+    EventThresholds* thresholds_;
+    std::size_t left_ = 0;
+};
+
+}  // namespace eyrie::ui
