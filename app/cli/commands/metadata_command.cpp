@@ -125,7 +125,7 @@ void printView(const GroundView& view, const MetadataState& state, FrameIndex fr
     } else {
         std::puts("  Footprint: unknown");
     }
-    for (const std::string& remark : view.remarks) std::printf("  Not believed: %s\n", remark.c_str());
+    for (const std::string& remark : view.remarks) std::printf("  Remark: %s\n", remark.c_str());
 }
 
 /// The first frame that the metadata place on the ground; else the first with any; else the first.
