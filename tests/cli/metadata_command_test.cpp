@@ -41,7 +41,7 @@ TEST_F(MetadataCommand, tellsWhatARawFileHoldsAndWhatIsDamaged) {
     for (unsigned i = 0; i < 3; ++i) {
         test::KlvBytes set = test::LocalSetWriter().time(1'000'000U * i).item(3, {'m'}).angle(13, 50 + i, 90).bytes();
         if (i == 1) set[30] ^= 1;
-        append(klv, set);
+        test::append(klv, set);
     }
     std::ofstream(at("sets.klv"), std::ios::binary) << std::string(klv.begin(), klv.end());
     const auto result = call({"metadata", at("sets.klv"), "--csv", at("sets.csv"), "--json", at("sets.json")});

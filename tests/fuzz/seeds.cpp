@@ -67,7 +67,7 @@ void seedsOfMetadata(const fs::path& folder) {
     }
     writeKlv("local", local.bytes());
     eyrie::test::KlvBytes two = local.item(96, {0x00, 0xD9, 0x2A}).bytes();
-    append(two, local.bytes());
+    eyrie::test::append(two, local.bytes());
     writeKlv("two", two);
     writeKlv("universal", eyrie::test::UniversalSetWriter()
                               .item("0702010101050000", eyrie::test::bigEndian(1'600'000'000'000'000, 8))
