@@ -35,6 +35,7 @@ void addCompareCommand(CLI::App& app, int& exit_code);
 void addSweepCommand(CLI::App& app, int& exit_code);
 void addMergeCommand(CLI::App& app, int& exit_code);
 void addInfoCommand(CLI::App& app, int& exit_code);
+void addMetadataCommand(CLI::App& app, int& exit_code);
 void addTrainCommand(CLI::App& app, int& exit_code);
 void addClassifyCommand(CLI::App& app, int& exit_code);
 void addClassifyTestCommand(CLI::App& app, int& exit_code);

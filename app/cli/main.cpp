@@ -57,6 +57,7 @@ int commandOf(int argc, char** argv) {
     eyrie::cli::addSweepCommand(app, exit_code);
     eyrie::cli::addMergeCommand(app, exit_code);
     eyrie::cli::addInfoCommand(app, exit_code);
+    eyrie::cli::addMetadataCommand(app, exit_code);
     eyrie::cli::addTrainCommand(app, exit_code);
     eyrie::cli::addClassifyCommand(app, exit_code);
     eyrie::cli::addClassifyTestCommand(app, exit_code);

@@ -105,6 +105,7 @@ TEST_F(ExitCodes, ARunThatIsNotThereIsTwoEverywhere) {
 TEST_F(ExitCodes, AnInputThatCannotBeReadIsThreeEverywhere) {
     expect({{{"run", "@absent.mp4", "--project", "@n.eyrie"}, 3, "absent.mp4"},
             {{"info", "@absent.mp4"}, 3, "absent.mp4"},
+            {{"metadata", "@absent.mp4"}, 3, "absent.mp4"},
             {{"compare", "--sequence", "@absent.mp4", "--ground-truth", "@boxes.csv"}, 3, "absent.mp4"},
             {{"sweep", "--sequence", "@absent.mp4", "--ground-truth", "@boxes.csv", "--parameter",
               "gradient.quantile=0.3", "--out", "@s.eyrie"},

@@ -50,6 +50,7 @@ class Fuzzing(Part):
             Target("preset", "preset_fuzz"),
             Target("index-cache", "index_cache_fuzz"),
             Target("packed", "packed_fuzz"),
+            Target("metadata", "metadata_fuzz"),
             Target("project", "project_fuzz", [f"--project={self.world.base}"], max_len=120),
             Target("video", "video_fuzz", inputs=10_000, max_len=12_000),
         ]

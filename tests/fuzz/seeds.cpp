@@ -3,6 +3,7 @@
 
 #include "formats/sample_labels.h"
 #include "io/tables/preset_file.h"
+#include "support/klv_writer.h"
 
 /// fuzz_seeds FOLDER: good files to begin with, written by our own writers: a folder for each target and format.
 namespace {
@@ -53,6 +54,29 @@ void seedsOfTables(const fs::path& folder) {
     eyrie::writePreset(folder / "preset" / "three", preset);
 }
 
+/// The first byte says how the target cuts the rest into packets.
+void seedsOfMetadata(const fs::path& folder) {
+    const auto writeKlv = [&](const char* name, const eyrie::test::KlvBytes& klv) {
+        write(folder / name, "\x7F" + std::string(klv.begin(), klv.end()));
+    };
+    eyrie::test::LocalSetWriter local;
+    local.time(1'600'000'000'000'000).item(3, {'s', 'e', 'e', 'd'}).range(5, 90, 0, 360).range(22, 300, 0, 10000);
+    for (int corner = 0; corner < 4; ++corner) {
+        local.angle(82 + 2 * corner, corner < 2 ? 50.002 : 50, 90);
+        local.angle(83 + 2 * corner, corner % 3 == 0 ? 8 : 8.003, 180);
+    }
+    writeKlv("local", local.bytes());
+    eyrie::test::KlvBytes two = local.item(96, {0x00, 0xD9, 0x2A}).bytes();
+    eyrie::test::append(two, local.bytes());
+    writeKlv("two", two);
+    writeKlv("universal", eyrie::test::UniversalSetWriter()
+                              .item("0702010101050000", eyrie::test::bigEndian(1'600'000'000'000'000, 8))
+                              .real("0701020103020000", 50)
+                              .real("0701020103040000", 8)
+                              .single("0420020101080000", 0.8F)
+                              .bytes());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -67,5 +91,6 @@ int main(int argc, char** argv) {
         std::cout << format.name << "\n";
     }
     seedsOfTables(folder);
+    seedsOfMetadata(folder / "metadata");
     return 0;
 }

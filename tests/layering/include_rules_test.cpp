@@ -45,6 +45,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"core", {}},
     {"annotation", {"core", "stacking"}},
     {"io", {"core"}},
+    {"metadata", {"core", "io"}},
     {"formats", {"core", "io"}},
     {"imaging", {"core"}},
     {"registration", {"core"}},

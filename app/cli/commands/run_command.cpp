@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -21,7 +22,9 @@
 #include "core/project_name.h"
 #include "io/folder.h"
 #include "io/tables/box_csv.h"
+#include "io/tables/number_text.h"
 #include "io/video/video_writer.h"
+#include "metadata/metadata_scale.h"
 
 namespace eyrie::cli {
 namespace {
@@ -86,15 +89,36 @@ class ConsoleObserver : public ChainObserver {
     std::unique_ptr<VideoWriter> writer_;
 };
 
+/// The GSD of a run: the given one, else that of the metadata where it can be believed, which is said; 0: none.
+double gsdOf(const FrameSource& source, FrameRange range, const RunArguments& arguments, const std::stop_token& stop) {
+    if (arguments.video.gsd_m_per_px) return *arguments.video.gsd_m_per_px;
+    if (source.info().gsd_m_per_px > 0) return 0;
+    const FrameIndex end = source.info().frame_count - 1;
+    const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
+    const MetadataScale scale = scaleByMetadata(source, range.first, last, stop);
+    if (!scale.usable()) {
+        if (!arguments.quiet && !scale.why_not.empty())
+            std::fprintf(stderr, "the video's metadata (KLV) are not used for the scale: %s\n", scale.why_not.c_str());
+        return 0;
+    }
+    if (!arguments.quiet)
+        std::fprintf(
+            stderr, "GSD %s m/px from the video's metadata (%s), known in %d of %d frames; --gsd overrides it\n",
+            fixedText(scale.gsd_m_per_px, 4).c_str(), nameOf(scale.source), scale.frames_known, scale.frames_asked);
+    return scale.gsd_m_per_px;
+}
+
 SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const RunArguments& arguments,
                    const std::stop_token& stop) {
+    const double gsd = gsdOf(source, range, arguments, stop);
+    if (gsd <= 0 && source.info().gsd_m_per_px <= 0 && !arguments.quiet)
+        std::fputs("GSD unknown: estimating the scale from the traffic\n", stderr);
     ConsoleProgress console("looks");
-    return chooseScale(source, range, options, arguments.video.gsd_m_per_px.value_or(0), stop,
-                       [&](const RunProgress& progress) {
-                           if (!arguments.quiet)
-                               console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
-                                            progress.seconds_left);
-                       });
+    return chooseScale(source, range, options, gsd, stop, [&](const RunProgress& progress) {
+        if (!arguments.quiet)
+            console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
+                         progress.seconds_left);
+    });
 }
 
 /// Said before the work and not after it.
@@ -130,9 +154,6 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     const ChainOptions options = arguments.preset.options();
     const VideoInfo& video = source.info();
     checkRange(range, video);
-    if (!arguments.video.gsd_m_per_px && video.gsd_m_per_px <= 0 && !arguments.quiet) {
-        std::fputs("GSD unknown: estimating the scale from the traffic\n", stderr);
-    }
     const SceneScale scale = scaleOf(source, range, options, arguments, interrupt.token());
     RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
     planned.name = arguments.name;

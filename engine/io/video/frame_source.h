@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <opencv2/core/types.hpp>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "core/values/frame.h"
 
@@ -24,6 +26,15 @@ struct VideoInfo {
     std::string container;  ///< "mov,mp4,…", "folder"
 };
 
+/// A presentation stamp that is not there.
+inline constexpr std::int64_t kNoStamp = INT64_MIN;
+
+/// A coded picture on the clock of its container and in the time of the video.
+struct PictureStamp {
+    std::int64_t stamp_us = kNoStamp;  ///< presentation stamp, µs; kNoStamp: none
+    std::int64_t time_us = kNoStamp;   ///< timeOf() of its frame; kNoStamp: it is never shown
+};
+
 /// Random access to the frames of a video or image folder, exact to the frame. Not thread-safe: one thread, one source.
 class FrameSource {
  public:
@@ -33,6 +44,8 @@ class FrameSource {
     virtual Frame read(FrameIndex index, bool with_colour) = 0;
     /// Presentation time from the start of the video, microseconds, without decoding.
     virtual std::int64_t timeOf(FrameIndex index) const = 0;
+    /// The pictures of a video file in file order, without decoding; nothing for what is none.
+    virtual std::vector<PictureStamp> pictureStamps() const { return {}; }
 };
 
 struct SourceOptions {

@@ -22,8 +22,6 @@ struct PacketRecord {
     bool key = false;           ///< decoding may start here
 };
 
-inline constexpr std::int64_t kNoStamp = INT64_MIN;
-
 class VideoDecoder;
 
 /// Where every frame of a video lies and when it is shown.

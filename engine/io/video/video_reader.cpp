@@ -82,6 +82,8 @@ VideoReader::VideoReader(const std::filesystem::path& path, const SourceOptions&
 
 void VideoReader::describe(const SourceOptions& options) {
     const auto& ticks = index_.shown_ticks;
+    stamp_tick_numerator_ = index_.tick_numerator;
+    stamp_tick_denominator_ = index_.tick_denominator;
     const double tick_s = static_cast<double>(index_.tick_numerator) / static_cast<double>(index_.tick_denominator);
     info_.size = index_.coded_size;
     if (index_.quarter_turns % 2 != 0) std::swap(info_.size.width, info_.size.height);
@@ -111,6 +113,17 @@ std::int64_t VideoReader::timeOf(FrameIndex index) const {
     checkIndex(index);
     return av_rescale(index_.shown_ticks[static_cast<std::size_t>(index)], index_.tick_numerator * 1'000'000,
                       index_.tick_denominator);
+}
+
+std::vector<PictureStamp> VideoReader::pictureStamps() const {
+    std::vector<PictureStamp> stamps(index_.packets.size());
+    for (std::size_t i = 0; i < stamps.size(); ++i) {
+        const std::int64_t pts = index_.packets[i].pts;
+        if (pts != kNoStamp)
+            stamps[i].stamp_us = av_rescale(pts, stamp_tick_numerator_ * 1'000'000, stamp_tick_denominator_);
+        if (frame_of_packet_[i] >= 0) stamps[i].time_us = timeOf(frame_of_packet_[i]);
+    }
+    return stamps;
 }
 
 /// Packets to start from, nearest first. A key frame that is shown later than the wanted one does not do: what it

@@ -22,6 +22,7 @@ class VideoReader : public FrameSource {
     const VideoInfo& info() const override { return info_; }
     Frame read(FrameIndex index, bool with_colour) override;
     std::int64_t timeOf(FrameIndex index) const override;
+    std::vector<PictureStamp> pictureStamps() const override;
 
  private:
     void describe(const SourceOptions& options);
@@ -32,6 +33,8 @@ class VideoReader : public FrameSource {
 
     VideoInfo info_;
     VideoIndex index_;
+    std::int64_t stamp_tick_numerator_ = 1;  ///< of the container, whatever rate the user gave
+    std::int64_t stamp_tick_denominator_ = 1;
     std::vector<FrameIndex> frame_of_packet_;
     std::vector<int> key_packets_;  ///< of frames that show, ascending
     std::unique_ptr<VideoDecoder> decoder_;

@@ -15,6 +15,7 @@
 #include "ui/session/session_support.h"
 #include "widgets/charts/stage_times_chart.h"
 #include "widgets/message_bar.h"
+#include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
 #include "workspace/timeline_binding.h"
 #include "workspace/window_actions.h"

@@ -1,0 +1,182 @@
+#include "metadata/metadata_recording.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <numeric>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::int64_t kLeap = 10'000'000;  ///< µs
+constexpr std::size_t kChunk = 1U << 16;
+constexpr std::array<std::uint8_t, 4> kKeyBegin{0x06, 0x0E, 0x2B, 0x34};
+/// A key is looked for in so many bytes of tracks that do not say what they hold.
+constexpr std::size_t kProbe = 64;
+
+bool holdsKey(klv::Bytes bytes) {
+    const klv::Bytes begin = bytes.first(std::min(bytes.size(), kProbe));
+    return std::search(begin.begin(), begin.end(), kKeyBegin.begin(), kKeyBegin.end()) != begin.end();
+}
+
+std::string hexText(klv::Bytes bytes) {
+    std::string text;
+    char digits[3];
+    for (const std::uint8_t byte : bytes) {
+        std::snprintf(digits, sizeof digits, "%02x", byte);
+        text += digits;
+    }
+    return text;
+}
+
+MetadataRecording readRaw(const std::filesystem::path& path, const IndexProgress& progress,
+                          const std::stop_token& stop) {
+    std::ifstream file(path, std::ios::binary);
+    const double size = static_cast<double>(std::max<std::uintmax_t>(1, std::filesystem::file_size(path)));
+    MetadataCollector collector(DataStream{-1, 0, "klv"});
+    std::vector<char> chunk(kChunk);
+    std::int64_t position = 0;
+    while (file.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || file.gcount() > 0) {
+        if (stop.stop_requested())
+            throw Error(ErrorKind::input, path.string() + ": stopped while reading its metadata");
+        const auto count = static_cast<std::size_t>(file.gcount());
+        const std::vector<std::uint8_t> bytes(chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(count));
+        collector.feed({-1, kNoStamp, position, 0, bytes});
+        position += file.gcount();
+        if (progress) progress(static_cast<double>(position) / size);
+    }
+    MetadataRecording recording;
+    recording.streams.push_back(collector.finish());
+    return recording;
+}
+
+}  // namespace
+
+int MetadataStream::damaged() const {
+    return std::accumulate(faults.begin(), faults.end(), 0);
+}
+
+int MetadataStream::places() const {
+    int places = 0;
+    for (const int number : {tag::kCentreLatitude, tag::kCorners, tag::kCornerOffsets, tag::kSensorLatitude,
+                             tag::kHorizontalView, tag::kTargetWidth, tag::kSlantRange}) {
+        const auto found = tags.find(number);
+        if (found != tags.end()) places += found->second.packets - found->second.unreadable;
+    }
+    return places;
+}
+
+int MetadataRecording::mostUseful() const {
+    const auto best = std::max_element(streams.begin(), streams.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.places(), a.packets.size()) < std::pair(b.places(), b.packets.size());
+    });
+    return best == streams.end() || best->packets.empty() ? -1 : static_cast<int>(best - streams.begin());
+}
+
+void MetadataCollector::feed(const DataPacket& packet) {
+    carriage_.stamp_us = packet.stamp_us;
+    carriage_.position = packet.position;
+    carriage_.pictures_before = packet.pictures_before;
+    splitter_.feed(packet.bytes, [this](const klv::Set& set) { return take(set); });
+}
+
+std::optional<klv::Fault> MetadataCollector::take(const klv::Set& set) {
+    if (kindOf(set.key) == SetKind::other) {
+        ++stream_.other_sets[hexText(set.key)];
+        return std::nullopt;
+    }
+    MetadataPacket packet = carriage_;
+    SetRemarks remarks;
+    if (const auto fault = readSet(set, packet, remarks)) return fault;
+    ++(packet.kind == SetKind::local ? stream_.local_sets : stream_.universal_sets);
+    if (packet.kind == SetKind::local && !packet.has_checksum) ++stream_.without_checksum;
+    if (packet.stamp_us == kNoStamp) ++stream_.without_stamp;
+    if (packet.utc_us) {
+        if (last_utc_us_ && *packet.utc_us < *last_utc_us_) ++stream_.steps_back;
+        if (last_utc_us_ && *packet.utc_us > *last_utc_us_ + kLeap) ++stream_.leaps;
+        last_utc_us_ = packet.utc_us;
+    } else {
+        ++stream_.without_time;
+    }
+    std::sort(remarks.tags.begin(), remarks.tags.end());
+    remarks.tags.erase(std::unique(remarks.tags.begin(), remarks.tags.end()), remarks.tags.end());
+    for (const int number : remarks.tags) ++stream_.tags[number].packets;
+    for (const int number : remarks.unreadable) ++stream_.tags[number].unreadable;
+    for (const auto& [number, value] : packet.numbers) {
+        TagSummary& summary = stream_.tags[number];
+        summary.least = summary.has_numbers ? std::min(summary.least, value) : value;
+        summary.greatest = summary.has_numbers ? std::max(summary.greatest, value) : value;
+        summary.has_numbers = true;
+    }
+    for (const auto& [number, text] : packet.texts) {
+        TagSummary& summary = stream_.tags[number];
+        if (summary.text.empty()) summary.text = text;
+        summary.text_changes = summary.text_changes || summary.text != text;
+    }
+    stream_.packets.push_back(std::move(packet));
+    return std::nullopt;
+}
+
+MetadataStream MetadataCollector::finish() {
+    splitter_.finish([this](const klv::Set& set) { return take(set); });
+    stream_.faults = splitter_.faults();
+    return std::move(stream_);
+}
+
+bool isRawKlv(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, kKeyBegin.size()> begin{};
+    file.read(begin.data(), begin.size());
+    return file.gcount() == static_cast<std::streamsize>(begin.size()) &&
+           std::equal(begin.begin(), begin.end(), kKeyBegin.begin(),
+                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
+MetadataRecording readMetadata(const std::filesystem::path& path, const IndexProgress& progress,
+                               const std::stop_token& stop) {
+    checkReadableFile(path);
+    if (isRawKlv(path)) return readRaw(path, progress, stop);
+    std::map<int, MetadataCollector> collectors;
+    const auto tracks = readDataStreams(
+        path,
+        [&](const DataPacket& packet) {
+            auto known = collectors.find(packet.stream);
+            if (known == collectors.end() && holdsKey(packet.bytes))
+                known = collectors.try_emplace(packet.stream, DataStream{packet.stream, 0, ""}).first;
+            if (known != collectors.end()) known->second.feed(packet);
+        },
+        progress, stop);
+    MetadataRecording recording;
+    for (const DataStream& track : tracks) {
+        const auto known = collectors.find(track.number);
+        if (known != collectors.end()) {
+            recording.streams.push_back(known->second.finish());
+            recording.streams.back().track = track;
+        } else if (track.codec == "klv") {
+            recording.streams.emplace_back().track = track;
+        } else {
+            recording.foreign_tracks.push_back(track);
+        }
+    }
+    return recording;
+}
+
+std::string utcText(std::int64_t utc_us) {
+    using namespace std::chrono;
+    const sys_time<microseconds> time{microseconds(utc_us)};
+    const auto day = floor<days>(time);
+    const year_month_day date(day);
+    const hh_mm_ss clock(time - day);
+    char text[64];
+    std::snprintf(text, sizeof text, "%04d-%02u-%02uT%02d:%02d:%02d.%06dZ", static_cast<int>(date.year()),
+                  static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                  static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
+                  static_cast<int>(clock.seconds().count()), static_cast<int>(clock.subseconds().count()));
+    return text;
+}
+
+}  // namespace eyrie

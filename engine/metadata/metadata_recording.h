@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "io/video/data_streams.h"
+#include "metadata/metadata_packet.h"
+
+namespace eyrie {
+
+/// What a stream says of one tag.
+struct TagSummary {
+    int packets = 0;                 ///< sets that hold it
+    int unreadable = 0;              ///< of these, sets that say "no value" or whose length is wrong
+    double least = 0, greatest = 0;  ///< of the numbers, where `has_numbers`
+    bool has_numbers = false;
+    std::string text;  ///< the first, where it is text
+    bool text_changes = false;
+};
+
+/// One stream of metadata.
+struct MetadataStream {
+    DataStream track;                     ///< number -1 for a file that is nothing but metadata
+    std::vector<MetadataPacket> packets;  ///< in file order
+    std::map<int, TagSummary> tags;       ///< 0 stands for items of the universal set that are not known
+    klv::FaultCounts faults{};
+    int local_sets = 0, universal_sets = 0;
+    std::map<std::string, int> other_sets;  ///< key in hexadecimal digits: sets that are not read
+    int without_checksum = 0;               ///< local sets that state none; they are believed
+    int without_time = 0;
+    int without_stamp = 0;  ///< of the container: asynchronous carriage
+    int steps_back = 0;     ///< clock of the sets goes back
+    int leaps = 0;          ///< clock of the sets goes on by more than 10 s at once
+
+    int damaged() const;
+    /// Sets that hold a place on the ground or what is needed to find one.
+    int places() const;
+};
+
+/// The metadata of a file.
+struct MetadataRecording {
+    std::vector<MetadataStream> streams;     ///< those that hold KLV, or are said to
+    std::vector<DataStream> foreign_tracks;  ///< data that is no KLV
+    /// The stream to use where nobody chose: most places, then most packets; -1 where there is none.
+    int mostUseful() const;
+};
+
+/// Takes the packets of one stream one by one.
+class MetadataCollector {
+ public:
+    explicit MetadataCollector(const DataStream& track) { stream_.track = track; }
+    void feed(const DataPacket& packet);
+    MetadataStream finish();
+
+ private:
+    std::optional<klv::Fault> take(const klv::Set& set);
+
+    MetadataStream stream_;
+    klv::Splitter splitter_;
+    MetadataPacket carriage_;  ///< where and when the packet came that is read
+    std::optional<std::int64_t> last_utc_us_;
+};
+
+/// Reads all metadata of a video file or of a file that is nothing but KLV. What is damaged is skipped and counted; a
+/// file without metadata has no streams. Throws Error(input) for what is neither, and when `stop` was requested.
+MetadataRecording readMetadata(const std::filesystem::path& path, const IndexProgress& progress = {},
+                               const std::stop_token& stop = {});
+
+/// Whether a file is KLV and nothing else.
+bool isRawKlv(const std::filesystem::path& path);
+
+/// "2009-01-12T22:08:22.000000Z"
+std::string utcText(std::int64_t utc_us);
+
+}  // namespace eyrie

@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "metadata/collected.h"
+#include "metadata/ground_view.h"
+
+namespace eyrie {
+namespace {
+
+using test::append;
+using test::Carried;
+using test::collected;
+using test::faultsOf;
+using test::KlvBytes;
+using test::LocalSetWriter;
+
+KlvBytes goodSet(int number = 0) {
+    return LocalSetWriter().time(1'000'000U + static_cast<unsigned>(number)).angle(13, 50 + number, 90).bytes();
+}
+
+KlvBytes joined(std::initializer_list<KlvBytes> parts) {
+    KlvBytes all;
+    for (const KlvBytes& part : parts) append(all, part);
+    return all;
+}
+
+KlvBytes cut(KlvBytes bytes, std::size_t keep) {
+    bytes.resize(keep);
+    return bytes;
+}
+
+}  // namespace
+
+TEST(DamagedKlv, aWrongChecksumCostsOneSet) {
+    KlvBytes bad = goodSet(1);
+    bad[bad.size() - 8] ^= 0x10;
+    const MetadataStream stream = collected({{goodSet(0)}, {bad}, {goodSet(2)}});
+    EXPECT_EQ(stream.packets.size(), 2U);
+    EXPECT_EQ(faultsOf(stream, klv::Fault::wrong_checksum), 1);
+    EXPECT_EQ(stream.damaged(), 1);
+}
+
+TEST(DamagedKlv, aSetWithoutChecksumIsBelievedAndCounted) {
+    const MetadataStream stream = collected({{LocalSetWriter().time(5).angle(13, 50, 90).bytesWithoutChecksum()}});
+    EXPECT_EQ(stream.packets.size(), 1U);
+    EXPECT_EQ(stream.without_checksum, 1);
+    EXPECT_EQ(stream.damaged(), 0);
+}
+
+TEST(DamagedKlv, aSetThatIsCutOffDoesNotTakeTheNextWithIt) {
+    for (const std::size_t keep : {std::size_t{3}, std::size_t{16}, std::size_t{17}, std::size_t{25}}) {
+        const MetadataStream stream = collected({{cut(goodSet(0), keep)}, {goodSet(1)}, {goodSet(2)}});
+        EXPECT_EQ(stream.packets.size(), 2U) << keep;
+        EXPECT_EQ(faultsOf(stream, klv::Fault::cut_off), 1) << keep;
+    }
+    const MetadataStream at_end = collected({{goodSet(0)}, {cut(goodSet(1), 30)}});
+    EXPECT_EQ(at_end.packets.size(), 1U);
+    EXPECT_EQ(faultsOf(at_end, klv::Fault::cut_off), 1);
+}
+
+TEST(DamagedKlv, aLengthThatSwallowsTheNextSetsGivesThemBack) {
+    KlvBytes bad = goodSet(0);
+    bad[16] = static_cast<std::uint8_t>(bad[16] + goodSet(1).size());
+    const MetadataStream stream = collected({{joined({bad, goodSet(1), goodSet(2)})}});
+    EXPECT_EQ(stream.packets.size(), 2U);
+    EXPECT_EQ(stream.damaged(), 1);
+}
+
+TEST(DamagedKlv, impossibleLengthsAreCounted) {
+    KlvBytes indefinite = goodSet(0), endless = goodSet(0);
+    indefinite[16] = 0x80;
+    endless[16] = 0x84;
+    endless[17] = 0x7F;
+    const MetadataStream stream = collected({{indefinite}, {goodSet(1)}, {endless}, {goodSet(2)}});
+    EXPECT_EQ(stream.packets.size(), 2U);
+    EXPECT_EQ(faultsOf(stream, klv::Fault::bad_length), 2);
+}
+
+TEST(DamagedKlv, itemsThatRunOverTheEndOfTheSetAreRefused) {
+    KlvBytes set = LocalSetWriter().time(7).bytesWithoutChecksum();
+    set[20] = 200;  // length of the time
+    const MetadataStream stream = collected({{set}, {goodSet(1)}});
+    EXPECT_EQ(stream.packets.size(), 1U);
+    EXPECT_EQ(faultsOf(stream, klv::Fault::broken_items), 1);
+}
+
+TEST(DamagedKlv, foreignBytesBetweenSetsAreSkipped) {
+    const MetadataStream stream = collected({{joined({{1, 2, 3}, goodSet(0), {0x06, 0x0E, 9}, goodSet(1)})}, {{4, 5}}});
+    EXPECT_EQ(stream.packets.size(), 2U);
+    EXPECT_EQ(faultsOf(stream, klv::Fault::foreign_bytes), 3);
+}
+
+TEST(DamagedKlv, aSetMayComeInPieces) {
+    const KlvBytes set = goodSet(0);
+    const auto half = static_cast<std::ptrdiff_t>(set.size() / 2);
+    const MetadataStream stream = collected(
+        {{KlvBytes(set.begin(), set.begin() + half)}, {KlvBytes(set.begin() + half, set.end())}, {goodSet(1)}});
+    EXPECT_EQ(stream.packets.size(), 2U);
+    EXPECT_EQ(stream.damaged(), 0);
+}
+
+TEST(DamagedKlv, headersOfAccessUnitCellsArePassedOver) {
+    const auto inCell = [](const KlvBytes& set, std::uint8_t sequence) {
+        return joined({{0x00, sequence, 0xDF, 0x00, static_cast<std::uint8_t>(set.size())}, set});
+    };
+    const MetadataStream stream =
+        collected({{joined({inCell(goodSet(0), 0), inCell(goodSet(1), 1)})}, {inCell(goodSet(2), 2)}});
+    EXPECT_EQ(stream.packets.size(), 3U);
+    EXPECT_EQ(stream.damaged(), 0);
+}
+
+TEST(DamagedKlv, clocksThatJumpAreCounted) {
+    const auto at = [](std::uint64_t utc_s) { return Carried{LocalSetWriter().time(utc_s * 1'000'000).bytes()}; };
+    const MetadataStream stream = collected({at(100), at(101), at(90), at(500), at(501)});
+    EXPECT_EQ(stream.steps_back, 1);
+    EXPECT_EQ(stream.leaps, 1);
+    EXPECT_EQ(stream.packets.size(), 5U);
+}
+
+TEST(DamagedKlv, otherSetsAreCountedAndLeftAlone) {
+    KlvBytes security = test::bytesOfHex("060e2b34020301010e01030302000000");
+    append(security, {3, 1, 1, 1});
+    const MetadataStream stream = collected({{security}, {goodSet(0)}});
+    EXPECT_EQ(stream.packets.size(), 1U);
+    EXPECT_EQ(stream.other_sets.at("060e2b34020301010e01030302000000"), 1);
+}
+
+TEST(DamagedKlv, randomDamageNeverEndsTheReading) {
+    std::mt19937 random(1);
+    for (int round = 0; round < 300; ++round) {
+        std::vector<Carried> packets;
+        for (int i = 0; i < 20; ++i) {
+            Carried packet{goodSet(i), 40'000 * i, i};
+            for (int hit = 0; hit < round % 4; ++hit)
+                packet.bytes[random() % packet.bytes.size()] ^= 1U << (random() % 8);
+            if (round % 5 == 0) packet.bytes.resize(random() % (packet.bytes.size() + 1));
+            packets.push_back(packet);
+        }
+        packets.push_back({goodSet(20), 800'000, 20});
+        const MetadataStream stream = collected(packets);
+        ASSERT_GE(stream.packets.size(), 1U);
+        const std::vector<PictureStamp> pictures(25, PictureStamp{0, 0});
+        const MetadataTimeline timeline(stream, pictures);
+        groundViewOf(timeline.at(400'000), {640, 480});
+    }
+}
+
+}  // namespace eyrie
