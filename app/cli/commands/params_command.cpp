@@ -6,6 +6,7 @@
 #include "cli/arguments/preset_arguments.h"
 #include "cli/command.h"
 #include "events/event_options.h"
+#include "peer/peer_options.h"
 
 namespace eyrie::cli {
 namespace {
@@ -54,6 +55,8 @@ void addParamsCommand(CLI::App& app, int&) {
         auto parameters = listParameters(describeOf(options));
         EventOptions events;
         for (Parameter& parameter : listParameters(describeOf(events))) parameters.push_back(std::move(parameter));
+        PeerOptions peer;
+        for (Parameter& parameter : listParameters(describeOf(peer))) parameters.push_back(std::move(parameter));
         arguments->json ? printParameterJson(parameters) : printParameterTable(parameters);
     });
 }
