@@ -10,23 +10,39 @@
 #include "core/values/stopwatch.h"
 #include "detection/sliding_window/global_sliding_window.h"
 #include "detection/sliding_window/model_location.h"
+#include "peer/difference_peer.h"
 
 namespace eyrie {
 namespace {
+
+/// A frame and what a method found in it.
+using Found = std::pair<Frame, std::shared_ptr<const FrameResult>>;
 
 /// One method at work.
 class Method {
  public:
     Method(const MethodVariant& variant, const SceneScale& scale) : variant_(variant), scale_(scale) {
         result_.name = variant.name;
-        if (variant.global_window) {
+        if (variant.peer) {
+            peer_.emplace(*variant.peer);
+        } else if (variant.global_window) {
             scanner_.emplace(loadModel(modelLocation(variant.options.detection.sliding_window.model)));
         } else {
             half_.emplace(variant.options, scale);
         }
     }
 
-    std::shared_ptr<const FrameResult> next(const Frame& frame, const FrameMotion& motion) {
+    /// What is done; the peer's results come late.
+    std::vector<Found> next(const Frame& frame, const FrameMotion& motion) {
+        if (peer_) {
+            StageTimes times{};
+            std::vector<DifferencePeer::Result> done;
+            {
+                const Stopwatch watch(times, Stage::detection);
+                done = peer_->next(frame, motion);
+            }
+            return kept(std::move(done), times);
+        }
         auto found = std::make_shared<FrameResult>();
         if (half_) {
             *found = half_->next(frame, motion, {});
@@ -37,8 +53,11 @@ class Method {
                 globalSlidingWindow(*scanner_, frame.gray, variant_.options.detection.sliding_window, scale_);
         }
         keep(*found);
-        return found;
+        return {{frame, found}};
     }
+
+    /// What is left when no more frames come.
+    std::vector<Found> rest() { return peer_ ? kept(peer_->finish(), {}) : std::vector<Found>{}; }
 
     MethodResult finish(const std::vector<FrameMotionSummary>& motions, const VectorsByFrame& vectors) {
         for (const auto& [frame, state] :
@@ -79,10 +98,21 @@ class Method {
         times_.push_back(found.stage_ms);
     }
 
+    std::vector<Found> kept(std::vector<DifferencePeer::Result>&& results, const StageTimes& times) {
+        std::vector<Found> all;
+        for (auto& [frame, result] : results) {
+            result.stage_ms = times;
+            keep(result);
+            all.emplace_back(frame, std::make_shared<FrameResult>(std::move(result)));
+        }
+        return all;
+    }
+
     MethodVariant variant_;
     SceneScale scale_;
     std::optional<TrackHalf> half_;
     std::optional<WindowScanner> scanner_;
+    std::optional<DifferencePeer> peer_;
     MethodResult result_;
     std::vector<TimedState> states_;
     VehiclesByFrame vehicles_;
@@ -111,6 +141,9 @@ std::vector<MethodResult> runMethods(FrameSource& source, FrameRange range, cons
     VectorsByFrame vectors;
     RunProgress state;
     state.frames_total = last - range.first + 1;
+    const auto tell = [&](std::size_t method, const std::vector<Found>& results) {
+        for (const auto& [frame, result] : results) observer(method, result, frame);
+    };
     const auto start = std::chrono::steady_clock::now();
     for (FrameIndex index = range.first; index <= last && !stop.stop_requested(); ++index) {
         const Frame frame = source.read(index, false);
@@ -120,7 +153,7 @@ std::vector<MethodResult> runMethods(FrameSource& source, FrameRange range, cons
         vectors[motion.frame] = motion.motion_vectors;
         for (std::size_t i = 0; i < running.size(); ++i) {
             const auto found = running[i].next(frame, motion);
-            if (observer) observer(i, found, frame);
+            if (observer) tell(i, found);
         }
         if (!progress) continue;
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -128,6 +161,10 @@ std::vector<MethodResult> runMethods(FrameSource& source, FrameRange range, cons
         state.frames_per_second = state.frames_done / std::max(seconds, 1e-9);
         state.seconds_left = (state.frames_total - state.frames_done) / state.frames_per_second;
         progress(state);
+    }
+    for (std::size_t i = 0; i < running.size(); ++i) {
+        const auto found = running[i].rest();
+        if (observer) tell(i, found);
     }
     std::vector<MethodResult> results;
     for (Method& method : running) results.push_back(method.finish(motions, vectors));

@@ -18,7 +18,8 @@ struct MethodResult {
     StageTimes median_ms{};   ///< of the stages after motion vectors
 };
 
-/// Sees every frame of every method; used to store them. Runs on the caller's thread.
+/// Sees every frame of every method in ascending order, the peer's some frames late; used to store them. Runs on the
+/// caller's thread.
 using MethodFrameObserver =
     std::function<void(std::size_t method, const std::shared_ptr<const FrameResult>& result, const Frame& frame)>;
 

@@ -9,6 +9,7 @@ namespace eyrie {
 namespace {
 
 constexpr const char* kGlobalWindow = "global_sliding_window";
+constexpr const char* kPeer = "three_frame_difference_sort";
 
 struct NamedChange {
     std::string name;
@@ -32,6 +33,16 @@ NamedChange rescaledBy(const char* name, WindowRescaling rescaling) {
                 options.detection.method = DetectionMethod::sliding_window;
                 options.detection.sliding_window.rescaling = rescaling;
             }};
+}
+
+/// The peer's tracks from their first box to their last, and nothing else done to them.
+void leaveTracksAlone(ChainOptions& options) {
+    options.finishing = FinishingOptions::thesis();
+    options.finishing.trim_predicted = true;
+    options.finishing.stop_speed_m_s = 0;
+    // For those who read the stored parameters, and because tracks of classifiers are scored.
+    options.difference.method = MotionMethod::three_frame_difference;
+    options.detection.method = DetectionMethod::clusters;
 }
 
 const std::vector<NamedChange>& changes() {
@@ -60,6 +71,7 @@ const std::vector<NamedChange>& changes() {
         }
         list.push_back({kGlobalWindow, "",
                         [](ChainOptions& options) { options.detection.method = DetectionMethod::sliding_window; }});
+        list.push_back({kPeer, "peer", leaveTracksAlone});
         return list;
     }();
     return all;
@@ -81,14 +93,15 @@ std::vector<std::string> methodsNamed(const std::string& word) {
     return members.empty() ? std::vector<std::string>{word} : members;
 }
 
-MethodVariant methodVariant(const std::string& word, const ChainOptions& base) {
+MethodVariant methodVariant(const std::string& word, const ChainOptions& base, const PeerOptions& peer) {
     for (const NamedChange& change : changes()) {
         if (change.name != word) continue;
         MethodVariant variant{word, base, word == kGlobalWindow};
         change.apply(variant.options);
+        if (word == kPeer) variant.peer = peer;
         return variant;
     }
-    std::string known = "the groups detectors, gradients, rescaling, motion";
+    std::string known = "the groups detectors, gradients, rescaling, motion, peer";
     for (const std::string& name : methodWords()) known += ", " + name;
     throw Error(ErrorKind::parameter, "there is no method \"" + word + "\"; known are " + known);
 }

@@ -101,6 +101,34 @@ TEST_F(Compare, JsonHasIntervalsAndTheProjectTheRuns) {
     EXPECT_EQ(nlohmann::json::parse(kept[0].report), json);
 }
 
+TEST_F(Compare, ThePeerStandsBesideAndHasParametersOfItsOwn) {
+    const std::vector<std::string> arguments{"--methods", "clusters",  "peer",          "--stacking",
+                                             "off,on",    "--overlap", "0.3",           "--upright",
+                                             "--json",    "--project", at("peer.eyrie")};
+    const auto result = compare(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const auto json = nlohmann::json::parse(result.output);
+    ASSERT_EQ(json["results"].size(), 6U) << "stacks mean nothing to the peer";
+    EXPECT_EQ(json["results"][5]["name"], "three_frame_difference_sort + tracking");
+    EXPECT_GT(json["results"][5]["f_score"], 0.6);
+    EXPECT_THAT(json["remarks"].dump(), HasSubstr("three-frame difference with SORT"));
+    ProjectFile project = ProjectFile::open(at("peer.eyrie"), ProjectFile::Mode::read_only);
+    const auto runs = RunStore(project).runs();
+    ASSERT_EQ(runs.size(), 3U);
+    EXPECT_EQ(runs[2].frames_done, kFrames);
+    const auto stored = RunStore(project).trackBoxes(runs[2].id);
+    EXPECT_FALSE(stored.empty());
+
+    const auto blind = compare({"--methods", "peer", "--overlap", "0.3", "--json", "--set", "peer.threshold=255"});
+    ASSERT_EQ(blind.exit_code, 0) << blind.errors;
+    EXPECT_EQ(nlohmann::json::parse(blind.output)["results"][1]["tp"], 0);
+    for (const char* setting : {"peer.gap=0", "peer.magic=1", "peer.gap", "peer.min_hits=some"}) {
+        const auto wrong = compare({"--methods", "peer", "--set", setting});
+        EXPECT_EQ(wrong.exit_code, 2) << setting;
+        EXPECT_THAT(wrong.errors, HasSubstr("peer.")) << setting;
+    }
+}
+
 TEST_F(Compare, PrintsWhatIsPublishedBeside) {
     const std::vector<std::string> arguments{"--methods", "clusters", "--overlap", "0.1", "--published", "egtest01"};
     const auto table = compare(arguments);

@@ -72,6 +72,26 @@ class Evaluate : public testing::Test {
     const test::TemporaryFolder folder;
 };
 
+TEST_F(Evaluate, writesPrecisionAndRecallOverTheScore) {
+    // The first car at .9, a false box at .4.
+    std::string text = "frame,id,x,y,length,width,heading,score\n";
+    for (int frame = 0; frame < 4; ++frame) {
+        text += std::to_string(frame) + ",1," + std::to_string(50 + 4 * frame) + ",40,20,10,0,0.9\n";
+        text += std::to_string(frame) + ",2,20,100,20,10,0,0.4\n";
+    }
+    const auto result =
+        evaluate({"--ground-truth", truth(), "--result", write("result.csv", text), "--score-curve", at("curve.csv")});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    std::stringstream curve;
+    curve << std::ifstream(at("curve.csv")).rdbuf();
+    EXPECT_EQ(curve.str(),
+              "threshold,tracks,tp,fp,fn,precision,recall,f_score\n"
+              "0.40000000000000002,2,4,4,0,0.500000,1.000000,0.666667\n"
+              "0.90000000000000002,1,4,0,0,1.000000,1.000000,1.000000\n");
+    const auto refused = evaluate({"--ground-truth", truth(), "--result", truth(), "--score-curve", truth()});
+    EXPECT_EQ(refused.exit_code, 4) << "it would be overwritten";
+}
+
 TEST_F(Evaluate, tableNamesConventionAndMeasures) {
     const auto result = evaluate({"--ground-truth", truth(), "--result", truth(), "--overlap", "0.25"});
     EXPECT_EQ(result.exit_code, 0) << result.errors;

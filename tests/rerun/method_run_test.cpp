@@ -40,10 +40,15 @@ TEST(MethodVariants, WordsAndGroups) {
     EXPECT_EQ(methodsNamed("gradients").size(), 4U);
     EXPECT_EQ(methodsNamed("rescaling").size(), 3U);
     EXPECT_EQ(methodsNamed("motion").size(), 4U);
+    EXPECT_THAT(methodsNamed("peer"), testing::ElementsAre("three_frame_difference_sort"));
     EXPECT_THAT(methodsNamed("mser"), testing::ElementsAre("mser"));
     for (const std::string& word : methodWords()) EXPECT_EQ(methodVariant(word, {}).name, word);
     EXPECT_EQ(methodVariant("mser", {}).options.detection.method, DetectionMethod::mser);
     EXPECT_TRUE(methodVariant("global_sliding_window", {}).global_window);
+    EXPECT_FALSE(methodVariant("mser", {}).peer.has_value());
+    PeerOptions peer;
+    peer.sort.min_hits = 9;
+    EXPECT_EQ(methodVariant("three_frame_difference_sort", {}, peer).peer->sort.min_hits, 9);
     EXPECT_EQ(withStacking(methodVariant("mser", {}), true).name, "mser + stacking");
     EXPECT_THROW(methodVariant("magic", {}), Error);
     // The LBP gradient stays as the base says; the others keep their distance to it in table 7.3.
@@ -111,6 +116,37 @@ TEST(MethodRun, EveryKindOfMotionAndStackingFindsTheVehicles) {
         EXPECT_FALSE(results[i].detections.empty());
         EXPECT_EQ(results[i].name, methods[i].name);
     }
+}
+
+TEST(MethodRun, ThePeerFollowsVehiclesBesideOthersAndTellsEveryFrameOnce) {
+    const test::MovingScene scene = shortScene();
+    test::MemorySource source(scene);
+    std::vector<std::vector<FrameIndex>> told(2);
+    const std::vector<MethodVariant> methods{methodVariant("clusters", {}),
+                                             methodVariant("three_frame_difference_sort", {})};
+    const auto results =
+        runMethods(source, {}, methods, kScale, {}, {},
+                   [&](std::size_t method, const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
+                       EXPECT_EQ(result->motion.frame, frame.index);
+                       told[method].push_back(frame.index);
+                   });
+    EXPECT_EQ(told[0].size(), static_cast<std::size_t>(scene.frames));
+    EXPECT_EQ(told[0], told[1]);
+    int found = 0;
+    std::set<std::pair<std::size_t, int>> ids;
+    for (const auto& [frame, boxes] : results[1].tracks) {
+        for (std::size_t v = 0; v < scene.vehicles.size(); ++v) {
+            for (const BoxRecord& box : boxes) {
+                if (overlap(box.box, trueBox(scene, v, frame).upright()) < 0.4) continue;
+                ++found;
+                ids.emplace(v, box.id.value());
+            }
+        }
+    }
+    EXPECT_GE(found, 2 * (scene.frames - 8))
+        << "but for the first and last pictures, which nothing lies before or after";
+    EXPECT_EQ(ids.size(), 2U);
+    EXPECT_FALSE(results[1].detections.empty());
 }
 
 TEST(MethodRun, RefusesNothingToDoAndRangesOutsideTheVideo) {

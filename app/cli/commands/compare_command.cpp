@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -34,6 +35,7 @@ struct CompareArguments {
     std::vector<std::string> stacking{"off"};
     std::vector<std::string> tracking{"off", "on"};
     PresetArguments preset;
+    PeerOptions peer;
     std::string project;
     std::string csv;
     std::string published;
@@ -65,6 +67,15 @@ bool hasModel(const ChainOptions& options) {
     }
 }
 
+/// Takes those settings that are the peer's: they are no parameters of the chain. Throws Error(parameter).
+void takePeerSettings(CompareArguments& arguments) {
+    std::vector<std::string>& all = arguments.preset.settings;
+    const auto others = std::stable_partition(all.begin(), all.end(),
+                                              [](const std::string& setting) { return setting.starts_with("peer."); });
+    applySettings(describeOf(arguments.peer), {all.begin(), others});
+    all.erase(all.begin(), others);
+}
+
 /// A method to run, and how its rows are called.
 struct Planned {
     std::string word;
@@ -75,17 +86,18 @@ struct Planned {
 std::vector<Planned> plan(const CompareArguments& arguments, std::vector<std::string>& remarks) {
     const ChainOptions base = arguments.preset.options();
     const bool chosen = !arguments.methods.empty();
-    const std::vector<std::string> words = chosen ? arguments.methods : std::vector<std::string>{"detectors"};
+    const std::vector<std::string> words = chosen ? arguments.methods : std::vector<std::string>{"detectors", "peer"};
     std::vector<Planned> all;
     for (const std::string& group : words) {
         for (const std::string& word : methodsNamed(group)) {
-            const MethodVariant variant = methodVariant(word, base);
+            const MethodVariant variant = methodVariant(word, base, arguments.peer);
             if (!chosen && needsModel(variant) && !hasModel(base)) {
                 remarks.push_back(word + " was left out: the model that comes with Eyrie is missing");
                 continue;
             }
+            if (variant.peer) remarks.push_back(word + " is the simplest peer: a three-frame difference with SORT");
             for (const bool stacking : switches(arguments.stacking)) {
-                if (stacking && variant.global_window) continue;
+                if (stacking && (variant.global_window || variant.peer)) continue;
                 all.push_back({word, stacking, withStacking(variant, stacking)});
             }
         }
@@ -233,8 +245,9 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
         ->required();
     arguments->ground_truth.addTo(*command)->required();
     command->add_option("--methods", arguments->methods,
-                        "Methods, or groups of them: detectors (default), gradients, rescaling, motion; the first one "
-                        "is what the others are compared with");
+                        "Methods, or groups of them: detectors and peer (default; the simplest competitor, three-frame "
+                        "difference with SORT), gradients, rescaling, motion; the first one is what the others are "
+                        "compared with");
     command->add_option("--stacking", arguments->stacking, "off, on, or both: off,on")
         ->delimiter(',')
         ->check(CLI::IsMember({"on", "off"}))
@@ -256,7 +269,10 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--quiet", arguments->quiet, "No progress");
-    command->callback([arguments, &exit_code] { exit_code = compare(*arguments); });
+    command->callback([arguments, &exit_code] {
+        takePeerSettings(*arguments);
+        exit_code = compare(*arguments);
+    });
 }
 
 }  // namespace eyrie::cli

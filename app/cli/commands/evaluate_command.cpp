@@ -10,9 +10,12 @@
 #include "cli/command.h"
 #include "cli/project_runs.h"
 #include "cli/reports/evaluation_text.h"
+#include "cli/reports/score_curve_csv.h"
 #include "core/error.h"
 #include "diagnosis/mistake_csv.h"
 #include "diagnosis/run_evaluation.h"
+#include "evaluation/measures/score_curve.h"
+#include "io/atomic_file.h"
 #include "io/tables/homography_csv.h"
 #include "scoring/scoring.h"
 #include "store/runs/run_store.h"
@@ -31,6 +34,7 @@ struct EvaluateArguments {
     std::string homographies;
     std::string convention = "thesis";
     std::string errors;
+    std::string score_curve;
     OutputArguments outputs;
     bool json = false;
 };
@@ -102,6 +106,13 @@ void writeErrors(const EvaluateArguments& arguments, const Scoring& scoring, con
                                                          {truth, result.boxes, input, matches, options}));
 }
 
+/// Precision and recall over the score at the first T_ov.
+void writeScoreCurve(const EvaluateArguments& arguments, const Scoring& scoring, const Result& result) {
+    EvaluationOptions options = scoring.options;
+    if (!arguments.evaluation.overlaps.empty()) options.overlap = arguments.evaluation.overlaps.front();
+    writeFileAtomically(arguments.score_curve, scoreCurveCsv(scoreCurve(scoring.truth.boxes, result.boxes, options)));
+}
+
 GroundTruth readTruth(const EvaluateArguments& arguments, const Result& result) {
     const GroundTruthSource source = arguments.ground_truth.source();
     if (!source.file.empty()) return readGroundTruth(source, knownImageSize(arguments, result));
@@ -111,7 +122,7 @@ GroundTruth readTruth(const EvaluateArguments& arguments, const Result& result) 
 
 void evaluateAndPrint(const EvaluateArguments& arguments) {
     const std::string& truth_file = arguments.ground_truth.file;
-    arguments.outputs.check({{arguments.errors, FileKind::text}},
+    arguments.outputs.check({{arguments.errors, FileKind::text}, {arguments.score_curve, FileKind::text}},
                             {truth_file, arguments.result, arguments.project, arguments.homographies});
     EvaluationOptions wishes = arguments.evaluation.options;
     wishes.convention = arguments.convention == "trackeval" ? Convention::trackeval : Convention::thesis;
@@ -136,6 +147,7 @@ void evaluateAndPrint(const EvaluateArguments& arguments) {
         for (std::string& remark : remarksOn(report.measures.front())) report.remarks.push_back(std::move(remark));
     }
     if (!arguments.errors.empty()) writeErrors(arguments, scoring, result);
+    if (!arguments.score_curve.empty()) writeScoreCurve(arguments, scoring, result);
     std::fputs((arguments.json ? jsonText(report) : tableText(report)).c_str(), stdout);
 }
 
@@ -165,6 +177,9 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
                         "Write every miss, false alarm, switch, fragment, split and merge at the first T_ov to this "
                         "CSV file, with probable causes where a run is measured: the most frequent cause of a stretch, "
                         "detail and box of the middle frame that shows it");
+    command->add_option("--score-curve", arguments->score_curve,
+                        "Write precision, recall and f-score at the first T_ov over the score that a box must have to "
+                        "this CSV file; tracks dropped for their score (finishing.min_score) are not in it");
     arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] {

@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "events/event_options.h"
 #include "events/review/review_options.h"
+#include "peer/peer_options.h"
 
 namespace eyrie::cli {
 namespace {
@@ -57,6 +58,8 @@ void addParamsCommand(CLI::App& app, int&) {
         for (Parameter& parameter : listParameters(describeOf(events))) parameters.push_back(std::move(parameter));
         ReviewOptions review;
         for (Parameter& parameter : listParameters(describeOf(review))) parameters.push_back(std::move(parameter));
+        PeerOptions peer;
+        for (Parameter& parameter : listParameters(describeOf(peer))) parameters.push_back(std::move(parameter));
         arguments->json ? printParameterJson(parameters) : printParameterTable(parameters);
     });
 }
