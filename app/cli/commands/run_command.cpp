@@ -88,13 +88,21 @@ class ConsoleObserver : public ChainObserver {
 
 SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const RunArguments& arguments,
                    const std::stop_token& stop) {
-    ConsoleProgress console("looks");
-    return chooseScale(source, range, options, arguments.video.gsd_m_per_px.value_or(0), stop,
-                       [&](const RunProgress& progress) {
-                           if (!arguments.quiet)
-                               console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
-                                            progress.seconds_left);
-                       });
+    std::optional<ScaleEstimate> estimated;
+    SceneScale scale;
+    {
+        ConsoleProgress console("looks");  // ends its line
+        scale = chooseScale(
+            source, range, options, arguments.video.gsd_m_per_px.value_or(0), stop,
+            [&](const RunProgress& progress) {
+                if (!arguments.quiet)
+                    console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
+                                 progress.seconds_left);
+            },
+            &estimated);
+    }
+    if (estimated && !arguments.quiet) std::fprintf(stderr, "%s\n", estimateText(*estimated).c_str());
+    return scale;
 }
 
 /// Said before the work and not after it.
