@@ -18,9 +18,12 @@ constexpr double kStep = 1.4;  ///< from one assumption to the next
 constexpr int kPilotFrames = 40;
 constexpr int kSettledFrames = 14;  ///< until tracks have formed
 constexpr std::size_t kFewestStates = 8;
-constexpr std::size_t kFewestCars = 3;
-constexpr double kGoodEnough = 0.55;  ///< of the best score: too coarse assumptions cut vehicles into car-sized pieces
-constexpr double kCarLength = 4.6;    ///< m, of the boxes that the chain puts around usual cars
+constexpr double kFewestLooks = 8;  ///< sure windows under the best assumption; fewer are chance
+constexpr int kReach = 2;           ///< assumptions on both sides of the best one that have a say
+constexpr double kOwnError = 0.11;  ///< standard error of the logarithm where very many vehicles drive
+/// Of the logarithm within one step of the assumptions.
+const double kStepVariance = std::log(kStep) * std::log(kStep) / 12;
+constexpr double kSure = 1.645;  ///< standard errors that hold 90 %
 
 double medianOf(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -35,12 +38,18 @@ double assumption(int i) {
 
 /// What the chain found under one assumption.
 struct Outcome {
-    int tracks = 0;
-    std::vector<double> car_lengths;  ///< m, of the tracks that look like cars
-    /// Many cars, and few tracks that are none.
+    double detections = 0;
+    double looks = 0;     ///< detections that the classifier took for whole vehicles
+    double decision = 0;  ///< sum of its decision values there
+    double tracks = 0;
+    double cars = 0;  ///< tracks of a car's size
+    /// Much that looks like vehicles, and little that does not: where the assumption is too fine cars do not fit the
+    /// window, where it is too coarse they fall into pieces, and neither relief nor glare looks like a car at any.
     double score() const {
-        const auto cars = static_cast<double>(car_lengths.size());
-        return car_lengths.size() < kFewestCars ? 0 : cars * (cars / tracks) * (cars / tracks);
+        if (looks <= 0) return 0;
+        const double alike = looks / detections;
+        const double car_sized = (cars + 1) / (tracks + 2);
+        return decision * alike * alike * car_sized * car_sized;
     }
 };
 
@@ -49,11 +58,18 @@ Outcome outcomeUnder(const std::vector<Frame>& frames, const ChainOptions& optio
     struct Sizes {
         std::vector<double> lengths, widths;
     };
+    Outcome outcome;
     Chain chain(options, scale);
     std::map<TrackId, Sizes> sizes;
     for (std::size_t i = 0; i < frames.size() && !stop.stop_requested(); ++i) {
         const FrameResult result = chain.next(frames[i]);
         tell();
+        for (const Detection& detection : result.detections) {
+            ++outcome.detections;
+            if (!detection.complete) continue;
+            ++outcome.looks;
+            outcome.decision += detection.score;
+        }
         if (i < kSettledFrames) continue;
         for (const auto& track : result.tracks) {
             if (track.status != TrackStatus::confirmed) continue;
@@ -61,15 +77,52 @@ Outcome outcomeUnder(const std::vector<Frame>& frames, const ChainOptions& optio
             sizes[track.id].widths.push_back(scale.metres(track.box.width));
         }
     }
-    Outcome outcome;
     for (auto& [id, seen] : sizes) {
         if (seen.lengths.size() < kFewestStates) continue;
         ++outcome.tracks;
         const double length = medianOf(seen.lengths);
         const double width = medianOf(seen.widths);
-        if (length > 3.6 && length < 6.6 && width > 1.5 && width < 3.8) outcome.car_lengths.push_back(length);
+        if (length > 3.6 && length < 6.6 && width > 1.5 && width < 3.8) ++outcome.cars;
     }
     return outcome;
+}
+
+/// The middle of the scores around the best one. On twelve clips it lay between .82 and 1.06 of the truth; rather too
+/// fine than too coarse, since a scale too coarse by a tenth costs more.
+std::optional<ScaleEstimate> estimateFrom(const std::vector<Outcome>& outcomes) {
+    int best = 0;
+    for (int i = 0; i < kAssumptions; ++i) {
+        const double score = outcomes[static_cast<std::size_t>(i)].score();
+        if (score > outcomes[static_cast<std::size_t>(best)].score()) best = i;
+    }
+    const Outcome& peak = outcomes[static_cast<std::size_t>(best)];
+    if (peak.looks < kFewestLooks || peak.cars < 1) return std::nullopt;
+    double weights = 0;
+    double sum = 0;
+    double squares = 0;
+    for (int i = std::max(0, best - kReach); i <= std::min(kAssumptions - 1, best + kReach); ++i) {
+        const double share = outcomes[static_cast<std::size_t>(i)].score() / peak.score();
+        const double weight = share * share;
+        const double place = std::log(assumption(i));
+        weights += weight;
+        sum += weight * place;
+        squares += weight * place * place;
+    }
+    const double middle = sum / weights;
+    const double spread = squares / weights - middle * middle + kStepVariance;
+    ScaleEstimate estimate;
+    estimate.gsd_m_per_px = std::exp(middle);
+    estimate.vehicles = static_cast<int>(peak.cars);
+    estimate.uncertainty = std::exp(kSure * std::sqrt(kOwnError * kOwnError + spread / peak.cars));
+    return estimate;
+}
+
+/// The chain that looks: whatever detector the run is to use, here the classifier has to say what is a vehicle.
+ChainOptions lookingOptions(const ChainOptions& options) {
+    ChainOptions looking = options;
+    looking.detection = DetectionOptions{};
+    looking.detection.sliding_window.model = options.detection.sliding_window.model;
+    return looking;
 }
 
 }  // namespace
@@ -77,6 +130,7 @@ Outcome outcomeUnder(const std::vector<Frame>& frames, const ChainOptions& optio
 std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
                                            const ChainOptions& options, double frame_rate_hz,
                                            const std::stop_token& stop, const ScaleProgress& told) {
+    const ChainOptions looking = lookingOptions(options);
     std::vector<Frame> frames;
     for (FrameIndex i = first; i <= last && i < first + kPilotFrames && !stop.stop_requested(); ++i) {
         try {
@@ -102,22 +156,10 @@ std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first
     std::vector<Outcome> outcomes;
     for (int i = 0; i < kAssumptions; ++i) {
         scale.gsd_m_per_px = assumption(i);
-        outcomes.push_back(outcomeUnder(frames, options, scale, stop, tell));
+        outcomes.push_back(outcomeUnder(frames, looking, scale, stop, tell));
         if (stop.stop_requested()) return std::nullopt;
     }
-    double best = 0;
-    for (const auto& outcome : outcomes) best = std::max(best, outcome.score());
-    const auto scoreAt = [&](int i) {
-        return i < 0 || i >= kAssumptions ? 0.0 : outcomes[static_cast<std::size_t>(i)].score();
-    };
-    // The finest assumption that stands out: coarser ones may cut large vehicles into pieces of a car's size.
-    for (int i = 0; i < kAssumptions; ++i) {
-        const double score = scoreAt(i);
-        if (score <= 0 || score < kGoodEnough * best || score < scoreAt(i - 1) || score < scoreAt(i + 1)) continue;
-        const auto& lengths = outcomes[static_cast<std::size_t>(i)].car_lengths;
-        return ScaleEstimate{assumption(i) * kCarLength / medianOf(lengths), static_cast<int>(lengths.size())};
-    }
-    return std::nullopt;
+    return estimateFrom(outcomes);
 }
 
 bool isFallbackScale(const SceneScale& scale) {
@@ -125,14 +167,25 @@ bool isFallbackScale(const SceneScale& scale) {
 }
 
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
-                       const std::stop_token& stop, const ScaleProgress& told) {
+                       const std::stop_token& stop, const ScaleProgress& told,
+                       std::optional<ScaleEstimate>* estimated) {
+    if (estimated != nullptr) estimated->reset();
     SceneScale scale = sceneScale(source.info(), gsd_m_per_px);
     if (scale.gsd_known) return scale;
     const FrameIndex end = source.info().frame_count - 1;
     const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
     if (range.first < 0 || range.first > last) return scale;
-    const auto estimate = estimateScale(source, range.first, last, options, scale.frame_rate_hz, stop, told);
-    if (estimate) scale.gsd_m_per_px = estimate->gsd_m_per_px;
+    const FrameIndex farthest = std::max(range.first, last - kPilotFrames + 1);
+    FrameIndex looked_to = range.first - 1;
+    for (const FrameIndex first : {range.first, range.first + (farthest - range.first) / 2, farthest}) {
+        if (first <= looked_to || stop.stop_requested()) continue;
+        looked_to = first + kPilotFrames - 1;
+        const auto estimate = estimateScale(source, first, last, options, scale.frame_rate_hz, stop, told);
+        if (!estimate) continue;
+        scale.gsd_m_per_px = estimate->gsd_m_per_px;
+        if (estimated != nullptr) *estimated = estimate;
+        break;
+    }
     return scale;
 }
 

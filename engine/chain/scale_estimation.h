@@ -12,6 +12,7 @@ namespace eyrie {
 /// What a look at the traffic says about the scale of a video.
 struct ScaleEstimate {
     double gsd_m_per_px = 0;  ///< metres per pixel at which the vehicles have the length of usual cars
+    double uncertainty = 1;   ///< factor ≥ 1: in nine of ten videos the truth lies between GSD / this and GSD × this
     int vehicles = 0;         ///< tracks it rests on
 };
 
@@ -19,18 +20,22 @@ struct ScaleEstimate {
 using ScaleProgress = std::function<void(const RunProgress&)>;
 
 /// Guesses the ground sampling distance of a video whose GSD nobody knows: the chain runs over a few dozen frames under
-/// finer to coarser assumptions, and the one under which most vehicles come out as large as cars is taken. Right to
-/// about a third where cars drive; nothing when too few vehicles move or `stop` is requested. Takes some seconds.
+/// finer to coarser assumptions, and the one under which most of what moves looks to the classifier like vehicles, and
+/// has a car's size, is taken. Relief and glare look like vehicles under none. Right to a fifth where cars drive;
+/// nothing when too little looks like vehicles or `stop` is requested. Takes some seconds.
 /// Throws Error(input) when frames cannot be read.
 /// `told`, if any, learns after every frame how far the look is.
 std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
                                            const ChainOptions& options, double frame_rate_hz,
                                            const std::stop_token& stop, const ScaleProgress& told = {});
 
-/// The scale of a run: the given GSD, or for `gsd_m_per_px` ≤ 0 an estimate, or 0.25 m/px where that fails. An estimate
-/// gives the chain's lengths a footing; `gsd_known` stays false, so that nobody is shown metres that were guessed.
+/// The scale of a run: the given GSD, or for `gsd_m_per_px` ≤ 0 an estimate, or 0.25 m/px where that fails. Where the
+/// first frames show too little traffic, those in the middle and at the end are looked at. An estimate gives the
+/// chain's lengths a footing; `gsd_known` stays false, so that nobody is shown metres that were guessed. `estimated`,
+/// if any, receives what the estimate rests on; nothing where the scale is none.
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
-                       const std::stop_token& stop, const ScaleProgress& told = {});
+                       const std::stop_token& stop, const ScaleProgress& told = {},
+                       std::optional<ScaleEstimate>* estimated = nullptr);
 
 /// Whether a scale is neither given nor estimated but the fallback of chooseScale().
 bool isFallbackScale(const SceneScale& scale);

@@ -2,18 +2,57 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/scene_source.h"
 #include "support/moving_scene.h"
 #include "support/shared_data.h"
 
 namespace eyrie {
 
+namespace {
+
+constexpr double kAllowed = 0.2;  ///< share of the truth by which an estimate may be off
+
+std::optional<ScaleEstimate> lookAt(FrameSource& source) {
+    return estimateScale(source, 0, 39, ChainOptions{}, source.info().frame_rate_hz, {});
+}
+
+}  // namespace
+
 TEST(ScaleEstimation, findsTheScaleOfRealTraffic) {
     EYRIE_NEED_SHARED_DATA("collage_day");
     const auto source = openSource(test::sharedData("collage_day/frames"));
-    const SceneScale scale = chooseScale(*source, {}, ChainOptions{}, 0, {});
+    std::optional<ScaleEstimate> estimate;
+    const SceneScale scale = chooseScale(*source, {}, ChainOptions{}, 0, {}, {}, &estimate);
     EXPECT_FALSE(scale.gsd_known) << "a guess is no knowledge";
-    EXPECT_GT(scale.gsd_m_per_px, 0.2 / 1.4);
-    EXPECT_LT(scale.gsd_m_per_px, 0.2 * 1.4);
+    EXPECT_NEAR(scale.gsd_m_per_px, 0.2, kAllowed * 0.2);
+    ASSERT_TRUE(estimate);
+    EXPECT_EQ(estimate->gsd_m_per_px, scale.gsd_m_per_px);
+    EXPECT_GT(estimate->uncertainty, 1.1);
+    EXPECT_LT(estimate->uncertainty, 1.3) << "many cars drive there";
+}
+
+TEST(ScaleEstimation, findsTheScaleOfARenderedSceneAndIsWideWhereFewVehiclesDrive) {
+    const auto scene = openScene("seq2");
+    const double truth = scene->info().gsd_m_per_px;
+    const auto estimate = lookAt(*scene);
+    ASSERT_TRUE(estimate);
+    EXPECT_NEAR(estimate->gsd_m_per_px, truth, kAllowed * truth);
+    EXPECT_LT(estimate->vehicles, 5);
+    EXPECT_GT(estimate->uncertainty, 1.3);
+}
+
+TEST(ScaleEstimation, lampsAndBeamsOfANightAreNoTraffic) {
+    EYRIE_NEED_SHARED_DATA("uavdt_m1003");
+    const auto source = openSource(test::sharedData("uavdt_m1003/img1"));
+    const auto estimate = estimateScale(*source, 0, 39, ChainOptions{}, 30, {});
+    ASSERT_TRUE(estimate);
+    EXPECT_NEAR(estimate->gsd_m_per_px, 0.2, kAllowed * 0.2);
+}
+
+TEST(ScaleEstimation, aHouseThatIsFlownRoundIsNoTraffic) {
+    EYRIE_NEED_SHARED_DATA("uav123_building4");
+    const auto source = openSource(test::sharedData("uav123_building4"));
+    EXPECT_FALSE(estimateScale(*source, 0, 39, ChainOptions{}, 10, {}));
 }
 
 TEST(ScaleEstimation, aGivenScaleIsTakenAsItIs) {

@@ -31,11 +31,12 @@ class Road {
         }
     }
 
-    std::set<TrackId> finished(const FinishingOptions& options = {}, std::vector<TimedDrop>* dropped = nullptr) const {
+    std::set<TrackId> finished(const FinishingOptions& options = {}, std::vector<TimedDrop>* dropped = nullptr,
+                               const SceneScale& scale = kScale) const {
         std::vector<FrameMotionSummary> motion;
         for (int frame = 0; frame < kFrames; ++frame) motion.push_back(testing::summaryOfFrame(frame));
         std::set<TrackId> ids;
-        for (const auto& [frame, state] : finishTracks(states_, motion, options, kScale, {}, dropped))
+        for (const auto& [frame, state] : finishTracks(states_, motion, options, scale, {}, dropped))
             ids.insert(state.id);
         return ids;
     }
@@ -94,6 +95,16 @@ TEST(DropHardlyDetected, ATrackGuessedRatherThanSeenGoes) {
     FinishingOptions options;
     options.min_detected = 0.3;
     EXPECT_EQ(road.finished(options), (std::set<TrackId>{1, 2}));
+}
+
+TEST(DropTooSmall, SizesCountWhereTheScaleIsEstimatedButNotWhereItIsAssumed) {
+    Road road;
+    road.add(1, {0, 0}, kCar, kSpeed, 0, 59, 1);
+    road.add(2, {0, -60}, {4, 2}, kSpeed, 0, 59, 1);   // 1.2 m at .3 m/px
+    road.add(3, {0, 60}, {5.4, 3}, kSpeed, 0, 59, 1);  // 1.62 m: too small for sure only where the scale is sure
+    EXPECT_EQ(road.finished(), std::set<TrackId>{1});
+    EXPECT_EQ(road.finished({}, nullptr, {0.3, 25, false}), (std::set<TrackId>{1, 3}));
+    EXPECT_EQ(road.finished({}, nullptr, SceneScale{}), (std::set<TrackId>{1, 2, 3}));
 }
 
 TEST(DroppedTracks, AreToldWithTheirReason) {

@@ -113,12 +113,21 @@ SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& op
     const double gsd = gsdOf(source, range, arguments, stop);
     if (gsd <= 0 && source.info().gsd_m_per_px <= 0 && !arguments.quiet)
         std::fputs("GSD unknown: estimating the scale from the traffic\n", stderr);
-    ConsoleProgress console("looks");
-    return chooseScale(source, range, options, gsd, stop, [&](const RunProgress& progress) {
-        if (!arguments.quiet)
-            console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
-                         progress.seconds_left);
-    });
+    std::optional<ScaleEstimate> estimated;
+    SceneScale scale;
+    {
+        ConsoleProgress console("looks");  // ends its line
+        scale = chooseScale(
+            source, range, options, gsd, stop,
+            [&](const RunProgress& progress) {
+                if (!arguments.quiet)
+                    console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
+                                 progress.seconds_left);
+            },
+            &estimated);
+    }
+    if (estimated && !arguments.quiet) std::fprintf(stderr, "%s\n", estimateText(*estimated).c_str());
+    return scale;
 }
 
 /// Said before the work and not after it.

@@ -83,6 +83,12 @@ const char* whyNothing(NothingFollowed nothing) {
 
 }  // namespace
 
+std::string estimateText(const ScaleEstimate& estimate) {
+    return formatted("Estimated %.2g m/px from %d vehicle%s: in nine of ten videos between %.2g and %.2g m/px",
+                     estimate.gsd_m_per_px, estimate.vehicles, estimate.vehicles == 1 ? "" : "s",
+                     estimate.gsd_m_per_px / estimate.uncertainty, estimate.gsd_m_per_px * estimate.uncertainty);
+}
+
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,
                         const std::vector<TrackSummary>& tracks, const std::filesystem::path& project) {
     std::string text =

@@ -5,10 +5,14 @@
 
 #include "chain/chain_run.h"
 #include "chain/recording/run_facts.h"
+#include "chain/scale_estimation.h"
 #include "io/video/frame_source.h"
 #include "store/runs/run_store.h"
 
 namespace eyrie::cli {
+
+/// What a look at the traffic says about the scale, and how sure it is.
+std::string estimateText(const ScaleEstimate& estimate);
 
 /// What a person wants to know when a run has ended, as text for the terminal.
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/geometry/homography.h"
+#include "tracking/finishing/metric_limits.h"
 #include "tracking/finishing/track_occupancy.h"
 
 namespace eyrie {
@@ -93,7 +94,7 @@ std::optional<Start> startOf(const TrackPath& path, const GroundMotion& ground, 
 }  // namespace
 
 void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, const SceneScale& scale) {
-    if (frames < 1 || !scale.gsd_known) return;
+    if (frames < 1 || !hasMetricLimits(scale)) return;
     TakenPlaces taken(paths);
     for (TrackPath& path : paths) {
         const PathState first = path.states.front().second;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "tracking/finishing/frames_of.h"
+#include "tracking/finishing/metric_limits.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/ground_motion.h"
 
@@ -295,7 +296,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);
-    if (options.join_parts && scale.gsd_known) joinParts(paths, scale);
+    if (options.join_parts && hasMetricLimits(scale)) joinParts(paths, scale);
     dropTooSmall(paths, options, scale, drops);
     dropSharers(paths, options.max_sharing, scale, drops);
     for (TrackPath& path : paths) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "tracking/finishing/metric_limits.h"
 #include "tracking/finishing/shared_frames.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/robust_statistics.h"
@@ -19,6 +20,7 @@ constexpr double kSharedOfShorter = 0.3;  ///< … and this share of the shorter
 constexpr double kWidestVehicle = 3.2;    ///< m
 constexpr double kPlaceMargin = 1;        ///< px
 constexpr double kSureSeconds = 0.4;      ///< a track detected for so long altogether is not doubted
+constexpr double kEstimatedShare = 0.8;   ///< of a limit in metres that counts where the GSD was estimated
 constexpr double kSizeQuantile = 0.75;    ///< boxes miss parts more often than they exceed the vehicle
 
 double quantileOf(std::vector<double> values, double share) {
@@ -93,9 +95,10 @@ void giveWay(TrackPath& weaker, const TrackPath& stronger, double allowed, DropL
 
 void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale,
                   DropList& dropped) {
-    if (!scale.gsd_known) return;
-    const double length = scale.px(options.min_length_m);
-    const double width = scale.px(options.min_width_m);
+    if (!hasMetricLimits(scale)) return;
+    const double share = scale.gsd_known ? 1 : kEstimatedShare;
+    const double length = share * scale.px(options.min_length_m);
+    const double width = share * scale.px(options.min_width_m);
     std::erase_if(paths, [&](TrackPath& path) {
         if (!tooSmall(path, length, width)) return false;
         drop(path, TrackDrop::too_small, dropped);
