@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "store/labels/annotation_store.h"
-#include "store/review/review_store.h"
 #include "store/review/review_samples.h"
+#include "store/review/review_store.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 

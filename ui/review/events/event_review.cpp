@@ -24,12 +24,13 @@ struct EventReview::Opened {
 };
 
 EventReview::EventReview(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{
-                {SessionChange::video, [this] { close(); }},
-                {{SessionChange::project, SessionChange::current_run, SessionChange::run_data, SessionChange::run_ended},
-                 [this] { refresh(); }},
-            });
+    connect(
+        &session_, &ProjectSession::changed, this,
+        Reactions<SessionChange>{
+            {SessionChange::video, [this] { close(); }},
+            {{SessionChange::project, SessionChange::current_run, SessionChange::run_data, SessionChange::run_ended},
+             [this] { refresh(); }},
+        });
     search_due_.setSingleShot(true);
     search_due_.setInterval(kSearchDelay_ms);
     connect(&search_due_, &QTimer::timeout, this, &EventReview::search);
