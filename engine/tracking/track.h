@@ -7,7 +7,7 @@
 #include "core/values/track_state.h"
 #include "tracking/association/vector_association.h"
 #include "tracking/box_kalman_filter.h"
-#include "tracking/vehicle_look.h"
+#include "tracking/vehicle_template.h"
 
 namespace eyrie {
 
@@ -50,7 +50,7 @@ struct Track {
     int recognised_streak = 0;     ///< frames in a row
     int whole_boxes = 0;           ///< detections that a classifier took for a whole vehicle
     cv::Point2d origin_place;      ///< where it was first detected, carried along with the ground, px
-    std::optional<VehicleLook> look;
+    std::optional<VehicleTemplate> look;
     Standstill standstill;
 
     explicit Track(const BoxMeasurement& first) : filter(first), origin_place(first.box.centre) {}

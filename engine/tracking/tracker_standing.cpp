@@ -54,7 +54,7 @@ void Tracker::lookAround(Track& track, Picture& picture) {
         // What stands keeps the look that it has been known by.
         if (detected && !track.standstill.certain &&
             manager_.worthRemembering(track, model_.slowSpeed(), classified_)) {
-            if (auto look = VehicleLook::of(picture.gray(), track.filter.box())) track.look = std::move(look);
+            if (auto look = VehicleTemplate::of(picture.gray(), track.filter.box())) track.look = std::move(look);
         }
         manager_.countDeparture(track);
         return;

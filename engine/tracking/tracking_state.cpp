@@ -17,7 +17,7 @@ void BoxKalmanFilter::transfer(Archive& archive) {
 }
 
 template <class Archive>
-void VehicleLook::transfer(Archive& archive) {
+void VehicleTemplate::transfer(Archive& archive) {
     archive(chip_, box_, step_);
     archive.require(chip_.type() == CV_8UC1 && !chip_.empty() && step_ > 0, "a track that looks like nothing");
 }

@@ -112,7 +112,7 @@ class MainWindowTest : public QObject {
         const std::pair<Qt::Key, OverlayKind> keys[] = {
             {Qt::Key_C, CornerLayer::kKind}, {Qt::Key_V, VectorLayer::kKind},     {Qt::Key_M, ClusterLayer::kKind},
             {Qt::Key_R, RoiLayer::kKind},    {Qt::Key_D, DetectionLayer::kKind},  {Qt::Key_T, TrackLayer::kKind},
-            {Qt::Key_U, TruthLayer::kKind},  {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_H, SpeedLayer::kKind}};
+            {Qt::Key_U, TruthLayer::kKind},  {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_6, SpeedLayer::kKind}};
         for (const auto& [key, kind] : keys) {
             const bool before = window.overlays().isVisible(kind);
             QTest::keyClick(&window, key);

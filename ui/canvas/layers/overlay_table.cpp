@@ -53,7 +53,7 @@ const std::vector<OverlayRow>& overlayTable() {
                             paletteColour<&Colours::detection>),
         row<TrackLayer>(QT_TRANSLATE_NOOP("Overlay", "&Tracks"), Qt::Key_T, true, false, true,
                         paletteColour<&Colours::track>),
-        row<SpeedLayer>(QT_TRANSLATE_NOOP("Overlay", "S&peeds of tracks"), Qt::Key_H, false, false, false,
+        row<SpeedLayer>(QT_TRANSLATE_NOOP("Overlay", "S&peeds of tracks"), Qt::Key_6, false, false, false,
                         paletteColour<&Colours::track>),
         row<ImageStackLayer>(QT_TRANSLATE_NOOP("Overlay", "Image &stacks"), Qt::Key_S, false, false, false,
                              paletteColour<&Colours::stack>),

@@ -27,6 +27,7 @@ namespace eyrie::ui {
 namespace {
 
 constexpr QLatin1String kFittedKey("_fitted");
+constexpr int kLeastTable_px = 48;  ///< the header and a row; what columns of docks need in a small window
 constexpr int kWidening_ms = 1000;
 
 }  // namespace
@@ -54,6 +55,7 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
                              showHidden();
                          }}});
 
+    table_->setMinimumHeight(kLeastTable_px);
     tool_row_->addWidget(filter_, 1);
     stack_->addWidget(table_);
     stack_->addWidget(empty_);

@@ -1,4 +1,4 @@
-#include "tracking/vehicle_look.h"
+#include "tracking/vehicle_template.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,10 +73,10 @@ cv::Point2d peakAround(const cv::Mat1d& scores, cv::Point best) {
 
 }  // namespace
 
-std::optional<VehicleLook> VehicleLook::of(const cv::Mat& gray, const OrientedBox& box) {
+std::optional<VehicleTemplate> VehicleTemplate::of(const cv::Mat& gray, const OrientedBox& box) {
     if (gray.empty() || !(std::min(box.length, box.width) >= kSmallestLook)) return std::nullopt;
     if (!liesInside(box, gray.size())) return std::nullopt;
-    VehicleLook look;
+    VehicleTemplate look;
     look.box_ = box;
     look.step_ = std::max(1.0, std::sqrt(box.area() / kMostSamples));
     const double length = box.length + 2 * std::max(kNarrowestStrip, kStrip * box.length);
@@ -86,7 +86,7 @@ std::optional<VehicleLook> VehicleLook::of(const cv::Mat& gray, const OrientedBo
     return look;
 }
 
-std::optional<LookMatch> VehicleLook::find(const cv::Mat& gray, const OrientedBox& expected, double reach) const {
+std::optional<LookMatch> VehicleTemplate::find(const cv::Mat& gray, const OrientedBox& expected, double reach) const {
     const double zoom = std::sqrt(expected.area() / box_.area());
     if (gray.empty() || !(zoom < kLargestZoom && zoom * kLargestZoom > 1)) return std::nullopt;
     if (!liesInside(expected, gray.size())) return std::nullopt;

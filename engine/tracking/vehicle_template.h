@@ -17,10 +17,10 @@ struct LookMatch {
 
 /// What a vehicle looked like at one moment: a small grey chip of it and a narrow strip of the ground about it, in the
 /// axes of its box. It is never renewed by what is found, so that it cannot come to look like the ground.
-class VehicleLook {
+class VehicleTemplate {
  public:
     /// Nothing for boxes that leave the image, are tiny, or have no contrast. `gray`: CV_8UC1.
-    static std::optional<VehicleLook> of(const cv::Mat& gray, const OrientedBox& box);
+    static std::optional<VehicleTemplate> of(const cv::Mat& gray, const OrientedBox& box);
 
     /// The best agreement at most `reach` px from the centre of `expected` along each of its axes. Its size may differ
     /// by a zoom of up to two. Nothing when `expected` leaves the image or shows no contrast.

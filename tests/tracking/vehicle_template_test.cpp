@@ -1,4 +1,4 @@
-#include "tracking/vehicle_look.h"
+#include "tracking/vehicle_template.h"
 
 #include <gtest/gtest.h>
 
@@ -16,17 +16,17 @@ double distance(cv::Point2d a, cv::Point2d b) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-VehicleLook lookAt(const OrientedBox& car) {
-    const auto look = VehicleLook::of(drawnCars({car}), car);
+VehicleTemplate lookAt(const OrientedBox& car) {
+    const auto look = VehicleTemplate::of(drawnCars({car}), car);
     EXPECT_TRUE(look);
-    return look.value_or(VehicleLook{});
+    return look.value_or(VehicleTemplate{});
 }
 
 const OrientedBox kCar{{120, 90}, 22, 10, 0};
 
 }  // namespace
 
-TEST(VehicleLook, isFoundToAPartOfAPixelAfterTheCameraHasTurned) {
+TEST(VehicleTemplate, isFoundToAPartOfAPixelAfterTheCameraHasTurned) {
     OrientedBox before = kCar;
     before.heading = radiansFromDegrees(30);
     OrientedBox now = before;
@@ -41,7 +41,7 @@ TEST(VehicleLook, isFoundToAPartOfAPixelAfterTheCameraHasTurned) {
     EXPECT_LT(match->beside, 0.7);
 }
 
-TEST(VehicleLook, followsAZoomOfTheCamera) {
+TEST(VehicleTemplate, followsAZoomOfTheCamera) {
     const OrientedBox now{{200, 150}, 28.6, 13, 0};
     const auto match = lookAt(kCar).find(drawnCars({now}, 8), now, 2);
     ASSERT_TRUE(match);
@@ -49,7 +49,7 @@ TEST(VehicleLook, followsAZoomOfTheCamera) {
     EXPECT_GT(match->agreement, 0.85);
 }
 
-TEST(VehicleLook, ofALargeVehicleIsFoundAsWell) {
+TEST(VehicleTemplate, ofALargeVehicleIsFoundAsWell) {
     const OrientedBox lorry{{200, 150}, 120, 34, radiansFromDegrees(-20)};
     OrientedBox expected = lorry;
     expected.centre += cv::Point2d(4, 3);
@@ -59,8 +59,8 @@ TEST(VehicleLook, ofALargeVehicleIsFoundAsWell) {
     EXPECT_GT(match->agreement, 0.9);
 }
 
-TEST(VehicleLook, doesNotDependOnTheLight) {
-    const VehicleLook look = lookAt(kCar);
+TEST(VehicleTemplate, doesNotDependOnTheLight) {
+    const VehicleTemplate look = lookAt(kCar);
     for (const auto& [contrast, brightness] : {std::pair(0.5, 10.0), {1.2, 0.0}, {0.7, 70.0}}) {
         cv::Mat lit;
         drawnCars({kCar}, 8).convertTo(lit, CV_8UC1, contrast, brightness);
@@ -70,8 +70,8 @@ TEST(VehicleLook, doesNotDependOnTheLight) {
     }
 }
 
-TEST(VehicleLook, isNotThatOfPlainOrTexturedRoadNorOfAnotherVehicle) {
-    const VehicleLook look = lookAt(kCar);
+TEST(VehicleTemplate, isNotThatOfPlainOrTexturedRoadNorOfAnotherVehicle) {
+    const VehicleTemplate look = lookAt(kCar);
     EXPECT_FALSE(look.find(drawnCars({}), kCar, 3)) << "no contrast";
     cv::Mat road(300, 400, CV_8UC1);
     cv::RNG(3).fill(road, cv::RNG::NORMAL, 90, 25);
@@ -90,15 +90,15 @@ TEST(VehicleLook, isNotThatOfPlainOrTexturedRoadNorOfAnotherVehicle) {
     EXPECT_LT(other->agreement, 0.6);
 }
 
-TEST(VehicleLook, isNotTakenWithoutContrastOrBeyondTheImage) {
-    EXPECT_FALSE(VehicleLook::of(drawnCars({}), kCar));
-    EXPECT_FALSE(VehicleLook::of({}, kCar));
+TEST(VehicleTemplate, isNotTakenWithoutContrastOrBeyondTheImage) {
+    EXPECT_FALSE(VehicleTemplate::of(drawnCars({}), kCar));
+    EXPECT_FALSE(VehicleTemplate::of({}, kCar));
     const OrientedBox cut{{3, 60}, 22, 10, 0};
-    EXPECT_FALSE(VehicleLook::of(drawnCars({cut}), cut));
+    EXPECT_FALSE(VehicleTemplate::of(drawnCars({cut}), cut));
     const OrientedBox speck{{60, 60}, 2, 2, 0};
-    EXPECT_FALSE(VehicleLook::of(drawnCars({speck}), speck));
+    EXPECT_FALSE(VehicleTemplate::of(drawnCars({speck}), speck));
     const OrientedBox nowhere{{NAN, 60}, 22, 10, 0};
-    EXPECT_FALSE(VehicleLook::of(drawnCars({}), nowhere));
+    EXPECT_FALSE(VehicleTemplate::of(drawnCars({}), nowhere));
     EXPECT_FALSE(lookAt(kCar).find({}, kCar, 3));
     EXPECT_FALSE(lookAt(kCar).find(drawnCars({cut}), cut, 3));
 }
