@@ -23,7 +23,7 @@ class SweepChart : public QWidget {
     void copyText() const;
     void copyPicture();
     QSize sizeHint() const override { return {360, 280}; }
-    QSize minimumSizeHint() const override { return {220, 160}; }
+    QSize minimumSizeHint() const override { return {220, 110}; }
 
  signals:
     /// A point of the sweep was clicked.
