@@ -1,0 +1,221 @@
+#include "store/project/schema_steps.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "store/project/schema.h"
+
+namespace eyrie::schema {
+
+void addComparisonsAndCompleteBoxes(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE comparison (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    made_utc TEXT NOT NULL,
+    sequence TEXT NOT NULL,
+    report TEXT NOT NULL
+);
+ALTER TABLE detection ADD COLUMN complete INTEGER NOT NULL DEFAULT 0;
+)sql");
+}
+
+// A plan and the figures of a point are JSON texts that engine/sweep writes and reads.
+void addSweeps(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE sweep (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    made_utc TEXT NOT NULL,
+    name TEXT NOT NULL,
+    point_count INTEGER NOT NULL,
+    plan TEXT NOT NULL
+);
+CREATE TABLE sweep_point (
+    sweep_id INTEGER NOT NULL REFERENCES sweep (id) ON DELETE CASCADE,
+    position INTEGER NOT NULL,
+    seconds REAL,
+    figures TEXT NOT NULL,
+    PRIMARY KEY (sweep_id, position)
+) WITHOUT ROWID;
+)sql");
+}
+
+void addPresets(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE preset (
+    name TEXT PRIMARY KEY,
+    saved_utc TEXT NOT NULL
+) WITHOUT ROWID;
+CREATE TABLE preset_value (
+    preset TEXT NOT NULL REFERENCES preset (name) ON DELETE CASCADE ON UPDATE CASCADE,
+    position INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    value TEXT NOT NULL,
+    PRIMARY KEY (preset, position)
+) WITHOUT ROWID;
+)sql");
+}
+
+// What was left out when the tracks of a run were finished, and why.
+void addDroppedStates(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE dropped_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    reason TEXT NOT NULL,
+    beside INTEGER NOT NULL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+)sql");
+}
+
+// When a run was removed by a person who can still change her mind; empty: it was not.
+void addRemovalOfRuns(SQLite::Database& database) {
+    database.exec("ALTER TABLE run ADD COLUMN removed_utc TEXT NOT NULL DEFAULT ''");
+}
+
+// What a run that ended early needs to be gone on with: the state of the chain after some frame (written by
+// engine/chain), and the tracks as they were before they were finished.
+void addRunStates(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE run_state (
+    run_id INTEGER PRIMARY KEY REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    data BLOB NOT NULL
+);
+CREATE TABLE unfinished_track_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    status TEXT NOT NULL,
+    origin TEXT NOT NULL,
+    age INTEGER NOT NULL,
+    hits INTEGER NOT NULL,
+    score REAL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+)sql");
+}
+
+// Why a frame could not be registered, as a word with its figures; a sentence until then.
+void addRegistrationFaults(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE frame ADD COLUMN picture TEXT NOT NULL DEFAULT 'clear';
+ALTER TABLE frame ADD COLUMN reason_count INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE frame ADD COLUMN reason_of INTEGER NOT NULL DEFAULT 0;
+)sql");
+    schema::wordRegistrationFaults(database);
+}
+
+// For readers with other tools: units that people use, and a shape that stays when tables change.
+void addViews(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE VIEW v_runs AS
+SELECT run.id AS run, sequence.path AS video, run.name, run.started_utc, run.state, run.first_frame, run.last_frame,
+    run.frame_rate_hz, CASE WHEN run.gsd_known THEN run.gsd_m_per_px END AS gsd_m_per_px
+FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE run.removed_utc = '';
+CREATE VIEW v_tracks AS
+SELECT track.run_id AS run, track.id AS track, track.first_frame, track.last_frame, track.frames,
+    (track.last_frame - track.first_frame) / v_runs.frame_rate_hz AS seconds,
+    track.length_sum / track.frames AS length_px, track.width_sum / track.frames AS width_px,
+    track.speed_sum / track.frames AS speed_px_per_frame,
+    track.length_sum / track.frames * v_runs.gsd_m_per_px AS length_m,
+    track.width_sum / track.frames * v_runs.gsd_m_per_px AS width_m,
+    track.speed_sum / track.frames * v_runs.gsd_m_per_px * v_runs.frame_rate_hz * 3.6 AS speed_kmh
+FROM track JOIN v_runs ON v_runs.run = track.run_id WHERE track.confirmed <> 0;
+CREATE VIEW v_track_states AS
+SELECT track_state.run_id AS run, track_state.track_id AS track, track_state.frame, frame.time_us / 1e6 AS seconds,
+    track_state.x, track_state.y, track_state.length AS length_px, track_state.width AS width_px,
+    track_state.heading_rad * 57.29577951308232
+        + CASE WHEN track_state.heading_rad < 0 THEN 360 ELSE 0 END AS heading_deg,
+    track_state.vx AS vx_px_per_frame, track_state.vy AS vy_px_per_frame, track_state.status, track_state.origin,
+    track_state.score
+FROM track_state JOIN frame ON frame.run_id = track_state.run_id AND frame.frame = track_state.frame
+    JOIN v_runs ON v_runs.run = track_state.run_id WHERE track_state.status <> 'tentative';
+CREATE VIEW v_detections AS
+SELECT detection.run_id AS run, detection.frame, detection.number, detection.x, detection.y,
+    detection.length AS length_px, detection.width AS width_px,
+    detection.heading_rad * 57.29577951308232
+        + CASE WHEN detection.heading_rad < 0 THEN 360 ELSE 0 END AS heading_deg,
+    detection.score, detection.rejection
+FROM detection JOIN v_runs ON v_runs.run = detection.run_id;
+CREATE VIEW v_frames AS
+SELECT frame.run_id AS run, frame.frame, frame.time_us / 1e6 AS seconds, frame.registration_state AS registration,
+    frame.reason, frame.picture, frame.corner_count AS corners, frame.motion_vector_count AS motion_vectors,
+    frame.detection_count AS detections, frame.track_count AS tracks
+FROM frame JOIN v_runs ON v_runs.run = frame.run_id;
+)sql");
+}
+
+// What a person says about events: of a video, so that a new run finds it. Steps as packed bytes: packed_review.h.
+void addReview(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE verdict (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    kind TEXT NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL,
+    first_s REAL NOT NULL,
+    last_s REAL NOT NULL,
+    frame INTEGER NOT NULL,
+    x REAL NOT NULL, y REAL NOT NULL,
+    ground_frame INTEGER NOT NULL,
+    ground_x REAL NOT NULL, ground_y REAL NOT NULL,
+    zone TEXT NOT NULL,
+    sense TEXT NOT NULL,
+    judgement TEXT NOT NULL,
+    note TEXT NOT NULL,
+    tags TEXT NOT NULL,
+    starred INTEGER NOT NULL,
+    person TEXT NOT NULL,
+    when_utc TEXT NOT NULL
+);
+CREATE INDEX verdict_of_sequence ON verdict (sequence_id);
+CREATE TABLE bookmark (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    seconds REAL NOT NULL,
+    x REAL, y REAL,
+    note TEXT NOT NULL,
+    person TEXT NOT NULL,
+    when_utc TEXT NOT NULL
+);
+CREATE INDEX bookmark_of_sequence ON bookmark (sequence_id);
+CREATE TABLE review_step (
+    id INTEGER PRIMARY KEY AUTOINCREMENT,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    name TEXT NOT NULL,
+    made_utc TEXT NOT NULL,
+    undone INTEGER NOT NULL,
+    data BLOB NOT NULL
+);
+CREATE INDEX review_step_of_sequence ON review_step (sequence_id, undone, id);
+CREATE TABLE seen (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    person TEXT NOT NULL,
+    first_frame INTEGER NOT NULL,
+    last_frame INTEGER NOT NULL
+);
+CREATE INDEX seen_of_sequence ON seen (sequence_id, person, first_frame);
+CREATE VIEW v_verdicts AS
+SELECT verdict.id AS verdict, sequence.path AS video, verdict.kind, verdict.judgement, verdict.first_frame,
+    verdict.last_frame, verdict.first_s AS start_s, verdict.last_s AS end_s, verdict.frame, verdict.x, verdict.y,
+    verdict.zone, verdict.sense, verdict.note, verdict.tags, verdict.starred, verdict.person, verdict.when_utc
+FROM verdict JOIN sequence ON sequence.id = verdict.sequence_id;
+CREATE VIEW v_bookmarks AS
+SELECT bookmark.id AS bookmark, sequence.path AS video, bookmark.frame, bookmark.seconds, bookmark.x, bookmark.y,
+    bookmark.note, bookmark.person, bookmark.when_utc
+FROM bookmark JOIN sequence ON sequence.id = bookmark.sequence_id;
+CREATE VIEW v_seen AS
+SELECT sequence.path AS video, seen.person, seen.first_frame, seen.last_frame,
+    seen.last_frame - seen.first_frame + 1 AS frames
+FROM seen JOIN sequence ON sequence.id = seen.sequence_id;
+)sql");
+}
+
+}  // namespace eyrie::schema

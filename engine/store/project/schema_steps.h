@@ -1,0 +1,23 @@
+#pragma once
+
+namespace SQLite {
+class Database;
+}
+
+/// The steps by which the tables of a project file grew, in their order (schema.h); each is run once in a file's life
+/// and never changed once released.
+namespace eyrie::schema {
+
+void addRuns(SQLite::Database& database);
+void addLabels(SQLite::Database& database);
+void addComparisonsAndCompleteBoxes(SQLite::Database& database);
+void addSweeps(SQLite::Database& database);
+void addPresets(SQLite::Database& database);
+void addDroppedStates(SQLite::Database& database);
+void addRemovalOfRuns(SQLite::Database& database);
+void addRunStates(SQLite::Database& database);
+void addRegistrationFaults(SQLite::Database& database);
+void addViews(SQLite::Database& database);
+void addReview(SQLite::Database& database);
+
+}  // namespace eyrie::schema
