@@ -32,8 +32,9 @@ InterruptGuard::InterruptGuard() {
             const timespec interval{0, 100'000'000};
             const int signal = sigtimedwait(&waited, nullptr, &interval);
             if (signal < 0) continue;
-            // A closed terminal may tell so twice; only a person who presses Ctrl-C again means it.
-            if (!stop_.request_stop() && signal != SIGHUP) std::_Exit(130);
+            // A closed terminal may tell so twice, and whoever ends a job tells its processes and they tell each other;
+            // only a person who presses Ctrl-C again means it.
+            if (!stop_.request_stop() && signal == SIGINT) std::_Exit(130);
         }
     });
 }

@@ -199,6 +199,44 @@ TEST_F(Batches, filesThatDifferInTheirEndingGetProjectsOfTheirOwn) {
     EXPECT_FALSE(fs::exists(at("out/a.mov.eyrie")));
 }
 
+TEST_F(Batches, sameNamesInSeveralPlacesStayApart) {
+    for (const char* card : {"1", "2", "3"}) put("cards/" + std::string(card) + "/DCIM/film.mp4");
+    std::vector<std::string> words{test::programPath("eyrie-cli"),
+                                   "batch",
+                                   "--out",
+                                   at("out"),
+                                   "--frames",
+                                   "0:9",
+                                   at("cards/1/DCIM"),
+                                   at("cards/2/DCIM"),
+                                   at("cards/3/DCIM"),
+                                   at("cards/1/DCIM/film.mp4")};
+    const auto result = test::runProcess(words);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output, HasSubstr("3 files: 3 done")) << "named twice it is done once";
+    int projects = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "out"))
+        projects += entry.path().extension() == ".eyrie";
+    EXPECT_EQ(projects, 3);
+}
+
+TEST_F(Batches, shardsDoNotMeanTheSameProject) {
+    put("in/a.mov");
+    put("in/a.mp4");
+    ASSERT_EQ(batch({"--shard", "2/2"}).exit_code, 0);
+    ASSERT_EQ(batch({"--shard", "1/2"}).exit_code, 0);
+    EXPECT_TRUE(isFinished("out/a.eyrie"));
+    EXPECT_TRUE(isFinished("out/a.mp4.eyrie"));
+}
+
+TEST_F(Batches, aFileWithOtherContentsIsDoneAgain) {
+    put("in/a.mp4");
+    ASSERT_EQ(batch({"--frames", "0:9"}).exit_code, 0);
+    fs::last_write_time(folder / "in/a.mp4", fs::file_time_type::clock::now() + std::chrono::seconds(5));
+    EXPECT_THAT(batch({"--frames", "0:9"}).output, HasSubstr("1 file: 1 done"));
+    EXPECT_EQ(runsOf("out/a.eyrie").size(), 2U);
+}
+
 TEST_F(Batches, aFileIsTakenOnceItHasArrived) {
     fs::create_directories(folder / "in");
     test::Process process(command("watch", {"--settle", "3"}));

@@ -6,6 +6,8 @@
 #include "core/error.h"
 #include "store/labels/annotation_store.h"
 #include "store/labels/label_samples.h"
+#include "store/review/review_samples.h"
+#include "store/review/review_store.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
@@ -95,6 +97,25 @@ TEST_F(TamperedProject, NewObjectsGetNumbersOfTheirOwnWhateverTheCounterSays) {
             EXPECT_TRUE(known.insert(id).second) << value;
             EXPECT_NO_THROW(store.apply(test::sampleEdit(id))) << value;
             tamper(std::string("UPDATE label_counter SET value = ") + value + " WHERE kind = 'object'");
+        }
+    }
+}
+
+TEST_F(TamperedProject, NewVerdictsGetNumbersOfTheirOwnWhateverTheCounterSays) {
+    for (const char* value : {"-5", "0", "2147483647", "3000000000"}) {
+        std::filesystem::remove(path_);
+        test::writeSampleProject(path_, 1);
+        ProjectFile project = ProjectFile::open(path_);
+        for (int round = 0; round < 3; ++round) {
+            ReviewStore store(project, 1);
+            const int id = store.newVerdictId();
+            ReviewEdit edit;
+            edit.name = "judge";
+            edit.verdicts.push_back({std::nullopt, test::sampleVerdict(1)});
+            edit.verdicts.back().after->id = id;
+            EXPECT_NO_THROW(store.apply(edit)) << value;
+            EXPECT_EQ(store.review().verdicts.size(), static_cast<std::size_t>(round + 1)) << value;
+            tamper(std::string("UPDATE label_counter SET value = ") + value + " WHERE kind = 'verdict'");
         }
     }
 }

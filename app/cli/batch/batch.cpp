@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <ctime>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +19,7 @@ namespace eyrie::cli {
 namespace {
 
 constexpr std::chrono::seconds kBetweenLooks{5};
+constexpr int kBegunAtOnce = 16;  ///< rows
 
 /// The last line that a command said, without the name that it begins with.
 std::string lastWords(const std::string& errors) {
@@ -56,13 +59,23 @@ std::optional<RunRecord> runOf(const RunStore& store, const BatchRow& row, Resum
     return chooseRun(store, row.project.string(), wishes).run;
 }
 
-/// Takes over what its project says of an input; answers whether there is a finished run.
-bool takeFacts(BatchRow& row, const ResumeWishes& wishes) {
-    if (!isFile(row.project)) return false;
+/// Whether a file was written after a run of it began, so that the run is one of other contents.
+bool isNewer(const BatchInput& input, const RunRecord& run) {
+    const auto seconds = static_cast<std::time_t>(input.changed_ns / 1'000'000'000);
+    std::tm parts{};
+    char text[32];
+    if (gmtime_r(&seconds, &parts) == nullptr || std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts) == 0)
+        return false;
+    return text > run.started_utc;  // ISO 8601 sorts as times do
+}
+
+/// Takes over what its project says of an input; answers the finished run, if there is one.
+std::optional<RunRecord> takeFacts(BatchRow& row, const ResumeWishes& wishes) {
+    if (!isFile(row.project)) return std::nullopt;
     ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
     const RunStore store(file);
     const std::optional<RunRecord> run = runOf(store, row, wishes);
-    if (!run) return false;
+    if (!run) return std::nullopt;
     row.frames = run->frames_done;
     const std::vector<FrameSummary> frames = store.frameSummaries(run->id);
     row.unregistered = static_cast<int>(std::count_if(frames.begin(), frames.end(), [](const FrameSummary& frame) {
@@ -71,7 +84,7 @@ bool takeFacts(BatchRow& row, const ResumeWishes& wishes) {
     const std::vector<TrackSummary> tracks = store.tracks(run->id);
     row.tracks = static_cast<int>(
         std::count_if(tracks.begin(), tracks.end(), [](const TrackSummary& track) { return track.confirmed; }));
-    return run->state == RunState::finished;
+    return run->state == RunState::finished ? run : std::nullopt;
 }
 
 bool isOver(BatchState state) {
@@ -84,27 +97,39 @@ Batch::Batch(BatchOptions options) : options_(std::move(options)) {}
 
 Batch::~Batch() = default;
 
-void Batch::add(const std::vector<BatchInput>& inputs, bool anew) {
-    for (const BatchInput& input : inputs) {
+void Batch::add(const std::vector<BatchInput>& inputs, const Shard& shard, bool anew) {
+    for (std::size_t at = 0; at < inputs.size(); ++at) {
         BatchRow row;
-        row.input = input;
-        row.project = projectFor(input);
+        row.input = inputs[at];
+        row.project = projectFor(inputs[at]);
         row.anew = anew;
-        rows_.push_back(std::move(row));
+        if (at % static_cast<std::size_t>(shard.parts) == static_cast<std::size_t>(shard.part - 1))
+            rows_.push_back(std::move(row));
     }
 }
 
-std::filesystem::path Batch::projectFor(const BatchInput& input) const {
-    const std::filesystem::path whole = options_.out / (input.name.string() + kProjectEnding);
-    std::filesystem::path plain = options_.out / input.name;
-    plain.replace_extension(kProjectEnding);
-    const bool taken = std::any_of(rows_.begin(), rows_.end(), [&](const BatchRow& row) {
-        return row.project == plain && row.input.path != input.path;
-    });
-    return isFolder(input.path) || taken || !isFreeFor(plain, input.path) ? whole : plain;
+std::filesystem::path Batch::projectFor(const BatchInput& input) {
+    for (int attempt = 0;; ++attempt) {
+        std::filesystem::path project = options_.out / input.name;
+        if (attempt == 0 && isFolder(input.path)) continue;  // what looks like an ending belongs to its name
+        if (attempt == 0)
+            project.replace_extension(kProjectEnding);
+        else
+            project += (attempt == 1 ? "" : "-" + std::to_string(attempt)) + std::string(kProjectEnding);
+        const auto known = projects_.find(project);
+        const bool ours = known != projects_.end() && known->second == input.path;
+        if (!ours && (known != projects_.end() || !isFreeFor(project, input.path))) continue;
+        projects_[project] = input.path;
+        return project;
+    }
 }
 
-bool Batch::step() {
+bool Batch::atWork(const std::filesystem::path& project) const {
+    return std::any_of(works_.begin(), works_.end(),
+                       [&](const auto& work) { return rows_[work.first].project == project; });
+}
+
+void Batch::collect() {
     for (auto at = works_.begin(); at != works_.end();) {
         const auto how = at->second.program->ended();
         if (!how) {
@@ -117,9 +142,18 @@ bool Batch::step() {
         at = works_.erase(at);
         end(row, *how);
     }
-    while (!stopping_ && next_ < rows_.size() && works_.size() < static_cast<std::size_t>(options_.jobs))
+}
+
+bool Batch::step() {
+    collect();
+    // Those that were done before take no time, but there may be many.
+    for (int begun = 0; begun < kBegunAtOnce && !stopping_ && next_ < rows_.size() &&
+                        works_.size() < static_cast<std::size_t>(options_.jobs) && !atWork(rows_[next_].project);
+         ++begun)
         begin(next_++);
-    return !works_.empty() || (!stopping_ && next_ < rows_.size());
+    const bool more = !works_.empty() || (!stopping_ && next_ < rows_.size());
+    if (std::exchange(summary_due_, false)) writeSummary();
+    return more;
 }
 
 void Batch::stop() {
@@ -131,7 +165,9 @@ void Batch::begin(std::size_t number) {
     BatchRow& row = rows_[number];
     if (!row.input.fault.empty()) return close(number, BatchState::failed, row.input.fault);
     try {
-        if (!row.anew && takeFacts(row, options_.wishes)) return close(number, BatchState::done_before, "");
+        const auto run = row.anew ? std::nullopt : takeFacts(row, options_.wishes);
+        if (run && !isNewer(row.input, *run)) return close(number, BatchState::done_before, "");
+        row.anew = row.anew || run.has_value();
     } catch (const Error& error) {
         return close(number, BatchState::failed, error.what());
     }
@@ -145,23 +181,28 @@ void Batch::begin(std::size_t number) {
     if (!row.anew) words.emplace_back("--resume");
     words.insert(words.end(), options_.run_words.begin(), options_.run_words.end());
     Work work;
-    work.program = std::make_unique<ChildProgram>(words);
+    try {
+        work.program = std::make_unique<ChildProgram>(words);
+    } catch (const Error& error) {
+        return close(number, BatchState::failed, error.what());
+    }
     work.begun = work.looked = Clock::now();
     row.state = BatchState::working;
     works_.emplace(number, std::move(work));
-    record(row);
+    log(row);
 }
 
 void Batch::end(std::size_t number, const ChildEnd& how) {
     BatchRow& row = rows_[number];
-    std::string fault;
+    std::string fault = "ended without a finished run";
     try {
-        takeFacts(row, options_.wishes);
+        if (takeFacts(row, options_.wishes)) fault.clear();
     } catch (const Error& error) {
         fault = error.what();
     }
+    if (how.exit_code == exit_stopped || (stopping_ && how.signal == SIGTERM))
+        return close(number, BatchState::stopped, "");
     if (how.signal != 0) return close(number, BatchState::failed, signalText(how.signal));
-    if (how.exit_code == exit_stopped) return close(number, BatchState::stopped, "");
     if (how.exit_code != exit_ok) return close(number, BatchState::failed, lastWords(how.errors));
     close(number, fault.empty() ? BatchState::done : BatchState::failed, fault);
 }
@@ -169,7 +210,8 @@ void Batch::end(std::size_t number, const ChildEnd& how) {
 void Batch::close(std::size_t number, BatchState state, const std::string& message) {
     rows_[number].state = state;
     rows_[number].message = message;
-    record(rows_[number]);
+    log(rows_[number]);
+    summary_due_ = true;
 }
 
 void Batch::lookAt(Work& work, const BatchRow& row) {
@@ -185,13 +227,21 @@ void Batch::lookAt(Work& work, const BatchRow& row) {
     }
 }
 
-void Batch::record(const BatchRow& row) {
+// The work is worth more than its record: what cannot be written is told, and tried again with the next.
+void Batch::log(const BatchRow& row) {
     try {
         addToBatchLog(options_.out / (options_.record + ".jsonl"), row);
-        if (isOver(row.state)) writeBatchSummary(options_.out / (options_.record + ".csv"), rows_);
         record_fault_.clear();
     } catch (const Error& error) {
-        record_fault_ = error.what();  // the work is worth more than its record
+        record_fault_ = error.what();
+    }
+}
+
+void Batch::writeSummary() {
+    try {
+        writeBatchSummary(options_.out / (options_.record + ".csv"), rows_);
+    } catch (const Error& error) {
+        record_fault_ = error.what();
     }
 }
 

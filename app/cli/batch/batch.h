@@ -30,8 +30,10 @@ class Batch {
     Batch(const Batch&) = delete;
     Batch& operator=(const Batch&) = delete;
 
-    /// Inputs to be worked on after those that wait. `anew`: they were worked on before and have changed.
-    void add(const std::vector<BatchInput>& inputs, bool anew = false);
+    /// What falls to a shard of inputs in the order of findInputs(), to be worked on after those that wait. Projects
+    /// are named by all of them, so that no two shards mean the same one. `anew`: they were worked on before and have
+    /// changed.
+    void add(const std::vector<BatchInput>& inputs, const Shard& shard = {}, bool anew = false);
     /// Looks after those at work and begins others; returns at once. False when nothing is left to do.
     bool step();
     /// Asks those at work to stop and begins no more; step() as before until it says false.
@@ -53,19 +55,24 @@ class Batch {
         Clock::time_point looked;
     };
 
-    std::filesystem::path projectFor(const BatchInput& input) const;
+    std::filesystem::path projectFor(const BatchInput& input);
+    void collect();
+    bool atWork(const std::filesystem::path& project) const;
     void begin(std::size_t row);
     void end(std::size_t row, const ChildEnd& how);
     void close(std::size_t row, BatchState state, const std::string& message);
     void lookAt(Work& work, const BatchRow& row);
-    void record(const BatchRow& row);
+    void log(const BatchRow& row);
+    void writeSummary();
 
     BatchOptions options_;
     std::vector<BatchRow> rows_;
-    std::size_t next_ = 0;  ///< the first that waits
+    std::map<std::filesystem::path, std::filesystem::path> projects_;  ///< which input each is for
+    std::size_t next_ = 0;                                             ///< the first that waits
     std::map<std::size_t, Work> works_;
     Clock::time_point begun_ = Clock::now();
     bool stopping_ = false;
+    bool summary_due_ = false;
     std::string record_fault_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <set>
 #include <system_error>
 
@@ -18,7 +19,8 @@ namespace fs = std::filesystem;
 std::int64_t lastWrite(const fs::path& path) {
     std::error_code failed;
     const auto time = fs::last_write_time(path, failed);
-    return failed ? 0 : time.time_since_epoch().count();
+    if (failed) return 0;
+    return std::chrono::nanoseconds(fs::file_time_type::clock::to_sys(time).time_since_epoch()).count();
 }
 
 std::uintmax_t sizeOf(const fs::path& path) {
@@ -105,9 +107,8 @@ std::vector<BatchInput> findInputs(const std::vector<std::string>& places) {
     }
     std::sort(search.found.begin(), search.found.end(),
               [](const BatchInput& a, const BatchInput& b) { return a.name < b.name; });
-    const auto repeated = std::unique(search.found.begin(), search.found.end(),
-                                      [](const BatchInput& a, const BatchInput& b) { return a.path == b.path; });
-    search.found.erase(repeated, search.found.end());
+    std::set<fs::path> known;
+    std::erase_if(search.found, [&](const BatchInput& input) { return !known.insert(input.path).second; });
     return search.found;
 }
 
@@ -123,14 +124,6 @@ Shard shardFrom(const std::string& text) {
                     "--shard " + text + ": expected PART/PARTS with PART from 1 to PARTS, e.g. 2/8");
     }
     return shard;
-}
-
-std::vector<BatchInput> shardOf(const std::vector<BatchInput>& inputs, const Shard& shard) {
-    std::vector<BatchInput> part;
-    for (std::size_t at = static_cast<std::size_t>(shard.part - 1); at < inputs.size();
-         at += static_cast<std::size_t>(shard.parts))
-        part.push_back(inputs[at]);
-    return part;
 }
 
 }  // namespace eyrie::cli

@@ -12,7 +12,7 @@ struct BatchInput {
     std::filesystem::path path;   ///< absolute
     std::filesystem::path name;   ///< as it is told and where its project goes, relative: "monday/a.mp4"
     std::uintmax_t bytes = 0;     ///< of the file, or of all images
-    std::int64_t changed_ns = 0;  ///< when it, or the newest image, was last written
+    std::int64_t changed_ns = 0;  ///< when it, or the newest image, was last written, since 1970 (UTC)
     std::string fault;            ///< not empty: it cannot be read, and why
 
     bool operator==(const BatchInput&) const = default;
@@ -30,7 +30,5 @@ struct Shard {
 };
 /// "2/8". Throws Error(parameter).
 Shard shardFrom(const std::string& text);
-/// What falls to a shard of inputs in the order of findInputs().
-std::vector<BatchInput> shardOf(const std::vector<BatchInput>& inputs, const Shard& shard);
 
 }  // namespace eyrie::cli

@@ -52,6 +52,7 @@ ChildProgram::ChildProgram(const std::vector<std::string>& words) {
     for (std::string& word : kept) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     const pid_t parent = getpid();
+    signal(SIGCHLD, SIG_DFL);  // who starts us may have it ignored; then nobody learns how a child ended
     process_ = errors_ < 0 ? -1 : fork();
     if (process_ == 0) become(pointers.data(), errors_, parent);
     if (process_ < 0) {
@@ -79,8 +80,9 @@ std::optional<ChildEnd> ChildProgram::ended() {
     if (done == 0 || (done < 0 && errno == EINTR)) return std::nullopt;
     process_ = -1;
     ChildEnd end;
-    if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
-    if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+    if (done < 0) end.exit_code = -1;
+    if (done > 0 && WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+    if (done > 0 && WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
     end.errors = tailOf(errors_);
     return end;
 }

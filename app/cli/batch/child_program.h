@@ -10,7 +10,7 @@ namespace eyrie::cli {
 
 /// How a child ended.
 struct ChildEnd {
-    int exit_code = 0;   ///< 0 for one that a signal ended
+    int exit_code = 0;   ///< 0 for one that a signal ended; −1: not known
     int signal = 0;      ///< 0: it ended by itself
     std::string errors;  ///< the last of what it wrote to standard error
 };

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <map>
@@ -17,18 +18,17 @@ namespace {
 constexpr std::chrono::milliseconds kBetweenSteps{100};
 constexpr std::chrono::seconds kBetweenListings{2};
 
-bool anyFailed(const Batch& batch) {
-    for (const BatchRow& row : batch.rows()) {
-        if (row.state == BatchState::failed) return true;
-    }
-    return false;
+bool any(const Batch& batch, BatchState state) {
+    return std::any_of(batch.rows().begin(), batch.rows().end(),
+                       [&](const BatchRow& row) { return row.state == state; });
 }
 
 int end(BatchConsole& console, const Batch& batch, bool stopped) {
     console.finish(batch);
     if (!batch.recordFault().empty()) return exit_output;
     if (stopped) return exit_stopped;
-    return anyFailed(batch) ? exit_input : exit_ok;
+    if (any(batch, BatchState::failed)) return exit_input;
+    return any(batch, BatchState::stopped) ? exit_stopped : exit_ok;
 }
 
 int runBatch(const BatchArguments& arguments, const std::string& shard_text) {
@@ -37,7 +37,7 @@ int runBatch(const BatchArguments& arguments, const std::string& shard_text) {
         shard.parts == 1 ? "batch" : "batch-" + std::to_string(shard.part) + "-of-" + std::to_string(shard.parts);
     Batch batch(arguments.options(record));
     const InterruptGuard interrupt;
-    batch.add(shardOf(findInputs(arguments.places), shard));
+    batch.add(findInputs(arguments.places), shard);
     BatchConsole console(arguments.quiet);
     while (batch.step()) {
         if (interrupt.token().stop_requested()) batch.stop();
@@ -60,7 +60,7 @@ class Arrivals {
             Seen& seen = seen_.try_emplace(input.path, Seen{input, now}).first->second;
             if (!(seen.input == input)) seen.input = input, seen.since = now, seen.waits = true;
             if (!seen.waits || now - seen.since < settle_) continue;
-            batch.add({input}, seen.taken);
+            batch.add({input}, {}, seen.taken);
             seen.waits = false;
             seen.taken = true;
         }

@@ -117,12 +117,12 @@ std::vector<RowRule> rowRules() {
         {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),
          "a state left out of a track is impossible"},
         {"labelled_object",
-         "id > 0 AND last_frame >= 0 AND are_keyframes(keyframes) AND length(keyframes) > 1 AND " +
+         "id BETWEEN 1 AND 2147483647 AND last_frame >= 0 AND are_keyframes(keyframes) AND length(keyframes) > 1 AND " +
              isOneOf("origin", stored::kObjectOrigins) + " AND " + areShort("class, notes"),
          "a labelled object cannot be read"},
         {"ignore_region",
-         "id > 0 AND are_corners(polygon) AND " + life + " AND " + isOneOf("anchor", stored::kRegionAnchors) + " AND " +
-             areShort("notes"),
+         "id BETWEEN 1 AND 2147483647 AND are_corners(polygon) AND " + life + " AND " +
+             isOneOf("anchor", stored::kRegionAnchors) + " AND " + areShort("notes"),
          "an ignore region cannot be read"},
         {"review_mark",
          life + " AND " + isOneOf("state", stored::kReviewStates) + " AND " + areShort("person, when_utc"),
@@ -130,15 +130,15 @@ std::vector<RowRule> rowRules() {
         {"object_class", areShort("name"), "name of a class is impossible"},
         {"edit_journal", "undone IN (0, 1) AND " + areShort("name, made_utc"), "a step of work cannot be read"},
         {"verdict",
-         "id > 0 AND last_frame <= " + std::to_string(kLastFrame) + " AND " + life +
+         "id BETWEEN 1 AND 2147483647 AND last_frame <= " + std::to_string(kLastFrame) + " AND " + life +
              " AND frame BETWEEN first_frame AND last_frame AND ground_frame" + frames + " AND " +
              areNumbers("first_s, last_s, x, y, ground_x, ground_y") + " AND " +
              isOneOf("kind", stored::kSubjectKinds) + " AND " + isOneOf("sense", stored::kCrossingSenses) + " AND " +
              isOneOf("judgement", stored::kJudgements) + " AND " + areShort("zone, note, tags, person, when_utc"),
          "a verdict cannot be read", 11},
         {"bookmark",
-         "id > 0 AND " + frame + " AND " + areNumbers("seconds") + " AND (x IS NULL) = (y IS NULL) AND " +
-             areShort("note, person, when_utc"),
+         "id BETWEEN 1 AND 2147483647 AND " + frame + " AND " + areNumbers("seconds") +
+             " AND (x IS NULL) = (y IS NULL) AND " + areShort("note, person, when_utc"),
          "a bookmark cannot be read", 11},
         {"review_step", "undone IN (0, 1) AND is_review_step(data) AND " + areShort("name, made_utc"),
          "a step of the review cannot be read", 11},

@@ -3,7 +3,6 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "store/database/rows.h"
 #include "store/labels/label_rows.h"
@@ -30,12 +29,6 @@ AnnotationEdit grounded(AnnotationEdit edit, const AnnotationSet& set) {
     }
     if (edit.classes) edit.classes->before = set.classes;
     return edit;
-}
-
-/// A counter of numbers, which may be damaged, as one that can be counted on from.
-int startOf(std::int64_t counter) {
-    constexpr std::int64_t kLastStart = std::numeric_limits<int>::max() - 1'000'000;
-    return static_cast<int>(std::clamp<std::int64_t>(counter, 1, kLastStart));
 }
 
 }  // namespace
@@ -107,8 +100,8 @@ void AnnotationStore::load() {
         SQLite::Transaction moment(database);
         set_ = readLabels(database, sequence_id_);
         changes_ = readCounter(database, "change");
-        next_object_ = startOf(readCounter(database, "object"));
-        next_region_ = startOf(readCounter(database, "region"));
+        next_object_ = readNextNumber(database, "object");
+        next_region_ = readNextNumber(database, "region");
         undo_count_ = journal_.doneCount();
         redo_count_ = journal_.undoneCount();
     });

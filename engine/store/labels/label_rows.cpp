@@ -2,6 +2,9 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "store/database/rows.h"
 #include "store/labels/packed_labels.h"
 #include "store/project/sequence_rows.h"
@@ -217,6 +220,11 @@ std::int64_t readCounter(SQLite::Database& database, const char* kind) {
     SQLite::Statement statement(database, "SELECT value FROM label_counter WHERE kind = ?");
     statement.bind(1, kind);
     return statement.executeStep() ? RowReader(statement).wide() : 0;
+}
+
+int readNextNumber(SQLite::Database& database, const char* kind) {
+    constexpr std::int64_t kLastStart = std::numeric_limits<int>::max() - 1'000'000;
+    return static_cast<int>(std::clamp<std::int64_t>(readCounter(database, kind), 1, kLastStart));
 }
 
 void raiseCounter(SQLite::Database& database, const char* kind, std::int64_t value) {

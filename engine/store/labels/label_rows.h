@@ -18,6 +18,8 @@ void writeLabels(SQLite::Database& database, int sequence_id, const AnnotationEd
 
 /// Counters of the project: "object" and "region" (the next number), "change". 0 when never set.
 std::int64_t readCounter(SQLite::Database& database, const char* kind);
+/// The same as a number that can be counted on from, also where the counter is damaged.
+int readNextNumber(SQLite::Database& database, const char* kind);
 /// Sets a counter unless it is higher already.
 void raiseCounter(SQLite::Database& database, const char* kind, std::int64_t value);
 

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "store/database/rows.h"
 #include "store/labels/label_rows.h"
@@ -63,8 +64,15 @@ void ReviewStore::load() {
         SQLite::Transaction moment(database);
         set_ = readReviewRows(database, sequence_id_);
         changes_ = readCounter(database, kReviewChanges);
-        next_verdict_ = std::max(1, static_cast<int>(readCounter(database, kVerdictCounter)));
-        next_bookmark_ = std::max(1, static_cast<int>(readCounter(database, kBookmarkCounter)));
+        // Numbers are those of the whole project, and the counter may be damaged.
+        const auto behind = [&](const char* table) {
+            constexpr std::int64_t kLastStart = std::numeric_limits<int>::max() - 1'000;
+            const std::int64_t most =
+                database.execAndGet("SELECT coalesce(max(id), 0) FROM " + std::string(table)).getInt64();
+            return static_cast<int>(std::clamp<std::int64_t>(most + 1, 1, kLastStart));
+        };
+        next_verdict_ = std::max(readNextNumber(database, kVerdictCounter), behind("verdict"));
+        next_bookmark_ = std::max(readNextNumber(database, kBookmarkCounter), behind("bookmark"));
         undo_count_ = journal_.doneCount();
         redo_count_ = journal_.undoneCount();
     });

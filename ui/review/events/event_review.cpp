@@ -57,7 +57,8 @@ void EventReview::refresh() {
     const auto& data = session_.runData();
     const auto current = session_.currentRun();
     if (!data || !current || data->record.id != *current || session_.project().empty()) {
-        if (!current) close();
+        // Of another run, whose tracks are not yet read, nothing may be shown that is this one's.
+        if (!current || (key_ && (key_->run != *current || key_->project != session_.project()))) close();
         return;
     }
     const RunKey key{session_.project(), data->record.id, data->frames.size(), data->tracks.size()};
@@ -105,6 +106,7 @@ void EventReview::setState(State state) {
 
 void EventReview::fail(const QString& message) {
     found_.reset();
+    key_.reset();  // so that it is tried again
     emit problem(message);
     setState(State::failed);
 }
@@ -169,7 +171,8 @@ void EventReview::refreshReadOnly() {
         return;
     }
     try {
-        if (store_->refresh()) search();  // finds the events of verdicts that another window made
+        // Events of verdicts that another window made are found; when it is closed, the right to judge is ours.
+        if (store_->tryToWrite() || store_->refresh()) search();
     } catch (const std::exception& error) {
         reread_.stop();
         emit problem(QString::fromUtf8(error.what()));

@@ -85,7 +85,7 @@ void EventsPanel::buildButtons() {
     buttons->addStretch(1);
     auto* limits = new QToolButton;
     limits->setText(tr("Limits"));
-    limits->setToolTip(tr("From when on something is an event"));
+    limits->setToolTip(tr("What counts as an event"));
     limits->setCheckable(true);
     buttons->addWidget(limits);
     bindSwitches(this, {{limits, [this](bool on) { thresholds_->setVisible(on); }}});
@@ -162,7 +162,7 @@ QString EventsPanel::headerText() const {
     QString text = tr("%1 of %2 judged").arg(judged).arg(all);
     if (listed < all) text += tr(" · %1 of %2 shown").arg(listed).arg(all);
     if (left_ > 0)
-        text += left_ == 1 ? tr(" · 1 verdict without event") : tr(" · %1 verdicts without event").arg(left_);
+        text += left_ == 1 ? tr(" · 1 verdict without an event") : tr(" · %1 verdicts without an event").arg(left_);
     return text;
 }
 
