@@ -132,7 +132,7 @@ class EventsListTest : public QObject {
         panel.verdicts().setCurrentIndex(1);
         QCOMPARE(kindsShown(panel), QStringList(QStringLiteral("Turns back")));
         panel.showCounts(2);
-        QVERIFY(panel.headerText().contains(QStringLiteral("without event")));
+        QVERIFY(panel.headerText().contains(QStringLiteral("without an event")));
     }
 
     void whereAllIsHiddenItSaysSoAndShowsItAgain() {

@@ -51,7 +51,8 @@ class SweepPanelTest : public QObject {
     std::unique_ptr<test::OwnHome> home_;
     std::filesystem::path truth_;
 
-    static bool waitFor(const std::function<bool()>& condition) { return QTest::qWaitFor(condition, kPatience_ms); }
+    /// Sweeps give way to everything else, so that on a busy machine they take their time.
+    static bool waitFor(const std::function<bool()>& condition) { return QTest::qWaitFor(condition, 4 * kPatience_ms); }
 
     /// The two vehicles of the scene.
     void writeTruth(int frames) {
