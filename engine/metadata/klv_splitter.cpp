@@ -10,6 +10,7 @@ constexpr std::uint8_t kGroup = 0x02;  ///< the fifth byte of a key: sets and pa
 constexpr std::size_t kKeyBytes = 16;
 constexpr std::size_t kCellHeaderBytes = 5;
 constexpr std::uint64_t kLongestSet = 1U << 18;  ///< bytes; known sets have some thousand
+constexpr std::uint64_t kReadAgain = 4;          ///< times the stream's bytes that faults may cost
 
 /// Where the next key of a set begins, or may begin with the last bytes; the end where none does.
 std::size_t findKey(Bytes bytes, std::size_t from) {
@@ -87,7 +88,10 @@ void Splitter::split(bool at_end, const Visitor& visit) {
         const std::size_t end = key + cursor.position();
         if (const auto fault = visit(set)) {
             count(*fault);
-            told = at = std::min(findKey(bytes, key + kPrefix.size()), end);
+            // Sets within sets within sets, each at fault, would be read over and over.
+            wasted_ += set.whole.size();
+            const bool look_within = wasted_ <= kLongestSet + kReadAgain * fed_;
+            told = at = look_within ? std::min(findKey(bytes, key + kPrefix.size()), end) : end;
         } else {
             told = at = end;
         }
@@ -107,6 +111,7 @@ void Splitter::feed(Bytes packet, const Visitor& visit) {
     // A packet that begins with a key ends whatever was left open.
     if (!held_.empty() && beginsWithKey(packet)) split(true, visit);
     held_.insert(held_.end(), packet.begin(), packet.end());
+    fed_ += packet.size();
     split(false, visit);
 }
 

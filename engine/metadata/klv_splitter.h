@@ -51,6 +51,8 @@ class Splitter {
 
     std::vector<std::uint8_t> held_;
     FaultCounts faults_{};
+    std::uint64_t fed_ = 0;     ///< bytes of the stream
+    std::uint64_t wasted_ = 0;  ///< bytes of sets at fault, which are read again for what lies within
 };
 
 }  // namespace eyrie::klv

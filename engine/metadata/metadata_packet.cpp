@@ -110,8 +110,8 @@ std::optional<klv::Fault> readLocalSet(const klv::Set& set, MetadataPacket& pack
             packet.has_checksum = true;
             continue;
         }
-        if (*number > 1000) {
-            remarks.tags.push_back(static_cast<int>(std::min<std::uint32_t>(*number, INT32_MAX)));
+        if (*number > 1000) {  // the standard has none; a damaged set may have any, which are counted together
+            remarks.tags.push_back(0);
             continue;
         }
         const int tag_number = static_cast<int>(*number);

@@ -12,6 +12,9 @@
 namespace eyrie {
 namespace {
 
+constexpr std::size_t kMostOtherSets = 1000;  ///< kinds that are told apart
+constexpr const char* kFurtherSets = "others";
+
 constexpr std::int64_t kLeap = 10'000'000;  ///< µs
 constexpr std::size_t kChunk = 1U << 16;
 constexpr std::array<std::uint8_t, 4> kKeyBegin{0x06, 0x0E, 0x2B, 0x34};
@@ -86,7 +89,9 @@ void MetadataCollector::feed(const DataPacket& packet) {
 
 std::optional<klv::Fault> MetadataCollector::take(const klv::Set& set) {
     if (kindOf(set.key) == SetKind::other) {
-        ++stream_.other_sets[hexText(set.key)];
+        const std::string key = hexText(set.key);
+        const bool listed = stream_.other_sets.size() < kMostOtherSets || stream_.other_sets.contains(key);
+        ++stream_.other_sets[listed ? key : std::string(kFurtherSets)];
         return std::nullopt;
     }
     MetadataPacket packet = carriage_;

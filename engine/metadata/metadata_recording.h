@@ -26,10 +26,10 @@ struct TagSummary {
 struct MetadataStream {
     DataStream track;                     ///< number -1 for a file that is nothing but metadata
     std::vector<MetadataPacket> packets;  ///< in file order
-    std::map<int, TagSummary> tags;       ///< 0 stands for items of the universal set that are not known
+    std::map<int, TagSummary> tags;       ///< 0 stands for items that no standard knows
     klv::FaultCounts faults{};
     int local_sets = 0, universal_sets = 0;
-    std::map<std::string, int> other_sets;  ///< key in hexadecimal digits: sets that are not read
+    std::map<std::string, int> other_sets;  ///< key in hexadecimal digits, or "others": sets not read
     int without_checksum = 0;               ///< local sets that state none; they are believed
     int without_time = 0;
     int without_stamp = 0;  ///< of the container: asynchronous carriage

@@ -30,6 +30,30 @@ KlvBytes cut(KlvBytes bytes, std::size_t keep) {
     return bytes;
 }
 
+TEST(DamagedKlv, SetsWithinSetsAtFaultAreReadSoOftenAndNoMore) {
+    // Keys of groups close together, each with a length that reaches to the end.
+    std::vector<std::uint8_t> bytes;
+    constexpr std::size_t kBytes = 200'000;
+    constexpr std::size_t kOne = 20;
+    while (bytes.size() + kOne < kBytes) {
+        const std::size_t left = kBytes - bytes.size() - kOne;
+        for (const int byte : {0x06, 0x0E, 0x2B, 0x34, 0x02, 0x0B, 1, 1, 0x0E, 1, 3, 1, 1, 0, 0, 0, 0x83})
+            bytes.push_back(static_cast<std::uint8_t>(byte));
+        for (const int shift : {16, 8, 0}) bytes.push_back(static_cast<std::uint8_t>(left >> shift));
+    }
+    bytes.resize(kBytes);
+    klv::Splitter splitter;
+    std::size_t read = 0;
+    const auto visit = [&](const klv::Set& set) {
+        read += set.whole.size();
+        return std::optional(klv::Fault::broken_items);
+    };
+    splitter.feed(klv::Bytes(bytes), visit);
+    splitter.finish(visit);
+    EXPECT_GT(read, kBytes);
+    EXPECT_LT(read, 8 * kBytes);
+}
+
 }  // namespace
 
 TEST(DamagedKlv, aWrongChecksumCostsOneSet) {

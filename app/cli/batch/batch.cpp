@@ -13,6 +13,7 @@
 #include "core/project_name.h"
 #include "io/folder.h"
 #include "store/labels/annotation_store.h"
+#include "store/runs/run_counts.h"
 #include "store/runs/run_store.h"
 
 namespace eyrie::cli {
@@ -77,13 +78,9 @@ std::optional<RunRecord> takeFacts(BatchRow& row, const ResumeWishes& wishes) {
     const std::optional<RunRecord> run = runOf(store, row, wishes);
     if (!run) return std::nullopt;
     row.frames = run->frames_done;
-    const std::vector<FrameSummary> frames = store.frameSummaries(run->id);
-    row.unregistered = static_cast<int>(std::count_if(frames.begin(), frames.end(), [](const FrameSummary& frame) {
-        return frame.state == RegistrationState::failed;
-    }));
-    const std::vector<TrackSummary> tracks = store.tracks(run->id);
-    row.tracks = static_cast<int>(
-        std::count_if(tracks.begin(), tracks.end(), [](const TrackSummary& track) { return track.confirmed; }));
+    const RunCounts counts = countRun(file, run->id);
+    row.unregistered = counts.unregistered;
+    row.tracks = counts.tracks;
     return run->state == RunState::finished ? run : std::nullopt;
 }
 

@@ -46,7 +46,8 @@ BatchInput ofImages(const fs::path& folder, const fs::path& name, const std::vec
 
 /// Also one that has no bytes yet, or no longer: it is told, not left out.
 bool isCalledVideo(const fs::path& path) {
-    return kindOfFile(path) == FileKind::video || (kindOfFile(path) == FileKind::empty && hasVideoName(path));
+    const FileKind kind = kindOfFile(path);
+    return kind == FileKind::video || (kind == FileKind::empty && hasVideoName(path));
 }
 
 class Search {
