@@ -188,13 +188,17 @@ TEST_F(SharedProject, ARemovedRunComesBackUntilItIsPurged) {
     store.remove(first);
     EXPECT_FALSE(store.run(first).has_value());
     EXPECT_THAT(store.runs(), testing::SizeIs(1));
-    ASSERT_THAT(store.removedRuns(), testing::SizeIs(1));
-    EXPECT_EQ(store.removedRuns().front().id, first);
+    ASSERT_TRUE(store.lastRemoved().has_value());
+    EXPECT_EQ(store.lastRemoved()->id, first);
+    store.remove(second);
+    project.database().exec("UPDATE run SET removed_utc = '2026-01-02T03:04:05Z' WHERE id = " + std::to_string(second));
+    EXPECT_EQ(store.lastRemoved()->id, first) << "the one removed last, not the newest run";
+    store.restore(second);
     store.restore(first);
     EXPECT_EQ(store.run(first)->frames_done, 3);
     store.remove(second);
     store.purgeRemoved();
-    EXPECT_TRUE(store.removedRuns().empty());
+    EXPECT_FALSE(store.lastRemoved().has_value());
     EXPECT_THAT(errorOf([&] { store.restore(second); }, ErrorKind::project), HasSubstr("has no run"));
     test::expectSame(*store.frameResult(first, 2), test::sampleFrame(2));
 }

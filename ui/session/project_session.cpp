@@ -57,7 +57,7 @@ ProjectSession::~ProjectSession() = default;
 
 void ProjectSession::takeLists(const ProjectLists& lists) {
     runs_ = lists.runs;
-    removed_runs_ = lists.removed;
+    last_removed_run_ = lists.last_removed;
     resumable_runs_ = lists.resumable;
     sequences_ = lists.sequences;
 }

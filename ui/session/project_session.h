@@ -87,8 +87,8 @@ class ProjectSession : public QObject {
     /// Takes a run out of the project; until that is closed it can be brought back.
     void removeRun(int run_id);
     void restoreRun(int run_id) { reader_.restoreRun(run_id); }
-    /// Runs that can be brought back.
-    const std::vector<RunRecord>& removedRuns() const { return removed_runs_; }
+    /// The run that can be brought back; after it the one removed before it.
+    const std::optional<RunRecord>& lastRemovedRun() const { return last_removed_run_; }
 
     RunSettings& settings() { return settings_; }
     /// A new run with the settings.
@@ -206,7 +206,7 @@ class ProjectSession : public QObject {
     bool project_open_ = false;
     bool project_opens_video_ = false;  ///< the project that is being opened decides which video to show
     std::vector<RunRecord> runs_;
-    std::vector<RunRecord> removed_runs_;
+    std::optional<RunRecord> last_removed_run_;
     std::vector<int> resumable_runs_;
     std::vector<SequenceRecord> sequences_;
     std::optional<SequenceRecord> missing_;  ///< the video shown, if it cannot be found

@@ -278,7 +278,7 @@ void MainWindow::enableActions() {
     actions_->save_as->setEnabled(has_video && !running);
     actions_->restore_state->setEnabled(!session_.project().empty());
     actions_->save_copy->setEnabled(!session_.project().empty());
-    actions_->restore_run->setEnabled(!session_.removedRuns().empty());
+    actions_->restore_run->setEnabled(session_.lastRemovedRun().has_value());
 }
 
 void MainWindow::updateTitle() {

@@ -41,7 +41,7 @@ void WindowCommands::bindRun() {
                             }},
                            {actions.restore_run,
                             [&session] {
-                                if (!session.removedRuns().empty()) session.restoreRun(session.removedRuns().back().id);
+                                if (session.lastRemovedRun()) session.restoreRun(session.lastRemovedRun()->id);
                             }},
                            {actions.follow,
                             [&session](bool on) {

@@ -56,19 +56,16 @@ RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& pro
     return run;
 }
 
-enum class Shown { yes, removed };
-
-/// Reads all runs, or the one with `run_id` if it is above 0.
-std::vector<RunRecord> readRuns(ProjectFile& project, int run_id, Shown shown = Shown::yes) {
+/// Reads the runs that `where`, with ?1 = `run_id`, asks for.
+std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, int run_id = 0) {
     SQLite::Statement statement(
         project.database(),
         "SELECT run.id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, run.frame_rate_hz, "
         "first_frame, last_frame, state, message, sequence.id, path, width, height, frame_count, "
         "sequence.frame_rate_hz, (SELECT count(*) FROM frame WHERE frame.run_id = run.id) "
-        "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE ?1 IN (0, run.id) AND (removed_utc <> '') = ?2 "
-        "ORDER BY run.id");
-    statement.bind(1, run_id);
-    statement.bind(2, shown == Shown::removed ? 1 : 0);
+        "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE " +
+            where + " ORDER BY run.id");
+    if (run_id > 0) statement.bind(1, run_id);
     std::vector<RunRecord> runs;
     while (statement.executeStep()) runs.push_back(readRun(statement, project.path()));
     return runs;
@@ -110,13 +107,13 @@ FrameSummary summaryOf(const FrameResult& result) {
 }
 
 std::vector<RunRecord> RunStore::runs() const {
-    return guarded(project_.path(), "listing the runs", [&] { return readRuns(project_, 0); });
+    return guarded(project_.path(), "listing the runs", [&] { return readRuns(project_, "removed_utc = ''"); });
 }
 
 std::optional<RunRecord> RunStore::run(int run_id) const {
     if (run_id <= 0) return std::nullopt;
     return guarded(project_.path(), "reading run " + std::to_string(run_id), [&]() -> std::optional<RunRecord> {
-        auto found = readRuns(project_, run_id);
+        auto found = readRuns(project_, "removed_utc = '' AND run.id = ?1", run_id);
         if (found.empty()) return std::nullopt;
         return std::move(found.front());
     });
@@ -240,8 +237,14 @@ void RunStore::markRemoved(int run_id, const std::string& when_utc) {
     });
 }
 
-std::vector<RunRecord> RunStore::removedRuns() const {
-    return guarded(project_.path(), "listing the removed runs", [&] { return readRuns(project_, 0, Shown::removed); });
+std::optional<RunRecord> RunStore::lastRemoved() const {
+    return guarded(project_.path(), "looking for removed runs", [&]() -> std::optional<RunRecord> {
+        auto found = readRuns(project_,
+                              "run.id = (SELECT id FROM run WHERE removed_utc <> '' "
+                              "ORDER BY removed_utc DESC, id DESC LIMIT 1)");
+        if (found.empty()) return std::nullopt;
+        return std::move(found.front());
+    });
 }
 
 void RunStore::purgeRemoved() {

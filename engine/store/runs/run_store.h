@@ -135,7 +135,8 @@ class RunStore {
     /// program that writes the run at this moment.
     void remove(int run_id);
     void restore(int run_id);
-    std::vector<RunRecord> removedRuns() const;  ///< oldest first
+    /// The run that was removed last, to the second; of several the newest run.
+    std::optional<RunRecord> lastRemoved() const;
     /// Deletes what was removed, for good.
     void purgeRemoved();
 

@@ -164,7 +164,7 @@ class ProjectReader::Worker {
 
     ProjectLists lists() {
         const RunStore store(*project_);
-        ProjectLists lists{project_->path(), store.runs(), store.removedRuns(), {}, sequencesOf(*project_), {}};
+        ProjectLists lists{project_->path(), store.runs(), store.lastRemoved(), {}, sequencesOf(*project_), {}};
         for (const RunRecord& run : resumableRuns(store)) lists.resumable.push_back(run.id);
         any_running_ = std::any_of(lists.runs.begin(), lists.runs.end(), [](const RunRecord& run) { return run.live; });
         return lists;

@@ -15,7 +15,7 @@ namespace eyrie::ui {
 struct ProjectLists {
     std::filesystem::path project;
     std::vector<RunRecord> runs;            ///< oldest first, without removed ones
-    std::vector<RunRecord> removed;         ///< runs that can be brought back
+    std::optional<RunRecord> last_removed;  ///< what can be brought back first
     std::vector<int> resumable;             ///< runs that ended early and can be gone on with
     std::vector<SequenceRecord> sequences;  ///< videos, ascending ids
     std::string notice;                     ///< for people, when it was opened; else empty
