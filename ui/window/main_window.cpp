@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QPixmapCache>
 #include <QScreen>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -47,12 +48,15 @@ namespace eyrie::ui {
 
 namespace {
 constexpr QSize kFirstSize(1500, 940);
+/// The style keeps a picture of every button that ever was, and messages bring new ones all the time.
+constexpr int kStyleCache_kB = 2048;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     setObjectName(QStringLiteral("main_window"));
     setAcceptDrops(true);
+    QPixmapCache::setCacheLimit(kStyleCache_kB);
     // The lists reach down to the timeline, which belongs to the canvas.
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
