@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -254,6 +255,27 @@ TEST_F(Batches, aFileIsTakenOnceItHasArrived) {
     EXPECT_EQ(process.wait().exit_code, 130);
     EXPECT_THAT(inState("failed", "out/watch.csv"), ElementsAre()) << "it was not tried half";
     EXPECT_THAT(inState("done", "out/watch.csv"), ElementsAre("a.mp4"));
+}
+
+TEST_F(Batches, theLogIsCompleteThoughItCouldNotBeWrittenForAWhile) {
+    fs::create_directories(folder / "in");
+    test::Process process(command("watch", {"--settle", "0", "--frames", "0:9"}));
+    const auto arrives = [&](const std::string& name) {
+        put("in/" + name);
+        waitFor([&] {
+            const auto done = inState("done", "out/watch.csv");
+            return std::find(done.begin(), done.end(), name) != done.end();
+        });
+    };
+    arrives("a.mp4");
+    fs::remove(folder / "out/watch.jsonl");
+    fs::create_directories(folder / "out/watch.jsonl");
+    arrives("b.mp4");
+    fs::remove(folder / "out/watch.jsonl");
+    arrives("c.mp4");
+    kill(process.pid(), SIGTERM);
+    EXPECT_EQ(process.wait().exit_code, 130);
+    EXPECT_THAT(textOf("out/watch.jsonl"), HasSubstr("b.mp4"));
 }
 
 TEST_F(Batches, whatCannotBeIsRefusedBeforeTheWork) {

@@ -90,7 +90,7 @@ bool isOver(BatchState state) {
 
 }  // namespace
 
-Batch::Batch(BatchOptions options) : options_(std::move(options)) {}
+Batch::Batch(BatchOptions options) : options_(std::move(options)), record_(options_.out / options_.record) {}
 
 Batch::~Batch() = default;
 
@@ -149,7 +149,7 @@ bool Batch::step() {
          ++begun)
         begin(next_++);
     const bool more = !works_.empty() || (!stopping_ && next_ < rows_.size());
-    if (std::exchange(summary_due_, false)) writeSummary();
+    if (std::exchange(summary_due_, false)) record_.summarise(rows_);
     return more;
 }
 
@@ -186,7 +186,7 @@ void Batch::begin(std::size_t number) {
     work.begun = work.looked = Clock::now();
     row.state = BatchState::working;
     works_.emplace(number, std::move(work));
-    log(row);
+    record_.log(row);
 }
 
 void Batch::end(std::size_t number, const ChildEnd& how) {
@@ -207,7 +207,7 @@ void Batch::end(std::size_t number, const ChildEnd& how) {
 void Batch::close(std::size_t number, BatchState state, const std::string& message) {
     rows_[number].state = state;
     rows_[number].message = message;
-    log(rows_[number]);
+    record_.log(rows_[number]);
     summary_due_ = true;
 }
 
@@ -221,24 +221,6 @@ void Batch::lookAt(Work& work, const BatchRow& row) {
         if (run) work.share = run->frames_done / static_cast<double>(run->last_frame - run->first_frame + 1);
     } catch (const Error&) {
         // It is only looked at for the time that is left.
-    }
-}
-
-// The work is worth more than its record: what cannot be written is told, and tried again with the next.
-void Batch::log(const BatchRow& row) {
-    try {
-        addToBatchLog(options_.out / (options_.record + ".jsonl"), row);
-        record_fault_.clear();
-    } catch (const Error& error) {
-        record_fault_ = error.what();
-    }
-}
-
-void Batch::writeSummary() {
-    try {
-        writeBatchSummary(options_.out / (options_.record + ".csv"), rows_);
-    } catch (const Error& error) {
-        record_fault_ = error.what();
     }
 }
 

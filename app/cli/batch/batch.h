@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/arguments/run_choice.h"
+#include "cli/batch/batch_record.h"
 #include "cli/batch/batch_rows.h"
 #include "cli/batch/child_program.h"
 
@@ -43,8 +44,8 @@ class Batch {
     /// Share of the bytes of all inputs that is done, and the seconds that the rest will take; −1: not known yet.
     double share() const;
     double secondsLeft() const;
-    /// Why summary or log could not be written the last time; empty when they could.
-    const std::string& recordFault() const { return record_fault_; }
+    /// Why summary or log are not what they should be; empty when they are.
+    const std::string& recordFault() const { return record_.fault(); }
 
  private:
     using Clock = std::chrono::steady_clock;
@@ -62,10 +63,9 @@ class Batch {
     void end(std::size_t row, const ChildEnd& how);
     void close(std::size_t row, BatchState state, const std::string& message);
     void lookAt(Work& work, const BatchRow& row);
-    void log(const BatchRow& row);
-    void writeSummary();
 
     BatchOptions options_;
+    BatchRecord record_;
     std::vector<BatchRow> rows_;
     std::map<std::filesystem::path, std::filesystem::path> projects_;  ///< which input each is for
     std::size_t next_ = 0;                                             ///< the first that waits
@@ -73,7 +73,6 @@ class Batch {
     Clock::time_point begun_ = Clock::now();
     bool stopping_ = false;
     bool summary_due_ = false;
-    std::string record_fault_;
 };
 
 }  // namespace eyrie::cli

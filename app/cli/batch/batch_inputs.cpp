@@ -52,6 +52,8 @@ bool isCalledVideo(const fs::path& path) {
 
 class Search {
  public:
+    explicit Search(KnownFiles& files) : files_(files) {}
+
     void look(const fs::path& folder, const fs::path& name) {
         std::error_code failed;
         if (!seen_.insert(fs::canonical(folder, failed)).second) return;
@@ -72,9 +74,8 @@ class Search {
                 look(entry, called);
             } else if (isFile(entry) && ImageSequence::isImageFile(entry)) {
                 images.push_back(entry);
-            } else if (isFile(entry) && isCalledVideo(entry)) {
-                found.push_back(ofFile(entry, called));
-                has_video = true;
+            } else if (isFile(entry)) {
+                has_video = takeVideo(ofFile(entry, called)) || has_video;
             }
         }
         if (!images.empty() && !has_video) found.push_back(ofImages(folder, name, images));
@@ -83,6 +84,18 @@ class Search {
     std::vector<BatchInput> found;
 
  private:
+    bool takeVideo(const BatchInput& file) {
+        const auto [known, is_new] = files_.try_emplace(file.path, file, false);
+        auto& [former, is_video] = known->second;
+        if (is_new || !(former == file)) {
+            is_video = isCalledVideo(file.path);
+            former = file;
+        }
+        if (is_video) found.push_back(file);
+        return is_video;
+    }
+
+    KnownFiles& files_;
     std::set<fs::path> seen_;
 };
 
@@ -94,7 +107,12 @@ fs::path lastName(const fs::path& place) {
 }  // namespace
 
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places) {
-    Search search;
+    KnownFiles none;
+    return findInputs(places, none);
+}
+
+std::vector<BatchInput> findInputs(const std::vector<std::string>& places, KnownFiles& files) {
+    Search search(files);
     for (const std::string& place : places) {
         if (isFolder(place)) {
             // One folder's own name says nothing; of several it keeps apart what they hold.

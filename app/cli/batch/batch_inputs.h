@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace eyrie::cli {
@@ -18,10 +20,14 @@ struct BatchInput {
     bool operator==(const BatchInput&) const = default;
 };
 
+/// What files turned out to be, for who looks again and again: only what changed meanwhile is read once more.
+using KnownFiles = std::map<std::filesystem::path, std::pair<BatchInput, bool>>;  ///< as they were; whether videos
+
 /// All videos in the files and folders that were named, and in the folders within, by name. A folder that holds images
 /// and no video is one input. Hidden files, and folders reached a second time through links, are left out; what cannot
 /// be looked into is an input with a fault. Files that were named themselves are taken for what they are said to be.
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places);
+std::vector<BatchInput> findInputs(const std::vector<std::string>& places, KnownFiles& files);
 
 /// Part `part` (from 1) of `parts`; together they are everything, once.
 struct Shard {

@@ -55,7 +55,7 @@ class Arrivals {
     explicit Arrivals(double settle_s) : settle_(settle_s) {}
     void look(const std::vector<std::string>& places, Batch& batch) {
         const auto now = Clock::now();
-        for (const BatchInput& input : findInputs(places)) {
+        for (const BatchInput& input : findInputs(places, files_)) {
             if (!input.fault.empty()) continue;  // a folder that cannot be read now may be readable later
             Seen& seen = seen_.try_emplace(input.path, Seen{input, now}).first->second;
             if (!(seen.input == input)) seen.input = input, seen.since = now, seen.waits = true;
@@ -76,6 +76,7 @@ class Arrivals {
     };
     std::chrono::duration<double> settle_;
     std::map<std::filesystem::path, Seen> seen_;
+    KnownFiles files_;
 };
 
 int runWatch(const BatchArguments& arguments, double settle_s) {
