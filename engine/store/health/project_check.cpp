@@ -16,9 +16,10 @@
 #include "store/health/row_rules.h"
 #include "store/health/schema_check.h"
 #include "store/health/untouched_database.h"
-#include "store/labels/journal_check.h"
+#include "store/journal/journal_check.h"
+#include "store/labels/annotation_store.h"
 #include "store/project/schema.h"
-#include "store/review/review_check.h"
+#include "store/review/review_store.h"
 #include "store/runs/run_lock.h"
 
 namespace eyrie {
@@ -117,32 +118,16 @@ HealthItem lookAtValues(SQLite::Database& database, const std::set<std::string>&
     return {"", Health::damaged, firstOf(faults)};
 }
 
-HealthItem lookAtLabels(SQLite::Database& database, const std::set<std::string>& tables) {
-    if (tables.count("edit_journal") == 0) return {"", Health::good, "none"};
+/// What people made of a kind, and its steps.
+template <class Content>
+HealthItem lookAtWork(SQLite::Database& database, const std::set<std::string>& tables) {
+    std::set<std::string> needed{Content::kSteps.name};
+    for (const NumberedTable& table : Content::kNumbers) needed.insert(table.table);
+    if (!std::includes(tables.begin(), tables.end(), needed.begin(), needed.end())) return {"", Health::good, "none"};
     int steps = 0;
     int misfits = 0;
     for (const std::string& id : textsOf(database, "SELECT id FROM sequence")) {
-        const JournalCheck journal = checkJournal(database, std::stoi(id));
-        steps += journal.done + journal.undone;
-        misfits += journal.done - journal.done_fitting + journal.undone - journal.undone_fitting;
-    }
-    if (misfits > 0) {
-        return {
-            "", Health::damaged,
-            std::to_string(misfits) + " of " + counted(steps, "step") + " of work can no longer be undone or redone"};
-    }
-    const auto objects = database.execAndGet("SELECT count(*) FROM labelled_object").getInt64();
-    return {"", Health::good, counted(objects, "object") + ", " + counted(steps, "step") + " of work to undo or redo"};
-}
-
-HealthItem lookAtReview(SQLite::Database& database, const std::set<std::string>& tables) {
-    if (!tables.contains("review_step") || !tables.contains("verdict") || !tables.contains("bookmark")) {
-        return {"", Health::good, "none"};
-    }
-    int steps = 0;
-    int misfits = 0;
-    for (const std::string& id : textsOf(database, "SELECT id FROM sequence")) {
-        const JournalCheck journal = checkReview(database, std::stoi(id));
+        const JournalCheck journal = checkJournal<Content>(database, std::stoi(id));
         steps += journal.done + journal.undone;
         misfits += journal.done - journal.done_fitting + journal.undone - journal.undone_fitting;
     }
@@ -150,11 +135,12 @@ HealthItem lookAtReview(SQLite::Database& database, const std::set<std::string>&
         return {"", Health::damaged,
                 std::to_string(misfits) + " of " + counted(steps, "step") + " can no longer be undone or redone"};
     }
-    const auto verdicts = database.execAndGet("SELECT count(*) FROM verdict").getInt64();
-    const auto bookmarks = database.execAndGet("SELECT count(*) FROM bookmark").getInt64();
-    return {"", Health::good,
-            counted(verdicts, "verdict") + ", " + counted(bookmarks, "bookmark") + ", " + counted(steps, "step") +
-                " to undo or redo"};
+    std::string words;
+    for (const NumberedTable& table : Content::kNumbers) {
+        const auto rows = database.execAndGet(std::string("SELECT count(*) FROM ") + table.table).getInt64();
+        words += counted(rows, table.counter) + ", ";
+    }
+    return {"", Health::good, words + counted(steps, "step") + " to undo or redo"};
 }
 
 HealthItem lookAtRuns(const Path& path, SQLite::Database& database) {
@@ -261,8 +247,8 @@ HealthReport checkProject(const Path& path, const CopyWatch& watch) {
     const HealthItem not_looked{"", Health::damaged, "not looked at, since tables are not as Eyrie makes them"};
     add("references", [&] { return ours ? lookAtReferences(*database) : not_looked; });
     add("values", [&] { return lookAtValues(*database, schema.tables); });
-    add("labels", [&] { return lookAtLabels(*database, schema.tables); });
-    add("review", [&] { return lookAtReview(*database, schema.tables); });
+    add("labels", [&] { return lookAtWork<LabelContent>(*database, schema.tables); });
+    add("review", [&] { return lookAtWork<ReviewContent>(*database, schema.tables); });
     add("runs", [&] { return ours ? lookAtRuns(path, *database) : not_looked; });
     examination.add("beside it", [&] { return lookAround(path); });
     examination.add("earlier states", [&] { return lookAtBackups(path); });

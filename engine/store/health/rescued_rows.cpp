@@ -5,10 +5,11 @@
 #include "store/database/rows.h"
 #include "store/health/report_text.h"
 #include "store/health/row_rules.h"
-#include "store/labels/journal_check.h"
+#include "store/journal/journal_check.h"
+#include "store/labels/annotation_store.h"
 #include "store/labels/label_rows.h"
 #include "store/project/sequence_rows.h"
-#include "store/review/review_check.h"
+#include "store/review/review_store.h"
 
 namespace eyrie {
 namespace {
@@ -151,32 +152,33 @@ SELECT id, first_frame, coalesce((SELECT max(frame) FROM (
     return lost;
 }
 
-std::vector<std::string> mendLabels(SQLite::Database& database) {
-    raiseCounter(database, "object",
-                 database.execAndGet("SELECT coalesce(max(id), 0) + 1 FROM labelled_object").getInt64());
-    raiseCounter(database, "region",
-                 database.execAndGet("SELECT coalesce(max(id), 0) + 1 FROM ignore_region").getInt64());
+namespace {
+
+template <class Content>
+std::vector<std::string> mendWork(SQLite::Database& database) {
+    for (const NumberedTable& table : Content::kNumbers) {
+        NumberCounter number(table);
+        number.read(database);
+        number.store(database);
+    }
     int dropped = 0;
     for (const std::string& id : textsOf(database, "SELECT id FROM sequence")) {
-        const JournalCheck journal = checkJournal(database, std::stoi(id));
-        dropMisfits(database, std::stoi(id), journal);
+        const JournalCheck journal = checkJournal<Content>(database, std::stoi(id));
+        dropMisfits(database, Content::kSteps, std::stoi(id), journal);
         dropped += journal.done - journal.done_fitting + journal.undone - journal.undone_fitting;
     }
     if (dropped == 0) return {};
-    return {counted(dropped, "step") + " of work on the labels that could be undone or redone"};
+    return {counted(dropped, "step") + " of " + Content::kSteps.work + " that could be undone or redone"};
+}
+
+}  // namespace
+
+std::vector<std::string> mendLabels(SQLite::Database& database) {
+    return mendWork<LabelContent>(database);
 }
 
 std::vector<std::string> mendReview(SQLite::Database& database) {
-    raiseCounter(database, "verdict", database.execAndGet("SELECT coalesce(max(id), 0) + 1 FROM verdict").getInt64());
-    raiseCounter(database, "bookmark", database.execAndGet("SELECT coalesce(max(id), 0) + 1 FROM bookmark").getInt64());
-    int dropped = 0;
-    for (const std::string& id : textsOf(database, "SELECT id FROM sequence")) {
-        const JournalCheck journal = checkReview(database, std::stoi(id));
-        dropReviewMisfits(database, std::stoi(id), journal);
-        dropped += journal.done - journal.done_fitting + journal.undone - journal.undone_fitting;
-    }
-    if (dropped == 0) return {};
-    return {counted(dropped, "step") + " of the review that could be undone or redone"};
+    return mendWork<ReviewContent>(database);
 }
 
 }  // namespace eyrie

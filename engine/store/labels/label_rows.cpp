@@ -216,24 +216,4 @@ void writeLabels(SQLite::Database& database, int sequence_id, const AnnotationEd
     if (edit.classes) writeClasses(database, sequence_id, after);
 }
 
-std::int64_t readCounter(SQLite::Database& database, const char* kind) {
-    SQLite::Statement statement(database, "SELECT value FROM label_counter WHERE kind = ?");
-    statement.bind(1, kind);
-    return statement.executeStep() ? RowReader(statement).wide() : 0;
-}
-
-int readNextNumber(SQLite::Database& database, const char* kind) {
-    constexpr std::int64_t kLastStart = std::numeric_limits<int>::max() - 1'000'000;
-    return static_cast<int>(std::clamp<std::int64_t>(readCounter(database, kind), 1, kLastStart));
-}
-
-void raiseCounter(SQLite::Database& database, const char* kind, std::int64_t value) {
-    SQLite::Statement statement(database,
-                                "INSERT INTO label_counter (kind, value) VALUES (?, ?) ON CONFLICT (kind) DO UPDATE "
-                                "SET value = max(value, excluded.value)");
-    statement.bind(1, kind);
-    statement.bind(2, value);
-    statement.exec();
-}
-
 }  // namespace eyrie

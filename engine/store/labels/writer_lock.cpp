@@ -17,10 +17,14 @@ constexpr WorkWords kLabelWords{".labelling", "the labels are read-only", "is la
 constexpr WorkWords kReviewWords{".reviewing", "verdicts and bookmarks are read-only", "is reviewing this project",
                                  "close that window to judge here"};
 
+const WorkWords& wordsOf(WriterLock::Work work) {
+    return work == WriterLock::Work::labels ? kLabelWords : kReviewWords;
+}
+
 }  // namespace
 
 std::unique_ptr<WriterLock> WriterLock::tryTake(const std::filesystem::path& project, std::string& reason, Work work) {
-    const WorkWords& words = work == Work::labels ? kLabelWords : kReviewWords;
+    const WorkWords& words = wordsOf(work);
     FileLock::Attempt attempt = FileLock::tryTake(lockFileBeside(project, words.ending));
     switch (attempt.outcome) {
         case FileLock::Outcome::taken:
@@ -34,6 +38,10 @@ std::unique_ptr<WriterLock> WriterLock::tryTake(const std::filesystem::path& pro
             break;
     }
     return nullptr;
+}
+
+const char* WriterLock::readOnlyWords(Work work) {
+    return wordsOf(work).read_only;
 }
 
 std::optional<std::string> WriterLock::holderOf(const std::filesystem::path& project) {

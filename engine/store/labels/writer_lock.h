@@ -19,6 +19,8 @@ class WriterLock {
     /// labelled it since 2026-11-21T08:00:00Z"; a folder that cannot be written is a reason, too).
     static std::unique_ptr<WriterLock> tryTake(const std::filesystem::path& project, std::string& reason,
                                                Work work = Work::labels);
+    /// "the labels are read-only", for messages.
+    static const char* readOnlyWords(Work work);
     /// Who has one of these rights now; nothing when nobody has. Takes nothing.
     static std::optional<std::string> holderOf(const std::filesystem::path& project);
 

@@ -144,18 +144,18 @@ TEST_F(AnnotationStoreTest, ANewStepForgetsWhatWasUndone) {
 }
 
 TEST_F(AnnotationStoreTest, KeepsAtLeastFiveHundredStepsAndDropsTheOldest) {
-    static_assert(kJournalSteps >= 500);
+    static_assert(kStepsKept >= 500);
     {
         AnnotationStore store(project_, 1);
         store.apply(test::sampleEdit(store.newObjectId()));
-        for (int i = 0; i < kJournalSteps + 20; ++i) store.apply(moved(store.annotations().objects.at(1), 1));
-        EXPECT_EQ(store.undoCount(), kJournalSteps);
+        for (int i = 0; i < kStepsKept + 20; ++i) store.apply(moved(store.annotations().objects.at(1), 1));
+        EXPECT_EQ(store.undoCount(), kStepsKept);
     }
     AnnotationStore store(project_, 1);
-    EXPECT_EQ(store.undoCount(), kJournalSteps);
+    EXPECT_EQ(store.undoCount(), kStepsKept);
     int undone = 0;
     while (store.undo()) ++undone;
-    EXPECT_EQ(undone, kJournalSteps);
+    EXPECT_EQ(undone, kStepsKept);
     EXPECT_DOUBLE_EQ(store.annotations().objects.at(1).keyframes[0].box.centre.x,
                      test::sampleObject(1).keyframes[0].box.centre.x + 20);
 }

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <algorithm>
+
+#include "store/database/rows.h"
+#include "store/journal/journalled_store.h"
+#include "store/project/sequence_rows.h"
+
+/// The bodies of JournalledStore; only who instantiates it includes this.
+namespace eyrie {
+
+template <class Content>
+JournalledStore<Content>::JournalledStore(ProjectFile& project, int sequence_id)
+    : project_(project),
+      sequence_id_(sequence_id),
+      journal_(project, sequence_id, Content::kSteps),
+      numbers_(Content::kNumbers.begin(), Content::kNumbers.end()) {
+    if (!tryToWrite()) load();
+}
+
+template <class Content>
+bool JournalledStore<Content>::tryToWrite() {
+    if (lock_) return true;
+    if (project_.mode() == ProjectFile::Mode::read_only) {
+        read_only_reason_ =
+            std::string(WriterLock::readOnlyWords(Content::kWork)) + ": the project is open for reading only";
+        return false;
+    }
+    auto lock = WriterLock::tryTake(project_.path(), read_only_reason_, Content::kWork);
+    if (!lock) return false;
+    load();
+    lock_ = std::move(lock);
+    read_only_reason_.clear();
+    return true;
+}
+
+template <class Content>
+void JournalledStore<Content>::load() {
+    guarded(project_.path(), Content::kReading, [&] {
+        SQLite::Database& database = project_.database();
+        SQLite::Transaction moment(database);
+        set_ = Content::read(database, sequence_id_);
+        changes_ = readCounter(database, Content::kChanges);
+        for (NumberCounter& number : numbers_) number.read(database);
+        undo_count_ = journal_.doneCount();
+        redo_count_ = journal_.undoneCount();
+    });
+    ++version_;
+}
+
+template <class Content>
+bool JournalledStore<Content>::refresh() {
+    if (lock_) return false;
+    const auto changes = guarded(project_.path(), Content::kReading,
+                                 [&] { return readCounter(project_.database(), Content::kChanges); });
+    if (changes == changes_) return false;
+    load();
+    return true;
+}
+
+template <class Content>
+void JournalledStore<Content>::refuseReadOnly() const {
+    if (!lock_) throw Error(ErrorKind::output, read_only_reason_);
+}
+
+template <class Content>
+void JournalledStore<Content>::apply(const Edit& edit) {
+    refuseReadOnly();
+    if (edit.empty()) return;
+    Edit real = edit;
+    Content::ground(real, set_);
+    commit(real, Step::edit);
+    undo_count_ = std::min(undo_count_ + 1, kStepsKept);
+    redo_count_ = 0;
+}
+
+template <class Content>
+auto JournalledStore<Content>::unpacked(const StoredStep& step, bool done) const -> Edit {
+    auto edit = guarded(project_.path(), std::string("reading a step of ") + Content::kSteps.work,
+                        [&] { return Content::unpack(step.data, set_, done); });
+    if (!edit) {
+        throw damagedProject(project_.path(), std::string("the step \"") + step.name + "\" of " + Content::kSteps.work +
+                                                  " is broken or does not fit what is there");
+    }
+    edit->name = step.name;
+    return std::move(*edit);
+}
+
+template <class Content>
+auto JournalledStore<Content>::undo() -> std::optional<Edit> {
+    refuseReadOnly();
+    const auto step = journal_.lastDone();
+    if (!step) return std::nullopt;
+    Edit edit = unpacked(*step, true);
+    commit(inverseOf(edit), Step::undo);
+    --undo_count_;
+    ++redo_count_;
+    return edit;
+}
+
+template <class Content>
+auto JournalledStore<Content>::redo() -> std::optional<Edit> {
+    refuseReadOnly();
+    const auto step = journal_.firstUndone();
+    if (!step) return std::nullopt;
+    Edit edit = unpacked(*step, false);
+    commit(edit, Step::redo);
+    ++undo_count_;
+    --redo_count_;
+    return edit;
+}
+
+template <class Content>
+void JournalledStore<Content>::commit(const Edit& edit, Step step) {
+    project_.checkInPlace();
+    applyEdit(set_, edit);
+    const auto ids = Content::ids(edit);
+    for (std::size_t table = 0; table < ids.size(); ++table) {
+        for (const int id : ids[table]) numbers_[table].follow(id);
+    }
+    try {
+        guarded(project_.path(), "storing \"" + edit.name + "\"", [&] {
+            SQLite::Database& database = project_.database();
+            SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+            Content::write(database, sequence_id_, edit, set_);
+            if (step == Step::edit) journal_.add({edit.name, Content::pack(edit)}, nowUtc());
+            if (step == Step::undo) journal_.markUndone();
+            if (step == Step::redo) journal_.markDone();
+            for (const NumberCounter& number : numbers_) number.store(database);
+            raiseCounter(database, Content::kChanges, changes_ + 1);
+            transaction.commit();
+        });
+    } catch (...) {
+        applyEdit(set_, inverseOf(edit));
+        throw;
+    }
+    ++changes_;
+    ++version_;
+}
+
+}  // namespace eyrie
