@@ -9,7 +9,7 @@
 #include "store/database/database_error.h"
 #include "store/database/database_uri.h"
 #include "store/database/new_place.h"
-#include "store/labels/writer_lock.h"
+#include "store/journal/writer_lock.h"
 
 namespace eyrie {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/labels/change.h"
 #include "store/journal/number_counter.h"
 #include "store/journal/step_journal.h"
-#include "store/labels/writer_lock.h"
+#include "store/journal/writer_lock.h"
 #include "store/project/project_file.h"
 
 namespace eyrie {

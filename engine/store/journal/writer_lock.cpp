@@ -1,4 +1,4 @@
-#include "store/labels/writer_lock.h"
+#include "store/journal/writer_lock.h"
 
 #include <utility>
 
