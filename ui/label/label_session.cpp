@@ -20,7 +20,8 @@ struct LabelSession::Opened {
     int sequence_id = 0;
 };
 
-LabelSession::LabelSession(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
+LabelSession::LabelSession(ProjectSession& session, QObject* parent)
+    : QObject(parent), session_(session), reread_(kReread_ms, [this] { refreshReadOnly(); }) {
     connect(
         &session_, &ProjectSession::changed, this,
         Reactions<SessionChange>{
@@ -28,8 +29,6 @@ LabelSession::LabelSession(ProjectSession& session, QObject* parent) : QObject(p
             {{SessionChange::project, SessionChange::opened}, [this] { refreshOpen(); }},
             {{SessionChange::run_data, SessionChange::current_run, SessionChange::run_ended}, [this] { readCamera(); }},
         });
-    reread_.setInterval(kReread_ms);
-    connect(&reread_, &QTimer::timeout, this, &LabelSession::refreshReadOnly);
 }
 
 LabelSession::~LabelSession() = default;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QObject>
-#include <QTimer>
 #include <memory>
 #include <optional>
 #include <set>
@@ -13,6 +12,7 @@
 #include "session/background/background_query.h"
 #include "session/project_session.h"
 #include "store/labels/annotation_store.h"
+#include "widgets/repeated_call.h"
 
 namespace eyrie::ui {
 
@@ -118,7 +118,7 @@ class LabelSession : public QObject {
     mutable std::optional<std::vector<AttentionItem>> attention_;
     std::optional<ObjectId> selected_;
     std::set<ObjectId> selection_;
-    QTimer reread_;  ///< what another window changes is read now and then
+    RepeatedCall reread_;  ///< what another window changes is read now and then
     std::string drawn_class_ = "car";
     BackgroundQuery labels_query_;
     BackgroundQuery camera_query_;  ///< last: both stop before the rest goes

@@ -43,8 +43,7 @@ LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&aroun
     labels_ = new LabelSession(around_.session, this);
     proposals_ = new LabelProposals(around_.session, *labels_, this);
     editor_ = new LabelEditor(around_.session, *labels_, this);
-    fitting_ = new LabelFitting(around_.session, *labels_, this);
-    tracking_ = new LabelTracking(around_.session, *labels_, this);
+    buildWork();
     tool_ = new LabelTool(this);
     actions_ = new LabelActions(around_.keys, around_.window, around_.canvas);
     buildDocks();
@@ -54,7 +53,6 @@ LabelWorkspace::LabelWorkspace(const LabelSurroundings& around) : QObject(&aroun
     new LabelCommands(parts(), *identity_, this);
     wireLabels();
     wireTool();
-    wireWork();
     wireObjects();
     pictures_ = new ObjectPictures(parts(), this);  // follows what is shown before
     around_.rows.hide();
@@ -123,6 +121,11 @@ void LabelWorkspace::setActive(bool active) {
 void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::changed, this, &LabelWorkspace::labelsChanged);
     connect(labels_, &LabelSession::drawnClassChanged, this, &LabelWorkspace::showScene);
+    connect(identity_, &IdentityCommands::shownEditChanged, this, &LabelWorkspace::showScene);
+    connect(proposals_, &LabelProposals::changed, this, [this] {
+        showScene();
+        enableActions();
+    });
     connect(labels_, &LabelSession::problem, &around_.session, &ProjectSession::problem);
     connect(labels_, &LabelSession::notice, this, [this](const QString& text) { parts().tell(text); });
     connect(labels_, &LabelSession::opened, this, &LabelWorkspace::labelsOpened);
@@ -203,20 +206,19 @@ void LabelWorkspace::chooseProposal(TrackId track, bool add) {
         proposals_->select(track);
 }
 
-/// What goes on by itself: proposals that are read, boxes that are followed and refined.
-void LabelWorkspace::wireWork() {
-    connect(proposals_, &LabelProposals::changed, this, [this] {
-        showScene();
-        enableActions();
-    });
-    connect(identity_, &IdentityCommands::shownEditChanged, this, &LabelWorkspace::showScene);
-    connect(fitting_, &LabelFitting::workingChanged, this, &LabelWorkspace::enableActions);
-    connect(tracking_, &LabelTracking::workingChanged, this, &LabelWorkspace::enableActions);
-    connect(tracking_, &LabelTracking::advanced, &around_.session, &ProjectSession::goToFrame);
-    connect(tracking_, &LabelTracking::ended, this, [this](FrameIndex frame, const QString& reason) {
-        around_.session.goToFrame(frame);
-        if (!reason.isEmpty()) parts().tell(tr("Tracking %1").arg(reason));
-    });
+/// What goes on by itself: boxes that are followed and refined.
+void LabelWorkspace::buildWork() {
+    const auto enable = [this] { enableActions(); };
+    fitting_ = new LabelFitting(around_.session, *labels_, enable, this);
+    tracking_ = new LabelTracking(around_.session, *labels_,
+                                  {.working_changed = enable,
+                                   .show_advance = [this](FrameIndex frame) { around_.session.goToFrame(frame); },
+                                   .show_end =
+                                       [this](FrameIndex frame, const QString& reason) {
+                                           around_.session.goToFrame(frame);
+                                           if (!reason.isEmpty()) parts().tell(tr("Tracking %1").arg(reason));
+                                       }},
+                                  this);
 }
 
 /// What the lists of objects do.

@@ -56,7 +56,7 @@ class LabelWorkspace : public QObject {
     void wireTool();
     void chooseObject(std::optional<ObjectId> id, bool add);
     void chooseProposal(TrackId track, bool add);
-    void wireWork();
+    void buildWork();
     void wireObjects();
     ObjectEdits inspectorEdits();
     void labelsOpened();

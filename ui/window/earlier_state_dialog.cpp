@@ -26,8 +26,8 @@ QString titleOf(const ProjectBackup& backup) {
 
 }  // namespace
 
-EarlierStateDialog::EarlierStateDialog(EarlierStates& states, const std::filesystem::path& project,
-                                       EarlierStateCommands commands, QWidget* parent)
+EarlierStateDialog::EarlierStateDialog(const std::filesystem::path& project, EarlierStateCommands commands,
+                                       QWidget* parent)
     : QDialog(parent), commands_(std::move(commands)) {
     setObjectName(QStringLiteral("earlier_states"));
     setWindowTitle(tr("Restore an earlier state of %1").arg(QString::fromStdString(project.filename().string())));
@@ -56,11 +56,7 @@ EarlierStateDialog::EarlierStateDialog(EarlierStates& states, const std::filesys
     bindCommands(this, {{restore_, [this] { answer(commands_.restore); }},
                         {open_, [this] { answer(commands_.open_as_new); }},
                         {buttons->button(QDialogButtonBox::Cancel), [this] { reject(); }}});
-    connect(&states, &EarlierStates::listed, this, &EarlierStateDialog::show);
-    connect(&states, &EarlierStates::failed, differences_, &QLabel::setText);
     choose(-1);
-    differences_->setText(tr("Reading the kept states …"));
-    states.list(project);
 }
 
 void EarlierStateDialog::answer(const std::function<void(const ProjectBackup& backup)>& command) {
@@ -79,6 +75,10 @@ void EarlierStateDialog::show(const std::vector<EarlierState>& states) {
         differences_->setText(tr("No earlier state is kept yet. One is kept on each day of use."));
     else
         list_->setCurrentRow(0);
+}
+
+void EarlierStateDialog::showProblem(const QString& text) {
+    differences_->setText(text);
 }
 
 void EarlierStateDialog::choose(int row) {

@@ -23,14 +23,15 @@ class EarlierStateDialog : public QDialog {
     Q_OBJECT
 
  public:
-    /// `states` must outlive the dialog; it is asked for the states of `project`.
-    EarlierStateDialog(EarlierStates& states, const std::filesystem::path& project, EarlierStateCommands commands,
-                       QWidget* parent);
+    /// Of a project; waits for show().
+    EarlierStateDialog(const std::filesystem::path& project, EarlierStateCommands commands, QWidget* parent);
 
+    void show(const std::vector<EarlierState>& states);
+    /// Why there is nothing to choose.
+    void showProblem(const QString& text);
     QListWidget* list() const { return list_; }
 
  private:
-    void show(const std::vector<EarlierState>& states);
     void choose(int row);
     void answer(const std::function<void(const ProjectBackup& backup)>& command);
 

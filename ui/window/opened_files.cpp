@@ -29,10 +29,9 @@ QString text(const std::filesystem::path& path) {
 }  // namespace
 
 OpenedFiles::OpenedFiles(const FileParts& parts) : QObject(&parts.window), parts_(parts), session_(parts.session) {
-    earlier_ = new EarlierStates(this);
+    earlier_ = new EarlierStates(earlierStatesAnswers(), this);
     recent_menu_ = new QMenu(tr("Open &recent"), &parts_.window);
     bindActions();
-    wireEarlierStates();
     wireSession();
     showRecent();
 }
@@ -157,17 +156,25 @@ void OpenedFiles::saveCopy() {
     if (!path.isEmpty()) session_.saveProjectCopy(path.toStdString());
 }
 
-void OpenedFiles::wireEarlierStates() {
-    connect(earlier_, &EarlierStates::notice, this,
-            [this](const QString& text) { parts_.messages.showMessage(MessageKind::info, text); });
-    connect(earlier_, &EarlierStates::restored, this, [this](const std::filesystem::path& project) {
-        restoring_.clear();
-        leave([this, project] { session_.openProject(project); });
-    });
-    connect(earlier_, &EarlierStates::failed, this, [this](const QString& message) {
-        parts_.messages.showMessage(MessageKind::error, message);
-        if (const auto project = std::exchange(restoring_, {}); !project.empty()) session_.openProject(project);
-    });
+EarlierStatesAnswers OpenedFiles::earlierStatesAnswers() {
+    return {
+        .show =
+            [this](const std::vector<EarlierState>& states) {
+                if (earlier_dialog_) earlier_dialog_->show(states);
+            },
+        .open =
+            [this](const std::filesystem::path& project) {
+                restoring_.clear();
+                leave([this, project] { session_.openProject(project); });
+            },
+        .fail =
+            [this](const QString& text) {
+                if (earlier_dialog_) earlier_dialog_->showProblem(text);
+                parts_.messages.showMessage(MessageKind::error, text);
+                if (const auto project = std::exchange(restoring_, {}); !project.empty()) session_.openProject(project);
+            },
+        .tell = [this](const QString& text) { parts_.messages.showMessage(MessageKind::info, text); },
+    };
 }
 
 void OpenedFiles::chooseEarlierState() {
@@ -180,9 +187,10 @@ void OpenedFiles::chooseEarlierState() {
                 earlier_->restoreAsNew(backup, project.parent_path() / name);
             },
     };
-    auto* dialog = new EarlierStateDialog(*earlier_, project, commands, &parts_.window);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->open();
+    earlier_dialog_ = new EarlierStateDialog(project, commands, &parts_.window);
+    earlier_dialog_->setAttribute(Qt::WA_DeleteOnClose);
+    earlier_dialog_->open();
+    earlier_->list(project);
 }
 
 void OpenedFiles::restore(const std::filesystem::path& project, const ProjectBackup& backup) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <QPointer>
 #include <filesystem>
 #include <functional>
 
@@ -14,7 +15,9 @@ class QMenu;
 
 namespace eyrie::ui {
 
+class EarlierStateDialog;
 class EarlierStates;
+struct EarlierStatesAnswers;
 class MessageBar;
 class RunBar;
 class RunGuard;
@@ -55,7 +58,7 @@ class OpenedFiles : public QObject {
  private:
     void bindActions();
     void wireSession();
-    void wireEarlierStates();
+    EarlierStatesAnswers earlierStatesAnswers();
     void followProject();
     void openVideo();
     void openFolder();
@@ -83,6 +86,7 @@ class OpenedFiles : public QObject {
     std::filesystem::path shown_project_;  ///< whose view is to be remembered
     std::filesystem::path restoring_;      ///< the project that was closed to become what it was
     EarlierStates* earlier_;
+    QPointer<EarlierStateDialog> earlier_dialog_;  ///< while it is open
     QMenu* recent_menu_;
 };
 

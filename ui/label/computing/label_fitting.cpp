@@ -35,8 +35,9 @@ bool sameKeyframes(const LabelledObject& a, const LabelledObject& b) {
 
 }  // namespace
 
-LabelFitting::LabelFitting(ProjectSession& session, LabelSession& labels, QObject* parent)
-    : QObject(parent), session_(session), labels_(labels) {
+LabelFitting::LabelFitting(ProjectSession& session, LabelSession& labels, std::function<void()> working_changed,
+                           QObject* parent)
+    : QObject(parent), session_(session), labels_(labels), working_changed_(std::move(working_changed)) {
     connect(&labels_, &LabelSession::closed, this, &LabelFitting::stop);
 }
 
@@ -77,12 +78,12 @@ void LabelFitting::start() {
         task.tell([this, fitted = std::move(fitted)] { take(fitted, {}); });
     };
     fitting_ = query_.post(work, [this](const QString& failure) { take({}, failure); });
-    emit workingChanged(true);
+    working_changed_();
 }
 
 void LabelFitting::take(const std::vector<Fitted>& fitted, const QString& failure) {
     working_ = false;
-    emit workingChanged(false);
+    working_changed_();
     if (!failure.isEmpty()) emit labels_.problem(failure);
     std::vector<LabelledObject> changed;
     int frames = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <functional>
 #include <stop_token>
 #include <vector>
 
@@ -14,16 +15,14 @@ class LabelFitting : public QObject {
     Q_OBJECT
 
  public:
-    /// Both must outlive it.
-    LabelFitting(ProjectSession& session, LabelSession& labels, QObject* parent = nullptr);
+    /// Both must outlive it. `working_changed`: it began or ended.
+    LabelFitting(ProjectSession& session, LabelSession& labels, std::function<void()> working_changed,
+                 QObject* parent = nullptr);
 
     void start();
     /// What is done by then is taken.
     void stop() { fitting_.request_stop(); }
     bool working() const { return working_; }
-
- signals:
-    void workingChanged(bool working);
 
  private:
     struct Fitted {
@@ -34,6 +33,7 @@ class LabelFitting : public QObject {
 
     ProjectSession& session_;
     LabelSession& labels_;
+    std::function<void()> working_changed_;
     bool working_ = false;
     std::stop_source fitting_;
     BackgroundQuery query_;  ///< last: stops before the rest goes

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 #include "annotation/edits/identity_edits.h"
 #include "annotation/edits/object_pieces.h"
@@ -15,8 +16,9 @@ namespace {
 constexpr double kTolerance_px = 1;
 }
 
-LabelTracking::LabelTracking(ProjectSession& session, LabelSession& labels, QObject* parent)
-    : QObject(parent), session_(session), labels_(labels) {
+LabelTracking::LabelTracking(ProjectSession& session, LabelSession& labels, LabelTrackingAnswers answers,
+                             QObject* parent)
+    : QObject(parent), session_(session), labels_(labels), answers_(std::move(answers)) {
     connect(&labels_, &LabelSession::closed, this, &LabelTracking::stop);
 }
 
@@ -31,14 +33,14 @@ void LabelTracking::start(int direction) {
     if (const Keyframe* next = direction > 0 ? nextKeyframe(*object, from) : previousKeyframe(*object, from))
         last = next->frame - direction;
     if (last == from || (last - from > 0) != (direction > 0)) {
-        emit ended(from, tr("there is nothing between this keyframe and the next one"));
+        answers_.show_end(from, tr("there is nothing between this keyframe and the next one"));
         return;
     }
     working_ = true;
     const auto ended_with = [this, id = object->id, from, box = *box](const FollowResult& result,
                                                                       const QString& failure) {
         working_ = false;
-        emit workingChanged(false);
+        answers_.working_changed();
         if (!failure.isEmpty()) emit labels_.problem(failure);
         take(id, from, box, result);
     };
@@ -53,13 +55,13 @@ void LabelTracking::start(int direction) {
             }
         };
         const FollowProgress progress = [&](const FollowedBox& followed) {
-            if (followed.frame % 5 == 0) task.tell([this, frame = followed.frame] { emit advanced(frame); });
+            if (followed.frame % 5 == 0) task.tell([this, frame = followed.frame] { answers_.show_advance(frame); });
         };
         const FollowResult result = followBox(box, from, last, frames, *camera, {}, progress, task.stop());
         task.tell([ended_with, result] { ended_with(result, {}); });
     };
     tracking_ = query_.post(work, [ended_with](const QString& failure) { ended_with({}, failure); });
-    emit workingChanged(true);
+    answers_.working_changed();
 }
 
 void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, const FollowResult& result) {
@@ -86,7 +88,7 @@ void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, 
         labels_.apply(editOf(tr("Track %1").arg(QString::fromStdString(nameOf(changed))).toStdString(),
                              labels_.annotations(), std::vector{std::move(changed)}));
     }
-    emit ended(end, QString::fromStdString(result.reason));
+    answers_.show_end(end, QString::fromStdString(result.reason));
 }
 
 }  // namespace eyrie::ui

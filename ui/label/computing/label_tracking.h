@@ -1,12 +1,22 @@
 #pragma once
 
 #include <QObject>
+#include <functional>
 #include <stop_token>
 
 #include "annotation/pictures/box_tracker.h"
 #include "label/label_session.h"
 
 namespace eyrie::ui {
+
+/// Whom tracking tells what. All are called on its thread.
+struct LabelTrackingAnswers {
+    std::function<void()> working_changed;
+    /// One more box is sure.
+    std::function<void(FrameIndex frame)> show_advance;
+    /// It ended there, for this reason; empty: it came to its end.
+    std::function<void(FrameIndex frame, const QString& reason)> show_end;
+};
 
 /// Follows the selected box through the pictures, forward or backward, until it gets unsure; then takes what was sure
 /// over as few keyframes, in one step to undo. Keyframes that are there already end it and are never changed.
@@ -15,7 +25,8 @@ class LabelTracking : public QObject {
 
  public:
     /// Both must outlive it.
-    LabelTracking(ProjectSession& session, LabelSession& labels, QObject* parent = nullptr);
+    LabelTracking(ProjectSession& session, LabelSession& labels, LabelTrackingAnswers answers,
+                  QObject* parent = nullptr);
 
     /// From the frame shown; `direction` 1 or −1.
     void start(int direction);
@@ -23,18 +34,12 @@ class LabelTracking : public QObject {
     void stop() { tracking_.request_stop(); }
     bool working() const { return working_; }
 
- signals:
-    void workingChanged(bool working);
-    /// One more box is sure.
-    void advanced(FrameIndex frame);
-    /// It ended there, for this reason.
-    void ended(FrameIndex frame, const QString& reason);
-
  private:
     void take(ObjectId id, FrameIndex start, const OrientedBox& box, const FollowResult& result);
 
     ProjectSession& session_;
     LabelSession& labels_;
+    LabelTrackingAnswers answers_;
     bool working_ = false;
     std::stop_source tracking_;
     BackgroundQuery query_;  ///< last: stops before the rest goes

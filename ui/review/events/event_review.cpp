@@ -23,7 +23,12 @@ struct EventReview::Opened {
     std::unique_ptr<ReviewStore> store;
 };
 
-EventReview::EventReview(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
+EventReview::EventReview(ProjectSession& session, EventReviewAnswers answers, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      answers_(std::move(answers)),
+      search_due_(kSearchDelay_ms, [this] { search(); }),
+      reread_(kRereadVerdicts_ms, [this] { refreshReadOnly(); }) {
     connect(
         &session_, &ProjectSession::changed, this,
         Reactions<SessionChange>{
@@ -31,11 +36,6 @@ EventReview::EventReview(ProjectSession& session, QObject* parent) : QObject(par
             {{SessionChange::project, SessionChange::current_run, SessionChange::run_data, SessionChange::run_ended},
              [this] { refresh(); }},
         });
-    search_due_.setSingleShot(true);
-    search_due_.setInterval(kSearchDelay_ms);
-    connect(&search_due_, &QTimer::timeout, this, &EventReview::search);
-    reread_.setInterval(kRereadVerdicts_ms);
-    connect(&reread_, &QTimer::timeout, this, &EventReview::refreshReadOnly);
 }
 
 EventReview::~EventReview() = default;
@@ -101,13 +101,13 @@ void EventReview::close() {
 
 void EventReview::setState(State state) {
     state_ = state;
-    emit changed();
+    answers_.show_events();
 }
 
 void EventReview::fail(const QString& message) {
     found_.reset();
     key_.reset();  // so that it is tried again
-    emit problem(message);
+    answers_.tell_problem(message);
     setState(State::failed);
 }
 
@@ -175,7 +175,7 @@ void EventReview::refreshReadOnly() {
         if (store_->tryToWrite() || store_->refresh()) search();
     } catch (const std::exception& error) {
         reread_.stop();
-        emit problem(QString::fromUtf8(error.what()));
+        answers_.tell_problem(QString::fromUtf8(error.what()));
     }
 }
 
@@ -210,7 +210,7 @@ std::size_t EventReview::judgedCount() const {
 
 bool EventReview::mayJudge() {
     if (!store_ || !found_) return false;
-    if (store_->readOnly()) emit notice(QString::fromStdString(store_->readOnlyReason()));
+    if (store_->readOnly()) answers_.tell_notice(QString::fromStdString(store_->readOnlyReason()));
     return !store_->readOnly();
 }
 
@@ -232,7 +232,7 @@ bool EventReview::apply(const ReviewEdit& edit, const std::vector<std::size_t>& 
     try {
         store_->apply(edit);
     } catch (const std::exception& error) {
-        emit problem(QString::fromUtf8(error.what()));
+        answers_.tell_problem(QString::fromUtf8(error.what()));
         return false;
     }
     // New verdicts come in the order of what was judged.
@@ -245,7 +245,7 @@ bool EventReview::apply(const ReviewEdit& edit, const std::vector<std::size_t>& 
         verdictIdAt(position) = change->after->id;
         ++change;
     }
-    emit verdictsChanged(positions);
+    answers_.show_verdicts(positions);
     return true;
 }
 
@@ -288,7 +288,7 @@ void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step)
     try {
         edit = step();
     } catch (const std::exception& error) {
-        emit problem(QString::fromUtf8(error.what()));
+        answers_.tell_problem(QString::fromUtf8(error.what()));
         return;
     }
     if (!edit) return;
@@ -307,8 +307,8 @@ void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step)
     }
     std::sort(positions.begin(), positions.end());
     if (lost) search();
-    emit verdictsChanged(positions);
-    emit wentBack(positions);
+    answers_.show_verdicts(positions);
+    answers_.go_back_to(positions);
 }
 
 }  // namespace eyrie::ui

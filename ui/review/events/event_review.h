@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QObject>
-#include <QTimer>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,8 +11,25 @@
 #include "session/background/background_query.h"
 #include "session/project_session.h"
 #include "store/review/review_store.h"
+#include "widgets/delayed_call.h"
+#include "widgets/repeated_call.h"
 
 namespace eyrie::ui {
+
+/// Whom a review of events tells what. All are called on its thread.
+struct EventReviewAnswers {
+    using Positions = std::vector<std::size_t>;  ///< in the queue
+
+    /// Another state, or other events.
+    std::function<void()> show_events;
+    std::function<void(const Positions& positions)> show_verdicts;
+    /// Verdicts on these events were undone or done again.
+    std::function<void(const Positions& positions)> go_back_to;
+    /// The text names what went wrong, the place and the remedy.
+    std::function<void(const QString& text)> tell_problem;
+    /// Why nothing was changed.
+    std::function<void(const QString& text)> tell_notice;
+};
 
 /// The events of the run shown and what is said about them: searched for in the background as soon as they are wanted,
 /// judged on the window's own thread, where a verdict takes a few milliseconds. Events are named by their place in the
@@ -31,7 +47,7 @@ class EventReview : public QObject {
     };
 
     /// The session must outlive it.
-    explicit EventReview(ProjectSession& session, QObject* parent = nullptr);
+    EventReview(ProjectSession& session, EventReviewAnswers answers, QObject* parent = nullptr);
     ~EventReview() override;
 
     /// Somebody wants to see events, now and of every run to come. Until then nothing is read, and the right to judge
@@ -52,7 +68,7 @@ class EventReview : public QObject {
     /// Verdicts on this video for which this run has no event.
     std::size_t leftCount() const { return found_ ? found_->carried.left.size() : 0; }
 
-    /// Each is one step that can be undone. What goes wrong is told by problem(), or notice() where another window
+    /// Each is one step that can be undone. What goes wrong is told as a problem, or as a notice where another window
     /// judges; they answer whether anything was changed.
     bool judge(const std::vector<std::size_t>& positions, Judgement judgement);
     bool setStarred(const std::vector<std::size_t>& positions, bool starred);
@@ -64,15 +80,6 @@ class EventReview : public QObject {
     /// "Judge 12 events not relevant"; empty when there is nothing to undo.
     QString undoName() const { return store_ ? QString::fromStdString(store_->undoName()) : QString(); }
     QString redoName() const { return store_ ? QString::fromStdString(store_->redoName()) : QString(); }
-
- signals:
-    /// Another state(), or other events.
-    void changed();
-    void verdictsChanged(const std::vector<std::size_t>& positions);
-    /// Verdicts were undone or done again; these are the events.
-    void wentBack(const std::vector<std::size_t>& positions);
-    void problem(const QString& message);
-    void notice(const QString& message);
 
  private:
     struct Opened;
@@ -102,6 +109,7 @@ class EventReview : public QObject {
     void goBack(const std::function<std::optional<ReviewEdit>()>& step);
 
     ProjectSession& session_;
+    EventReviewAnswers answers_;
     bool wanted_ = false;
     State state_ = State::nothing;
     std::optional<RunKey> key_;
@@ -114,8 +122,8 @@ class EventReview : public QObject {
     int store_sequence_ = 0;
     std::unique_ptr<ProjectFile> project_;
     std::unique_ptr<ReviewStore> store_;
-    QTimer search_due_;
-    QTimer reread_;  ///< what another window judges is read now and then
+    DelayedCall search_due_;
+    RepeatedCall reread_;  ///< what another window judges is read now and then
     BackgroundQuery store_query_;
     BackgroundQuery search_query_;  ///< last: both stop before the rest goes
 };

@@ -40,37 +40,41 @@ int weightOf(Judgement judgement) {
 
 }  // namespace
 
-EventsDock::EventsDock(const EventsParts& parts) : QObject(&parts.docks), parts_(parts) {
-    review_ = new EventReview(parts_.session, this);
+EventsDock::EventsDock(const EventsParts& parts)
+    : QObject(&parts.docks), parts_(parts), marks_due_(0, [this] { showMarks(); }) {
+    review_ = new EventReview(parts_.session, reviewAnswers(), this);
     model_ = new EventsModel(this);
     panel_ = new EventsPanel(model_, parts_.actions);
     parts_.docks.add(DockId::events, tr("Events"), panel_);
     parts_.docks.watch(DockId::events, panel_, [this](bool visible) {
         if (visible) review_->setWanted();
     });
-    marks_due_.setSingleShot(true);
-    marks_due_.setInterval(0);
-    connect(&marks_due_, &QTimer::timeout, this, &EventsDock::showMarks);
-    wireReview();
+    wireLists();
     bindCommands();
     review_->setOptions(panel_->thresholds().options());
     showEvents();
 }
 
-void EventsDock::wireReview() {
-    connect(review_, &EventReview::changed, this, &EventsDock::showEvents);
-    connect(review_, &EventReview::verdictsChanged, this, &EventsDock::showVerdicts);
-    connect(review_, &EventReview::wentBack, this, [this](const std::vector<std::size_t>& places) {
-        if (!places.empty() && model_->recordAt(static_cast<int>(places.front())) != nullptr)
-            chooseAndShow(model_->recordAt(static_cast<int>(places.front()))->id);
-    });
-    connect(review_, &EventReview::problem, this,
-            [this](const QString& text) { parts_.messages.showTopic(kEventsTopic, MessageKind::error, text); });
-    connect(review_, &EventReview::notice, this, [this](const QString& text) {
-        parts_.messages.showTopic(kEventsTopic, MessageKind::warning, text.left(1).toUpper() + text.mid(1));
-    });
-    connect(panel_, &EventsPanel::eventChosen, this, &EventsDock::show);
-    connect(panel_, &EventsPanel::listingChanged, this, &EventsDock::showMarksSoon);
+EventReviewAnswers EventsDock::reviewAnswers() {
+    return {
+        .show_events = [this] { showEvents(); },
+        .show_verdicts = [this](const std::vector<std::size_t>& places) { showVerdicts(places); },
+        .go_back_to =
+            [this](const std::vector<std::size_t>& places) {
+                if (!places.empty() && model_->recordAt(static_cast<int>(places.front())) != nullptr)
+                    chooseAndShow(model_->recordAt(static_cast<int>(places.front()))->id);
+            },
+        .tell_problem =
+            [this](const QString& text) { parts_.messages.showTopic(kEventsTopic, MessageKind::error, text); },
+        .tell_notice =
+            [this](const QString& text) {
+                parts_.messages.showTopic(kEventsTopic, MessageKind::warning, text.left(1).toUpper() + text.mid(1));
+            },
+    };
+}
+
+void EventsDock::wireLists() {
+    panel_->setCommands({.show = [this](int id) { show(id); }, .listing_changed = [this] { marks_due_.start(); }});
     connect(&panel_->thresholds(), &EventThresholds::edited, this,
             [this] { review_->setOptions(panel_->thresholds().options()); });
     connect(model_, &EventsModel::noteEdited, this, [this](int id, const QString& note) {
@@ -158,12 +162,8 @@ void EventsDock::showVerdicts(const std::vector<std::size_t>& positions) {
     else
         for (const std::size_t place : positions) model_->setVerdict(place, review_->verdictAt(place));
     panel_->showCounts(review_->leftCount());
-    showMarksSoon();
+    marks_due_.start();
     enableActions();
-}
-
-void EventsDock::showMarksSoon() {
-    if (!marks_due_.isActive()) marks_due_.start();
 }
 
 void EventsDock::showMarks() {

@@ -2,10 +2,11 @@
 
 #include <QObject>
 #include <QPointF>
-#include <QTimer>
 #include <memory>
 #include <optional>
 #include <vector>
+
+#include "widgets/delayed_call.h"
 
 namespace eyrie {
 struct StoredTracks;
@@ -16,6 +17,7 @@ namespace eyrie::ui {
 
 class DockRegistry;
 class EventReview;
+struct EventReviewAnswers;
 class EventsModel;
 class EventsPanel;
 class MessageBar;
@@ -52,12 +54,12 @@ class EventsDock : public QObject {
 
  private:
     void bindCommands();
-    void wireReview();
+    EventReviewAnswers reviewAnswers();
+    void wireLists();
     void showEvents();
     void explainNothing();
     void showVerdicts(const std::vector<std::size_t>& positions);
     void showMarks();
-    void showMarksSoon();
     void enableActions();
     void chooseAndShow(std::optional<int> id);
     void judge(Judgement judgement);
@@ -72,7 +74,7 @@ class EventsDock : public QObject {
     EventReview* review_;
     EventsModel* model_;
     EventsPanel* panel_;
-    QTimer marks_due_;
+    DelayedCall marks_due_;
     std::shared_ptr<const StoredTracks> listed_run_;  ///< whose events have their ids
     bool active_ = true;
 };

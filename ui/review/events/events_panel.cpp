@@ -123,7 +123,7 @@ void EventsPanel::filterEvents() {
         return entry != nullptr && isListed(*entry);
     });
     showHeader();
-    emit listingChanged();
+    commands_.listing_changed();
 }
 
 QString EventsPanel::hiddenText() const {
@@ -221,7 +221,7 @@ void EventsPanel::rowDoubleClicked(int id) {
     if (table()->currentIndex().column() == EventsModel::note_column)
         editNote(id);
     else
-        emit eventChosen(id);
+        commands_.show(id);
 }
 
 void EventsPanel::fillMenu(QMenu& menu, int id) {

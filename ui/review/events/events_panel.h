@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "review/events/event_kinds_button.h"
@@ -14,6 +15,14 @@ namespace eyrie::ui {
 class EventThresholds;
 class WindowActions;
 
+/// What the list of events asks for.
+struct EventsPanelCommands {
+    /// A person wants to see an event.
+    std::function<void(int id)> show = [](int) {};
+    /// Other events are listed than before.
+    std::function<void()> listing_changed = [] {};
+};
+
 /// The queue of events: how many are judged and shown, the list, the keys that judge as buttons, and the thresholds.
 class EventsPanel : public TablePanel {
     Q_OBJECT
@@ -22,6 +31,7 @@ class EventsPanel : public TablePanel {
     /// `model` and `actions` must outlive the panel.
     EventsPanel(EventsModel* model, const WindowActions& actions, QWidget* parent = nullptr);
 
+    void setCommands(EventsPanelCommands commands) { commands_ = std::move(commands); }
     EventKindsButton& kinds() { return *kinds_; }
     EventThresholds& thresholds() { return *thresholds_; }
     /// Which verdicts are listed: all, to judge, relevant, not relevant, unsure, starred, with a note.
@@ -42,14 +52,9 @@ class EventsPanel : public TablePanel {
     /// Starts writing the note of an event.
     void editNote(int id);
 
- signals:
-    /// The user wants to see an event.
-    void eventChosen(int id);
-    void listingChanged();
-
  protected:
-    void rowSelected(int id) override { emit eventChosen(id); }
-    void rowClicked(int id, int /*column*/) override { emit eventChosen(id); }
+    void rowSelected(int id) override { commands_.show(id); }
+    void rowClicked(int id, int /*column*/) override { commands_.show(id); }
     void rowDoubleClicked(int id) override;
     void fillMenu(QMenu& menu, int id) override;
     QString hiddenText() const override;
@@ -69,6 +74,7 @@ class EventsPanel : public TablePanel {
 
     EventsModel* events_;
     const WindowActions& actions_;
+    EventsPanelCommands commands_;
     QLabel* header_;
     EventKindsButton* kinds_;
     QComboBox* verdicts_;

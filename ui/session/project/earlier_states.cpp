@@ -2,8 +2,8 @@
 
 #include <chrono>
 #include <exception>
-#include <functional>
 #include <thread>
+#include <utility>
 
 #include "core/error.h"
 #include "store/backup/project_restore.h"
@@ -34,13 +34,14 @@ BackupResult restoreWhenFree(const std::filesystem::path& project, const Project
 
 }  // namespace
 
-EarlierStates::EarlierStates(QObject* parent) : QObject(parent) {}
+EarlierStates::EarlierStates(EarlierStatesAnswers answers, QObject* parent)
+    : QObject(parent), answers_(std::move(answers)) {}
 
 void EarlierStates::keepIfDue(const std::filesystem::path& project) {
     query_.post([this, project](const BackgroundTask& task) {
         const BackupResult result = backUpIfDue(project, {.stop = task.stop()});
         if (result.notice.empty()) return;
-        task.tell([this, text = QString::fromStdString(result.notice)] { emit notice(text); });
+        task.tell([this, text = QString::fromStdString(result.notice)] { answers_.tell(text); });
     });
 }
 
@@ -59,9 +60,9 @@ void EarlierStates::list(const std::filesystem::path& project) {
             }
             states.push_back(std::move(state));
         }
-        task.tell([this, states] { emit listed(states); });
+        task.tell([this, states] { answers_.show(states); });
     };
-    query_.post(work, std::bind_front(&EarlierStates::failed, this));
+    query_.post(work, answers_.fail);
 }
 
 void EarlierStates::restore(const std::filesystem::path& project, const ProjectBackup& backup) {
@@ -71,17 +72,17 @@ void EarlierStates::restore(const std::filesystem::path& project, const ProjectB
         if (result.outcome == BackupOutcome::by_others)
             throw Error(ErrorKind::project, "another program keeps the present state of " + project.string() +
                                                 " at this moment; restore again when it is done");
-        task.tell([this, project] { emit restored(project); });
+        task.tell([this, project] { answers_.open(project); });
     };
-    query_.post(work, std::bind_front(&EarlierStates::failed, this));
+    query_.post(work, answers_.fail);
 }
 
 void EarlierStates::restoreAsNew(const ProjectBackup& backup, const std::filesystem::path& fresh) {
     const auto work = [this, backup, fresh](const BackgroundTask& task) {
         if (eyrie::restoreAsNew(backup, fresh, {.stop = task.stop()}))
-            task.tell([this, fresh] { emit restored(fresh); });
+            task.tell([this, fresh] { answers_.open(fresh); });
     };
-    query_.post(work, std::bind_front(&EarlierStates::failed, this));
+    query_.post(work, answers_.fail);
 }
 
 }  // namespace eyrie::ui

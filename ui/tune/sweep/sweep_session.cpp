@@ -17,7 +17,7 @@
 namespace eyrie::ui {
 
 namespace {
-constexpr auto kPulse = std::chrono::milliseconds(120);
+constexpr int kPulse_ms = 120;
 constexpr int kNiceness = 15;
 constexpr qint64 kShareOfDrawing = 20;  ///< the table is drawn again after this many times what drawing took
 }  // namespace
@@ -30,9 +30,8 @@ struct SweepSession::Job {
     std::optional<int> resumed;  ///< a stored sweep in place of the request
 };
 
-SweepSession::SweepSession(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
-    pulse_.setInterval(kPulse);
-    connect(&pulse_, &QTimer::timeout, this, &SweepSession::take);
+SweepSession::SweepSession(ProjectSession& session, QObject* parent)
+    : QObject(parent), session_(session), pulse_(kPulse_ms, [this] { take(); }) {
     connect(&session_, &ProjectSession::changed, this,
             Reactions<SessionChange>{{SessionChange::project, [this] { projectChanged(); }}});
 }

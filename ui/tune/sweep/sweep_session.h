@@ -1,7 +1,7 @@
 #pragma once
 
+#include <QElapsedTimer>
 #include <QObject>
-#include <QTimer>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -12,6 +12,7 @@
 #include "session/background/background_query.h"
 #include "session/project_session.h"
 #include "sweep/results/sweep_best.h"
+#include "widgets/repeated_call.h"
 
 namespace eyrie::ui {
 
@@ -92,7 +93,7 @@ class SweepSession : public QObject {
     QElapsedTimer since_shown_;            ///< the table that grows
     qint64 showing_took_ms_ = 0;
     bool grown_ = false;  ///< since it was shown
-    QTimer pulse_;        ///< takes over what the threads have reported
+    RepeatedCall pulse_;  ///< takes over what the threads have reported
 
     std::mutex mutex_;  ///< of what follows
     std::vector<SweepPoint> new_points_;
