@@ -11,7 +11,7 @@ namespace eyrie::ui {
 LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     : QObject(&window), keys_(keys), window_(window), canvas_(canvas) {
     section(tr("Labels"));
-    undo = add(tr("&Undo"), {QKeySequence(tr("Ctrl+Z"))});
+    undo = add(tr("&Undo"), {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))});
     redo = add(tr("&Redo"), {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))});
     undo->setIcon(QIcon::fromTheme(QStringLiteral("edit-undo")));
     redo->setIcon(QIcon::fromTheme(QStringLiteral("edit-redo")));
@@ -26,14 +26,14 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     draw->setIcon(QIcon::fromTheme(QStringLiteral("draw-rectangle")));
     draw->setIconText(tr("Draw"));
     redraw = add(tr("Redraw the selected object's box in this frame"), {QKeySequence(tr("Ctrl+B"))});
-    region = addToggle(tr("Draw an ignore region: click its corners, double-click to end"), {QKeySequence(Qt::Key_Z)},
-                       false);
-    delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Shift+Z"))});
+    region = addToggle(tr("Draw an ignore region: click its corners, double-click to end"),
+                       {QKeySequence(tr("Ctrl+G"))}, false);
+    delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Ctrl+Shift+G"))});
     region_begins = add(tr("Begin the ignore region under the cursor here"), {QKeySequence(tr("Ctrl+["))});
     region_ends = add(tr("End the ignore region under the cursor here"), {QKeySequence(tr("Ctrl+]"))});
     region_anchor =
-        add(tr("Fix the ignore region under the cursor to the ground or to the image"), {QKeySequence(tr("Alt+Z"))});
-    keyframe = add(tr("Set a keyframe here"), {QKeySequence(Qt::Key_K)});
+        add(tr("Fix the ignore region under the cursor to the ground or to the image"), {QKeySequence(tr("Alt+G"))});
+    keyframe = add(tr("Set a keyframe here"), {QKeySequence(Qt::Key_R)});
     spread_size = add(tr("Apply this size to all keyframes of the object"), {QKeySequence(tr("Shift+K"))});
     spread_correction = add(tr("Apply this correction to all keyframes of the object"), {QKeySequence(tr("Ctrl+K"))});
     fit_pictures =
@@ -45,8 +45,8 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     delete_object = add(tr("Delete the object"), {QKeySequence(tr("Shift+Delete"))});
     end_here = add(tr("The object ends here"), {QKeySequence(Qt::Key_T)});
     occluded = add(tr("Occluded: no, partly, fully"), {QKeySequence(Qt::Key_O)});
-    outside = add(tr("Outside the image from here"), {QKeySequence(Qt::Key_L)});
-    ignore = add(tr("Ignore from here"), {QKeySequence(Qt::Key_I)});
+    outside = add(tr("Outside the image from here"), {QKeySequence(tr("Shift+L"))});
+    ignore = add(tr("Ignore from here"), {QKeySequence(tr("Shift+I"))});
     spread_flags =
         add(tr("Set these flags on the selected objects in the toolbar's frame range"), {QKeySequence(tr("Shift+O"))});
     turn_left = add(tr("Turn by 1° counter-clockwise"), {QKeySequence(Qt::Key_BracketLeft)});
@@ -66,8 +66,8 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
         object_class[i] = add(classText(builtInClasses()[i].name), {QKeySequence(Qt::Key_1 + static_cast<int>(i))});
 
     section(tr("Go"));
-    next_frame = add(tr("Next frame"), {QKeySequence(Qt::Key_D), QKeySequence(Qt::Key_Period)});
-    previous_frame = add(tr("Previous frame"), {QKeySequence(Qt::Key_A), QKeySequence(Qt::Key_Comma)});
+    next_frame = add(tr("Next frame"), {QKeySequence(Qt::Key_D)});
+    previous_frame = add(tr("Previous frame"), {QKeySequence(Qt::Key_A)});
     ten_on = add(tr("10 frames forward"), {QKeySequence(tr("Shift+D"))});
     ten_back = add(tr("10 frames back"), {QKeySequence(tr("Shift+A"))});
     next_object = add(tr("Next object"), {QKeySequence(Qt::Key_N)});
@@ -78,7 +78,7 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     next_unchecked = add(tr("Next unchecked object"), {QKeySequence(Qt::Key_U)});
     follow = addToggle(tr("Keep the object centred"), {QKeySequence(Qt::Key_S)}, false);
     follow_upright = addToggle(tr("… and turn the picture so that it points up"), {}, true);
-    this_frame = addToggle(tr("List objects of this frame only"), {QKeySequence(Qt::Key_H)}, false);
+    this_frame = addToggle(tr("List objects of this frame only"), {QKeySequence(tr("Shift+H"))}, false);
     deselect = add(tr("Stop drawing, clear the selection"), {QKeySequence(Qt::Key_Escape)});
 
     section(tr("Review"));
@@ -104,11 +104,11 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     stop_tracking = add(tr("Stop tracking (Esc)"), {});
 
     section(tr("Identity"));
-    join = add(tr("&Join in time with…"), {QKeySequence(Qt::Key_J)});
-    fuse = add(tr("&Fuse in parallel with…"), {QKeySequence(tr("Shift+J"))});
-    split = add(tr("&Split here"), {QKeySequence(Qt::Key_Y)});
+    join = add(tr("&Join in time with…"), {QKeySequence(tr("Shift+J"))});
+    fuse = add(tr("&Fuse in parallel with…"), {QKeySequence(tr("Ctrl+Shift+J"))});
+    split = add(tr("&Split here"), {QKeySequence(tr("Shift+Y"))});
     swap = add(tr("S&wap the two selected from here"), {QKeySequence(tr("Shift+S"))});
-    renumber = add(tr("&Renumber from here"), {QKeySequence(Qt::Key_R)});
+    renumber = add(tr("&Renumber from here"), {QKeySequence(tr("Shift+R"))});
     delete_before = add(tr("Delete &before this frame"), {QKeySequence(tr("Ctrl+Backspace"))});
     delete_after = add(tr("Delete &after this frame"), {QKeySequence(tr("Ctrl+Delete"))});
 

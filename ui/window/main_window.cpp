@@ -151,7 +151,7 @@ void MainWindow::buildToolBar() {
 void MainWindow::buildMenus() {
     for (const ActionSection& section : actions_->sections()) {
         if (section.actions.contains(actions_->next_error)) menuBar()->addMenu(labelling_->menu());
-        QMenu* menu = menuBar()->addMenu(QLatin1Char('&') + section.title);
+        QMenu* menu = menuBar()->addMenu(section.title);
         menu->addActions(section.actions);
         if (section.actions.contains(actions_->open_project)) {
             menu->insertMenu(actions_->save_as, files_->recentMenu());

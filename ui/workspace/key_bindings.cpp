@@ -1,5 +1,6 @@
 #include "workspace/key_bindings.h"
 
+#include <QSet>
 #include <QSettings>
 
 namespace eyrie::ui {
@@ -47,15 +48,26 @@ void setKeys(QAction& action, const QList<QKeySequence>& keys) {
 void KeyBindings::add(const Group& group) {
     groups_.append(group);
     const QSettings settings;
+    QSet<QKeySequence> chosen;
+    QList<QAction*> as_made;
     for (const ActionSection& section : group.sections)
         for (QAction* action : section.actions) {
             Command& command = commands_[action];
             command.setting = settingOf(group.title, action->text());
             command.defaults = command.keys = action->shortcuts();
-            if (!settings.contains(command.setting)) continue;
+            if (!settings.contains(command.setting)) {
+                as_made << action;
+                continue;
+            }
             command.keys = keysFrom(settings.value(command.setting).toStringList());
+            for (const QKeySequence& key : command.keys) chosen.insert(key);
             setKeys(*action, command.keys);
         }
+    // A later version may have given another command the key that a person chose.
+    for (QAction* action : as_made) {
+        QList<QKeySequence>& keys = commands_[action].keys;
+        if (keys.removeIf([&](const QKeySequence& key) { return chosen.contains(key); }) > 0) setKeys(*action, keys);
+    }
 }
 
 QAction* KeyBindings::owner(const QKeySequence& key, const QAction* but) const {

@@ -10,7 +10,7 @@ namespace eyrie::ui {
 
 /// Commands that belong together, for menus and the sheet of keys.
 struct ActionSection {
-    QString title;
+    QString title;  ///< of the menu: the letter after & is the one that opens it with Alt
     QList<QAction*> actions;
 };
 
@@ -33,7 +33,8 @@ class KeyBindings : public QObject {
 
     using QObject::QObject;
 
-    /// The keys that the commands have now are their defaults. Sets those that were chosen before.
+    /// The keys that the commands have now are their defaults. Sets those that were chosen before; what is the default
+    /// of another command of the group stays with the one it was chosen for.
     void add(const Group& group);
     const QList<Group>& groups() const { return groups_; }
 

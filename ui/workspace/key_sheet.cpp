@@ -107,8 +107,8 @@ void KeySheet::fill(const QString& first) {
                           [&](const KeyBindings::Group& group) { return group.title == first; });
     for (const KeyBindings::Group& group : groups)
         for (const ActionSection& section : group.sections) {
-            auto* title =
-                heading(list_, group.title.isEmpty() ? section.title : tr("%1: %2").arg(group.title, section.title));
+            auto* title = heading(list_, group.title.isEmpty() ? plain(section.title)
+                                                               : tr("%1: %2").arg(group.title, plain(section.title)));
             for (QAction* action : section.actions) {
                 auto* item = new QTreeWidgetItem(title, {plain(action->text())});
                 item->setData(kCommand, kAction, QVariant::fromValue(action));

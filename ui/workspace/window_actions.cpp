@@ -10,8 +10,17 @@
 
 namespace eyrie::ui {
 
+namespace {
+
+/// Overlays have Alt and a letter in every workspace: letters alone belong to what a workspace is there for.
+QKeySequence onOverlay(Qt::Key key) {
+    return QKeySequence(QKeyCombination(Qt::AltModifier, key));
+}
+
+}  // namespace
+
 WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObject(parent), parent_(parent) {
-    section(tr("File"));
+    section(tr("&File"));
     open_video = add(tr("Open &video…"), {"document-open", {QKeySequence::Open}});
     open_folder = add(tr("Open folder of &images…"), {"document-open-folder", {QKeySequence(tr("Ctrl+Shift+O"))}});
     open_project = add(tr("Open &project…"), {"project-open", {QKeySequence(tr("Ctrl+P"))}});
@@ -27,7 +36,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     demo = add(tr("Watch the &demo scene"), {"media-playback-start", {QKeySequence(tr("Ctrl+D"))}});
     quit = add(tr("&Quit"), {"application-exit", {QKeySequence(tr("Ctrl+Q"))}});
 
-    section(tr("Run"));
+    section(tr("Ru&n"));
     run = add(tr("&Run"), {"media-record",
                            {QKeySequence(tr("Ctrl+R"))},
                            QT_TR_NOOP("Find and follow the moving vehicles, with the parameters shown")});
@@ -45,10 +54,12 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     train =
         add(tr("Train from &labels…"), {nullptr, {}, QT_TR_NOOP("Train your own classifier for the sliding window")});
 
-    section(tr("Playback"));
+    section(tr("&Playback"));
     play = add(tr("&Play"), {"media-playback-start", {QKeySequence(Qt::Key_Space)}});
-    step_back = add(tr("Step back"), {"media-skip-backward", {QKeySequence(Qt::Key_Left)}});
-    step_on = add(tr("Step forward"), {"media-skip-forward", {QKeySequence(Qt::Key_Right)}});
+    step_back =
+        add(tr("Step back"), {"media-skip-backward", {QKeySequence(Qt::Key_Left), QKeySequence(Qt::Key_Comma)}});
+    step_on =
+        add(tr("Step forward"), {"media-skip-forward", {QKeySequence(Qt::Key_Right), QKeySequence(Qt::Key_Period)}});
     jump_back = add(tr("10 frames back"), {"media-seek-backward", {QKeySequence(tr("Shift+Left"))}});
     jump_on = add(tr("10 frames forward"), {"media-seek-forward", {QKeySequence(tr("Shift+Right"))}});
     first = add(tr("First frame"), {"go-first", {QKeySequence(Qt::Key_Home)}});
@@ -57,18 +68,17 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     shuttle_back = add(tr("Play backwards, again: faster"), {nullptr, {QKeySequence(Qt::Key_J)}});
     shuttle_stop = add(tr("Pause"), {"media-playback-pause", {QKeySequence(Qt::Key_K)}});
     shuttle_on = add(tr("Play forwards, again: faster"), {nullptr, {QKeySequence(Qt::Key_L)}});
-    slower = add(tr("Slower"), {nullptr, {QKeySequence(Qt::Key_BracketLeft), QKeySequence(Qt::Key_Comma)}});
-    faster = add(tr("Faster"), {nullptr, {QKeySequence(Qt::Key_BracketRight), QKeySequence(Qt::Key_Period)}});
-    loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(Qt::Key_O)}}, false);
+    slower = add(tr("Slower"), {nullptr, {QKeySequence(tr("<"))}});
+    faster = add(tr("Faster"), {nullptr, {QKeySequence(tr(">"))}});
+    loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(tr("Shift+Space"))}}, false);
 
     addEvents();
 
-    section(tr("Evaluation"));
-    next_error = add(tr("&Next error"), {"go-next", {QKeySequence(Qt::Key_N), QKeySequence(Qt::Key_F8)}});
-    previous_error =
-        add(tr("&Previous error"), {"go-previous", {QKeySequence(tr("Shift+N")), QKeySequence(tr("Shift+F8"))}});
+    section(tr("Evaluat&ion"));
+    next_error = add(tr("&Next error"), {"go-next", {QKeySequence(Qt::Key_F8)}});
+    previous_error = add(tr("&Previous error"), {"go-previous", {QKeySequence(tr("Shift+F8"))}});
     why_error = add(tr("Wh&y this error?"), {"help-contextual",
-                                             {QKeySequence(tr("Shift+W"))},
+                                             {QKeySequence(tr("Ctrl+Shift+W"))},
                                              QT_TR_NOOP("What decided at the place of the selected error")});
     wrong_truth =
         add(tr("The ground &truth is wrong here…"),
@@ -76,22 +86,23 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
              {QKeySequence(tr("Ctrl+T"))},
              QT_TR_NOOP("Open the object in the label workspace; the run is scored again after each change")});
 
-    section(tr("View"));
+    section(tr("Vie&w"));
     fit = add(tr("&Fit the window"), {"zoom-fit-best", {QKeySequence(Qt::Key_F)}});
-    one_to_one = add(tr("Actual size (1:1)"), {"zoom-original", {QKeySequence(Qt::Key_1)}});
+    one_to_one = add(tr("Actual size (1:1)"), {"zoom-original", {QKeySequence(Qt::Key_0)}});
     zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
     deselect = add(tr("Clear the selection"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
-    why = add(
-        tr("&Why here?"),
-        {"help-contextual", {QKeySequence(Qt::Key_W)}, QT_TR_NOOP("What decided about the place under the cursor")});
-    live_preview = addToggle(
-        tr("Live &preview of parameters"),
-        {nullptr, {QKeySequence(Qt::Key_P)}, QT_TR_NOOP("Show the current frame with the parameters of the form")},
-        true);
+    why = add(tr("&Why here?"), {"help-contextual",
+                                 {QKeySequence(tr("Shift+W"))},
+                                 QT_TR_NOOP("What decided about the place under the cursor")});
+    live_preview = addToggle(tr("Live &preview of parameters"),
+                             {nullptr,
+                              {QKeySequence(tr("Ctrl+Shift+P"))},
+                              QT_TR_NOOP("Show the current frame with the parameters of the form")},
+                             true);
     compare = add(tr("&Compare A and B…"),
                   {nullptr,
-                   {QKeySequence(tr("Ctrl+B"))},
+                   {QKeySequence(tr("Ctrl+Shift+B"))},
                    QT_TR_NOOP("Two runs or sets of parameters on the same frames, side by side or with a wipe")});
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
@@ -108,7 +119,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
 
     addOverlays(overlays);
 
-    section(tr("Help"));
+    section(tr("&Help"));
     keys = add(tr("&Keys"), {"help-keybord-shortcuts", {QKeySequence(Qt::Key_F1), QKeySequence(tr("?"))}});
     about = add(tr("&About Eyrie"), {"help-about", {}});
 }
@@ -136,7 +147,7 @@ QAction* WindowActions::addToggle(const QString& text, const Look& look, bool ch
 }
 
 void WindowActions::addEvents() {
-    section(tr("Events"));
+    section(tr("&Events"));
     next_event = add(tr("&Next event"), {"go-next", {QKeySequence(tr("Ctrl+Down"))}});
     previous_event = add(tr("&Previous event"), {"go-previous", {QKeySequence(tr("Ctrl+Up"))}});
     next_open_event = add(tr("Next event to &judge"), {nullptr, {QKeySequence(tr("Ctrl+J"))}});
@@ -149,7 +160,7 @@ void WindowActions::addEvents() {
     unsure =
         add(tr("&Unsure"),
             {nullptr, {QKeySequence(Qt::Key_H)}, QT_TR_NOOP("Look at the selected events again later, and go on")});
-    take_back = add(tr("&Take the verdict back"), {nullptr, {QKeySequence(Qt::Key_Backspace)}});
+    take_back = add(tr("&Take the verdict back"), {nullptr, {QKeySequence(tr("Shift+Backspace"))}});
     star = add(tr("&Star or unstar"), {nullptr, {QKeySequence(tr("*"))}, QT_TR_NOOP("Star the selected events")});
     note = add(tr("&Write a note"), {nullptr, {QKeySequence(tr("Ctrl+E"))}});
     undo_verdict = add(tr("U&ndo"), {"edit-undo",
@@ -159,9 +170,9 @@ void WindowActions::addEvents() {
 }
 
 void WindowActions::addOverlays(OverlaySettings& overlays) {
-    section(tr("Overlays"));
+    section(tr("&Overlays"));
     for (const OverlayRow& row : overlayTable()) {
-        QAction* action = addToggle(overlayName(row), {nullptr, {QKeySequence(row.key)}}, overlays.isVisible(row.kind));
+        QAction* action = addToggle(overlayName(row), {nullptr, {onOverlay(row.key)}}, overlays.isVisible(row.kind));
         overlay[row.kind] = action;
         bindSwitches(this, {{action, [&overlays, kind = row.kind](bool on) { overlays.setVisible(kind, on); }}});
     }
@@ -169,12 +180,12 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
         for (const OverlayRow& row : overlayTable()) overlay.at(row.kind)->setChecked(overlays.isVisible(row.kind));
     });
     const OverlayStyle& style = overlays.style();
-    labels = addToggle(tr("Track la&bels"), {nullptr, {QKeySequence(Qt::Key_B)}}, style.labels);
-    trails = addToggle(tr("Tr&ails"), {nullptr, {QKeySequence(Qt::Key_A)}}, style.trails);
-    rejected = addToggle(tr("Re&jected detections"), {nullptr, {QKeySequence(Qt::Key_X)}}, style.rejected_detections);
-    tentative = addToggle(tr("T&entative tracks"), {nullptr, {QKeySequence(Qt::Key_E)}}, style.tentative_tracks);
-    longer_vectors = add(tr("Longer vectors"), {nullptr, {QKeySequence(tr("Shift+V"))}});
-    shorter_vectors = add(tr("Shorter vectors"), {nullptr, {QKeySequence(tr("Ctrl+Shift+V"))}});
+    labels = addToggle(tr("Track la&bels"), {nullptr, {onOverlay(Qt::Key_B)}}, style.labels);
+    trails = addToggle(tr("Tr&ails"), {nullptr, {onOverlay(Qt::Key_A)}}, style.trails);
+    rejected = addToggle(tr("Re&jected detections"), {nullptr, {onOverlay(Qt::Key_X)}}, style.rejected_detections);
+    tentative = addToggle(tr("T&entative tracks"), {nullptr, {onOverlay(Qt::Key_Y)}}, style.tentative_tracks);
+    longer_vectors = add(tr("Longer vectors"), {nullptr, {onOverlay(Qt::Key_PageUp)}});
+    shorter_vectors = add(tr("Shorter vectors"), {nullptr, {onOverlay(Qt::Key_PageDown)}});
     colour_blind =
         addToggle(tr("Colour-blind safe colours"), {nullptr, {}}, overlays.palette() == PaletteKind::colour_blind);
     const auto scale_vectors = [&overlays](double factor) {

@@ -23,7 +23,7 @@ class LabelHelpTest : public QObject, test::Labelling {
         go(*window, 15);
         key(*window, Qt::Key_T);
         go(*window, 8);
-        key(*window, Qt::Key_Y);  // split: shown first
+        key(*window, Qt::Key_Y, Qt::ShiftModifier);  // split: shown first
         QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
         QVERIFY(window->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("frames 0 to 7")));
         const auto planned = [&] {
@@ -37,16 +37,16 @@ class LabelHelpTest : public QObject, test::Labelling {
         key(*window, Qt::Key_Escape);
         QCOMPARE(planned().size(), 0);
         QCOMPARE(labels.selected(), std::optional<ObjectId>(id));
-        key(*window, Qt::Key_Y);
-        key(*window, Qt::Key_Y);
+        key(*window, Qt::Key_Y, Qt::ShiftModifier);
+        key(*window, Qt::Key_Y, Qt::ShiftModifier);
         QCOMPARE(labels.annotations().objects.size(), std::size_t(2));
         QCOMPARE(object(*window, id).last_frame, 7);
         const ObjectId later = labels.selected().value_or(0);
         QVERIFY(later != id && later != 0);
         QCOMPARE(object(*window, later).last_frame, 15);
         labels.setSelection({id, later}, id);
-        key(*window, Qt::Key_J);  // and join again
-        key(*window, Qt::Key_J);
+        key(*window, Qt::Key_J, Qt::ShiftModifier);  // and join again
+        key(*window, Qt::Key_J, Qt::ShiftModifier);
         QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
         QCOMPARE(object(*window, id).last_frame, 15);
         go(*window, 5);

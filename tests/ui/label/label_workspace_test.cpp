@@ -28,14 +28,14 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         auto* runs = window->findChild<QDockWidget*>(QStringLiteral("runs"));
         QVERIFY(objects->isVisible() && !runs->isVisible());
         QVERIFY(!window->overlays().isVisible(TrackLayer::kKind));
-        key(*window, Qt::Key_C);  // copies a box here, corners there
+        key(*window, Qt::Key_C);  // copies a box, here only
         QVERIFY(!window->overlays().isVisible(CornerLayer::kKind));
         key(*window, Qt::Key_1, Qt::ControlModifier);
         QVERIFY(!window->labelling().active());
         QVERIFY(!objects->isVisible() && runs->isVisible());
         QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
         key(*window, Qt::Key_C);
-        QVERIFY(window->overlays().isVisible(CornerLayer::kKind));
+        QVERIFY(!window->overlays().isVisible(CornerLayer::kKind));
         key(*window, Qt::Key_2, Qt::ControlModifier);
         QVERIFY(window->labelling().active());
         QVERIFY(objects->isVisible() && !runs->isVisible());
@@ -97,7 +97,7 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QCOMPARE(object(*window, id).keyframes.back().box.centre.y, taken.back().box.centre.y);
         key(*window, Qt::Key_Z, Qt::ControlModifier);
         // K says that a computed box is right; then the others can be laid on the pictures by it.
-        key(*window, Qt::Key_K);
+        key(*window, Qt::Key_R);
         QCOMPARE(computed(), static_cast<std::ptrdiff_t>(taken.size()) - 1);
         QCOMPARE(object(*window, id).keyframes.front().box.centre, taken.front().box.centre);
         key(*window, Qt::Key_F, Qt::ControlModifier);
@@ -207,7 +207,7 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QVERIFY(window);
         const ObjectId id = draw(*window, {40, 60}, {58, 60});
         go(*window, 10);
-        key(*window, Qt::Key_K);
+        key(*window, Qt::Key_R);
         const double drawn = object(*window, id).keyframes.front().box.length;
         OrientedBox longer = object(*window, id).keyframes.back().box;
         longer.length = 25;
@@ -246,7 +246,7 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         const ObjectId id = draw(*window, {40, 60}, {58, 60});
         key(*window, Qt::Key_O);
         QCOMPARE(object(*window, id).keyframes[0].occlusion, Occlusion::partly);
-        key(*window, Qt::Key_I);
+        key(*window, Qt::Key_I, Qt::ShiftModifier);
         QVERIFY(object(*window, id).keyframes[0].ignore);
         key(*window, Qt::Key_2);
         QCOMPARE(object(*window, id).object_class, std::string("truck"));
@@ -285,7 +285,7 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         const auto window = labellingWindow(6);
         QVERIFY(window);
         LabelSession& labels = window->labelling().labels();
-        key(*window, Qt::Key_Z);
+        key(*window, Qt::Key_G, Qt::ControlModifier);
         click(*window, 20, 20);
         click(*window, 120, 20);
         click(*window, 120, 90);
@@ -296,7 +296,7 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QTest::mouseMove(&window->canvas(), at(*window, 100, 40));
         const auto region = [&]() -> const IgnoreRegion& { return labels.annotations().regions.begin()->second; };
         const RegionAnchor anchor = region().anchor;
-        key(*window, Qt::Key_Z, Qt::AltModifier);
+        key(*window, Qt::Key_G, Qt::AltModifier);
         QVERIFY(region().anchor != anchor);
         go(*window, 2);
         key(*window, Qt::Key_BracketLeft, Qt::ControlModifier);
@@ -304,7 +304,7 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         go(*window, 4);
         key(*window, Qt::Key_BracketRight, Qt::ControlModifier);
         QCOMPARE(region().last_frame, 4);
-        key(*window, Qt::Key_Z, Qt::ShiftModifier);
+        key(*window, Qt::Key_G, Qt::ControlModifier | Qt::ShiftModifier);
         QVERIFY(labels.annotations().regions.empty());
         key(*window, Qt::Key_Z, Qt::ControlModifier);
         QCOMPARE(labels.annotations().regions.size(), std::size_t(1));

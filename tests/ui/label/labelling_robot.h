@@ -179,7 +179,7 @@ class Robot : public Labelling {
             box = drags.back().box;
         }
         if (expected && likeness(*expected, truth) > kGood && most > 0) {
-            press(Qt::Key_K);
+            press(Qt::Key_R);
         } else if (expected && likeness(box, truth) > kGood && most > 0) {
             for (const Drag& each : drags) drag(each.from, each.to);
         } else {
@@ -325,8 +325,8 @@ class Robot : public Labelling {
     void joinObjects(ObjectId first, ObjectId second) {
         labels().setSelection({first, second}, first);
         work.clicks += 2;
-        press(Qt::Key_J);  // shows what it will do
-        press(Qt::Key_J);
+        press(Qt::Key_J, Qt::ShiftModifier);  // shows what it will do
+        press(Qt::Key_J, Qt::ShiftModifier);
     }
 
  private:

@@ -175,17 +175,17 @@ class EvaluationTest : public QObject {
         QVERIFY(window);
         ErrorsPanel& errors = window->evaluation().errors();
         window->canvas().setFocus();
-        QTest::keyClick(window.get(), Qt::Key_N);
+        QTest::keyClick(window.get(), Qt::Key_F8);
         QCOMPARE(errors.currentId(), 1);
         QVERIFY(waitFor([&] { return window->canvas().frame().index >= 3 && window->canvas().frame().index <= 6; }));
         const QPointF middle = window->canvas().transform().imageFromView(
             QPointF(window->canvas().width() / 2.0, window->canvas().height() / 2.0));
         QVERIFY(std::abs(middle.x() - 200) < 1 && std::abs(middle.y() - 20) < 1);
         QVERIFY(errors.status().contains(QStringLiteral("false alarm")));
-        QTest::keyClick(window.get(), Qt::Key_N);
+        QTest::keyClick(window.get(), Qt::Key_F8);
         QCOMPARE(errors.currentId(), 2);
-        QTest::keyClick(window.get(), Qt::Key_N, Qt::ShiftModifier);
-        QTest::keyClick(window.get(), Qt::Key_N, Qt::ShiftModifier);
+        QTest::keyClick(window.get(), Qt::Key_F8, Qt::ShiftModifier);
+        QTest::keyClick(window.get(), Qt::Key_F8, Qt::ShiftModifier);
         QCOMPARE(errors.currentId(), 4);  // round to the last one
     }
 
@@ -215,7 +215,7 @@ class EvaluationTest : public QObject {
             return false;
         };
         QVERIFY(drawn());
-        QTest::keyClick(window.get(), Qt::Key_Q);
+        QTest::keyClick(window.get(), Qt::Key_Q, Qt::AltModifier);
         QVERIFY(!drawn());
     }
 
@@ -242,7 +242,7 @@ class EvaluationTest : public QObject {
                 if (by_key) {
                     errors.commands().go_to(static_cast<int>(i) + 1);
                     window->session().goToFrame(0);
-                    QTest::keyClick(window.get(), Qt::Key_W, Qt::ShiftModifier);
+                    QTest::keyClick(window.get(), Qt::Key_W, Qt::ControlModifier | Qt::ShiftModifier);
                 } else {
                     errors.commands().ask_why(static_cast<int>(i) + 1);
                 }

@@ -115,15 +115,15 @@ class MainWindowTest : public QObject {
             {Qt::Key_U, TruthLayer::kKind},  {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_6, SpeedLayer::kKind}};
         for (const auto& [key, kind] : keys) {
             const bool before = window.overlays().isVisible(kind);
-            QTest::keyClick(&window, key);
+            QTest::keyClick(&window, key, Qt::AltModifier);
             QCOMPARE(window.overlays().isVisible(kind), !before);
-            QTest::keyClick(&window, key);
+            QTest::keyClick(&window, key, Qt::AltModifier);
             QCOMPARE(window.overlays().isVisible(kind), before);
         }
         const double length = window.overlays().style().vector_length_factor;
-        QTest::keyClick(&window, Qt::Key_V, Qt::ShiftModifier);
+        QTest::keyClick(&window, Qt::Key_PageUp, Qt::AltModifier);
         QVERIFY(window.overlays().style().vector_length_factor > length);
-        QTest::keyClick(&window, Qt::Key_B);
+        QTest::keyClick(&window, Qt::Key_B, Qt::AltModifier);
         QVERIFY(!window.overlays().style().labels);
     }
 
@@ -225,7 +225,7 @@ class MainWindowTest : public QObject {
         QVERIFY(window);
         window->session().goToFrame(30);
         QVERIFY(showsFrame(*window, 30));
-        QTest::keyClick(window.get(), Qt::Key_S);
+        QTest::keyClick(window.get(), Qt::Key_S, Qt::AltModifier);
         QVERIFY(waitFor([&] { return !window->canvas().frame().stacks.empty(); }));
         QVERIFY(!window->canvas().frame().stacks.front().related.empty());
         window->docks().raise(DockId::stacks);

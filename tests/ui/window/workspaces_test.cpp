@@ -2,7 +2,10 @@
 
 #include <QDockWidget>
 #include <QLineEdit>
+#include <QMap>
+#include <QMenuBar>
 #include <QSet>
+#include <QSettings>
 #include <QTest>
 #include <QTreeWidget>
 
@@ -96,10 +99,10 @@ class WorkspacesTest : public QObject {
         const auto window = this->window();
         QVERIFY(window);
         window->docks().dock(DockId::runs)->hide();
-        QTest::keyClick(window.get(), Qt::Key_V);
+        QTest::keyClick(window.get(), Qt::Key_V, Qt::AltModifier);
         go(*window, Qt::Key_3);
         QVERIFY(shown(*window, DockId::runs));
-        QTest::keyClick(window.get(), Qt::Key_V);  // off: it is on here at first
+        QTest::keyClick(window.get(), Qt::Key_V, Qt::AltModifier);  // off: it is on here at first
         go(*window, Qt::Key_1);
         QVERIFY(!shown(*window, DockId::runs));
         QVERIFY(window->overlays().isVisible(VectorLayer::kKind));
@@ -112,7 +115,7 @@ class WorkspacesTest : public QObject {
             const auto first = window();
             QVERIFY(first);
             first->docks().dock(DockId::inspector)->hide();
-            QTest::keyClick(first.get(), Qt::Key_C);
+            QTest::keyClick(first.get(), Qt::Key_C, Qt::AltModifier);
             go(*first, Qt::Key_3);
             first->close();
         }
@@ -128,8 +131,8 @@ class WorkspacesTest : public QObject {
         const auto window = this->window();
         QVERIFY(window);
         go(*window, Qt::Key_3);
-        QTest::keyClick(window.get(), Qt::Key_V);
-        QTest::keyClick(window.get(), Qt::Key_M);
+        QTest::keyClick(window.get(), Qt::Key_V, Qt::AltModifier);
+        QTest::keyClick(window.get(), Qt::Key_M, Qt::AltModifier);
         QVariantMap state = window->workspaces().state();
         QVariantMap shown = state[QStringLiteral("tune/overlays")].toMap();
         QCOMPARE(shown.size(), static_cast<qsizetype>(overlayTable().size()));
@@ -144,7 +147,7 @@ class WorkspacesTest : public QObject {
         const auto window = this->window();
         QVERIFY(window);
         for (const DockId id : allDocks()) window->docks().dock(id)->hide();
-        QTest::keyClick(window.get(), Qt::Key_T);
+        QTest::keyClick(window.get(), Qt::Key_T, Qt::AltModifier);
         window->workspaces().reset();
         QVERIFY(shown(*window, DockId::tracks) && shown(*window, DockId::inspector));
         QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
@@ -215,9 +218,9 @@ class WorkspacesTest : public QObject {
             KeySheet sheet(window->keys(), {}, window.get());
             QAction* corners = window->actions().overlay.at(CornerLayer::kKind);
             sheet.choose(corners);
-            sheet.setKey(QKeySequence(Qt::Key_T));
+            sheet.setKey(QKeySequence(QStringLiteral("Alt+T")));
             QVERIFY2(sheet.answer().contains(QStringLiteral("Tracks")), qPrintable(sheet.answer()));
-            QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_C));
+            QCOMPARE(corners->shortcut(), QKeySequence(QStringLiteral("Alt+C")));
             sheet.setKey(QKeySequence(Qt::Key_7));
             QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_7));
             QVERIFY(corners->toolTip().endsWith(QStringLiteral("(7)")));
@@ -229,13 +232,15 @@ class WorkspacesTest : public QObject {
         QAction* corners = next->actions().overlay.at(CornerLayer::kKind);
         QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_7));
         next->keys().resetAll();
-        QCOMPARE(corners->shortcut(), QKeySequence(Qt::Key_C));
+        QCOMPARE(corners->shortcut(), QKeySequence(QStringLiteral("Alt+C")));
     }
 
+    /// A person may give a command of the window a key that labelling has: there it is labelling's.
     void aKeyThatLabellingTakesComesBack() {
         const auto window = this->window();
         QVERIFY(window);
         QAction* detections = window->actions().overlay.at(DetectionLayer::kKind);
+        window->keys().setKeysOf(detections, {QKeySequence(Qt::Key_D)});
         go(*window, Qt::Key_2);
         QVERIFY(detections->shortcuts().isEmpty());  // D is the next frame here
         window->keys().setKeysOf(window->labelling().actions().next_frame, {QKeySequence(Qt::Key_F4)});
@@ -244,6 +249,84 @@ class WorkspacesTest : public QObject {
         QVERIFY(detections->shortcuts().isEmpty());
         go(*window, Qt::Key_1);
         QCOMPARE(detections->shortcut(), QKeySequence(Qt::Key_F4));
+    }
+
+    void aKeyThatAPersonChoseIsNoOtherCommandsDefault() {
+        QSettings().setValue(QStringLiteral("keys/Motion clusters"), QStringList{QStringLiteral("Alt+C")});
+        const auto window = this->window();
+        QVERIFY(window);
+        QVERIFY(window->actions().overlay.at(CornerLayer::kKind)->shortcuts().isEmpty());
+        QTest::keyClick(window.get(), Qt::Key_C, Qt::AltModifier);
+        QVERIFY(window->overlays().isVisible(ClusterLayer::kKind));
+        window->keys().resetAll();
+        QTest::keyClick(window.get(), Qt::Key_C, Qt::AltModifier);
+        QVERIFY(window->overlays().isVisible(CornerLayer::kKind));
+    }
+
+    void noKeyMeansTwoThings() {
+        // On the canvas arrows move what is selected: a box by pixels, the event of the queue, and where nothing is,
+        // the frame. Escape leaves what was begun and clears the selection.
+        const QStringList alike{QStringLiteral("Left"),        QStringLiteral("Right"),   QStringLiteral("Shift+Left"),
+                                QStringLiteral("Shift+Right"), QStringLiteral("Ctrl+Up"), QStringLiteral("Ctrl+Down"),
+                                QStringLiteral("Esc")};
+        const auto window = this->window();
+        QVERIFY(window);
+        const auto plain = [](const QAction* action) { return action->text().remove(QLatin1Char('&')); };
+        QMap<QString, QString> meanings;
+        QStringList twice;
+        for (const KeyBindings::Group& group : window->keys().groups())
+            for (const ActionSection& section : group.sections)
+                for (const QAction* action : section.actions)
+                    for (const QKeySequence& key : window->keys().keysOf(action)) {
+                        const QString name = key.toString(QKeySequence::PortableText);
+                        const QString before = meanings.value(name, plain(action));
+                        meanings[name] = plain(action);
+                        if (before != plain(action)) twice << name;
+                    }
+        for (const QString& name : twice)
+            QVERIFY2(alike.contains(name), qPrintable(name + QLatin1Char(' ') + meanings[name]));
+        for (const QString& name : alike) QVERIFY2(twice.contains(name), qPrintable(name));
+    }
+
+    void noMenuHasTheKeyOfACommand() {
+        const auto window = this->window();
+        QVERIFY(window);
+        QSet<QKeySequence> menus;
+        for (const QAction* menu : window->menuBar()->actions()) {
+            const QKeySequence key = QKeySequence::mnemonic(menu->text());
+            QVERIFY2(!key.isEmpty() && !menus.contains(key), qPrintable(menu->text()));
+            menus.insert(key);
+        }
+        for (const KeyBindings::Group& group : window->keys().groups())
+            for (const ActionSection& section : group.sections)
+                for (const QAction* action : section.actions)
+                    for (const QKeySequence& key : window->keys().keysOf(action))
+                        QVERIFY2(!menus.contains(key), qPrintable(action->text()));
+    }
+
+    /// What the hand learned in one workspace does no harm in another.
+    void keysOfTheWindowWorkWhereOneLabels() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        go(*window, Qt::Key_2);
+        window->canvas().setFocus();
+        QTest::keyClick(&window->canvas(), Qt::Key_T, Qt::AltModifier);
+        QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
+        QTest::keyClick(&window->canvas(), Qt::Key_Period);
+        QVERIFY(QTest::qWaitFor([&] { return window->canvas().frame().index == 1; }, kPatience_ms));
+        QTest::keyClick(&window->canvas(), Qt::Key_Comma);
+        QVERIFY(QTest::qWaitFor([&] { return window->canvas().frame().index == 0; }, kPatience_ms));
+        QTest::keyClick(&window->canvas(), Qt::Key_L);
+        QVERIFY(window->session().playback().playing());
+        QTest::keyClick(&window->canvas(), Qt::Key_K);
+        QVERIFY(!window->session().playback().playing());
+        const double speed = window->session().playback().speed();
+        QTest::keyClick(&window->canvas(), Qt::Key_Greater);
+        QVERIFY(window->session().playback().speed() > speed);
+        QTest::keyClick(&window->canvas(), Qt::Key_Less);
+        QCOMPARE(window->session().playback().speed(), speed);
+        QTest::keyClick(&window->canvas(), Qt::Key_Space, Qt::ShiftModifier);
+        QVERIFY(window->actions().loop->isChecked());
     }
 
     void theSheetOfKeysIsSearchedByCommandAndKey() {

@@ -38,7 +38,7 @@ OverlayRow row(const char* name, Qt::Key key, bool in_review, bool in_label, boo
 const std::vector<OverlayRow>& overlayTable() {
     using Colours = OverlayColours;
     static const std::vector<OverlayRow> table{
-        // name, key, shown at first in review, label, tune, colour
+        // name, key with Alt, shown at first in review, label, tune, colour
         row<RoiLayer>(QT_TRANSLATE_NOOP("Overlay", "Motion &ROIs"), Qt::Key_R, false, false, false,
                       paletteColour<&Colours::roi>),
         row<CornerLayer>(QT_TRANSLATE_NOOP("Overlay", "Stationary &corners"), Qt::Key_C, false, false, false,

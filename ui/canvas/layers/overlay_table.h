@@ -14,8 +14,8 @@ namespace eyrie::ui {
 struct OverlayRow {
     OverlayKind kind;
     const char* name;  ///< to be translated: overlayName()
-    Qt::Key key;
-    bool in_review;  ///< whether it is shown when the workspace is opened for the first time
+    Qt::Key key;       ///< with Alt
+    bool in_review;    ///< whether it is shown when the workspace is opened for the first time
     bool in_label;
     bool in_tune;
     QColor (*colour)(const OverlayStyle&);

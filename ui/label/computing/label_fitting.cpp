@@ -49,7 +49,7 @@ void LabelFitting::start() {
             objects.push_back(*object);
     if (objects.empty()) {
         emit labels_.notice(
-            tr("There is nothing to refine: correct one box of an accepted proposal, or press K where its box is "
+            tr("There is nothing to refine: correct one box of an accepted proposal, or press R where its box is "
                "right; the others follow."));
         return;
     }

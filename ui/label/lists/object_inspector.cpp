@@ -72,8 +72,8 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     class_colour_ = colours->addAction(tr("Colour of its class"), this, [this] { edits_.set_colour({}); });
     colour_->setMenu(colours);
     occluded_ = button(tr("Occluded"), tr("Not, partly or fully hidden from here (O)"), true);
-    outside_ = button(tr("Outside"), tr("Outside the image from here until the next keyframe (L)"), true);
-    ignore_ = button(tr("Ignore"), tr("Ignored by the evaluation from here until the next keyframe (I)"), true);
+    outside_ = button(tr("Outside"), tr("Outside the image from here until the next keyframe (Shift+L)"), true);
+    ignore_ = button(tr("Ignore"), tr("Ignored by the evaluation from here until the next keyframe (Shift+I)"), true);
     checked_ = button(tr("Checked"), tr("Reviewed in full and found right (V)"), false);
     questionable_ = button(tr("Questionable"), tr("To be looked at again (X)"), false);
     notes_ = new QLineEdit;
