@@ -64,7 +64,7 @@ const char* lay(GroundView& view, const LocalPlane& plane, const Quad& quad, con
                 GroundSource source) {
     if (const char* why = disbelief(quad)) return why;
     const cv::Matx33d map = mapOnto(quad, size);
-    const LocalMap middle(map, middleOf(size));
+    const HomographyJacobian middle(map, middleOf(size));
     const auto latitude = state.number(tag::kCentreLatitude);
     const auto longitude = state.number(tag::kCentreLongitude);
     if (latitude && longitude) {

@@ -212,7 +212,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
     before.reserve(anchor.corners.corners.size());
     for (const TrackedCorner& corner : anchor.corners.corners) {
         const cv::Point2f position =
-            anchor.frames_ago == 0 ? corner.position : LocalMap(anchor.latest_from_anchor, corner.position).point;
+            anchor.frames_ago == 0 ? corner.position : PointJacobian(anchor.latest_from_anchor, corner.position).point;
         before.emplace_back(corner.id, position);
     }
     {

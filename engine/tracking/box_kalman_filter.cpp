@@ -19,15 +19,15 @@ double squared(double value) {
 }
 
 /// First-order map of directions at a point; the identity when the homography is degenerate there.
-struct LocalMap {
+struct DirectionMap {
     cv::Point2d mapped;
     Eigen::Matrix2d jacobian = Eigen::Matrix2d::Identity();
     double scale = 1;
     bool valid = false;
 };
 
-LocalMap localMapAt(const Homography& map, cv::Point2d point) {
-    LocalMap local;
+DirectionMap directionMapAt(const Homography& map, cv::Point2d point) {
+    DirectionMap local;
     local.mapped = point;
     const auto& m = map.matrix;
     const double w = m(2, 0) * point.x + m(2, 1) * point.y + m(2, 2);
@@ -104,7 +104,7 @@ BoxKalmanFilter::BoxKalmanFilter(const BoxMeasurement& first) {
 bool BoxKalmanFilter::predict(const Homography& current_from_previous, const BoxProcessNoise& noise) {
     state_(kX) += state_(kVx);
     state_(kY) += state_(kVy);
-    const LocalMap local = localMapAt(current_from_previous, {state_(kX), state_(kY)});
+    const DirectionMap local = directionMapAt(current_from_previous, {state_(kX), state_(kY)});
     const Eigen::Matrix2d& j = local.jacobian;
 
     const Eigen::Vector2d direction(std::cos(state_(kHeading)), std::sin(state_(kHeading)));

@@ -66,7 +66,7 @@ const std::vector<Zone>& gate() {
         line.shape = ZoneShape::line;
         // At x = 90 m on the ground, in the picture of frame 0.
         const cv::Matx33d camera = test::DrivenTracks::moving(0.2)(0);
-        line.points = {LocalMap(camera, {90, 85}).point(), LocalMap(camera, {90, 105}).point()};
+        line.points = {HomographyJacobian(camera, {90, 85}).point(), HomographyJacobian(camera, {90, 105}).point()};
         return std::vector<Zone>{line};
     }();
     return zones;

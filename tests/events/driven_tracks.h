@@ -75,7 +75,7 @@ class DrivenTracks {
         for (std::size_t i = 0; i < poses.size(); ++i) {
             const int frame = first_frame + static_cast<int>(i);
             if (frame < 0 || frame >= frames) continue;
-            const LocalMap local(camera(frame), poses[i].first);
+            const HomographyJacobian local(camera(frame), poses[i].first);
             OrientedBox box{local.point(), length * local.scale(), 1.8 * local.scale(), local.turned(poses[i].second)};
             const bool inside =
                 box.centre.x >= 0 && box.centre.y >= 0 && box.centre.x < size.width && box.centre.y < size.height;
@@ -123,7 +123,9 @@ class DrivenTracks {
         return found;
     }
     /// Where an event was, on the ground, m.
-    cv::Point2d placeOf(const Event& event) const { return LocalMap(camera(event.frame).inv(), event.place).point(); }
+    cv::Point2d placeOf(const Event& event) const {
+        return HomographyJacobian(camera(event.frame).inv(), event.place).point();
+    }
 
  private:
     cv::RNG random_{4711};

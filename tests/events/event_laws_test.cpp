@@ -39,7 +39,7 @@ std::vector<Zone> busyZones(const DrivenTracks& scene, int frame) {
         {"area", ZoneShape::area, ZoneAnchor::ground, frame, {{80, 40}, {120, 40}, {120, 80}, {80, 80}}},
         {"line", ZoneShape::line, ZoneAnchor::ground, frame, {{60, 10}, {60, 110}}}};
     for (Zone& zone : zones)
-        for (cv::Point2d& point : zone.points) point = LocalMap(scene.camera(frame), point).point();
+        for (cv::Point2d& point : zone.points) point = HomographyJacobian(scene.camera(frame), point).point();
     return zones;
 }
 
@@ -103,8 +103,8 @@ TEST(EventLaws, ACameraThatMovesOverStandingGroundChangesNothing) {
     moving.camera = DrivenTracks::moving(0.2);
     for (EventTrack& track : moving.tracks) {
         for (TrackedBox& box : track.boxes) {
-            const cv::Point2d ground = LocalMap(scene.camera(box.frame).inv(), box.box.centre).point();
-            const LocalMap local(moving.camera(box.frame), ground);
+            const cv::Point2d ground = HomographyJacobian(scene.camera(box.frame).inv(), box.box.centre).point();
+            const HomographyJacobian local(moving.camera(box.frame), ground);
             const double bigger = local.scale() * scene.scale.gsd_m_per_px;
             box.box = {local.point(), box.box.length * bigger, box.box.width * bigger, local.turned(box.box.heading)};
         }

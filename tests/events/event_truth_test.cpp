@@ -264,7 +264,7 @@ TrueScene watching(Chance& chance) {
     const double speed = chance.between(30, 60);
     const TrackId id = s.scene.drive({30, y}, angle, {{30, speed, speed}}, 60);
     const int frame = chance.frame(0, 900);
-    const auto seen = [&](cv::Point2d metres) { return LocalMap(s.scene.camera(frame), metres).point(); };
+    const auto seen = [&](cv::Point2d metres) { return HomographyJacobian(s.scene.camera(frame), metres).point(); };
     Zone area{"area", ZoneShape::area, ZoneAnchor::ground, frame, {}};
     for (const cv::Point2d corner : {cv::Point2d{70, 45}, {110, 45}, {110, 75}, {70, 75}})
         area.points.push_back(seen(corner));

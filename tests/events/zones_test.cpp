@@ -90,7 +90,7 @@ TEST(Zones, OnTheGroundTheyStayWhereTheyAreWhenTheCameraMoves) {
     Zone on_ground = square();
     on_ground.frame = 500;
     for (cv::Point2d& point : on_ground.points)
-        point = LocalMap(scene.camera(500), point * 0.2).point();  // the same metres, as frame 500 shows them
+        point = HomographyJacobian(scene.camera(500), point * 0.2).point();  // the same metres, as frame 500 shows them
     const auto enters = scene.events(EventKind::enters, {}, {on_ground});
     ASSERT_THAT(tracksOf(enters), ElementsAre(1));
     EXPECT_NEAR(enters[0].frame, 4 * 25, 3);

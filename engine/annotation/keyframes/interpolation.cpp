@@ -16,7 +16,7 @@ std::optional<OrientedBox> mapped(const OrientedBox& box, const Homography& targ
     const auto& m = target_from_source.matrix;
     const double depth = m(2, 0) * box.centre.x + m(2, 1) * box.centre.y + m(2, 2);
     if (!(depth > 1e-6)) return std::nullopt;
-    const LocalMap there(m, box.centre);
+    const HomographyJacobian there(m, box.centre);
     const double scale = there.scale();
     if (!std::isfinite(scale) || scale < 1e-4 || scale > 1e4) return std::nullopt;
     OrientedBox result;

@@ -17,7 +17,7 @@ cv::Point2d Homography::apply(cv::Point2d point) const {
 }
 
 cv::Point2d Homography::applyToVector(cv::Point2d point, cv::Point2d vector) const {
-    return LocalMap(matrix, point).vector(vector);
+    return HomographyJacobian(matrix, point).vector(vector);
 }
 
 Homography Homography::inverse() const {
@@ -35,11 +35,11 @@ Homography Homography::inverse() const {
 }
 
 double Homography::scaleAt(cv::Point2d point) const {
-    return LocalMap(matrix, point).scale();
+    return HomographyJacobian(matrix, point).scale();
 }
 
 double Homography::turned(cv::Point2d point, double heading) const {
-    return LocalMap(matrix, point).turned(heading);
+    return HomographyJacobian(matrix, point).turned(heading);
 }
 
 Homography operator*(const Homography& c_from_b, const Homography& b_from_a) {

@@ -7,9 +7,9 @@
 namespace eyrie {
 
 /// What a projective map does to the surroundings of a point: its first-order part there.
-class LocalMap {
+class HomographyJacobian {
  public:
-    LocalMap(const cv::Matx33d& m, cv::Point2d p) {
+    HomographyJacobian(const cv::Matx33d& m, cv::Point2d p) {
         const double w = m(2, 0) * p.x + m(2, 1) * p.y + m(2, 2);
         point_ = {(m(0, 0) * p.x + m(0, 1) * p.y + m(0, 2)) / w, (m(1, 0) * p.x + m(1, 1) * p.y + m(1, 2)) / w};
         jacobian_ = {(m(0, 0) - point_.x * m(2, 0)) / w, (m(0, 1) - point_.x * m(2, 1)) / w,

@@ -23,7 +23,8 @@ GroundStretches::GroundStretches(const Footage& footage) : footage_(footage) {
             GroundStretch next{frame, frame, footage.scale.gsd_m_per_px, !connected, true};
             if (connected) {
                 const GroundStretch& before = stretches_.back();
-                next.metres_per_px = before.metres_per_px * LocalMap(reference_from_image_.back(), middle).scale();
+                next.metres_per_px =
+                    before.metres_per_px * HomographyJacobian(reference_from_image_.back(), middle).scale();
                 stretches_.back().ends_for_good = false;
             }
             stretches_.push_back(next);
@@ -41,7 +42,7 @@ bool GroundStretches::isSound(const cv::Matx33d& m) const {
     const std::array<cv::Point2d, 4> corners{{{0, 0}, {right, 0}, {right, bottom}, {0, bottom}}};
     for (const cv::Point2d& corner : corners) {
         if (m(2, 0) * corner.x + m(2, 1) * corner.y + m(2, 2) <= 0) return false;
-        const double scale = LocalMap(m, corner).scale();
+        const double scale = HomographyJacobian(m, corner).scale();
         if (!(scale < kMostUnlike && scale > 1 / kMostUnlike)) return false;
     }
     return true;
@@ -58,11 +59,11 @@ int GroundStretches::indexOf(FrameIndex frame) const {
 }
 
 cv::Point2d GroundStretches::toGround(FrameIndex frame, cv::Point2d image) const {
-    return LocalMap(map(frame), image).point() * of(frame)->metres_per_px;
+    return HomographyJacobian(map(frame), image).point() * of(frame)->metres_per_px;
 }
 
 OrientedBox GroundStretches::toGround(FrameIndex frame, const OrientedBox& box) const {
-    const LocalMap local(map(frame), box.centre);
+    const HomographyJacobian local(map(frame), box.centre);
     const double metres = local.scale() * of(frame)->metres_per_px;
     return {local.point() * of(frame)->metres_per_px, box.length * metres, box.width * metres,
             local.turned(box.heading)};
@@ -73,11 +74,11 @@ std::optional<cv::Point2d> GroundStretches::toImage(FrameIndex frame, cv::Point2
     const cv::Point2d in_reference = ground * (1 / of(frame)->metres_per_px);
     const double w = back(2, 0) * in_reference.x + back(2, 1) * in_reference.y + back(2, 2);
     if (!(w * back(2, 2) > 0)) return std::nullopt;
-    return LocalMap(back, in_reference).point();
+    return HomographyJacobian(back, in_reference).point();
 }
 
 double GroundStretches::metresPerPixel(FrameIndex frame, cv::Point2d image) const {
-    return LocalMap(map(frame), image).scale() * of(frame)->metres_per_px;
+    return HomographyJacobian(map(frame), image).scale() * of(frame)->metres_per_px;
 }
 
 bool GroundStretches::inImage(cv::Point2d image) const {

@@ -79,7 +79,7 @@ std::optional<double> VehicleDistance::ofTrack(const ReviewSubject& subject, con
 
 std::optional<double> VehicleDistance::ofPlace(const ReviewSubject& subject, const Event& event) const {
     if (const auto map = run_.footage.camera.map(subject.frame, event.frame)) {
-        const cv::Point2d there = LocalMap(map->matrix, subject.place).point();
+        const cv::Point2d there = HomographyJacobian(map->matrix, subject.place).point();
         return onGround(cv::norm(there - event.place) * ground_.metresPerPixel(event.frame, event.place));
     }
     const double px = cv::norm(subject.place - event.place);

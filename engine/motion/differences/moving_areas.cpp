@@ -82,7 +82,7 @@ bool isSane(const Homography& map, cv::Size size) {
 /// will do.
 cv::Mat partOf(const cv::Mat& earlier, const Homography& earlier_from_newest, const cv::Rect& part) {
     const cv::Point2d middle((part.width - 1) / 2.0, (part.height - 1) / 2.0);
-    const LocalMap map(earlier_from_newest.matrix, cv::Point2d(part.tl()) + middle);
+    const HomographyJacobian map(earlier_from_newest.matrix, cv::Point2d(part.tl()) + middle);
     const cv::Point2d x = map.vector({1, 0});
     const cv::Point2d y = map.vector({0, 1});
     const cv::Point2d corner = map.point() - map.vector(middle);
@@ -214,7 +214,7 @@ std::vector<DifferingArea> MovingAreas::differingAreas() const {
         std::vector<cv::Point> corners;
         for (const cv::Point2d& corner :
              {shown.tl(), cv::Point2d(shown.br().x, shown.y), shown.br(), cv::Point2d(shown.x, shown.br().y)}) {
-            const cv::Point2d at = LocalMap(map, corner).point();
+            const cv::Point2d at = HomographyJacobian(map, corner).point();
             corners.emplace_back(cvRound(at.x), cvRound(at.y));
         }
         inside = cv::Mat::zeros(now.size(), CV_8UC1);

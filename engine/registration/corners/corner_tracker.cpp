@@ -31,7 +31,7 @@ float squareOf(cv::Point2f d) {
 }
 
 /// The turn so far, followed by that of one more step.
-LocalTurn composed(const LocalMap& map, const LocalTurn& turn) {
+LocalTurn composed(const PointJacobian& map, const LocalTurn& turn) {
     return {map.xx * turn.xx + map.xy * turn.yx, map.xx * turn.xy + map.xy * turn.yy,
             map.yx * turn.xx + map.yy * turn.yx, map.yx * turn.xy + map.yy * turn.yy};
 }
@@ -60,7 +60,7 @@ class Follower {
                            int frames) {
         TrackedPosition result;
         const cv::Point2f centre = corner.position - corner.offset;
-        const LocalMap map(to_from_, centre);
+        const PointJacobian map(to_from_, centre);
         result.offset = map.vector(corner.offset);
         if (!fine_.prepare(set_.patch(corner))) return result;
         result.contrast = fine_.contrast();
@@ -293,7 +293,7 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
             TrackedCorner& corner = set.corners[std::size_t(i)];
             const TrackedPosition& now = found[std::size_t(i)];
             if (!now.found) continue;
-            const LocalMap map(fit.matrix, corner.position);
+            const PointJacobian map(fit.matrix, corner.position);
             const cv::Point2f expected = map.vector(corner.velocity);
             const cv::Point2f shift = now.position - map.point;
             const cv::Point2f velocity = shift * (1.0F / float(frames));

@@ -7,11 +7,11 @@ namespace eyrie {
 
 /// A projective map about one point: the point's image and the Jacobian there. Single precision serves positions within
 /// a picture to 1e-4 px.
-struct LocalMap {
+struct PointJacobian {
     cv::Point2f point;
     float xx, xy, yx, yy;
 
-    LocalMap(const cv::Matx33d& m, cv::Point2f p) {
+    PointJacobian(const cv::Matx33d& m, cv::Point2f p) {
         const double inverse = 1.0 / (m(2, 0) * p.x + m(2, 1) * p.y + m(2, 2));
         const double u = (m(0, 0) * p.x + m(0, 1) * p.y + m(0, 2)) * inverse;
         const double v = (m(1, 0) * p.x + m(1, 1) * p.y + m(1, 2)) * inverse;

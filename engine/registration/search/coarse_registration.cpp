@@ -55,27 +55,27 @@ Correspondences trackLevel(const std::vector<cv::Point2f>& points, const ImagePy
     std::vector<Step> steps(points.size());
     // The means of 2×2 pixels have half the noise.
     const double noise_here = noise / double(1 << level);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 64),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          PatchTemplate patch(window);
-                          std::vector<std::int16_t> samples(std::size_t(patchSamples(window)));
-                          AlignmentLimits limits;
-                          limits.max_shift_px = float(window);
-                          limits.max_iterations = level == 0 ? 10 : 15;
-                          limits.converged_px = 0.02F;
-                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                              const cv::Point2f here = ImagePyramid::toLevel(points[i], level);
-                              if (!patchFits(from.level(level), here, window)) continue;
-                              cutPatch(from.level(level), here, window, samples.data());
-                              if (!patch.prepare(samples.data())) continue;
-                              const cv::Point2f start = ImagePyramid::toLevel(LocalMap(guess, points[i]).point, level);
-                              const Alignment found = align(patch, to.level(level), start, limits);
-                              const double acceptable =
-                                  std::max(4 * noise_here * noise_here, kMaxResidual * double(patch.contrast()));
-                              if (!found.found || double(found.residual) > acceptable) continue;
-                              steps[i] = {true, ImagePyramid::fromLevel(found.position, level)};
-                          }
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, points.size(), 64), [&](const tbb::blocked_range<std::size_t>& range) {
+            PatchTemplate patch(window);
+            std::vector<std::int16_t> samples(std::size_t(patchSamples(window)));
+            AlignmentLimits limits;
+            limits.max_shift_px = float(window);
+            limits.max_iterations = level == 0 ? 10 : 15;
+            limits.converged_px = 0.02F;
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                const cv::Point2f here = ImagePyramid::toLevel(points[i], level);
+                if (!patchFits(from.level(level), here, window)) continue;
+                cutPatch(from.level(level), here, window, samples.data());
+                if (!patch.prepare(samples.data())) continue;
+                const cv::Point2f start = ImagePyramid::toLevel(PointJacobian(guess, points[i]).point, level);
+                const Alignment found = align(patch, to.level(level), start, limits);
+                const double acceptable =
+                    std::max(4 * noise_here * noise_here, kMaxResidual * double(patch.contrast()));
+                if (!found.found || double(found.residual) > acceptable) continue;
+                steps[i] = {true, ImagePyramid::fromLevel(found.position, level)};
+            }
+        });
     Correspondences result;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (steps[i].found) result.add(points[i], steps[i].to);
