@@ -95,7 +95,7 @@ std::optional<Start> startOf(const TrackPath& path, const GroundMotion& ground, 
 
 void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, const SceneScale& scale) {
     if (frames < 1 || !hasMetricLimits(scale)) return;
-    TakenPlaces taken(paths);
+    TrackOccupancy taken(paths);
     for (TrackPath& path : paths) {
         const PathState first = path.states.front().second;
         // A predicted beginning was extended before.

@@ -30,7 +30,7 @@ int extensionOf(const TrackPath& path, const GroundMotion& ground, int frames, i
 
 void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, int entry_frames) {
     if (frames < 1 && entry_frames < 1) return;
-    TakenPlaces taken(paths);
+    TrackOccupancy taken(paths);
     for (TrackPath& path : paths) {
         // A predicted beginning was extended before.
         if (path.states.front().second.origin == StateOrigin::predicted) continue;

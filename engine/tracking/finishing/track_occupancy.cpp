@@ -15,11 +15,11 @@ int spanOf(FrameIndex frame) {
 
 }  // namespace
 
-TakenPlaces::TakenPlaces(const std::vector<TrackPath>& paths) {
+TrackOccupancy::TrackOccupancy(const std::vector<TrackPath>& paths) {
     for (const TrackPath& path : paths) extended(path);
 }
 
-void TakenPlaces::extended(const TrackPath& path) {
+void TrackOccupancy::extended(const TrackPath& path) {
     std::optional<int> noted;
     for (const auto& [frame, state] : path.states) {
         if (noted == spanOf(frame)) continue;
@@ -30,7 +30,7 @@ void TakenPlaces::extended(const TrackPath& path) {
 }
 
 template <class Visit>
-void TakenPlaces::visit(FrameIndex frame, Visit visit) const {
+void TrackOccupancy::visit(FrameIndex frame, Visit visit) const {
     const auto alive = alive_.find(spanOf(frame));
     if (alive == alive_.end()) return;
     for (const TrackPath* path : alive->second) {
@@ -38,13 +38,13 @@ void TakenPlaces::visit(FrameIndex frame, Visit visit) const {
     }
 }
 
-std::vector<OrientedBox> TakenPlaces::in(FrameIndex frame) const {
+std::vector<OrientedBox> TrackOccupancy::in(FrameIndex frame) const {
     std::vector<OrientedBox> boxes;
     visit(frame, [&](const OrientedBox& box) { boxes.push_back(box); });
     return boxes;
 }
 
-bool TakenPlaces::isFree(FrameIndex frame, const OrientedBox& box) const {
+bool TrackOccupancy::isFree(FrameIndex frame, const OrientedBox& box) const {
     bool free = true;
     visit(frame, [&](const OrientedBox& other) { free = free && overlap(other, box) <= kFree; });
     return free;

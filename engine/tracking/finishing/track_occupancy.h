@@ -10,9 +10,9 @@ namespace eyrie {
 
 /// Where tracks are, frame by frame, so that what extends one keeps off the others. Looks them up in the tracks
 /// themselves, which must outlive it where they are.
-class TakenPlaces {
+class TrackOccupancy {
  public:
-    explicit TakenPlaces(const std::vector<TrackPath>& paths);
+    explicit TrackOccupancy(const std::vector<TrackPath>& paths);
 
     /// All boxes in a frame.
     std::vector<OrientedBox> in(FrameIndex frame) const;

@@ -59,7 +59,7 @@ class Trace {
     }
 
     /// One frame back; nothing where the track leaves the image, reaches another one or was not supported lately.
-    std::optional<TimedPathState> back(const TakenPlaces& taken) {
+    std::optional<TimedPathState> back(const TrackOccupancy& taken) {
         const FrameIndex to = frame_ - 1;
         const auto mapped = ground_.carried({state_.box, {0, 0}}, frame_, to, false);
         auto moved = ground_.carried({state_.box, state_.velocity}, frame_, to, false);
@@ -129,7 +129,7 @@ class Trace {
 
 void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const VectorsAt& vectors_at, int frames) {
     if (frames < 1 || !vectors_at) return;
-    TakenPlaces taken(paths);
+    TrackOccupancy taken(paths);
     RecentVectors vectors(vectors_at);
     for (TrackPath& path : paths) {
         if (path.states.front().second.origin == StateOrigin::predicted) continue;
