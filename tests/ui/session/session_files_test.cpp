@@ -108,13 +108,13 @@ class SessionFilesTest : public QObject {
 
     void framesOfASceneAreRenderedOnceAndKeptWithoutLoss() {
         const auto folder = *home_ / "scenes";
-        const auto scene = std::make_shared<KeptScene>("egtest01", folder);
+        const auto scene = std::make_shared<SceneFrameCache>("egtest01", folder);
         const auto source = scene->open();
         QVERIFY(source->info().frame_count > 0);
         const Frame rendered = source->read(3, true);
         QCOMPARE(rendered.index, 3);
         // Another program of the same build finds them; a changed file shows that it is read, not rendered again.
-        const auto again = std::make_shared<KeptScene>("egtest01", folder)->open();
+        const auto again = std::make_shared<SceneFrameCache>("egtest01", folder)->open();
         const Frame kept = again->read(3, true);
         QCOMPARE(cv::norm(kept.gray, rendered.gray, cv::NORM_INF), 0.0);
         QCOMPARE(cv::norm(kept.colour, rendered.colour, cv::NORM_INF), 0.0);
@@ -124,7 +124,7 @@ class SessionFilesTest : public QObject {
             if (entry.path().filename() == "000003.png") file = entry.path();
         cv::imwrite(file.string(), cv::Mat(rendered.colour.size(), CV_8UC3, cv::Scalar(1, 2, 3)));
         QCOMPARE(again->read(3, true).colour.at<cv::Vec3b>(5, 5), cv::Vec3b(1, 2, 3));
-        QVERIFY_EXCEPTION_THROWN(std::make_shared<KeptScene>("no such scene", folder)->open(), Error);
+        QVERIFY_EXCEPTION_THROWN(std::make_shared<SceneFrameCache>("no such scene", folder)->open(), Error);
     }
 
     void presetsAreSavedListedAndRefusedWhenBuiltIn() {

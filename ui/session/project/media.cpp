@@ -33,7 +33,7 @@ Media sceneMedia(const std::string& scene) {
     Media media;
     media.name = scene + " scene";
     media.identity = kScenePrefix + scene;
-    const auto kept = std::make_shared<KeptScene>(scene, sceneFolder());
+    const auto kept = std::make_shared<SceneFrameCache>(scene, sceneFolder());
     media.gsd_m_per_px = [kept] { return kept->facts().gsd_m_per_px; };
     media.open = [kept](const IndexProgress&, std::stop_token) { return kept->open(); };
     return media;

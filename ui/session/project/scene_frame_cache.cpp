@@ -46,20 +46,20 @@ void keepFile(const fs::path& file, const std::string& bytes) {
     }
 }
 
-std::optional<KeptScene::Facts> readFacts(const fs::path& file) {
+std::optional<SceneFrameCache::Facts> readFacts(const fs::path& file) {
     if (!isFile(file)) return std::nullopt;
     std::istringstream text(readWholeFile(file));
-    KeptScene::Facts facts;
+    SceneFrameCache::Facts facts;
     text >> facts.size.width >> facts.size.height >> facts.frame_count >> facts.frame_rate_hz >> facts.gsd_m_per_px;
     const bool sound =
         text && facts.size.width > 0 && facts.size.height > 0 && facts.frame_count > 0 && facts.frame_rate_hz > 0;
     return sound ? std::optional(facts) : std::nullopt;
 }
 
-class KeptSceneSource : public FrameSource {
+class CachedSceneSource : public FrameSource {
  public:
-    KeptSceneSource(std::shared_ptr<KeptScene> scene, const std::string& name) : scene_(std::move(scene)) {
-        const KeptScene::Facts facts = scene_->facts();
+    CachedSceneSource(std::shared_ptr<SceneFrameCache> scene, const std::string& name) : scene_(std::move(scene)) {
+        const SceneFrameCache::Facts facts = scene_->facts();
         info_.path = "scene:" + name;
         info_.size = facts.size;
         info_.frame_count = facts.frame_count;
@@ -77,25 +77,25 @@ class KeptSceneSource : public FrameSource {
     }
 
  private:
-    std::shared_ptr<KeptScene> scene_;
+    std::shared_ptr<SceneFrameCache> scene_;
     VideoInfo info_;
 };
 
 }  // namespace
 
-KeptScene::KeptScene(std::string scene, const fs::path& folder)
+SceneFrameCache::SceneFrameCache(std::string scene, const fs::path& folder)
     : scene_(std::move(scene)), parent_(folder), folder_(folder / (scene_ + "-" + buildMark())) {}
 
-KeptScene::~KeptScene() = default;
+SceneFrameCache::~SceneFrameCache() = default;
 
-std::unique_ptr<FrameSource> KeptScene::open() {
+std::unique_ptr<FrameSource> SceneFrameCache::open() {
     removeFramesOfOtherBuilds(parent_, scene_, folder_);
     std::error_code ignored;  // without the folder every frame is rendered
     fs::create_directories(folder_, ignored);
-    return std::make_unique<KeptSceneSource>(shared_from_this(), scene_);
+    return std::make_unique<CachedSceneSource>(shared_from_this(), scene_);
 }
 
-KeptScene::Facts KeptScene::facts() {
+SceneFrameCache::Facts SceneFrameCache::facts() {
     const fs::path file = folder_ / "facts.txt";
     if (const auto known = readFacts(file)) return *known;
     const SceneDescription& scene = renderer().scene();
@@ -107,7 +107,7 @@ KeptScene::Facts KeptScene::facts() {
     return facts;
 }
 
-Frame KeptScene::frame(FrameIndex index) {
+Frame SceneFrameCache::frame(FrameIndex index) {
     const fs::path file = fileOf(index);
     Frame frame;
     if (isFile(file)) frame.colour = cv::imread(file.string(), cv::IMREAD_COLOR);
@@ -123,13 +123,13 @@ Frame KeptScene::frame(FrameIndex index) {
     return frame;
 }
 
-const SceneRenderer& KeptScene::renderer() {
+const SceneRenderer& SceneFrameCache::renderer() {
     const std::scoped_lock lock(mutex_);
     if (!renderer_) renderer_ = std::make_unique<const SceneRenderer>(scenePreset(scene_));
     return *renderer_;
 }
 
-fs::path KeptScene::fileOf(FrameIndex index) const {
+fs::path SceneFrameCache::fileOf(FrameIndex index) const {
     std::array<char, 24> name{};
     std::snprintf(name.data(), name.size(), "%06d.png", index);
     return folder_ / name.data();

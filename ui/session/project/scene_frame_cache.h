@@ -17,7 +17,7 @@ namespace eyrie::ui {
 /// quick. Frames kept by another build of the program are thrown away; a folder that cannot be written costs time only.
 /// May be used by several threads; the renderer, which takes seconds to make, is shared and made when a frame is
 /// missing.
-class KeptScene : public std::enable_shared_from_this<KeptScene> {
+class SceneFrameCache : public std::enable_shared_from_this<SceneFrameCache> {
  public:
     /// What must be known without rendering.
     struct Facts {
@@ -28,8 +28,8 @@ class KeptScene : public std::enable_shared_from_this<KeptScene> {
     };
 
     /// `folder` is shared by all scenes. Touches nothing yet.
-    KeptScene(std::string scene, const std::filesystem::path& folder);
-    ~KeptScene();
+    SceneFrameCache(std::string scene, const std::filesystem::path& folder);
+    ~SceneFrameCache();
 
     /// The scene as a video. Throws Error(parameter) for an unknown scene.
     std::unique_ptr<FrameSource> open();
