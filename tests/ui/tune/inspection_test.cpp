@@ -137,7 +137,7 @@ class InspectionTest : public QObject {
             result.tracks.push_back(track);
             counter.add(result);
         }
-        const VectorLives lives = counter.lives();
+        const VectorLifetimes lives = counter.lives();
         QCOMPARE(lives.vectors, 2);
         QCOMPARE(lives.life, (std::vector<int>{1, 0, 1}));
         QCOMPARE(lives.association, (std::vector<int>{0, 1, 0}));

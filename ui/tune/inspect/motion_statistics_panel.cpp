@@ -105,13 +105,13 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
                                           counted_.reset();
                                           showFrame();
                                       }}});
-    connect(&reader_, &VectorLivesReader::readDone, this,
+    connect(&reader_, &VectorLifetimesReader::readDone, this,
             [this](int run_id, const std::shared_ptr<const VectorLifeCounter>& lives) {
                 if (session_.currentRun() != run_id) return;
                 counted_ = lives;
                 showFrame();
             });
-    connect(&reader_, &VectorLivesReader::failed, life_title_, &QLabel::setText);
+    connect(&reader_, &VectorLifetimesReader::failed, life_title_, &QLabel::setText);
 }
 
 QString MotionStatisticsPanel::speedTitle() const {
@@ -190,7 +190,7 @@ void MotionStatisticsPanel::showLives() {
         if (!read_of_) life_title_->clear();
         return;
     }
-    const VectorLives lives = wholeRun() ? counted_->lives() : counted_->livesOf(result->motion.motion_vectors);
+    const VectorLifetimes lives = wholeRun() ? counted_->lives() : counted_->livesOf(result->motion.motion_vectors);
     life_title_->setText((wholeRun() ? tr("<b>Life</b> of the %1 motion vectors of the run, mean %2 frames; those in a "
                                           "track stay in it for %3 frames")
                                      : tr("<b>Life</b> in the run of the %1 motion vectors of this frame, mean %2 "

@@ -46,7 +46,7 @@ class MotionStatisticsPanel : public QWidget {
     bool wholeRun() const;
 
     ProjectSession& session_;
-    VectorLivesReader reader_;
+    VectorLifetimesReader reader_;
     bool looked_at_ = false;
     std::shared_ptr<const RunData> read_of_;              ///< the run, as far as it was done, whose lives are shown
     std::shared_ptr<const VectorLifeCounter> counted_;    ///< of that run; null until it was read

@@ -48,14 +48,14 @@ void VectorLifeCounter::finish() {
     std::sort(speeds_.begin(), speeds_.end());
 }
 
-VectorLives VectorLifeCounter::lives() const {
+VectorLifetimes VectorLifeCounter::lives() const {
     std::vector<Life> all;
     all.reserve(lives_.size());
     for (const auto& [id, life] : lives_) all.push_back(life);
     return sumOf(all);
 }
 
-VectorLives VectorLifeCounter::livesOf(const std::vector<MotionVector>& vectors) const {
+VectorLifetimes VectorLifeCounter::livesOf(const std::vector<MotionVector>& vectors) const {
     std::vector<Life> all;
     for (const MotionVector& vector : vectors) {
         const auto found = lives_.find(vector.id);
@@ -64,8 +64,8 @@ VectorLives VectorLifeCounter::livesOf(const std::vector<MotionVector>& vectors)
     return sumOf(all);
 }
 
-VectorLives VectorLifeCounter::sumOf(const std::vector<Life>& all) {
-    VectorLives lives;
+VectorLifetimes VectorLifeCounter::sumOf(const std::vector<Life>& all) {
+    VectorLifetimes lives;
     lives.vectors = static_cast<int>(all.size());
     double frames = 0;
     double associated = 0;
@@ -84,7 +84,7 @@ VectorLives VectorLifeCounter::sumOf(const std::vector<Life>& all) {
     return lives;
 }
 
-void VectorLivesReader::read(const RunReference& run) {
+void VectorLifetimesReader::read(const RunReference& run) {
     const auto work = [this, run](const BackgroundTask& task) {
         ProjectFile project = ProjectFile::open(run.project);
         const RunStore store(project);
@@ -100,7 +100,7 @@ void VectorLivesReader::read(const RunReference& run) {
             emit readDone(id, lives);
         });
     };
-    query_.ask(work, std::bind_front(&VectorLivesReader::failed, this));
+    query_.ask(work, std::bind_front(&VectorLifetimesReader::failed, this));
 }
 
 }  // namespace eyrie::ui

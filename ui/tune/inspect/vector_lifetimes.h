@@ -14,7 +14,7 @@
 namespace eyrie::ui {
 
 /// How long the motion vectors of a run lived, and how long they belonged to a track (fig. 6.4).
-struct VectorLives {
+struct VectorLifetimes {
     int vectors = 0;
     double mean_life = 0;          ///< frames
     double mean_association = 0;   ///< frames
@@ -34,9 +34,9 @@ class VectorLifeCounter {
     void add(const FrameResult& result);
     /// To be called after the last frame.
     void finish();
-    VectorLives lives() const;
+    VectorLifetimes lives() const;
     /// Of these motion vectors only: the whole lives of those of a frame.
-    VectorLives livesOf(const std::vector<MotionVector>& vectors) const;
+    VectorLifetimes livesOf(const std::vector<MotionVector>& vectors) const;
     /// Speed of every motion vector of every frame, px/frame; ascending once finished.
     const std::vector<float>& speeds() const { return speeds_; }
 
@@ -45,18 +45,18 @@ class VectorLifeCounter {
         int frames = 0;
         int associated = 0;
     };
-    static VectorLives sumOf(const std::vector<Life>& all);
+    static VectorLifetimes sumOf(const std::vector<Life>& all);
     std::map<CornerId, Life> lives_;
     std::vector<float> speeds_;
 };
 
 /// Reads lives and speeds of a stored run in the background. The newest request wins. Signals arrive on the thread of
 /// this object.
-class VectorLivesReader : public QObject {
+class VectorLifetimesReader : public QObject {
     Q_OBJECT
 
  public:
-    explicit VectorLivesReader(QObject* parent = nullptr) : QObject(parent) {}
+    explicit VectorLifetimesReader(QObject* parent = nullptr) : QObject(parent) {}
 
     void read(const RunReference& run);
 
