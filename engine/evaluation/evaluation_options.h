@@ -14,9 +14,9 @@ namespace eyrie {
 /// | frames | those the ground truth names | all from 0 to the last; results in empty ones are false |
 /// | match | pairs of the frame before first, then one to one at maximum overlap | one assignment, pairs of the frame
 /// before weigh 1000 |
-/// | ignored objects | forgive every unmatched result that touches them | are removed, forgive nothing |
-/// | mostly tracked | at least 80 % | more than 80 % |
-/// | fragments | each change from tracked to not tracked | tracked runs − 1 |
+/// | ignored objects | every unmatched result that touches them is ignored, too | are removed, all other results count
+/// | | mostly tracked | at least 80 % | more than 80 % | | fragments | each change from tracked to not tracked |
+/// tracked runs − 1 |
 enum class Convention {
     thesis,    ///< Teutsch §7.1
     trackeval  ///< TrackEval, CLEAR with DO_PREPROC False

@@ -16,14 +16,14 @@ namespace {
 
 constexpr double kHotaEpsilon = std::numeric_limits<double>::epsilon();
 
-/// A frame without forgiven results; rows and columns as numbers of tracks.
+/// A frame without ignored results; rows and columns as numbers of tracks.
 struct HotaFrame {
     std::vector<int> truth;
     std::vector<int> results;
     Eigen::MatrixXd overlap;
 };
 
-HotaFrame withoutForgiven(const EvaluationFrame& frame) {
+HotaFrame withoutIgnored(const EvaluationFrame& frame) {
     std::vector<char> keep(frame.results.size(), 1);
     if (std::count(frame.forgivable.begin(), frame.forgivable.end(), 0) < static_cast<long>(keep.size())) {
         for (std::size_t j = 0; j < keep.size(); ++j) keep[j] = frame.forgivable[j] ? 0 : 1;
@@ -116,7 +116,7 @@ double meanOf(const HotaCurve& curve) {
 HotaMeasures hotaMeasures(const EvaluationInput& input) {
     std::vector<HotaFrame> frames;
     frames.reserve(input.frames.size());
-    for (const EvaluationFrame& frame : input.frames) frames.push_back(withoutForgiven(frame));
+    for (const EvaluationFrame& frame : input.frames) frames.push_back(withoutIgnored(frame));
     const Alignment alignment = alignTracks(frames, input.truth_ids.size(), input.result_ids.size());
     const PairOverlaps pairs = pairTracks(frames, alignment);
     const double objects = total(alignment.truth_frames);

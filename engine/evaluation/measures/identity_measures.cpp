@@ -14,10 +14,10 @@ IdentityMeasures identityMeasures(const EvaluationInput& input, const std::vecto
     int results = 0;
     for (std::size_t f = 0; f < input.frames.size(); ++f) {
         const EvaluationFrame& frame = input.frames[f];
-        const std::vector<int>& forgiven = matches[f].ignored_results;
+        const std::vector<int>& ignored = matches[f].ignored_results;
         objects += static_cast<int>(frame.truth.size());
         for (std::size_t j = 0; j < frame.results.size(); ++j) {
-            if (std::binary_search(forgiven.begin(), forgiven.end(), frame.results[j])) continue;
+            if (std::binary_search(ignored.begin(), ignored.end(), frame.results[j])) continue;
             ++results;
             for (std::size_t i = 0; i < frame.truth.size(); ++i) {
                 const double shared = frame.overlap(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));

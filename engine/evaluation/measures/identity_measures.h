@@ -16,7 +16,7 @@ struct IdentityMeasures {
     double idf1 = 0;
 };
 
-/// Results that `matches` forgives are left out. `input.has_tracks` must hold.
+/// Results that `matches` ignores are left out. `input.has_tracks` must hold.
 IdentityMeasures identityMeasures(const EvaluationInput& input, const std::vector<FrameMatch>& matches,
                                   const EvaluationOptions& options);
 

@@ -88,7 +88,7 @@ QColor verdictColour(VerdictKind kind, PaletteKind palette) {
             return safe ? QColor(204, 121, 167) : QColor(255, 110, 255);
         case VerdictKind::fragment:
             return safe ? QColor(86, 180, 233) : QColor(90, 190, 255);
-        case VerdictKind::forgiven:
+        case VerdictKind::ignored:
             return {170, 170, 170};
     }
     return {};
@@ -107,7 +107,7 @@ QString verdictText(VerdictKind kind) {
             return tr("switched");
         case VerdictKind::fragment:
             return tr("lost here");
-        case VerdictKind::forgiven:
+        case VerdictKind::ignored:
             return tr("not counted");
     }
     return {};
@@ -127,13 +127,13 @@ void VerdictLayer::paint(QPainter& painter, const OverlayScene& scene) const {
         appendBox(around, wider, scene.transform, scene.view);
     }
     const QColor edge = scene.style.colours.edge;
-    for (const VerdictKind kind : {VerdictKind::forgiven, VerdictKind::found, VerdictKind::missed,
+    for (const VerdictKind kind : {VerdictKind::ignored, VerdictKind::found, VerdictKind::missed,
                                    VerdictKind::false_alarm, VerdictKind::fragment, VerdictKind::switched}) {
-        const bool quiet = kind == VerdictKind::found || kind == VerdictKind::forgiven;
+        const bool quiet = kind == VerdictKind::found || kind == VerdictKind::ignored;
         const bool without_result = kind == VerdictKind::missed || kind == VerdictKind::fragment;
-        const Qt::PenStyle style = kind == VerdictKind::forgiven ? Qt::DotLine
-                                   : without_result              ? Qt::DashLine
-                                                                 : Qt::SolidLine;
+        const Qt::PenStyle style = kind == VerdictKind::ignored ? Qt::DotLine
+                                   : without_result             ? Qt::DashLine
+                                                                : Qt::SolidLine;
         drawEdgedLines(painter, lines[static_cast<std::size_t>(kind)],
                        {verdictColour(kind, scene.style.palette), edge, quiet ? kThin : kThick, style});
     }

@@ -13,7 +13,7 @@ enum class VerdictKind {
     false_alarm,  ///< false positive: the result's box
     switched,     ///< found, under another id than before
     fragment,     ///< missed from here on after it was followed
-    forgiven      ///< counts neither way
+    ignored       ///< counts neither way
 };
 inline constexpr int kVerdictKinds = 6;
 

@@ -232,8 +232,8 @@ std::vector<VerdictMark> EvaluationSession::marksAt(FrameIndex frame) const {
     const auto objectText = [](const BoxRecord& record) {
         return record.id ? tr("object %1").arg(*record.id) : QString();
     };
-    for (const int index : match.ignored_results) mark(VerdictKind::forgiven, at_index(results, index), {});
-    for (const int index : match.border_results) mark(VerdictKind::forgiven, at_index(results, index), {});
+    for (const int index : match.ignored_results) mark(VerdictKind::ignored, at_index(results, index), {});
+    for (const int index : match.border_results) mark(VerdictKind::ignored, at_index(results, index), {});
     for (const MatchedPair& pair : match.pairs) {
         const auto switched = switches.find(pair.truth);
         if (switched == switches.end()) {
