@@ -30,9 +30,9 @@ std::map<int, FrameIndex> firstFrames(const BoxesByFrame& truth) {
     return first;
 }
 
-/// Places of all mistakes by frame.
+/// Places of all errors by frame.
 struct Placed {
-    std::size_t mistake;
+    std::size_t error;
     std::size_t place;
 };
 
@@ -41,8 +41,8 @@ struct PartsOfFrame {
     std::set<int> split_objects, split_results, merged_objects;
 };
 
-void takeMostFrequent(DiagnosedMistake& diagnosed, const std::vector<CauseHere>& causes) {
-    std::array<int, kMistakeCauses> counts{};
+void takeMostFrequent(DiagnosedError& diagnosed, const std::vector<CauseHere>& causes) {
+    std::array<int, kErrorCauses> counts{};
     for (const CauseHere& here : causes) ++counts[static_cast<std::size_t>(here.cause)];
     counts[0] = 0;  // an explanation, however rare, is better than none
     std::size_t best = causes.size();
@@ -52,7 +52,7 @@ void takeMostFrequent(DiagnosedMistake& diagnosed, const std::vector<CauseHere>&
             best = i;
     }
     if (best == causes.size()) {
-        diagnosed.place = diagnosed.mistake.places.size() / 2;
+        diagnosed.place = diagnosed.error.places.size() / 2;
         return;
     }
     diagnosed.cause = causes[best].cause;
@@ -67,10 +67,10 @@ void takeMostFrequent(DiagnosedMistake& diagnosed, const std::vector<CauseHere>&
     }
 }
 
-/// Causes of switches and fragments follow from the other mistakes and from who found what.
+/// Causes of switches and fragments follow from the other errors and from who found what.
 class IdentityCauses {
  public:
-    IdentityCauses(const Comparison& comparison, const std::vector<DiagnosedMistake>& all)
+    IdentityCauses(const Comparison& comparison, const std::vector<DiagnosedError>& all)
         : comparison_(comparison), all_(all) {
         for (const FrameMatch& match : comparison.matches)
             for (const MatchedPair& pair : match.pairs) {
@@ -83,36 +83,36 @@ class IdentityCauses {
                 if (record.id) last_seen_[*record.id] = frame;
     }
 
-    void explainSwitch(DiagnosedMistake& diagnosed) const {
-        const Mistake& mistake = diagnosed.mistake;
-        const int object = mistake.objects.front();
-        const int before = mistake.tracks.front();
-        const int after = mistake.tracks.back();
+    void explainSwitch(DiagnosedError& diagnosed) const {
+        const ResultError& error = diagnosed.error;
+        const int object = error.objects.front();
+        const int before = error.tracks.front();
+        const int after = error.tracks.back();
         diagnosed.frames_of_cause = 1;
-        const auto other = lastObjectOf(after, mistake.last_frame, object);
-        const auto went_to = objectAt(before, mistake.last_frame);
+        const auto other = lastObjectOf(after, error.last_frame, object);
+        const auto went_to = objectAt(before, error.last_frame);
         if (other || (went_to && *went_to != object)) {
-            diagnosed.cause = MistakeCause::swapped;
+            diagnosed.cause = ErrorCause::swapped;
             diagnosed.text =
                 other ? "track " + std::to_string(after) + " followed object " + std::to_string(*other)
                       : "track " + std::to_string(before) + " now follows object " + std::to_string(*went_to);
             return;
         }
         const auto last = last_seen_.find(before);
-        if (last != last_seen_.end() && last->second >= mistake.last_frame) {
-            diagnosed.cause = MistakeCause::track_left;
+        if (last != last_seen_.end() && last->second >= error.last_frame) {
+            diagnosed.cause = ErrorCause::track_left;
             diagnosed.text = "track " + std::to_string(before) + " goes on to frame " + std::to_string(last->second);
             return;
         }
-        diagnosed.cause = MistakeCause::track_ended;
+        diagnosed.cause = ErrorCause::track_ended;
         if (last != last_seen_.end())
             diagnosed.text = "track " + std::to_string(before) + " ends in frame " + std::to_string(last->second);
-        if (const DiagnosedMistake* miss = missWithin(object, mistake.first_frame, mistake.last_frame))
+        if (const DiagnosedError* miss = missWithin(object, error.first_frame, error.last_frame))
             diagnosed.text += std::string(diagnosed.text.empty() ? "" : ", then: ") + nameOf(miss->cause);
     }
-    void explainFragment(DiagnosedMistake& diagnosed) const {
-        const Mistake& mistake = diagnosed.mistake;
-        const DiagnosedMistake* miss = missWithin(mistake.objects.front(), mistake.first_frame, mistake.last_frame);
+    void explainFragment(DiagnosedError& diagnosed) const {
+        const ResultError& error = diagnosed.error;
+        const DiagnosedError* miss = missWithin(error.objects.front(), error.first_frame, error.last_frame);
         if (miss == nullptr) return;
         diagnosed.cause = miss->cause;
         diagnosed.text = miss->text;
@@ -135,19 +135,19 @@ class IdentityCauses {
         --last;
         return last->second == object ? std::nullopt : std::optional(last->second);
     }
-    const DiagnosedMistake* missWithin(int object, FrameIndex first, FrameIndex last) const {
-        const DiagnosedMistake* found = nullptr;
-        for (const DiagnosedMistake& one : all_) {
-            const Mistake& m = one.mistake;
-            if (m.kind != MistakeKind::miss || m.objects.empty() || m.objects.front() != object) continue;
+    const DiagnosedError* missWithin(int object, FrameIndex first, FrameIndex last) const {
+        const DiagnosedError* found = nullptr;
+        for (const DiagnosedError& one : all_) {
+            const ResultError& m = one.error;
+            if (m.kind != ResultErrorKind::miss || m.objects.empty() || m.objects.front() != object) continue;
             if (m.last_frame < first || m.first_frame > last) continue;
-            if (found == nullptr || m.count() > found->mistake.count()) found = &one;
+            if (found == nullptr || m.count() > found->error.count()) found = &one;
         }
         return found;
     }
 
     const Comparison& comparison_;
-    const std::vector<DiagnosedMistake>& all_;
+    const std::vector<DiagnosedError>& all_;
     std::map<int, std::map<FrameIndex, int>> found_;  ///< per track: the object it found in each frame
     std::map<int, FrameIndex> last_seen_;             ///< per track
 };
@@ -183,34 +183,35 @@ class Diagnoser::FrameLookup {
     std::list<BoxFacts> copies_;  ///< the known ones move when more are added
 };
 
-std::vector<DiagnosedMistake> Diagnoser::diagnose(std::vector<Mistake> mistakes, const Comparison& comparison,
-                                                  const std::stop_token& stop) {
+std::vector<DiagnosedError> Diagnoser::diagnose(std::vector<ResultError> errors, const Comparison& comparison,
+                                                const std::stop_token& stop) {
     if (upright_ != comparison.options.upright) known_.clear();
     upright_ = comparison.options.upright;
-    std::vector<DiagnosedMistake> diagnosed;
-    diagnosed.reserve(mistakes.size());
-    for (Mistake& mistake : mistakes) {
+    std::vector<DiagnosedError> diagnosed;
+    diagnosed.reserve(errors.size());
+    for (ResultError& error : errors) {
         diagnosed.emplace_back();
-        diagnosed.back().mistake = std::move(mistake);
+        diagnosed.back().error = std::move(error);
     }
     std::map<FrameIndex, std::vector<Placed>> by_frame;
     std::map<FrameIndex, PartsOfFrame> parts;
     for (std::size_t m = 0; m < diagnosed.size(); ++m) {
-        const Mistake& mistake = diagnosed[m].mistake;
-        for (std::size_t p = 0; p < mistake.places.size(); ++p) {
-            const MistakePlace& place = mistake.places[p];
+        const ResultError& error = diagnosed[m].error;
+        for (std::size_t p = 0; p < error.places.size(); ++p) {
+            const ErrorPlace& place = error.places[p];
             by_frame[place.frame].push_back({m, p});
             PartsOfFrame& here = parts[place.frame];
-            if (mistake.kind == MistakeKind::split) {
+            if (error.kind == ResultErrorKind::split) {
                 here.split_objects.insert(place.truth.begin(), place.truth.end());
                 here.split_results.insert(place.results.begin(), place.results.end());
             }
-            if (mistake.kind == MistakeKind::merge) here.merged_objects.insert(place.truth.begin(), place.truth.end());
+            if (error.kind == ResultErrorKind::merge)
+                here.merged_objects.insert(place.truth.begin(), place.truth.end());
         }
     }
     const std::map<int, FrameIndex> first_frames = firstFrames(comparison.truth);
     std::vector<std::vector<CauseHere>> causes(diagnosed.size());
-    for (std::size_t m = 0; m < diagnosed.size(); ++m) causes[m].resize(diagnosed[m].mistake.places.size());
+    for (std::size_t m = 0; m < diagnosed.size(); ++m) causes[m].resize(diagnosed[m].error.places.size());
 
     FrameIndex unregistered = -1000;
     std::size_t position = 0;  // of the frame among those compared
@@ -220,60 +221,60 @@ std::vector<DiagnosedMistake> Diagnoser::diagnose(std::vector<Mistake> mistakes,
         FrameLookup lookup(*this, frame);
         const PartsOfFrame& here = parts[frame];
         for (const auto& [m, p] : placed) {
-            const Mistake& mistake = diagnosed[m].mistake;
-            if (mistake.kind == MistakeKind::id_switch || mistake.kind == MistakeKind::fragment) continue;
-            const MistakePlace& place = mistake.places[p];
-            MistakeEvidence evidence{.truth = recordsOf(comparison.truth, frame),
-                                     .result = recordsOf(comparison.result, frame),
-                                     .frame = comparison.input.frames[position],
-                                     .match = comparison.matches[position],
-                                     .min_overlap = comparison.options.overlap,
-                                     .upright = comparison.options.upright,
-                                     .facts = lookup.at(place.box),
-                                     .object_facts = {},
-                                     .frames_needed = source_.options.motion.min_age};
+            const ResultError& error = diagnosed[m].error;
+            if (error.kind == ResultErrorKind::id_switch || error.kind == ResultErrorKind::fragment) continue;
+            const ErrorPlace& place = error.places[p];
+            ErrorEvidence evidence{.truth = recordsOf(comparison.truth, frame),
+                                   .result = recordsOf(comparison.result, frame),
+                                   .frame = comparison.input.frames[position],
+                                   .match = comparison.matches[position],
+                                   .min_overlap = comparison.options.overlap,
+                                   .upright = comparison.options.upright,
+                                   .facts = lookup.at(place.box),
+                                   .object_facts = {},
+                                   .frames_needed = source_.options.motion.min_age};
             if (evidence.facts != nullptr && evidence.facts->registration == RegistrationState::failed)
                 unregistered = frame;
             evidence.recently_unregistered = frame - unregistered <= kRecently;
-            switch (mistake.kind) {
-                case MistakeKind::miss: {
+            switch (error.kind) {
+                case ResultErrorKind::miss: {
                     const int object = place.truth.front();
                     evidence.in_split = here.split_objects.contains(object);
                     evidence.in_merge = here.merged_objects.contains(object);
                     FrameIndex since = source_.first_frame;
-                    if (!mistake.objects.empty())
-                        since = std::max(since, first_frames.at(mistake.objects.front()));
+                    if (!error.objects.empty())
+                        since = std::max(since, first_frames.at(error.objects.front()));
                     else
-                        since = std::max(since, mistake.first_frame);
+                        since = std::max(since, error.first_frame);
                     evidence.frames_in_view = frame - since;
                     causes[m][p] = causeOfMiss(place, evidence);
                     break;
                 }
-                case MistakeKind::false_alarm:
+                case ResultErrorKind::false_alarm:
                     evidence.in_split = here.split_results.contains(place.results.front());
                     causes[m][p] = causeOfFalseAlarm(place, evidence);
                     break;
-                case MistakeKind::split:
+                case ResultErrorKind::split:
                     causes[m][p] = causeOfSplit(place, evidence);
                     break;
-                case MistakeKind::merge:
+                case ResultErrorKind::merge:
                     for (const int object : place.truth) {
                         const auto& record = recordsOf(comparison.truth, frame)[static_cast<std::size_t>(object)];
                         if (const BoxFacts* facts = lookup.at(record.box)) evidence.object_facts.push_back(facts);
                     }
                     causes[m][p] = causeOfMerge(place, evidence);
                     break;
-                case MistakeKind::id_switch:
-                case MistakeKind::fragment:
+                case ResultErrorKind::id_switch:
+                case ResultErrorKind::fragment:
                     break;
             }
         }
     }
     for (std::size_t m = 0; m < diagnosed.size(); ++m) takeMostFrequent(diagnosed[m], causes[m]);
     const IdentityCauses identities(comparison, diagnosed);
-    for (DiagnosedMistake& one : diagnosed) {
-        if (one.mistake.kind == MistakeKind::id_switch) identities.explainSwitch(one);
-        if (one.mistake.kind == MistakeKind::fragment) identities.explainFragment(one);
+    for (DiagnosedError& one : diagnosed) {
+        if (one.error.kind == ResultErrorKind::id_switch) identities.explainSwitch(one);
+        if (one.error.kind == ResultErrorKind::fragment) identities.explainFragment(one);
     }
     return diagnosed;
 }

@@ -24,13 +24,13 @@ struct DiagnosisSource {
                                                                              empty function: nothing is stored */
 };
 
-/// A mistake with its probable cause.
-struct DiagnosedMistake {
-    Mistake mistake;
-    MistakeCause cause = MistakeCause::unknown;  ///< the most frequent one of its frames, the earlier where two are
-    std::string text;                            ///< the numbers behind it in frame `place`; may be empty
-    std::size_t place = 0;                       ///< the place that shows the cause, index into Mistake::places
-    int frames_of_cause = 0;                     ///< places with this cause
+/// An error with its probable cause.
+struct DiagnosedError {
+    ResultError error;
+    ErrorCause cause = ErrorCause::unknown;  ///< the most frequent one of its frames, the earlier where two are
+    std::string text;                        ///< the numbers behind it in frame `place`; may be empty
+    std::size_t place = 0;                   ///< the place that shows the cause, index into ResultError::places
+    int frames_of_cause = 0;                 ///< places with this cause
 };
 
 /// Ground truth, result and their comparison.
@@ -42,15 +42,15 @@ struct Comparison {
     const EvaluationOptions& options;
 };
 
-/// Finds the probable causes of mistakes. Keeps what it looked up in the run, so that scoring again after a change of
+/// Finds the probable causes of errors. Keeps what it looked up in the run, so that scoring again after a change of
 /// the ground truth reads little. For one thread.
 class Diagnoser {
  public:
     explicit Diagnoser(DiagnosisSource source) : source_(std::move(source)) {}
 
-    /// In the order of `mistakes`. When `stop` is requested the rest stays unknown. Throws what the source throws.
-    std::vector<DiagnosedMistake> diagnose(std::vector<Mistake> mistakes, const Comparison& comparison,
-                                           const std::stop_token& stop = {});
+    /// In the order of `errors`. When `stop` is requested the rest stays unknown. Throws what the source throws.
+    std::vector<DiagnosedError> diagnose(std::vector<ResultError> errors, const Comparison& comparison,
+                                         const std::stop_token& stop = {});
 
  private:
     struct Known {

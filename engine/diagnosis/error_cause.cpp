@@ -54,7 +54,7 @@ struct Candidate {
     double overlap = 0;
     const MatchedPair* taken = nullptr;  ///< the object it found instead
 };
-Candidate nearestResult(const OrientedBox& box, const MistakeEvidence& evidence, bool taken) {
+Candidate nearestResult(const OrientedBox& box, const ErrorEvidence& evidence, bool taken) {
     Candidate best;
     for (const int index : evidence.frame.results) {
         const MatchedPair* pair = pairOfResult(evidence.match, index);
@@ -74,11 +74,11 @@ CauseHere rejectedAs(const BoxFacts& facts) {
     const std::string vectors = std::to_string(facts.rejected_vectors) + " motion vectors in the box";
     switch (facts.rejection) {
         case Rejection::duplicate:
-            return {MistakeCause::removed_duplicate, "a detection here was fused into another"};
+            return {ErrorCause::removed_duplicate, "a detection here was fused into another"};
         case Rejection::outlier:
-            return {MistakeCause::removed_outlier, vectors};
+            return {ErrorCause::removed_outlier, vectors};
         case Rejection::size:
-            return {MistakeCause::removed_size, ""};
+            return {ErrorCause::removed_size, ""};
         case Rejection::none:
             break;
     }
@@ -90,58 +90,58 @@ CauseHere notClustered(const BoxFacts& facts) {
     const ClusteringVerdict& verdict = facts.clustering;
     const std::string vectors = std::to_string(facts.motion_vectors) + " motion vectors";
     if (facts.by_differences)
-        return {MistakeCause::not_clustered, vectors + ", but the difference image shows nothing (motion.method)"};
+        return {ErrorCause::not_clustered, vectors + ", but the difference image shows nothing (motion.method)"};
     const std::string linked = std::to_string(verdict.group.size());
     const std::string size = number(verdict.value, 1) + " px";
     const std::string by = " (" + verdict.parameter + ")";
     switch (verdict.refusal) {
         case ClusterRefusal::too_few:
-            return {MistakeCause::too_few_vectors,
+            return {ErrorCause::too_few_vectors,
                     linked + " motion vectors, " + std::to_string(verdict.needed) + " make a cluster" + by};
         case ClusterRefusal::not_linked:
-            return {MistakeCause::not_clustered, vectors + ", but only " + linked + " are linked" + by};
+            return {ErrorCause::not_clustered, vectors + ", but only " + linked + " are linked" + by};
         case ClusterRefusal::split_off:
-            return {MistakeCause::not_clustered, "left over when a cluster of " + size + " was split" + by};
+            return {ErrorCause::not_clustered, "left over when a cluster of " + size + " was split" + by};
         case ClusterRefusal::too_long:
-            return {MistakeCause::not_clustered, "linked motion vectors are " + size + " long" + by};
+            return {ErrorCause::not_clustered, "linked motion vectors are " + size + " long" + by};
         case ClusterRefusal::too_wide:
-            return {MistakeCause::not_clustered, "linked motion vectors are " + size + " wide" + by};
+            return {ErrorCause::not_clustered, "linked motion vectors are " + size + " wide" + by};
         case ClusterRefusal::not_finite:
         case ClusterRefusal::none:
             break;
     }
-    return {MistakeCause::not_clustered, vectors};
+    return {ErrorCause::not_clustered, vectors};
 }
 
 /// What the stages before tracking tell of a missed object.
-CauseHere stageThatLost(const BoxFacts& facts, const MistakeEvidence& evidence) {
+CauseHere stageThatLost(const BoxFacts& facts, const ErrorEvidence& evidence) {
     const double needed = evidence.min_overlap;
-    if (facts.tentative.overlap >= needed) return {MistakeCause::tentative, ""};
+    if (facts.tentative.overlap >= needed) return {ErrorCause::tentative, ""};
     if (facts.dropped.overlap >= needed) {
         const bool unconfirmed = facts.drop.why == TrackDrop::unconfirmed;
-        return {unconfirmed ? MistakeCause::tentative : MistakeCause::track_dropped,
+        return {unconfirmed ? ErrorCause::tentative : ErrorCause::track_dropped,
                 textOf(facts.drop) + " (" + parameterOf(facts.drop.why) + ")"};
     }
     if (facts.kept.overlap >= needed)
-        return {MistakeCause::not_associated, "a detection overlaps it by " + number(facts.kept.overlap, 2)};
+        return {ErrorCause::not_associated, "a detection overlaps it by " + number(facts.kept.overlap, 2)};
     if (facts.rejected.overlap >= needed) return rejectedAs(facts);
     if (facts.kept.overlap >= kNearMiss * needed && facts.kept.overlap > 0)
-        return {MistakeCause::box_off, "detection: " + offText(facts.kept.overlap, needed)};
-    if (facts.registration == RegistrationState::failed) return {MistakeCause::unregistered, describe(facts.failure)};
+        return {ErrorCause::box_off, "detection: " + offText(facts.kept.overlap, needed)};
+    if (facts.registration == RegistrationState::failed) return {ErrorCause::unregistered, describe(facts.failure)};
     if (!facts.clusters.empty())
-        return {MistakeCause::not_detected, std::to_string(facts.motion_vectors) + " motion vectors in a cluster"};
+        return {ErrorCause::not_detected, std::to_string(facts.motion_vectors) + " motion vectors in a cluster"};
     if (facts.motion_vectors > 0) return notClustered(facts);
     if (evidence.frames_in_view < evidence.frames_needed)
-        return {MistakeCause::too_new, "came into view " + std::to_string(evidence.frames_in_view) +
-                                           " frames before, corners are judged after " +
-                                           std::to_string(evidence.frames_needed)};
+        return {ErrorCause::too_new, "came into view " + std::to_string(evidence.frames_in_view) +
+                                         " frames before, corners are judged after " +
+                                         std::to_string(evidence.frames_needed)};
     if (facts.corners > 0)
-        return {MistakeCause::too_slow, std::to_string(facts.corners) + " corners, none counts as moving"};
-    return {MistakeCause::no_corners, ""};
+        return {ErrorCause::too_slow, std::to_string(facts.corners) + " corners, none counts as moving"};
+    return {ErrorCause::no_corners, ""};
 }
 
 /// The counting object that a false result moves along with, −1: none.
-int companionOf(const BoxRecord& alarm, cv::Point2d velocity, const MistakeEvidence& evidence) {
+int companionOf(const BoxRecord& alarm, cv::Point2d velocity, const ErrorEvidence& evidence) {
     for (const MatchedPair& pair : evidence.match.pairs) {
         const BoxRecord& found = at(evidence.result, pair.result);
         const OrientedBox& box = at(evidence.truth, pair.truth).box;
@@ -162,13 +162,13 @@ bool looksLikeParallax(cv::Point2d flow, cv::Point2d velocity) {
 }
 
 /// What a false alarm has to do with objects of the ground truth.
-std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const MistakeEvidence& evidence) {
-    if (evidence.in_split) return CauseHere{MistakeCause::split, "a part of an object"};
+std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const ErrorEvidence& evidence) {
+    if (evidence.in_split) return CauseHere{ErrorCause::split, "a part of an object"};
     for (const MatchedPair& pair : evidence.match.pairs) {
         const BoxRecord& object = at(evidence.truth, pair.truth);
         if (containment(alarm.box, object.box) >= kOnObject)
-            return CauseHere{MistakeCause::duplicate, nameOf("object", object.id) + " is found by " +
-                                                          nameOf("track", at(evidence.result, pair.result).id)};
+            return CauseHere{ErrorCause::duplicate, nameOf("object", object.id) + " is found by " +
+                                                        nameOf("track", at(evidence.result, pair.result).id)};
     }
     double best = 0;
     int nearest = -1;
@@ -179,13 +179,13 @@ std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const MistakeEv
         nearest = missed;
     }
     if (nearest >= 0)
-        return CauseHere{MistakeCause::box_off,
+        return CauseHere{ErrorCause::box_off,
                          nameOf("object", at(evidence.truth, nearest).id) + ": " + offText(best, evidence.min_overlap)};
     for (const int index : evidence.frame.ignored_truth) {
         const BoxRecord& ignored = at(evidence.truth, index);
         if (overlap(alarm.box.scaled(kBesideIgnored, kBesideIgnored),
                     ignored.box.scaled(kBesideIgnored, kBesideIgnored)) > 0)
-            return CauseHere{MistakeCause::ignored_object,
+            return CauseHere{ErrorCause::ignored_object,
                              ignored.object_class.empty() ? std::string()
                                                           : "beside an ignored object (" + ignored.object_class + ")"};
     }
@@ -194,59 +194,59 @@ std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const MistakeEv
 
 }  // namespace
 
-CauseHere causeOfMiss(const MistakePlace& place, const MistakeEvidence& evidence) {
-    if (evidence.in_split) return {MistakeCause::split, ""};
+CauseHere causeOfMiss(const ErrorPlace& place, const ErrorEvidence& evidence) {
+    if (evidence.in_split) return {ErrorCause::split, ""};
     const Candidate taken = nearestResult(place.box, evidence, true);
     const Candidate free = nearestResult(place.box, evidence, false);
     if (evidence.in_merge || taken.overlap >= evidence.min_overlap) {
-        if (taken.taken == nullptr) return {MistakeCause::merged, ""};
-        return {MistakeCause::merged, "its box went to " + nameOf("object", at(evidence.truth, taken.taken->truth).id)};
+        if (taken.taken == nullptr) return {ErrorCause::merged, ""};
+        return {ErrorCause::merged, "its box went to " + nameOf("object", at(evidence.truth, taken.taken->truth).id)};
     }
     for (const int index : evidence.frame.border_results) {
         const OrientedBox& other = at(evidence.result, index).box;
         if ((evidence.upright ? overlap(place.box.upright(), other.upright()) : overlap(place.box, other)) >=
             evidence.min_overlap)
-            return {MistakeCause::at_border, ""};
+            return {ErrorCause::at_border, ""};
     }
     if (free.overlap > 0 && free.overlap >= kNearMiss * evidence.min_overlap)
-        return {MistakeCause::box_off, offText(free.overlap, evidence.min_overlap)};
+        return {ErrorCause::box_off, offText(free.overlap, evidence.min_overlap)};
     if (evidence.facts == nullptr) return {};
     return stageThatLost(*evidence.facts, evidence);
 }
 
-CauseHere causeOfFalseAlarm(const MistakePlace& place, const MistakeEvidence& evidence) {
+CauseHere causeOfFalseAlarm(const ErrorPlace& place, const ErrorEvidence& evidence) {
     const BoxRecord& alarm = at(evidence.result, place.results.front());
     const BoxFacts* facts = evidence.facts;
     if (facts != nullptr && !facts->image.empty() &&
         !cv::Rect2d(-0.5, -0.5, facts->image.width, facts->image.height).contains(alarm.box.centre))
-        return {MistakeCause::outside_image, ""};
+        return {ErrorCause::outside_image, ""};
     if (const auto related = relationToTruth(alarm, evidence)) return *related;
     if (evidence.recently_unregistered || (facts != nullptr && facts->registration == RegistrationState::failed))
-        return {MistakeCause::unregistered, facts != nullptr ? describe(facts->failure) : std::string()};
-    if (alarm.origin == eyrie::nameOf(StateOrigin::predicted)) return {MistakeCause::coasting, ""};
+        return {ErrorCause::unregistered, facts != nullptr ? describe(facts->failure) : std::string()};
+    if (alarm.origin == eyrie::nameOf(StateOrigin::predicted)) return {ErrorCause::coasting, ""};
     const bool has_own = length(alarm.velocity) >= kSlowest || facts == nullptr;
     const cv::Point2d velocity = has_own ? alarm.velocity : facts->velocity;
     if (const int companion = companionOf(alarm, velocity, evidence); companion >= 0)
-        return {MistakeCause::shadow, "moves along beside " + nameOf("object", at(evidence.truth, companion).id)};
+        return {ErrorCause::shadow, "moves along beside " + nameOf("object", at(evidence.truth, companion).id)};
     if (facts == nullptr) return {};
     if (looksLikeParallax(facts->flow, velocity))
-        return {MistakeCause::parallax, number(length(velocity), 2) + " px/frame along the camera's own motion of " +
-                                            number(length(facts->flow), 2)};
+        return {ErrorCause::parallax, number(length(velocity), 2) + " px/frame along the camera's own motion of " +
+                                          number(length(facts->flow), 2)};
     if (facts->motion_vectors > 0)
-        return {MistakeCause::unlabelled, std::to_string(facts->motion_vectors) + " motion vectors of " +
-                                              number(length(facts->velocity), 2) + " px/frame"};
+        return {ErrorCause::unlabelled, std::to_string(facts->motion_vectors) + " motion vectors of " +
+                                            number(length(facts->velocity), 2) + " px/frame"};
     return {};
 }
 
-CauseHere causeOfSplit(const MistakePlace&, const MistakeEvidence& evidence) {
+CauseHere causeOfSplit(const ErrorPlace&, const ErrorEvidence& evidence) {
     if (evidence.facts == nullptr) return {};
     const std::size_t clusters = evidence.facts->clusters.size();
     if (clusters == 0) return {};
-    if (clusters > 1) return {MistakeCause::clustered_apart, std::to_string(clusters) + " clusters"};
-    return {MistakeCause::segmented_apart, ""};
+    if (clusters > 1) return {ErrorCause::clustered_apart, std::to_string(clusters) + " clusters"};
+    return {ErrorCause::segmented_apart, ""};
 }
 
-CauseHere causeOfMerge(const MistakePlace&, const MistakeEvidence& evidence) {
+CauseHere causeOfMerge(const ErrorPlace&, const ErrorEvidence& evidence) {
     if (evidence.object_facts.size() < 2) return {};
     const auto shared = [&](auto list) {
         for (const int index : list(*evidence.object_facts.front())) {
@@ -260,117 +260,117 @@ CauseHere causeOfMerge(const MistakePlace&, const MistakeEvidence& evidence) {
         return false;
     };
     if (shared([](const BoxFacts& f) -> const std::vector<int>& { return f.clusters; }))
-        return {MistakeCause::clustered_together, ""};
+        return {ErrorCause::clustered_together, ""};
     if (shared([](const BoxFacts& f) -> const std::vector<int>& { return f.covering; }))
-        return {MistakeCause::segmented_together, ""};
-    return {MistakeCause::tracked_together, ""};
+        return {ErrorCause::segmented_together, ""};
+    return {ErrorCause::tracked_together, ""};
 }
 
-const char* nameOf(MistakeCause cause) {
-    static constexpr const char* names[kMistakeCauses] = {"unknown",
-                                                          "not registered",
-                                                          "just came into view",
-                                                          "no corners",
-                                                          "too slow",
-                                                          "too few vectors",
-                                                          "not clustered",
-                                                          "not detected",
-                                                          "removed as duplicate",
-                                                          "removed as outlier",
-                                                          "removed by size",
-                                                          "not associated",
-                                                          "track not confirmed",
-                                                          "track left out",
-                                                          "box off",
-                                                          "merged",
-                                                          "split",
-                                                          "at the border",
-                                                          "duplicate",
-                                                          "ignored object",
-                                                          "outside the image",
-                                                          "coasting",
-                                                          "shadow",
-                                                          "parallax",
-                                                          "nothing labelled",
-                                                          "swapped",
-                                                          "track ended",
-                                                          "track left",
-                                                          "clustered together",
-                                                          "segmented together",
-                                                          "tracked together",
-                                                          "clustered apart",
-                                                          "segmented apart"};
+const char* nameOf(ErrorCause cause) {
+    static constexpr const char* names[kErrorCauses] = {"unknown",
+                                                        "not registered",
+                                                        "just came into view",
+                                                        "no corners",
+                                                        "too slow",
+                                                        "too few vectors",
+                                                        "not clustered",
+                                                        "not detected",
+                                                        "removed as duplicate",
+                                                        "removed as outlier",
+                                                        "removed by size",
+                                                        "not associated",
+                                                        "track not confirmed",
+                                                        "track left out",
+                                                        "box off",
+                                                        "merged",
+                                                        "split",
+                                                        "at the border",
+                                                        "duplicate",
+                                                        "ignored object",
+                                                        "outside the image",
+                                                        "coasting",
+                                                        "shadow",
+                                                        "parallax",
+                                                        "nothing labelled",
+                                                        "swapped",
+                                                        "track ended",
+                                                        "track left",
+                                                        "clustered together",
+                                                        "segmented together",
+                                                        "tracked together",
+                                                        "clustered apart",
+                                                        "segmented apart"};
     return names[static_cast<std::size_t>(cause)];
 }
 
-const char* explanationOf(MistakeCause cause) {
+const char* explanationOf(ErrorCause cause) {
     switch (cause) {
-        case MistakeCause::unknown:
+        case ErrorCause::unknown:
             return "Nothing that the run stored explains it.";
-        case MistakeCause::unregistered:
+        case ErrorCause::unregistered:
             return "The camera's motion could not be measured in this frame or just before (registration.*).";
-        case MistakeCause::too_new:
+        case ErrorCause::too_new:
             return "It has not been in view long enough for its corners to be judged (motion.min_age).";
-        case MistakeCause::no_corners:
+        case ErrorCause::no_corners:
             return "No corner was found in the box (registration.*: more, or weaker, corners).";
-        case MistakeCause::too_slow:
+        case ErrorCause::too_slow:
             return "There are corners in the box, but none moves fast enough (motion.min_speed, motion.sigma_factor).";
-        case MistakeCause::too_few_vectors:
+        case ErrorCause::too_few_vectors:
             return "Too few motion vectors for a cluster (clustering.min_members, clustering.min_density_share).";
-        case MistakeCause::not_clustered:
+        case ErrorCause::not_clustered:
             return "Its motion vectors lie too far apart, move too differently or are together too large for a cluster "
                    "(clustering.along, clustering.across and others).";
-        case MistakeCause::not_detected:
+        case ErrorCause::not_detected:
             return "It was clustered, but segmentation or classifier found no box there (detection.*).";
-        case MistakeCause::removed_duplicate:
+        case ErrorCause::removed_duplicate:
             return "It was detected, but fused into another detection (duplicates.*).";
-        case MistakeCause::removed_outlier:
+        case ErrorCause::removed_outlier:
             return "It was detected, but had too few motion vectors inside (outliers.min_vectors).";
-        case MistakeCause::removed_size:
+        case ErrorCause::removed_size:
             return "It was detected, but its size was out of bounds (outliers.min_length and others).";
-        case MistakeCause::not_associated:
+        case ErrorCause::not_associated:
             return "It was detected, but belongs to no track of the result (tracking.*).";
-        case MistakeCause::tentative:
+        case ErrorCause::tentative:
             return "It was followed, but the track was not confirmed (tracking.*).";
-        case MistakeCause::track_dropped:
+        case ErrorCause::track_dropped:
             return "It was followed, but the track was left out when the tracks were finished (finishing.*).";
-        case MistakeCause::box_off:
+        case ErrorCause::box_off:
             return "A box is there, but overlaps by less than T_ov.";
-        case MistakeCause::merged:
+        case ErrorCause::merged:
             return "It was taken for one with a neighbour.";
-        case MistakeCause::split:
+        case ErrorCause::split:
             return "The object was found in several parts.";
-        case MistakeCause::at_border:
+        case ErrorCause::at_border:
             return "It was found, but its result lies so near to the image's edge that it was left out.";
-        case MistakeCause::duplicate:
+        case ErrorCause::duplicate:
             return "A second box on an object that is found already (duplicates.*).";
-        case MistakeCause::ignored_object:
+        case ErrorCause::ignored_object:
             return "It lies beside an ignored object, such as a person or a standing vehicle.";
-        case MistakeCause::outside_image:
+        case ErrorCause::outside_image:
             return "Its middle lies outside the image: the track goes on after the object has left.";
-        case MistakeCause::coasting:
+        case ErrorCause::coasting:
             return "The track went on by prediction although nothing was detected (tracking.*).";
-        case MistakeCause::shadow:
+        case ErrorCause::shadow:
             return "It moves along beside an object: probably its shadow (motion.shadow_*).";
-        case MistakeCause::parallax:
+        case ErrorCause::parallax:
             return "It moves like the parallax of something that stands above the ground (motion.parallax_*).";
-        case MistakeCause::unlabelled:
+        case ErrorCause::unlabelled:
             return "It moves steadily, but no object is there. The ground truth may lack it.";
-        case MistakeCause::swapped:
+        case ErrorCause::swapped:
             return "The tracks of two objects were exchanged.";
-        case MistakeCause::track_ended:
+        case ErrorCause::track_ended:
             return "The old track ended and another began.";
-        case MistakeCause::track_left:
+        case ErrorCause::track_left:
             return "The old track went on, but not on this object.";
-        case MistakeCause::clustered_together:
+        case ErrorCause::clustered_together:
             return "One motion cluster has vectors of both (clustering.across, clustering.along).";
-        case MistakeCause::segmented_together:
+        case ErrorCause::segmented_together:
             return "Two clusters, but one detection covers both (detection.*).";
-        case MistakeCause::tracked_together:
+        case ErrorCause::tracked_together:
             return "Two detections, but one track (tracking.*).";
-        case MistakeCause::clustered_apart:
+        case ErrorCause::clustered_apart:
             return "Its motion vectors fell into several clusters (clustering.along).";
-        case MistakeCause::segmented_apart:
+        case ErrorCause::segmented_apart:
             return "One cluster gave several detections (detection.*).";
     }
     return "";

@@ -10,8 +10,8 @@
 
 namespace eyrie {
 
-/// What probably led to a mistake.
-enum class MistakeCause {
+/// What probably led to an error.
+enum class ErrorCause {
     unknown,             ///< nothing that is known explains it
     unregistered,        ///< the frame, or one shortly before, was not registered
     too_new,             ///< in view too shortly for its corners to be judged
@@ -46,14 +46,14 @@ enum class MistakeCause {
     clustered_apart,     ///< split: the object's vectors fell into several clusters
     segmented_apart,     ///< split: one cluster gave several detections
 };
-inline constexpr int kMistakeCauses = static_cast<int>(MistakeCause::segmented_apart) + 1;
+inline constexpr int kErrorCauses = static_cast<int>(ErrorCause::segmented_apart) + 1;
 /// The words used in files and on screen: "too slow", "removed as outlier" …
-const char* nameOf(MistakeCause cause);
+const char* nameOf(ErrorCause cause);
 /// One sentence for people; names the parameters that decide.
-const char* explanationOf(MistakeCause cause);
+const char* explanationOf(ErrorCause cause);
 
-/// What is known of a mistake in one frame.
-struct MistakeEvidence {
+/// What is known of an error in one frame.
+struct ErrorEvidence {
     const std::vector<BoxRecord>& truth;   ///< records of the frame
     const std::vector<BoxRecord>& result;  ///< records of the frame
     const EvaluationFrame& frame;
@@ -71,14 +71,14 @@ struct MistakeEvidence {
 
 /// A cause and the numbers behind it.
 struct CauseHere {
-    MistakeCause cause = MistakeCause::unknown;
+    ErrorCause cause = ErrorCause::unknown;
     std::string text;  ///< "2 motion vectors, 6 are needed for a cluster"; may be empty
 };
 
 /// Misses: the last stage that still had the object decides.
-CauseHere causeOfMiss(const MistakePlace& place, const MistakeEvidence& evidence);
-CauseHere causeOfFalseAlarm(const MistakePlace& place, const MistakeEvidence& evidence);
-CauseHere causeOfSplit(const MistakePlace& place, const MistakeEvidence& evidence);
-CauseHere causeOfMerge(const MistakePlace& place, const MistakeEvidence& evidence);
+CauseHere causeOfMiss(const ErrorPlace& place, const ErrorEvidence& evidence);
+CauseHere causeOfFalseAlarm(const ErrorPlace& place, const ErrorEvidence& evidence);
+CauseHere causeOfSplit(const ErrorPlace& place, const ErrorEvidence& evidence);
+CauseHere causeOfMerge(const ErrorPlace& place, const ErrorEvidence& evidence);
 
 }  // namespace eyrie

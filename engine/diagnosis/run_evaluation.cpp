@@ -143,14 +143,14 @@ std::shared_ptr<const RunEvaluation> RunEvaluator::evaluate(const EvaluationRequ
         e.difference = differenceTo(*request.other_run, *kept_->store, scoring, e);
     if (stop.stop_requested()) return nullptr;
 
-    std::vector<Mistake> mistakes = listMistakes(truth, e.result, scored.input, scored.matches, e.options);
+    std::vector<ResultError> errors = listErrors(truth, e.result, scored.input, scored.matches, e.options);
     if (request.with_causes) {
-        e.mistakes = kept_->diagnoser->diagnose(std::move(mistakes),
-                                                {truth, e.result, scored.input, scored.matches, e.options}, stop);
+        e.errors = kept_->diagnoser->diagnose(std::move(errors),
+                                              {truth, e.result, scored.input, scored.matches, e.options}, stop);
     } else {
-        for (Mistake& mistake : mistakes) {
-            e.mistakes.emplace_back();
-            e.mistakes.back().mistake = std::move(mistake);
+        for (ResultError& error : errors) {
+            e.errors.emplace_back();
+            e.errors.back().error = std::move(error);
         }
     }
     if (stop.stop_requested()) return nullptr;

@@ -55,7 +55,7 @@ struct RunEvaluation {
     Measures shown;               ///< at the shown T_ov
     std::vector<FrameMatch> matches;
     std::vector<FrameCounts> frames;
-    std::vector<DiagnosedMistake> mistakes;
+    std::vector<DiagnosedError> errors;
     BootstrapInterval f_score;
     std::optional<BootstrapInterval> mota;
     std::optional<RunDifference> difference;

@@ -30,42 +30,42 @@ void addId(std::vector<int>& ids, const std::optional<int>& id) {
     if (id && std::find(ids.begin(), ids.end(), *id) == ids.end()) ids.push_back(*id);
 }
 
-/// Puts mistakes of one kind together that go on from frame to frame.
+/// Puts errors of one kind together that go on from frame to frame.
 class Grouping {
  public:
-    Grouping(MistakeKind kind, std::vector<Mistake>& mistakes) : kind_(kind), mistakes_(mistakes) {}
+    Grouping(ResultErrorKind kind, std::vector<ResultError>& errors) : kind_(kind), errors_(errors) {}
 
     void nextFrame() {
         before_ = std::move(now_);
         now_.clear();
     }
-    /// The mistake that the place belongs to, new or continued; `id`: of what is followed.
-    Mistake& add(std::optional<int> id, MistakePlace place) {
+    /// The error that the place belongs to, new or continued; `id`: of what is followed.
+    ResultError& add(std::optional<int> id, ErrorPlace place) {
         const std::size_t index = find(id, place.box);
-        Mistake& mistake = mistakes_[index];
-        if (mistake.places.empty()) mistake.first_frame = place.frame;
-        mistake.last_frame = place.frame;
+        ResultError& error = errors_[index];
+        if (error.places.empty()) error.first_frame = place.frame;
+        error.last_frame = place.frame;
         now_.push_back({id, place.box, index});
-        mistake.places.push_back(std::move(place));
-        return mistake;
+        error.places.push_back(std::move(place));
+        return error;
     }
 
  private:
     struct Open {
         std::optional<int> id;
         OrientedBox box;
-        std::size_t mistake;
+        std::size_t error;
     };
     std::size_t find(const std::optional<int>& id, const OrientedBox& box) {
         for (const Open& open : before_)
-            if (open.id == id && (id || overlap(open.box, box) >= kSameBox)) return open.mistake;
-        mistakes_.push_back({});
-        mistakes_.back().kind = kind_;
-        return mistakes_.size() - 1;
+            if (open.id == id && (id || overlap(open.box, box) >= kSameBox)) return open.error;
+        errors_.push_back({});
+        errors_.back().kind = kind_;
+        return errors_.size() - 1;
     }
 
-    MistakeKind kind_;
-    std::vector<Mistake>& mistakes_;
+    ResultErrorKind kind_;
+    std::vector<ResultError>& errors_;
     std::vector<Open> before_;
     std::vector<Open> now_;
 };
@@ -116,20 +116,20 @@ class PartFinder {
 /// Switches and fragments of true tracks; the same rules as tallyTracks().
 class IdentityFinder {
  public:
-    IdentityFinder(Convention convention, std::vector<Mistake>& mistakes)
-        : thesis_(convention == Convention::thesis), mistakes_(mistakes) {}
+    IdentityFinder(Convention convention, std::vector<ResultError>& errors)
+        : thesis_(convention == Convention::thesis), errors_(errors) {}
 
-    void matched(int object, int track, const MistakePlace& place) {
+    void matched(int object, int track, const ErrorPlace& place) {
         Memory& memory = memory_[object];
         if (memory.track && *memory.track != track) {
-            Mistake mistake;
-            mistake.kind = MistakeKind::id_switch;
-            mistake.objects = {object};
-            mistake.tracks = {*memory.track, track};
-            mistake.first_frame = memory.matched_in;
-            mistake.last_frame = place.frame;
-            mistake.places.push_back(place);
-            mistakes_.push_back(std::move(mistake));
+            ResultError error;
+            error.kind = ResultErrorKind::id_switch;
+            error.objects = {object};
+            error.tracks = {*memory.track, track};
+            error.first_frame = memory.matched_in;
+            error.last_frame = place.frame;
+            error.places.push_back(place);
+            errors_.push_back(std::move(error));
         }
         if (!thesis_ && memory.track && !memory.tracked) begin(object, memory, memory.lost_at);
         memory.fragment.reset();
@@ -139,9 +139,9 @@ class IdentityFinder {
         memory.box = place.box;
         memory.lost_at.frame = -1;
     }
-    void missed(int object, const MistakePlace& place) {
+    void missed(int object, const ErrorPlace& place) {
         Memory& memory = memory_[object];
-        if (memory.fragment) mistakes_[*memory.fragment].last_frame = place.frame;
+        if (memory.fragment) errors_[*memory.fragment].last_frame = place.frame;
         if (memory.tracked && memory.lost_at.frame < 0) memory.lost_at = place;
         if (!thesis_ || !memory.tracked) return;
         memory.tracked = false;
@@ -167,22 +167,22 @@ class IdentityFinder {
         bool tracked = false;
         FrameIndex matched_in = -1;
         OrientedBox box;  ///< there
-        MistakePlace lost_at{.frame = -1, .box = {}, .truth = {}, .results = {}};
+        ErrorPlace lost_at{.frame = -1, .box = {}, .truth = {}, .results = {}};
         std::optional<std::size_t> fragment;  ///< the one that goes on
     };
-    void begin(int object, Memory& memory, const MistakePlace& place) {
-        Mistake mistake;
-        mistake.kind = MistakeKind::fragment;
-        mistake.objects = {object};
-        if (memory.track) mistake.tracks = {*memory.track};
-        mistake.first_frame = mistake.last_frame = place.frame;
-        mistake.places.push_back(place);
-        memory.fragment = mistakes_.size();
-        mistakes_.push_back(std::move(mistake));
+    void begin(int object, Memory& memory, const ErrorPlace& place) {
+        ResultError error;
+        error.kind = ResultErrorKind::fragment;
+        error.objects = {object};
+        if (memory.track) error.tracks = {*memory.track};
+        error.first_frame = error.last_frame = place.frame;
+        error.places.push_back(place);
+        memory.fragment = errors_.size();
+        errors_.push_back(std::move(error));
     }
 
     bool thesis_;
-    std::vector<Mistake>& mistakes_;
+    std::vector<ResultError>& errors_;
     std::map<int, Memory> memory_;
 };
 
@@ -193,9 +193,9 @@ void findParts(const std::vector<BoxRecord>& truth, const std::vector<BoxRecord>
         std::vector<int> parts = finder.partsOf(object);
         if (parts.size() < 2) continue;
         const BoxRecord& record = at(truth, object);
-        Mistake& mistake = splits.add(record.id, {frame.frame, record.box, {object}, parts});
-        addId(mistake.objects, record.id);
-        for (const int part : parts) addId(mistake.tracks, at(result, part).id);
+        ResultError& error = splits.add(record.id, {frame.frame, record.box, {object}, parts});
+        addId(error.objects, record.id);
+        for (const int part : parts) addId(error.tracks, at(result, part).id);
     }
     for (const int index : frame.results) {
         std::vector<int> objects = finder.objectsIn(index);
@@ -205,40 +205,40 @@ void findParts(const std::vector<BoxRecord>& truth, const std::vector<BoxRecord>
         });
         if (!any_missed) continue;
         const BoxRecord& record = at(result, index);
-        Mistake& mistake = merges.add(record.id, {frame.frame, record.box, objects, {index}});
-        addId(mistake.tracks, record.id);
-        for (const int object : objects) addId(mistake.objects, at(truth, object).id);
+        ResultError& error = merges.add(record.id, {frame.frame, record.box, objects, {index}});
+        addId(error.tracks, record.id);
+        for (const int object : objects) addId(error.objects, at(truth, object).id);
     }
 }
 
 }  // namespace
 
-const char* nameOf(MistakeKind kind) {
+const char* nameOf(ResultErrorKind kind) {
     switch (kind) {
-        case MistakeKind::miss:
+        case ResultErrorKind::miss:
             return "miss";
-        case MistakeKind::false_alarm:
+        case ResultErrorKind::false_alarm:
             return "false alarm";
-        case MistakeKind::id_switch:
+        case ResultErrorKind::id_switch:
             return "switch";
-        case MistakeKind::fragment:
+        case ResultErrorKind::fragment:
             return "fragment";
-        case MistakeKind::split:
+        case ResultErrorKind::split:
             return "split";
-        case MistakeKind::merge:
+        case ResultErrorKind::merge:
             return "merge";
     }
     return "";
 }
 
-std::vector<Mistake> listMistakes(const BoxesByFrame& truth, const BoxesByFrame& result, const EvaluationInput& input,
-                                  const std::vector<FrameMatch>& matches, const EvaluationOptions& options) {
-    std::vector<Mistake> mistakes;
-    Grouping misses(MistakeKind::miss, mistakes);
-    Grouping alarms(MistakeKind::false_alarm, mistakes);
-    Grouping splits(MistakeKind::split, mistakes);
-    Grouping merges(MistakeKind::merge, mistakes);
-    IdentityFinder identities(options.convention, mistakes);
+std::vector<ResultError> listErrors(const BoxesByFrame& truth, const BoxesByFrame& result, const EvaluationInput& input,
+                                    const std::vector<FrameMatch>& matches, const EvaluationOptions& options) {
+    std::vector<ResultError> errors;
+    Grouping misses(ResultErrorKind::miss, errors);
+    Grouping alarms(ResultErrorKind::false_alarm, errors);
+    Grouping splits(ResultErrorKind::split, errors);
+    Grouping merges(ResultErrorKind::merge, errors);
+    IdentityFinder identities(options.convention, errors);
 
     for (std::size_t f = 0; f < matches.size(); ++f) {
         const EvaluationFrame& frame = input.frames[f];
@@ -255,23 +255,23 @@ std::vector<Mistake> listMistakes(const BoxesByFrame& truth, const BoxesByFrame&
         }
         for (const int index : match.missed) {
             const BoxRecord& object = at(objects, index);
-            const MistakePlace place{frame.frame, object.box, {index}, {}};
-            Mistake& mistake = misses.add(object.id, place);
-            addId(mistake.objects, object.id);
+            const ErrorPlace place{frame.frame, object.box, {index}, {}};
+            ResultError& error = misses.add(object.id, place);
+            addId(error.objects, object.id);
             if (input.has_tracks) identities.missed(*object.id, place);
         }
         if (input.has_tracks) identities.endFrame(frame.frame, frame.truth.empty() || frame.results.empty());
         for (const int index : match.false_results) {
             const BoxRecord& record = at(results, index);
-            Mistake& mistake = alarms.add(record.id, {frame.frame, record.box, {}, {index}});
-            addId(mistake.tracks, record.id);
+            ResultError& error = alarms.add(record.id, {frame.frame, record.box, {}, {index}});
+            addId(error.tracks, record.id);
         }
         findParts(objects, results, frame, match, options.upright, splits, merges);
     }
-    std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& a, const Mistake& b) {
+    std::stable_sort(errors.begin(), errors.end(), [](const ResultError& a, const ResultError& b) {
         return a.first_frame != b.first_frame ? a.first_frame < b.first_frame : a.kind < b.kind;
     });
-    return mistakes;
+    return errors;
 }
 
 }  // namespace eyrie

@@ -24,9 +24,9 @@ std::string ids(const std::vector<int>& all, const char* between) {
     return text;
 }
 
-std::string frames(const Mistake& mistake) {
-    if (mistake.first_frame == mistake.last_frame) return std::to_string(mistake.first_frame);
-    return std::to_string(mistake.first_frame) + "–" + std::to_string(mistake.last_frame);
+std::string frames(const ResultError& error) {
+    if (error.first_frame == error.last_frame) return std::to_string(error.first_frame);
+    return std::to_string(error.first_frame) + "–" + std::to_string(error.last_frame);
 }
 
 std::string pngChip(const cv::Mat& gray, const OrientedBox& box) {
@@ -52,15 +52,15 @@ std::string pngChip(const cv::Mat& gray, const OrientedBox& box) {
 
 /// The errors with most frames, each once a kind, cause and place in the list; most first.
 std::vector<std::size_t> gravest(const RunEvaluation& e, std::size_t most) {
-    std::vector<std::size_t> order(e.mistakes.size());
+    std::vector<std::size_t> order(e.errors.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return e.mistakes[a].mistake.count() > e.mistakes[b].mistake.count();
+        return e.errors[a].error.count() > e.errors[b].error.count();
     });
     // Switches count once each however grave: every fourth place is theirs, where there are any.
     std::vector<std::size_t> rare;
     for (const std::size_t i : order)
-        if (e.mistakes[i].mistake.kind == MistakeKind::id_switch) rare.push_back(i);
+        if (e.errors[i].error.kind == ResultErrorKind::id_switch) rare.push_back(i);
     rare.resize(std::min(rare.size(), most / 4));
     std::vector<std::size_t> chosen;
     for (const std::size_t i : order) {
@@ -77,11 +77,11 @@ void tellCauses(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
     page.chapter("Errors by kind and probable cause");
     std::map<std::pair<int, int>, std::pair<int, int>> cells;  // kind, cause → entries, boxes
     std::map<int, int> by_cause;
-    for (const DiagnosedMistake& one : e.mistakes) {
-        auto& cell = cells[{static_cast<int>(one.mistake.kind), static_cast<int>(one.cause)}];
+    for (const DiagnosedError& one : e.errors) {
+        auto& cell = cells[{static_cast<int>(one.error.kind), static_cast<int>(one.cause)}];
         ++cell.first;
-        cell.second += one.mistake.count();
-        by_cause[static_cast<int>(one.cause)] += one.mistake.count();
+        cell.second += one.error.count();
+        by_cause[static_cast<int>(one.cause)] += one.error.count();
     }
     if (cells.empty()) {
         page.paragraph("No errors.");
@@ -90,14 +90,14 @@ void tellCauses(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
     std::vector<ChartBar> bars;
     bars.reserve(by_cause.size());
     for (const auto& [cause, count] : by_cause)
-        bars.push_back({nameOf(static_cast<MistakeCause>(cause)), kBar, static_cast<double>(count)});
+        bars.push_back({nameOf(static_cast<ErrorCause>(cause)), kBar, static_cast<double>(count)});
     std::stable_sort(bars.begin(), bars.end(), [](const ChartBar& a, const ChartBar& b) { return a.value > b.value; });
     report.figures["figure-causes"] = lyingBarsSvg(bars);
     page.figure("figure-causes", "How often each cause occurs, in boxes.");
     page.beginTable({"Kind", "Probable cause", "Errors", "Count", ""});
     for (const auto& [key, cell] : cells) {
-        const auto cause = static_cast<MistakeCause>(key.second);
-        page.row({markupEscaped(nameOf(static_cast<MistakeKind>(key.first))), markupEscaped(nameOf(cause)),
+        const auto cause = static_cast<ErrorCause>(key.second);
+        page.row({markupEscaped(nameOf(static_cast<ResultErrorKind>(key.first))), markupEscaped(nameOf(cause)),
                   std::to_string(cell.first), std::to_string(cell.second), markupEscaped(explanationOf(cause))});
     }
     page.endTable();
@@ -105,12 +105,10 @@ void tellCauses(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
 
 void addChips(ReportPage& page, const RunEvaluation& e, FrameSource* pixels, const ReportOptions& options,
               EvaluationReportFile& report, const std::function<void(double)>& progress, const std::stop_token& stop) {
-    if (e.mistakes.empty() || pixels == nullptr || options.chips == 0) return;
+    if (e.errors.empty() || pixels == nullptr || options.chips == 0) return;
     std::vector<std::size_t> chosen = gravest(e, options.chips);
     std::vector<std::size_t> by_frame = chosen;
-    const auto place = [&](std::size_t i) -> const MistakePlace& {
-        return e.mistakes[i].mistake.places[e.mistakes[i].place];
-    };
+    const auto place = [&](std::size_t i) -> const ErrorPlace& { return e.errors[i].error.places[e.errors[i].place]; };
     std::sort(by_frame.begin(), by_frame.end(),
               [&](std::size_t a, std::size_t b) { return place(a).frame < place(b).frame; });
     std::string trouble;
@@ -136,30 +134,30 @@ void addChips(ReportPage& page, const RunEvaluation& e, FrameSource* pixels, con
             page.beginTable({"", "Kind", "Frames", "Count", "Object", "Track", "Probable cause", "Detail"}, 1000,
                             "chips");
         const std::size_t i = chosen[k];
-        const DiagnosedMistake& one = e.mistakes[i];
+        const DiagnosedError& one = e.errors[i];
         const std::string name = "chip-" + std::to_string(i + 1);
-        const bool is_switch = one.mistake.kind == MistakeKind::id_switch;
+        const bool is_switch = one.error.kind == ResultErrorKind::id_switch;
         page.row({report.chips.contains(name) ? "<img src=\"" + name + "\">" : "",
-                  markupEscaped(nameOf(one.mistake.kind)), frames(one.mistake), std::to_string(one.mistake.count()),
-                  ids(one.mistake.objects, ", "), ids(one.mistake.tracks, is_switch ? " → " : ", "),
+                  markupEscaped(nameOf(one.error.kind)), frames(one.error), std::to_string(one.error.count()),
+                  ids(one.error.objects, ", "), ids(one.error.tracks, is_switch ? " → " : ", "),
                   markupEscaped(nameOf(one.cause)), markupEscaped(one.text)});
     }
     page.endTable();
 }
 
 void listErrors(ReportPage& page, const RunEvaluation& e, std::size_t most) {
-    if (e.mistakes.empty()) return;
+    if (e.errors.empty()) return;
     page.chapter("All errors");
     page.beginTable({"Kind", "Frames", "Count", "Object", "Track", "Probable cause", "Detail"});
-    for (std::size_t i = 0; i < e.mistakes.size() && i < most; ++i) {
-        const DiagnosedMistake& one = e.mistakes[i];
-        page.row({markupEscaped(nameOf(one.mistake.kind)), frames(one.mistake), std::to_string(one.mistake.count()),
-                  ids(one.mistake.objects, ", "), ids(one.mistake.tracks, ", "), markupEscaped(nameOf(one.cause)),
+    for (std::size_t i = 0; i < e.errors.size() && i < most; ++i) {
+        const DiagnosedError& one = e.errors[i];
+        page.row({markupEscaped(nameOf(one.error.kind)), frames(one.error), std::to_string(one.error.count()),
+                  ids(one.error.objects, ", "), ids(one.error.tracks, ", "), markupEscaped(nameOf(one.cause)),
                   markupEscaped(one.text)});
     }
     page.endTable();
-    if (e.mistakes.size() > most)
-        page.paragraph("And " + std::to_string(e.mistakes.size() - most) +
+    if (e.errors.size() > most)
+        page.paragraph("And " + std::to_string(e.errors.size() - most) +
                        " more: the whole list is written by eyrie-cli evaluate --errors.");
 }
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "diagnosis/mistake_csv.h"
+#include "diagnosis/error_csv.h"
 #include "store/labels/annotation_store.h"
 #include "support/temporary_folder.h"
 #include "support/written_run.h"
@@ -82,10 +82,10 @@ TEST_F(RunEvaluations, againstTheProjectsLabels) {
     ASSERT_EQ(e->table.size(), 3u);
     EXPECT_EQ(e->table[0].detection.true_positives, 8);
     EXPECT_EQ(e->table[0].detection.false_negatives, 2);
-    ASSERT_EQ(e->mistakes.size(), 2u);
-    EXPECT_EQ(e->mistakes[0].mistake.kind, MistakeKind::miss);
-    EXPECT_EQ(e->mistakes[0].cause, MistakeCause::no_corners);
-    EXPECT_EQ(e->mistakes[1].mistake.kind, MistakeKind::fragment);
+    ASSERT_EQ(e->errors.size(), 2u);
+    EXPECT_EQ(e->errors[0].error.kind, ResultErrorKind::miss);
+    EXPECT_EQ(e->errors[0].cause, ErrorCause::no_corners);
+    EXPECT_EQ(e->errors[1].error.kind, ResultErrorKind::fragment);
     ASSERT_EQ(e->frames.size(), 10u);
     EXPECT_EQ(e->frames[8].missed, 1);
     EXPECT_EQ(e->frames[7].found, 1);
@@ -142,7 +142,7 @@ TEST_F(RunEvaluations, aRequestedStopAnswersNothing) {
 
 TEST_F(RunEvaluations, theListAsATable) {
     const auto e = evaluator.evaluate(request(truthFile()));
-    writeMistakeCsv(folder / "errors.csv", e->mistakes);
+    writeErrorCsv(folder / "errors.csv", e->errors);
     std::ifstream file(folder / "errors.csv");
     std::string line;
     std::getline(file, line);
@@ -151,7 +151,7 @@ TEST_F(RunEvaluations, theListAsATable) {
         "kind,first_frame,last_frame,count,objects,tracks,frame,x,y,length,width,heading,cause,detail,frames_of_cause");
     std::getline(file, line);
     EXPECT_EQ(line, "miss,8,9,2,1,,9,86,40,20,10,0,no corners,,2");
-    EXPECT_THROW(writeMistakeCsv(folder / "no" / "where.csv", e->mistakes), Error);
+    EXPECT_THROW(writeErrorCsv(folder / "no" / "where.csv", e->errors), Error);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Hindrance {
     std::string name;
     void (*hinder)(MotionClusteringOptions& options);
     std::string parameter;  ///< empty: any of clustering
-    MistakeCause cause;
+    ErrorCause cause;
 };
 
 /// A run over a small drawn scene, kept in memory.
@@ -46,7 +46,7 @@ class HinderedRun {
         return PlaceExplainer(std::move(replay)).explain(kFrame, place(), {}).value();
     }
     /// Of the vehicle that nothing was found of.
-    DiagnosedMistake diagnosis() {
+    DiagnosedError diagnosis() {
         BoxRecord vehicle;
         vehicle.frame = kFrame;
         vehicle.id = 1;
@@ -61,11 +61,11 @@ class HinderedRun {
         source.options = options_;
         source.scale = scale_;
         source.frame_result = [this](FrameIndex frame) { return resultOf(frame); };
-        auto mistakes = Diagnoser(std::move(source))
-                            .diagnose(listMistakes(truth, found, input, matches, evaluation),
-                                      {truth, found, input, matches, evaluation}, {});
-        EXPECT_EQ(mistakes.size(), 1U);
-        return mistakes.front();
+        auto errors = Diagnoser(std::move(source))
+                          .diagnose(listErrors(truth, found, input, matches, evaluation),
+                                    {truth, found, input, matches, evaluation}, {});
+        EXPECT_EQ(errors.size(), 1U);
+        return errors.front();
     }
 
  private:
@@ -80,22 +80,22 @@ class HinderedRun {
 
 TEST(SameReason, WhyAndTheCauseOfAMissNameTheSameParameterOfClustering) {
     const std::vector<Hindrance> hindrances{
-        {"too few", [](auto& o) { o.min_members = 200; }, "clustering.min_members", MistakeCause::too_few_vectors},
+        {"too few", [](auto& o) { o.min_members = 200; }, "clustering.min_members", ErrorCause::too_few_vectors},
         {"too far apart",
          [](auto& o) {
              o.along_m = o.across_m = 0.02;
              o.min_distance_px = o.roof_length_m = 0;
          },
-         "", MistakeCause::not_clustered},
-        {"too long", [](auto& o) { o.max_length_m = 0.5; }, "clustering.max_length", MistakeCause::not_clustered},
-        {"too wide", [](auto& o) { o.max_width_m = 0.2; }, "clustering.max_width", MistakeCause::not_clustered},
+         "", ErrorCause::not_clustered},
+        {"too long", [](auto& o) { o.max_length_m = 0.5; }, "clustering.max_length", ErrorCause::not_clustered},
+        {"too wide", [](auto& o) { o.max_width_m = 0.2; }, "clustering.max_width", ErrorCause::not_clustered},
     };
     for (const Hindrance& hindrance : hindrances) {
         ChainOptions options;
         hindrance.hinder(options.clustering);
         HinderedRun run(options);
         const Explanation told = run.explanation();
-        const DiagnosedMistake miss = run.diagnosis();
+        const DiagnosedError miss = run.diagnosis();
         EXPECT_FALSE(told.found) << hindrance.name;
         ASSERT_EQ(told.parameter.substr(0, 11), "clustering.") << hindrance.name << ": " << told.sentence;
         EXPECT_THAT(miss.text, HasSubstr("(" + told.parameter + ")")) << hindrance.name << ": " << told.sentence;
@@ -114,8 +114,8 @@ TEST(SameReason, WhereDifferenceImagesAreToFindWhatMoves) {
     ASSERT_TRUE(run.result().clusters.empty());
     const Explanation told = run.explanation();
     EXPECT_EQ(told.parameter, "motion.method") << told.sentence;
-    const DiagnosedMistake miss = run.diagnosis();
-    EXPECT_EQ(miss.cause, MistakeCause::not_clustered);
+    const DiagnosedError miss = run.diagnosis();
+    EXPECT_EQ(miss.cause, ErrorCause::not_clustered);
     EXPECT_THAT(miss.text, HasSubstr("(motion.method)"));
 }
 

@@ -17,21 +17,21 @@ using test::ignored;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::vector<Mistake> listOf(const BoxesByFrame& truth, const BoxesByFrame& result, EvaluationOptions options = {}) {
+std::vector<ResultError> listOf(const BoxesByFrame& truth, const BoxesByFrame& result, EvaluationOptions options = {}) {
     const EvaluationInput input = prepareEvaluation(truth, result, options);
-    return listMistakes(truth, result, input, matchFrames(input, options), options);
+    return listErrors(truth, result, input, matchFrames(input, options), options);
 }
 
-std::vector<Mistake> ofKind(const std::vector<Mistake>& mistakes, MistakeKind kind) {
-    std::vector<Mistake> found;
-    for (const Mistake& mistake : mistakes)
-        if (mistake.kind == kind) found.push_back(mistake);
+std::vector<ResultError> ofKind(const std::vector<ResultError>& errors, ResultErrorKind kind) {
+    std::vector<ResultError> found;
+    for (const ResultError& error : errors)
+        if (error.kind == kind) found.push_back(error);
     return found;
 }
 
-int sumOf(const std::vector<Mistake>& mistakes, MistakeKind kind) {
+int sumOf(const std::vector<ResultError>& errors, ResultErrorKind kind) {
     int sum = 0;
-    for (const Mistake& mistake : ofKind(mistakes, kind)) sum += mistake.count();
+    for (const ResultError& error : ofKind(errors, kind)) sum += error.count();
     return sum;
 }
 
@@ -52,8 +52,8 @@ TEST(ErrorList, missesOfConsecutiveFramesAreOneEntry) {
     // Object 1 is missed in 1, 2 and 4 and found in 0, 3; object 2 is missed in frame 2 alone.
     const BoxesByFrame truth =
         boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50), car(4, 1, 50), car(2, 2, 150)});
-    const auto mistakes = listOf(truth, boxes({car(0, 7, 50), car(3, 7, 50)}));
-    const auto misses = ofKind(mistakes, MistakeKind::miss);
+    const auto errors = listOf(truth, boxes({car(0, 7, 50), car(3, 7, 50)}));
+    const auto misses = ofKind(errors, ResultErrorKind::miss);
     ASSERT_EQ(misses.size(), 3u);
     EXPECT_EQ(misses[0].first_frame, 1);
     EXPECT_EQ(misses[0].last_frame, 2);
@@ -63,14 +63,14 @@ TEST(ErrorList, missesOfConsecutiveFramesAreOneEntry) {
     EXPECT_EQ(misses[0].places[1].box.centre.x, 50);
     EXPECT_THAT(misses[1].objects, ElementsAre(2));
     EXPECT_EQ(misses[2].first_frame, 4);
-    EXPECT_EQ(ofKind(mistakes, MistakeKind::fragment).size(), 2u) << "what was never found breaks nowhere";
+    EXPECT_EQ(ofKind(errors, ResultErrorKind::fragment).size(), 2u) << "what was never found breaks nowhere";
 }
 
 TEST(ErrorList, falseAlarmsAreGroupedByTrack) {
     const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50)});
-    const auto mistakes = listOf(
+    const auto errors = listOf(
         truth, boxes({car(0, 7, 50), car(1, 7, 50), car(2, 7, 50), car(0, 8, 150), car(1, 8, 150), car(2, 9, 150)}));
-    const auto alarms = ofKind(mistakes, MistakeKind::false_alarm);
+    const auto alarms = ofKind(errors, ResultErrorKind::false_alarm);
     ASSERT_EQ(alarms.size(), 2u);
     EXPECT_THAT(alarms[0].tracks, ElementsAre(8));
     EXPECT_EQ(alarms[0].count(), 2);
@@ -80,20 +80,20 @@ TEST(ErrorList, falseAlarmsAreGroupedByTrack) {
 
 TEST(ErrorList, detectionsAreGroupedByWhereTheyAre) {
     const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50)});
-    const auto mistakes =
+    const auto errors =
         listOf(truth, boxes({car(0, {}, 150), car(1, {}, 154), car(2, {}, 250), car(0, {}, 50), car(1, {}, 50)}));
-    const auto alarms = ofKind(mistakes, MistakeKind::false_alarm);
+    const auto alarms = ofKind(errors, ResultErrorKind::false_alarm);
     ASSERT_EQ(alarms.size(), 2u);
     EXPECT_EQ(alarms[0].count(), 2);  // 150 and 154 overlap by 16 / 24
     EXPECT_EQ(alarms[1].first_frame, 2);
-    EXPECT_THAT(ofKind(mistakes, MistakeKind::id_switch), IsEmpty());
-    EXPECT_THAT(ofKind(mistakes, MistakeKind::fragment), IsEmpty());
+    EXPECT_THAT(ofKind(errors, ResultErrorKind::id_switch), IsEmpty());
+    EXPECT_THAT(ofKind(errors, ResultErrorKind::fragment), IsEmpty());
 }
 
 TEST(ErrorList, aSwitchNamesBothTracksAndTheGap) {
     const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50)});
-    const auto mistakes = listOf(truth, boxes({car(0, 7, 50), car(3, 8, 50)}));
-    const auto switches = ofKind(mistakes, MistakeKind::id_switch);
+    const auto errors = listOf(truth, boxes({car(0, 7, 50), car(3, 8, 50)}));
+    const auto switches = ofKind(errors, ResultErrorKind::id_switch);
     ASSERT_EQ(switches.size(), 1u);
     EXPECT_THAT(switches[0].tracks, ElementsAre(7, 8));
     EXPECT_EQ(switches[0].first_frame, 0);
@@ -104,8 +104,8 @@ TEST(ErrorList, aSwitchNamesBothTracksAndTheGap) {
 TEST(ErrorList, aFragmentLastsUntilTheObjectIsFoundAgain) {
     const BoxesByFrame truth =
         boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50), car(4, 1, 50), car(5, 1, 50)});
-    const auto mistakes = listOf(truth, boxes({car(0, 7, 50), car(3, 7, 50), car(4, 7, 50)}));
-    const auto fragments = ofKind(mistakes, MistakeKind::fragment);
+    const auto errors = listOf(truth, boxes({car(0, 7, 50), car(3, 7, 50), car(4, 7, 50)}));
+    const auto fragments = ofKind(errors, ResultErrorKind::fragment);
     ASSERT_EQ(fragments.size(), 2u);
     EXPECT_EQ(fragments[0].first_frame, 1);
     EXPECT_EQ(fragments[0].last_frame, 2);
@@ -115,29 +115,29 @@ TEST(ErrorList, aFragmentLastsUntilTheObjectIsFoundAgain) {
 
 TEST(ErrorList, partsSideBySideAreASplitButCopiesAreNot) {
     const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50)});
-    const auto split = ofKind(listOf(truth, boxes({part(0, 7, 45, 9), part(0, 8, 55, 9)})), MistakeKind::split);
+    const auto split = ofKind(listOf(truth, boxes({part(0, 7, 45, 9), part(0, 8, 55, 9)})), ResultErrorKind::split);
     ASSERT_EQ(split.size(), 1u);
     EXPECT_THAT(split[0].objects, ElementsAre(1));
     EXPECT_THAT(split[0].tracks, ElementsAre(7, 8));
     EXPECT_THAT(split[0].places[0].results, ElementsAre(0, 1));
-    EXPECT_THAT(ofKind(listOf(truth, boxes({car(0, 7, 50), car(0, 8, 51)})), MistakeKind::split), IsEmpty());
+    EXPECT_THAT(ofKind(listOf(truth, boxes({car(0, 7, 50), car(0, 8, 51)})), ResultErrorKind::split), IsEmpty());
 }
 
 TEST(ErrorList, oneBoxOverTwoObjectsIsAMerge) {
     const BoxesByFrame truth = boxes({car(0, 1, 50), car(0, 2, 72), car(1, 1, 50), car(1, 2, 72)});
     const auto wide = part(0, 7, 61, 42);
-    const auto merges = ofKind(listOf(truth, boxes({wide, part(1, 7, 61, 42)})), MistakeKind::merge);
+    const auto merges = ofKind(listOf(truth, boxes({wide, part(1, 7, 61, 42)})), ResultErrorKind::merge);
     ASSERT_EQ(merges.size(), 1u);
     EXPECT_EQ(merges[0].count(), 2);
     EXPECT_THAT(merges[0].objects, ElementsAre(1, 2));
     EXPECT_THAT(merges[0].tracks, ElementsAre(7));
     // Both found by their own results: the third is a false alarm, not a merge.
     EXPECT_THAT(ofKind(listOf(boxes({car(0, 1, 50), car(0, 2, 72)}), boxes({wide, car(0, 8, 50), car(0, 9, 72)})),
-                       MistakeKind::merge),
+                       ResultErrorKind::merge),
                 IsEmpty());
 }
 
-TEST(ErrorList, ignoredObjectsMakeNoMistakes) {
+TEST(ErrorList, ignoredObjectsMakeNoErrors) {
     const BoxesByFrame truth = boxes({car(0, 1, 50), ignored(car(0, 2, 150))});
     EXPECT_THAT(listOf(truth, boxes({car(0, 7, 50), car(0, 8, 152)})), IsEmpty());
     EXPECT_THAT(listOf(truth, boxes({car(0, 7, 50)})), IsEmpty());
@@ -146,7 +146,7 @@ TEST(ErrorList, ignoredObjectsMakeNoMistakes) {
 TEST(ErrorList, boxesWithoutIdsGoOnWhereTheyOverlapEnough) {
     const BoxesByFrame truth = boxes({car(0, 1, 500), car(1, 1, 500)});
     const auto alarms = [&](double shift) {
-        return ofKind(listOf(truth, boxes({car(0, {}, 150), car(1, {}, 150 + shift)})), MistakeKind::false_alarm)
+        return ofKind(listOf(truth, boxes({car(0, {}, 150), car(1, {}, 150 + shift)})), ResultErrorKind::false_alarm)
             .size();
     };
     EXPECT_EQ(alarms(test::shiftFor(0.31)), 1U);
@@ -158,7 +158,7 @@ TEST(ErrorList, aPartLiesMostlyInTheObjectAndBesideItsFellow) {
     const BoxesByFrame truth = boxes({car(0, 1, 50)});
     const auto splits = [&](double x, double length, double other_x, double other_length) {
         return ofKind(listOf(truth, boxes({part(0, 7, x, length), part(0, 8, other_x, other_length)})),
-                      MistakeKind::split)
+                      ResultErrorKind::split)
             .size();
     };
     EXPECT_EQ(splits(40.9, 10, 55, 8), 1U) << "5.9 of 10 px inside";
@@ -167,8 +167,8 @@ TEST(ErrorList, aPartLiesMostlyInTheObjectAndBesideItsFellow) {
     EXPECT_EQ(splits(45, 10, 50.1, 10), 1U) << "4.9 of 10 px on one another";
     EXPECT_EQ(splits(45, 10, 49.9, 10), 0U) << "5.1 of 10 px on one another";
     // A third that lies on one of two parts is no further part of them, unless it lies beside the other.
-    const auto three =
-        ofKind(listOf(truth, boxes({part(0, 7, 45, 9), part(0, 8, 55, 9), part(0, 9, 50, 19)})), MistakeKind::split);
+    const auto three = ofKind(listOf(truth, boxes({part(0, 7, 45, 9), part(0, 8, 55, 9), part(0, 9, 50, 19)})),
+                              ResultErrorKind::split);
     ASSERT_EQ(three.size(), 1U);
     EXPECT_THAT(three[0].tracks, ElementsAre(7, 8)) << "the third covers both";
 }
@@ -176,7 +176,7 @@ TEST(ErrorList, aPartLiesMostlyInTheObjectAndBesideItsFellow) {
 TEST(ErrorList, aMergeNeedsAMissedObjectMostlyInside) {
     const auto merges = [](double second_x) {
         return ofKind(listOf(boxes({car(0, 1, 50), car(0, 2, second_x)}), boxes({part(0, 7, 61, 42)})),
-                      MistakeKind::merge);
+                      ResultErrorKind::merge);
     };
     ASSERT_EQ(merges(81).size(), 1U) << "11 of 20 px of the second inside";
     EXPECT_THAT(merges(81)[0].places[0].truth, ElementsAre(0, 1));
@@ -191,13 +191,13 @@ TEST(ErrorList, trackEvalCountsFragmentsWhenTheObjectIsFoundAgain) {
                                       car(0, 2, 150), car(1, 2, 150), car(2, 2, 150), car(3, 2, 150), car(4, 2, 150)});
     const BoxesByFrame result = boxes(
         {car(0, 7, 50), car(2, 7, 50), car(0, 8, 150), car(1, 8, 150), car(2, 8, 150), car(3, 8, 150), car(4, 8, 150)});
-    const auto fragments = ofKind(listOf(truth, result, options), MistakeKind::fragment);
+    const auto fragments = ofKind(listOf(truth, result, options), ResultErrorKind::fragment);
     ASSERT_EQ(fragments.size(), 1U) << "lost for good is no fragment";
     EXPECT_THAT(fragments[0].objects, ElementsAre(1));
     EXPECT_THAT(fragments[0].tracks, ElementsAre(7));
     EXPECT_EQ(fragments[0].first_frame, 1);
     EXPECT_EQ(fragments[0].last_frame, 1);
-    EXPECT_EQ(ofKind(listOf(truth, result), MistakeKind::fragment).size(), 2U) << "the thesis counts both losses";
+    EXPECT_EQ(ofKind(listOf(truth, result), ResultErrorKind::fragment).size(), 2U) << "the thesis counts both losses";
 }
 
 TEST(ErrorList, trackEvalEndsARunWithTheObjectsAbsence) {
@@ -208,28 +208,28 @@ TEST(ErrorList, trackEvalEndsARunWithTheObjectsAbsence) {
         {car(0, 1, 50), car(2, 1, 50), car(4, 1, 50), car(0, 2, 150), car(1, 2, 150), car(2, 2, 150), car(4, 2, 150)});
     const BoxesByFrame result = boxes(
         {car(0, 7, 50), car(2, 7, 50), car(4, 7, 50), car(0, 8, 150), car(1, 8, 150), car(2, 8, 150), car(4, 8, 150)});
-    const auto fragments = ofKind(listOf(truth, result, options), MistakeKind::fragment);
+    const auto fragments = ofKind(listOf(truth, result, options), ResultErrorKind::fragment);
     ASSERT_EQ(fragments.size(), 1U);
     EXPECT_THAT(fragments[0].objects, ElementsAre(1));
     EXPECT_EQ(fragments[0].first_frame, 1);
     EXPECT_EQ(fragments[0].places[0].box.centre.x, 50) << "where it was seen last";
-    EXPECT_THAT(ofKind(listOf(truth, result), MistakeKind::fragment), IsEmpty());
+    EXPECT_THAT(ofKind(listOf(truth, result), ResultErrorKind::fragment), IsEmpty());
 }
 
 TEST(ErrorList, isOrderedByTime) {
     const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50)});
-    const auto mistakes =
+    const auto errors =
         listOf(truth, boxes({car(0, 7, 50), car(2, 8, 50), car(0, 9, 300), car(1, 9, 300), car(3, 8, 300)}));
-    ASSERT_GE(mistakes.size(), 4U);
-    for (std::size_t i = 1; i < mistakes.size(); ++i) {
-        EXPECT_LE(std::pair(mistakes[i - 1].first_frame, mistakes[i - 1].kind),
-                  std::pair(mistakes[i].first_frame, mistakes[i].kind));
+    ASSERT_GE(errors.size(), 4U);
+    for (std::size_t i = 1; i < errors.size(); ++i) {
+        EXPECT_LE(std::pair(errors[i - 1].first_frame, errors[i - 1].kind),
+                  std::pair(errors[i].first_frame, errors[i].kind));
     }
 }
 
 TEST(ErrorList, namesAreWords) {
-    EXPECT_STREQ(nameOf(MistakeKind::false_alarm), "false alarm");
-    for (int kind = 0; kind < kMistakeKinds; ++kind) EXPECT_STRNE(nameOf(static_cast<MistakeKind>(kind)), "");
+    EXPECT_STREQ(nameOf(ResultErrorKind::false_alarm), "false alarm");
+    for (int kind = 0; kind < kResultErrorKinds; ++kind) EXPECT_STRNE(nameOf(static_cast<ResultErrorKind>(kind)), "");
 }
 
 /// The list is another view of the same counts, whatever the data and the convention.
@@ -246,12 +246,12 @@ TEST(ErrorList, sumsAreTheMeasures) {
                 options.convention = convention;
                 options.overlap = t_ov;
                 const Measures measures = evaluate(truth, result, options);
-                const auto mistakes = listOf(truth, result, options);
-                EXPECT_EQ(sumOf(mistakes, MistakeKind::miss), measures.detection.false_negatives) << name;
-                EXPECT_EQ(sumOf(mistakes, MistakeKind::false_alarm), measures.detection.false_positives) << name;
+                const auto errors = listOf(truth, result, options);
+                EXPECT_EQ(sumOf(errors, ResultErrorKind::miss), measures.detection.false_negatives) << name;
+                EXPECT_EQ(sumOf(errors, ResultErrorKind::false_alarm), measures.detection.false_positives) << name;
                 ASSERT_TRUE(measures.tracking);
-                EXPECT_EQ(sumOf(mistakes, MistakeKind::id_switch), measures.tracking->id_switches) << name;
-                EXPECT_EQ(sumOf(mistakes, MistakeKind::fragment), measures.tracking->fragments)
+                EXPECT_EQ(sumOf(errors, ResultErrorKind::id_switch), measures.tracking->id_switches) << name;
+                EXPECT_EQ(sumOf(errors, ResultErrorKind::fragment), measures.tracking->fragments)
                     << name << " " << nameOf(convention);
             }
         }

@@ -307,7 +307,7 @@ TEST(IdentityAndHota, OverlapDecidesPerThreshold) {
     EXPECT_NEAR(meanOf(h.loc_a), (12 * 0.6 + 7 * 1) / 19, 1e-12);
 }
 
-TEST(IdentityAndHota, ForgivenResultsAreNoMistakes) {
+TEST(IdentityAndHota, IgnoredResultsAreNoErrors) {
     BoxesByFrame truth;
     BoxesByFrame result;
     for (int frame = 0; frame < 5; ++frame) {

@@ -37,14 +37,14 @@ RunEvaluation sample() {
     e.shown = measures;
     e.f_score = {0.875, 0.8, 0.9};
     for (int frame = 0; frame < 10; ++frame) e.frames.push_back({frame, frame == 4 ? 0 : 1, frame == 4, 0});
-    DiagnosedMistake miss;
-    miss.mistake = {MistakeKind::miss, {1}, {}, 4, 4, {{4, {{100, 80}, 20, 10, 0.3}, {0}, {}}}};
-    miss.cause = MistakeCause::too_slow;
+    DiagnosedError miss;
+    miss.error = {ResultErrorKind::miss, {1}, {}, 4, 4, {{4, {{100, 80}, 20, 10, 0.3}, {0}, {}}}};
+    miss.cause = ErrorCause::too_slow;
     miss.text = "7 corners, none counts as moving";
-    DiagnosedMistake change;
-    change.mistake = {MistakeKind::id_switch, {1}, {5, 6}, 3, 5, {{5, {{104, 80}, 20, 10, 0.3}, {0}, {0}}}};
-    change.cause = MistakeCause::track_ended;
-    e.mistakes = {miss, change};
+    DiagnosedError change;
+    change.error = {ResultErrorKind::id_switch, {1}, {5, 6}, 3, 5, {{5, {{104, 80}, 20, 10, 0.3}, {0}, {0}}}};
+    change.cause = ErrorCause::track_ended;
+    e.errors = {miss, change};
     return e;
 }
 
@@ -115,11 +115,11 @@ TEST(EvaluationReport, picturesThatCannotBeReadAreTold) {
 
 TEST(EvaluationReport, longListsAreCutAndSaySo) {
     RunEvaluation e = sample();
-    e.mistakes.resize(10, e.mistakes.front());
+    e.errors.resize(10, e.errors.front());
     ReportOptions options;
     options.rows = 4;
     EXPECT_THAT(makeEvaluationReport(e, nullptr, options).html, HasSubstr("And 6 more"));
-    e.mistakes.clear();
+    e.errors.clear();
     EXPECT_THAT(makeEvaluationReport(e, nullptr).html, HasSubstr("No errors"));
 }
 

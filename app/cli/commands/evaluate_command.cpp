@@ -12,7 +12,7 @@
 #include "cli/reports/evaluation_text.h"
 #include "cli/reports/score_curve_csv.h"
 #include "core/error.h"
-#include "diagnosis/mistake_csv.h"
+#include "diagnosis/error_csv.h"
 #include "diagnosis/run_evaluation.h"
 #include "evaluation/measures/score_curve.h"
 #include "io/atomic_file.h"
@@ -102,8 +102,8 @@ void writeErrors(const EvaluateArguments& arguments, const Scoring& scoring, con
         source = diagnosisSource(*store, *result.run);
     }
     Diagnoser diagnoser(std::move(source));
-    writeMistakeCsv(arguments.errors, diagnoser.diagnose(listMistakes(truth, result.boxes, input, matches, options),
-                                                         {truth, result.boxes, input, matches, options}));
+    writeErrorCsv(arguments.errors, diagnoser.diagnose(listErrors(truth, result.boxes, input, matches, options),
+                                                       {truth, result.boxes, input, matches, options}));
 }
 
 /// Precision and recall over the score at the first T_ov.

@@ -65,7 +65,7 @@ void makeReport(const ReportArguments& arguments) {
     options.chips = arguments.chips;
     writeHtmlReport(arguments.out, makeEvaluationReport(*evaluation, pixels.get(), options));
     std::printf("Report: %s, f-score %.4f at T_ov %g, %zu errors\n", arguments.out.c_str(),
-                evaluation->shown.detection.f_score, evaluation->options.overlap, evaluation->mistakes.size());
+                evaluation->shown.detection.f_score, evaluation->options.overlap, evaluation->errors.size());
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace eyrie {
 
-/// Hits and mistakes of one result that fall to one true track, or to one stretch of time (false positives belong to no
+/// Hits and errors of one result that fall to one true track, or to one stretch of time (false positives belong to no
 /// true track, so they are drawn by the second they happened in).
 struct UnitTally {
     double matched = 0;

@@ -19,7 +19,7 @@ struct TruthTrackTally {
     double overlap_sum = 0;
 };
 
-/// Matches and mistakes of one result track.
+/// Matches and errors of one result track.
 struct ResultTrackTally {
     int id = 0;
     int matched = 0;

@@ -233,11 +233,11 @@ class EvaluationTest : public QObject {
         QVERIFY(window);
         ErrorsPanel& errors = window->evaluation().errors();
         Why& why = window->tuning().why();
-        const auto& mistakes = window->evaluation().evaluation().evaluation()->mistakes;
-        const auto askAt = [&](MistakeKind kind, bool by_key) {
-            for (std::size_t i = 0; i < mistakes.size(); ++i) {
-                if (mistakes[i].mistake.kind != kind) continue;
-                const MistakePlace place = mistakes[i].mistake.places[mistakes[i].place];
+        const auto& listed = window->evaluation().evaluation().evaluation()->errors;
+        const auto askAt = [&](ResultErrorKind kind, bool by_key) {
+            for (std::size_t i = 0; i < listed.size(); ++i) {
+                if (listed[i].error.kind != kind) continue;
+                const ErrorPlace place = listed[i].error.places[listed[i].place];
                 window->session().goToFrame(0);
                 if (by_key) {
                     errors.commands().go_to(static_cast<int>(i) + 1);
@@ -252,9 +252,9 @@ class EvaluationTest : public QObject {
             }
             return false;
         };
-        QVERIFY(askAt(MistakeKind::miss, false));
+        QVERIFY(askAt(ResultErrorKind::miss, false));
         QVERIFY(!why.view()->told.found);
-        QVERIFY(askAt(MistakeKind::false_alarm, true));
+        QVERIFY(askAt(ResultErrorKind::false_alarm, true));
         QVERIFY(why.view()->told.found);
         QVERIFY(window->tuning().whyPanel().isVisible());
     }

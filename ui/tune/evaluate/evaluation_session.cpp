@@ -17,7 +17,7 @@ QString truthKey(const std::filesystem::path& project) {
     return QStringLiteral("evaluation/truth/%1").arg(qHash(QString::fromStdString(project.string())), 0, 16);
 }
 
-bool sameThing(const Mistake& a, const Mistake& b) {
+bool sameThing(const ResultError& a, const ResultError& b) {
     return a.kind == b.kind && a.objects == b.objects && a.tracks == b.tracks && a.last_frame >= b.first_frame &&
            a.first_frame <= b.last_frame;
 }
@@ -135,7 +135,7 @@ void EvaluationSession::forget() {
     const bool had = evaluation_ != nullptr || !obstacle_.isEmpty();
     evaluation_.reset();
     matches_.clear();
-    mistakes_.clear();
+    errors_.clear();
     obstacle_.clear();
     setWorking(false);
     const bool selected = selected_.has_value();
@@ -150,13 +150,13 @@ void EvaluationSession::adopt(const std::shared_ptr<const RunEvaluation>& evalua
     obstacle_ = obstacle;
     took_ms_ = static_cast<double>(QDateTime::currentMSecsSinceEpoch() - asked_at_ms_);
     matches_.clear();
-    mistakes_.clear();
+    errors_.clear();
     if (evaluation_) {
         for (std::size_t i = 0; i < evaluation_->matches.size(); ++i) matches_[evaluation_->matches[i].frame] = i;
-        for (std::size_t i = 0; i < evaluation_->mistakes.size(); ++i) {
-            const Mistake& mistake = evaluation_->mistakes[i].mistake;
-            if (mistake.kind == MistakeKind::id_switch || mistake.kind == MistakeKind::fragment)
-                mistakes_[mistake.places.front().frame].push_back(i);
+        for (std::size_t i = 0; i < evaluation_->errors.size(); ++i) {
+            const ResultError& error = evaluation_->errors[i].error;
+            if (error.kind == ResultErrorKind::id_switch || error.kind == ResultErrorKind::fragment)
+                errors_[error.places.front().frame].push_back(i);
         }
     }
     keepSelection(before);
@@ -167,11 +167,11 @@ void EvaluationSession::adopt(const std::shared_ptr<const RunEvaluation>& evalua
 /// After scoring again the same error is looked at, if it is still there.
 void EvaluationSession::keepSelection(const std::shared_ptr<const RunEvaluation>& before) {
     if (!selected_) return;
-    const Mistake* looked_at =
-        before && *selected_ < before->mistakes.size() ? &before->mistakes[*selected_].mistake : nullptr;
+    const ResultError* looked_at =
+        before && *selected_ < before->errors.size() ? &before->errors[*selected_].error : nullptr;
     std::optional<std::size_t> found;
-    for (std::size_t i = 0; looked_at != nullptr && evaluation_ && i < evaluation_->mistakes.size() && !found; ++i)
-        if (sameThing(evaluation_->mistakes[i].mistake, *looked_at)) found = i;
+    for (std::size_t i = 0; looked_at != nullptr && evaluation_ && i < evaluation_->errors.size() && !found; ++i)
+        if (sameThing(evaluation_->errors[i].error, *looked_at)) found = i;
     if (found == selected_) return;
     selected_ = found;
     emit selectionChanged();
@@ -183,15 +183,15 @@ void EvaluationSession::setWorking(bool working) {
     emit workingChanged(working);
 }
 
-void EvaluationSession::select(std::optional<std::size_t> mistake) {
-    if (mistake && (!evaluation_ || *mistake >= evaluation_->mistakes.size())) mistake.reset();
-    if (mistake == selected_) return;
-    selected_ = mistake;
+void EvaluationSession::select(std::optional<std::size_t> error) {
+    if (error && (!evaluation_ || *error >= evaluation_->errors.size())) error.reset();
+    if (error == selected_) return;
+    selected_ = error;
     emit selectionChanged();
 }
 
-const DiagnosedMistake* EvaluationSession::selectedMistake() const {
-    return selected_ && evaluation_ ? &evaluation_->mistakes[*selected_] : nullptr;
+const DiagnosedError* EvaluationSession::selectedError() const {
+    return selected_ && evaluation_ ? &evaluation_->errors[*selected_] : nullptr;
 }
 
 std::vector<BoxRecord> EvaluationSession::truthAt(FrameIndex frame) const {
@@ -208,19 +208,19 @@ std::vector<VerdictMark> EvaluationSession::marksAt(FrameIndex frame) const {
     const std::vector<BoxRecord> truth = truthAt(frame);
     const auto found = evaluation_->result.find(frame);
     const auto& results = found == evaluation_->result.end() ? std::vector<BoxRecord>() : found->second;
-    std::map<int, const Mistake*> switches;  // by true object
-    std::map<int, const Mistake*> fragments;
-    if (const auto here = mistakes_.find(frame); here != mistakes_.end())
+    std::map<int, const ResultError*> switches;  // by true object
+    std::map<int, const ResultError*> fragments;
+    if (const auto here = errors_.find(frame); here != errors_.end())
         for (const std::size_t index : here->second) {
-            const Mistake& mistake = evaluation_->mistakes[index].mistake;
-            if (mistake.places.front().truth.empty()) continue;
-            auto& of = mistake.kind == MistakeKind::id_switch ? switches : fragments;
-            of[mistake.places.front().truth.front()] = &mistake;
+            const ResultError& error = evaluation_->errors[index].error;
+            if (error.places.front().truth.empty()) continue;
+            auto& of = error.kind == ResultErrorKind::id_switch ? switches : fragments;
+            of[error.places.front().truth.front()] = &error;
         }
-    const DiagnosedMistake* looked_at = selectedMistake();
-    const MistakePlace* place = nullptr;
-    for (std::size_t i = 0; looked_at != nullptr && i < looked_at->mistake.places.size(); ++i)
-        if (looked_at->mistake.places[i].frame == frame) place = &looked_at->mistake.places[i];
+    const DiagnosedError* looked_at = selectedError();
+    const ErrorPlace* place = nullptr;
+    for (std::size_t i = 0; looked_at != nullptr && i < looked_at->error.places.size(); ++i)
+        if (looked_at->error.places[i].frame == frame) place = &looked_at->error.places[i];
     const auto mark = [&](VerdictKind kind, const BoxRecord& record, const QString& text) {
         VerdictMark one{kind, record.box, text, false};
         one.selected = place != nullptr && place->box.centre == record.box.centre;

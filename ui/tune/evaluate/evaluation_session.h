@@ -55,10 +55,10 @@ class EvaluationSession : public QObject {
     /// What would be computed now; for reports.
     EvaluationRequest request() const;
 
-    /// Position in evaluation()->mistakes of the error that is looked at.
+    /// Position in evaluation()->errors of the error that is looked at.
     std::optional<std::size_t> selected() const { return selected_; }
-    void select(std::optional<std::size_t> mistake);
-    const DiagnosedMistake* selectedMistake() const;
+    void select(std::optional<std::size_t> error);
+    const DiagnosedError* selectedError() const;
 
     bool evaluated(FrameIndex frame) const { return matches_.contains(frame); }
     /// The verdicts of a frame, for the canvas.
@@ -89,8 +89,8 @@ class EvaluationSession : public QObject {
     qint64 asked_at_ms_ = 0;
     double took_ms_ = 0;
     std::shared_ptr<const RunEvaluation> evaluation_;
-    std::map<FrameIndex, std::size_t> matches_;                ///< of each frame, into evaluation_->matches
-    std::map<FrameIndex, std::vector<std::size_t>> mistakes_;  ///< places of switches and fragments
+    std::map<FrameIndex, std::size_t> matches_;              ///< of each frame, into evaluation_->matches
+    std::map<FrameIndex, std::vector<std::size_t>> errors_;  ///< places of switches and fragments
     QString obstacle_;
     std::optional<std::size_t> selected_;
     DelayedCall soon_;

@@ -35,32 +35,32 @@ QString idsText(const std::vector<int>& ids, const QString& between) {
     return texts.join(between);
 }
 
-ErrorRow rowOf(const DiagnosedMistake& one, int id) {
-    const Mistake& mistake = one.mistake;
+ErrorRow rowOf(const DiagnosedError& one, int id) {
+    const ResultError& error = one.error;
     ErrorRow row;
     row.id = id;
-    row.kind = QString::fromUtf8(nameOf(mistake.kind));
-    row.kind_order = static_cast<int>(mistake.kind);
+    row.kind = QString::fromUtf8(nameOf(error.kind));
+    row.kind_order = static_cast<int>(error.kind);
     row.cause = QString::fromUtf8(nameOf(one.cause));
     row.explanation = QString::fromUtf8(explanationOf(one.cause));
     row.detail = QString::fromStdString(one.text);
-    if (mistake.count() > 1 && one.frames_of_cause > 0 && one.frames_of_cause < mistake.count())
+    if (error.count() > 1 && one.frames_of_cause > 0 && one.frames_of_cause < error.count())
         row.detail += QObject::tr("%1in %2 of %3 frames")
                           .arg(row.detail.isEmpty() ? QString() : QStringLiteral("; "))
                           .arg(one.frames_of_cause)
-                          .arg(mistake.count());
-    row.first_frame = mistake.first_frame;
-    row.last_frame = mistake.last_frame;
-    row.count = mistake.count();
-    row.objects = idsText(mistake.objects, QStringLiteral(", "));
-    row.object_order = mistake.objects.empty() ? 0 : mistake.objects.front();
+                          .arg(error.count());
+    row.first_frame = error.first_frame;
+    row.last_frame = error.last_frame;
+    row.count = error.count();
+    row.objects = idsText(error.objects, QStringLiteral(", "));
+    row.object_order = error.objects.empty() ? 0 : error.objects.front();
     row.tracks =
-        idsText(mistake.tracks, mistake.kind == MistakeKind::id_switch ? QStringLiteral(" → ") : QStringLiteral(", "));
+        idsText(error.tracks, error.kind == ResultErrorKind::id_switch ? QStringLiteral(" → ") : QStringLiteral(", "));
     return row;
 }
 
-const MistakePlace& placeOf(const DiagnosedMistake& one) {
-    return one.mistake.places[one.place];
+const ErrorPlace& placeOf(const DiagnosedError& one) {
+    return one.error.places[one.place];
 }
 
 }  // namespace
@@ -176,8 +176,8 @@ void EvaluationDocks::wireList() {
 
 void EvaluationDocks::goToObject(int object) {
     const auto& evaluation = evaluation_->evaluation();
-    for (std::size_t i = 0; evaluation && i < evaluation->mistakes.size(); ++i) {
-        const auto& objects = evaluation->mistakes[i].mistake.objects;
+    for (std::size_t i = 0; evaluation && i < evaluation->errors.size(); ++i) {
+        const auto& objects = evaluation->errors[i].error.objects;
         if (std::find(objects.begin(), objects.end(), object) == objects.end()) continue;
         goTo(static_cast<int>(i) + 1);
         return;
@@ -195,8 +195,8 @@ void EvaluationDocks::showErrors() {
     const auto& evaluation = evaluation_->evaluation();
     std::vector<ErrorRow> rows;
     if (evaluation) {
-        for (std::size_t i = 0; i < evaluation->mistakes.size(); ++i)
-            rows.push_back(rowOf(evaluation->mistakes[i], static_cast<int>(i) + 1));
+        for (std::size_t i = 0; i < evaluation->errors.size(); ++i)
+            rows.push_back(rowOf(evaluation->errors[i], static_cast<int>(i) + 1));
     }
     if (evaluation)
         errors_->emptyState()->setTexts(tr("No errors: every object was found in every frame."));
@@ -212,7 +212,7 @@ void EvaluationDocks::showErrors() {
     errors_->selectId(evaluation_->selected() ? static_cast<int>(*evaluation_->selected()) + 1 : 0);
     wantChips();
     for (QAction* action : {actions_.next_error, actions_.previous_error, actions_.why_error, actions_.wrong_truth})
-        action->setEnabled(evaluation && !evaluation->mistakes.empty());
+        action->setEnabled(evaluation && !evaluation->errors.empty());
     actions_.report->setEnabled(evaluation != nullptr);
 }
 
@@ -221,8 +221,8 @@ void EvaluationDocks::wantChips() {
     if (!evaluation || !errors_looked_at_) return;
     std::vector<ChipWish> wishes;
     for (const int id : errors_->rowsWithoutChip()) {
-        if (id < 1 || id > static_cast<int>(evaluation->mistakes.size())) continue;
-        const MistakePlace& place = placeOf(evaluation->mistakes[static_cast<std::size_t>(id) - 1]);
+        if (id < 1 || id > static_cast<int>(evaluation->errors.size())) continue;
+        const ErrorPlace& place = placeOf(evaluation->errors[static_cast<std::size_t>(id) - 1]);
         wishes.push_back({id, place.frame, place.box, ErrorsPanel::kChipHeight});
     }
     chips_->request(std::move(wishes));
@@ -241,34 +241,34 @@ void EvaluationDocks::step(int direction) {
 
 void EvaluationDocks::goTo(int id) {
     const auto& evaluation = evaluation_->evaluation();
-    if (!evaluation || id < 1 || id > static_cast<int>(evaluation->mistakes.size())) return;
+    if (!evaluation || id < 1 || id > static_cast<int>(evaluation->errors.size())) return;
     const auto index = static_cast<std::size_t>(id) - 1;
     evaluation_->select(index);
     errors_->selectId(id);
-    const DiagnosedMistake& one = evaluation->mistakes[index];
-    const MistakePlace& place = placeOf(one);
+    const DiagnosedError& one = evaluation->errors[index];
+    const ErrorPlace& place = placeOf(one);
     session_.goToFrame(place.frame);
     const double size = std::max({4.0, place.box.length, place.box.width});
     const double wanted = kShareOfView * std::min(canvas_.width(), canvas_.height()) / size;
     const double zoom = std::clamp(std::max(wanted, canvas_.transform().zoom()), 0.05, kMostZoom);
     canvas_.restore(zoom, QPointF(place.box.centre.x, place.box.centre.y));
-    if (labelling_ != nullptr && labelling_->active() && !one.mistake.objects.empty())
-        labelling_->labels().select(one.mistake.objects.front());
+    if (labelling_ != nullptr && labelling_->active() && !one.error.objects.empty())
+        labelling_->labels().select(one.error.objects.front());
     const ErrorRow row = rowOf(one, id);
     errors_->setStatus(
         tr("<b>%1 of %2: %3</b>, %4. %5%6")
             .arg(id)
-            .arg(evaluation->mistakes.size())
+            .arg(evaluation->errors.size())
             .arg(row.kind, row.cause, row.explanation,
                  row.detail.isEmpty() ? QString() : QStringLiteral("<br>") + row.detail.toHtmlEscaped()));
 }
 
 void EvaluationDocks::askWhy() {
     if (labelling_ != nullptr && labelling_->active()) actions_.workspaceAction(WorkspaceKind::tune)->trigger();
-    if (evaluation_->selectedMistake() == nullptr) step(1);
-    const DiagnosedMistake* one = evaluation_->selectedMistake();
+    if (evaluation_->selectedError() == nullptr) step(1);
+    const DiagnosedError* one = evaluation_->selectedError();
     if (one == nullptr) return;
-    const MistakePlace place = placeOf(*one);
+    const ErrorPlace place = placeOf(*one);
     session_.goToFrame(place.frame);
     const ErrorRow row = rowOf(*one, 0);
     emit whyRequested(place.box, tr("Error: %1, %2. %3").arg(row.kind, row.cause, row.explanation));
@@ -287,14 +287,14 @@ void EvaluationDocks::join(LabelWorkspace& labelling) {
     labelling_ = &labelling;
     connect(&labelling.labels(), &LabelSession::changed, evaluation_, &EvaluationSession::labelsChanged);
     connect(&labelling.labels(), &LabelSession::opened, this, [this] {
-        const DiagnosedMistake* one = evaluation_->selectedMistake();
-        if (correcting_ && one != nullptr && !one->mistake.objects.empty())
-            labelling_->labels().select(one->mistake.objects.front());
+        const DiagnosedError* one = evaluation_->selectedError();
+        if (correcting_ && one != nullptr && !one->error.objects.empty())
+            labelling_->labels().select(one->error.objects.front());
     });
 }
 
 void EvaluationDocks::correctTruth() {
-    const DiagnosedMistake* one = evaluation_->selectedMistake();
+    const DiagnosedError* one = evaluation_->selectedError();
     if (one == nullptr || labelling_ == nullptr) {
         messages_.showMessage(MessageKind::info, tr("Choose an error first."));
         return;
@@ -307,17 +307,17 @@ void EvaluationDocks::correctTruth() {
         return;
     }
     correcting_ = true;
-    const Mistake mistake = one->mistake;
-    const MistakePlace place = placeOf(*one);
+    const ResultError error = one->error;
+    const ErrorPlace place = placeOf(*one);
     const double zoom = canvas_.transform().zoom();
     if (!labelling_->active()) actions_.workspaceAction(WorkspaceKind::label)->trigger();
     session_.goToFrame(place.frame);
     canvas_.restore(zoom, QPointF(place.box.centre.x, place.box.centre.y));
     docks_.raise(DockId::errors);  // the list stays, so that the next error is one key away
-    if (!mistake.objects.empty()) {
-        labelling_->labels().select(mistake.objects.front());
+    if (!error.objects.empty()) {
+        labelling_->labels().select(error.objects.front());
         errors_->setStatus(
-            tr("Correct object %1; the run is scored again after every change.").arg(mistake.objects.front()));
+            tr("Correct object %1; the run is scored again after every change.").arg(error.objects.front()));
     } else {
         labelling_->labels().select(std::nullopt);
         messages_.showMessage(
@@ -378,13 +378,13 @@ void EvaluationDocks::tellChange(const std::shared_ptr<const RunEvaluation>& bef
     const auto& now = evaluation_->evaluation();
     if (!correcting_ || !before || !now || before == now || before->run.id != now->run.id) return;
     if (now->shown.detection.overlap_sum == before->shown.detection.overlap_sum &&
-        now->mistakes.size() == before->mistakes.size())
+        now->errors.size() == before->errors.size())
         return;
-    const int errors = static_cast<int>(now->mistakes.size()) - static_cast<int>(before->mistakes.size());
+    const int errors = static_cast<int>(now->errors.size()) - static_cast<int>(before->errors.size());
     errors_->setStatus(
         tr("<b>Scored again:</b> f-score %1 → %2, %3 errors (%4%5)")
             .arg(numberText(before->shown.detection.f_score, 4), numberText(now->shown.detection.f_score, 4))
-            .arg(now->mistakes.size())
+            .arg(now->errors.size())
             .arg(errors > 0 ? QStringLiteral("+") : QString())
             .arg(errors));
 }

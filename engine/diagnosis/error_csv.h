@@ -12,9 +12,9 @@ namespace eyrie {
 /// box (x, y, length, width in px, heading in degrees) of the place that shows the cause, cause (the most frequent one
 /// of the stretch), detail (of that frame, which it names where there are several), frames_of_cause (places with the
 /// cause). `separator`: ',' for files, a tab for the clipboard.
-std::string mistakeTable(const std::vector<DiagnosedMistake>& mistakes, char separator = ',');
+std::string errorTable(const std::vector<DiagnosedError>& errors, char separator = ',');
 
 /// Throws Error(output); the file is either complete or as it was before.
-void writeMistakeCsv(const std::filesystem::path& path, const std::vector<DiagnosedMistake>& mistakes);
+void writeErrorCsv(const std::filesystem::path& path, const std::vector<DiagnosedError>& errors);
 
 }  // namespace eyrie
