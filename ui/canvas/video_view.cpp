@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "canvas/canvas_tool.h"
-#include "canvas/caption_placer.h"
-#include "canvas/edged_painter.h"
+#include "canvas/drawing/caption_placer.h"
+#include "canvas/drawing/edged_painter.h"
 #include "canvas/layers/overlay_table.h"
 #include "canvas/layers/track_layer.h"
 

@@ -1,6 +1,6 @@
 #include "label/object_pictures.h"
 
-#include "canvas/image_convert.h"
+#include "canvas/drawing/image_convert.h"
 #include "label/canvas/label_tool.h"
 #include "label/computing/label_chips.h"
 #include "label/computing/label_stacks.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "canvas/image_convert.h"
+#include "canvas/drawing/image_convert.h"
 
 namespace eyrie::ui {
 

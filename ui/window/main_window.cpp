@@ -14,7 +14,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
-#include "canvas/layers/image_stack_layer.h"
+#include "canvas/layers/stages/image_stack_layer.h"
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "label/canvas/label_timeline.h"

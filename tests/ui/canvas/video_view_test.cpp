@@ -4,7 +4,7 @@
 #include <QTest>
 #include <QWheelEvent>
 
-#include "canvas/image_convert.h"
+#include "canvas/drawing/image_convert.h"
 #include "canvas/layers/track_layer.h"
 
 namespace eyrie::ui {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "canvas/layers/corner_layer.h"
+#include "canvas/layers/stages/corner_layer.h"
 #include "canvas/layers/track_layer.h"
 #include "label/canvas/label_timeline.h"
 #include "label/computing/label_fitting.h"

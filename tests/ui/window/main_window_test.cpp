@@ -10,15 +10,15 @@
 #include <QTreeWidget>
 #include <algorithm>
 
-#include "canvas/layers/cluster_layer.h"
-#include "canvas/layers/corner_layer.h"
-#include "canvas/layers/detection_layer.h"
-#include "canvas/layers/image_stack_layer.h"
-#include "canvas/layers/roi_layer.h"
 #include "canvas/layers/speed_layer.h"
+#include "canvas/layers/stages/cluster_layer.h"
+#include "canvas/layers/stages/corner_layer.h"
+#include "canvas/layers/stages/detection_layer.h"
+#include "canvas/layers/stages/image_stack_layer.h"
+#include "canvas/layers/stages/roi_layer.h"
+#include "canvas/layers/stages/vector_layer.h"
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/truth_layer.h"
-#include "canvas/layers/vector_layer.h"
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "tune/inspect/inspection.h"

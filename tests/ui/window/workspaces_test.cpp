@@ -9,12 +9,12 @@
 #include <QTest>
 #include <QTreeWidget>
 
-#include "canvas/layers/cluster_layer.h"
-#include "canvas/layers/corner_layer.h"
-#include "canvas/layers/detection_layer.h"
 #include "canvas/layers/overlay_table.h"
+#include "canvas/layers/stages/cluster_layer.h"
+#include "canvas/layers/stages/corner_layer.h"
+#include "canvas/layers/stages/detection_layer.h"
+#include "canvas/layers/stages/vector_layer.h"
 #include "canvas/layers/track_layer.h"
-#include "canvas/layers/vector_layer.h"
 #include "canvas/video_view.h"
 #include "label/label_actions.h"
 #include "label/label_workspace.h"

@@ -2,15 +2,15 @@
 
 #include <QCoreApplication>
 
-#include "canvas/layers/cluster_layer.h"
-#include "canvas/layers/corner_layer.h"
-#include "canvas/layers/detection_layer.h"
-#include "canvas/layers/image_stack_layer.h"
-#include "canvas/layers/roi_layer.h"
 #include "canvas/layers/speed_layer.h"
+#include "canvas/layers/stages/cluster_layer.h"
+#include "canvas/layers/stages/corner_layer.h"
+#include "canvas/layers/stages/detection_layer.h"
+#include "canvas/layers/stages/image_stack_layer.h"
+#include "canvas/layers/stages/roi_layer.h"
+#include "canvas/layers/stages/vector_layer.h"
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/truth_layer.h"
-#include "canvas/layers/vector_layer.h"
 #include "canvas/layers/verdict_layer.h"
 
 namespace eyrie::ui {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "canvas/track_captions.h"
+#include "canvas/drawing/track_captions.h"
 #include "widgets/display_text.h"
 
 namespace eyrie::ui {

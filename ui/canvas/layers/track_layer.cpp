@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "canvas/edged_painter.h"
-#include "canvas/track_captions.h"
+#include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/track_captions.h"
 
 namespace eyrie::ui {
 

@@ -1,6 +1,6 @@
 #include "canvas/layers/truth_layer.h"
 
-#include "canvas/edged_painter.h"
+#include "canvas/drawing/edged_painter.h"
 
 namespace eyrie::ui {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "canvas/caption_placer.h"
-#include "canvas/edged_painter.h"
+#include "canvas/drawing/caption_placer.h"
+#include "canvas/drawing/edged_painter.h"
 
 namespace eyrie::ui {
 

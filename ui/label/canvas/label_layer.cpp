@@ -6,8 +6,8 @@
 #include <map>
 #include <tuple>
 
-#include "canvas/caption_placer.h"
-#include "canvas/edged_painter.h"
+#include "canvas/drawing/caption_placer.h"
+#include "canvas/drawing/edged_painter.h"
 #include "canvas/upright_in_view.h"
 
 namespace eyrie::ui {

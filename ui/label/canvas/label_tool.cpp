@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
-#include "canvas/edged_painter.h"
+#include "canvas/drawing/edged_painter.h"
 #include "label/canvas/label_layer.h"
 
 namespace eyrie::ui {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "canvas/canvas_tool.h"
-#include "canvas/loupe.h"
+#include "canvas/drawing/loupe.h"
 #include "label/canvas/box_handles.h"
 #include "label/canvas/label_mark.h"
 #include "widgets/delayed_call.h"

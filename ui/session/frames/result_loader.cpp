@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "canvas/image_convert.h"
+#include "canvas/drawing/image_convert.h"
 #include "io/video/frame_cache.h"
 #include "session/frames/stored_frames.h"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "canvas/image_convert.h"
+#include "canvas/drawing/image_convert.h"
 
 namespace eyrie::ui {
 

@@ -1,4 +1,4 @@
-#include "canvas/caption_placer.h"
+#include "canvas/drawing/caption_placer.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "canvas/layers/roi_layer.h"
+#include "canvas/layers/stages/roi_layer.h"
 
-#include "canvas/edged_painter.h"
+#include "canvas/drawing/edged_painter.h"
 
 namespace eyrie::ui {
 

@@ -1,6 +1,6 @@
-#include "canvas/layers/cluster_layer.h"
+#include "canvas/layers/stages/cluster_layer.h"
 
-#include "canvas/edged_painter.h"
+#include "canvas/drawing/edged_painter.h"
 
 namespace eyrie::ui {
 

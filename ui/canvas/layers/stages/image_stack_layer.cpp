@@ -1,8 +1,8 @@
-#include "canvas/layers/image_stack_layer.h"
+#include "canvas/layers/stages/image_stack_layer.h"
 
 #include <cmath>
 
-#include "canvas/edged_painter.h"
+#include "canvas/drawing/edged_painter.h"
 
 namespace eyrie::ui {
 

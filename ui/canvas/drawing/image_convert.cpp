@@ -1,4 +1,4 @@
-#include "canvas/image_convert.h"
+#include "canvas/drawing/image_convert.h"
 
 #include "core/error.h"
 

@@ -1,4 +1,4 @@
-#include "canvas/track_captions.h"
+#include "canvas/drawing/track_captions.h"
 
 #include <QFontMetricsF>
 #include <QPainter>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "canvas/caption_placer.h"
+#include "canvas/drawing/caption_placer.h"
 #include "canvas/upright_in_view.h"
 
 namespace eyrie::ui {

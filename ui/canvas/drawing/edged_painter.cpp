@@ -1,4 +1,4 @@
-#include "canvas/edged_painter.h"
+#include "canvas/drawing/edged_painter.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "canvas/loupe.h"
+#include "canvas/drawing/loupe.h"
 
 #include <QCoreApplication>
 #include <QPainter>
