@@ -3,11 +3,12 @@
 #include <QHelpEvent>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QPainterPath>
 #include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
+
+#include "widgets/theme_colours.h"
 
 namespace eyrie::ui {
 
@@ -21,43 +22,11 @@ constexpr double kMarkHeight = 12;
 constexpr double kMarkReach = 5;  ///< px beside a mark that count as on it
 constexpr int kHeight = 104;
 
-QColor blend(const QColor& a, const QColor& b, double share) {
-    const auto mix = [share](int from, int to) { return static_cast<int>(std::lround(from + (to - from) * share)); };
-    return {mix(a.red(), b.red()), mix(a.green(), b.green()), mix(a.blue(), b.blue())};
-}
-
-/// How much attention a frame deserves when several share a screen column.
-double badness(const TimelineFrame& frame) {
-    switch (frame.state) {
-        case RegistrationState::failed:
-            return 1000;
-        case RegistrationState::frozen:
-            return 500;
-        case RegistrationState::registered:
-            return frame.rms_px;
-        case RegistrationState::first:
-            break;
-    }
-    return 0;
-}
 }  // namespace
 
 struct TimelineView::Rows {
     QRectF ruler, quality, marks, activity, track;
 };
-
-QColor qualityColour(const TimelineFrame& frame) {
-    switch (frame.state) {
-        case RegistrationState::failed:
-            return {224, 58, 48};
-        case RegistrationState::frozen:
-            return {122, 142, 170};
-        case RegistrationState::first:
-        case RegistrationState::registered:
-            break;
-    }
-    return blend(QColor(70, 170, 90), QColor(235, 165, 40), std::clamp(frame.rms_px / kPoorRms, 0.0, 1.0));
-}
 
 TimelineView::TimelineView(QWidget* parent) : QWidget(parent) {
     setMouseTracking(true);
@@ -148,6 +117,10 @@ void TimelineView::layoutAxis() {
     axis_.setSpan(gutter, width() - gutter - kRightMargin);
 }
 
+TimelineActivity TimelineView::activity() const {
+    return {frames_, colours_, palette()};
+}
+
 TimelineView::Rows TimelineView::rows() const {
     Rows rows;
     const double left = axis_.left();
@@ -183,12 +156,12 @@ void TimelineView::paintEvent(QPaintEvent*) {
         name(row.activity, tr("Activity"));
     } else {
         // Name, colour and height of both curves.
-        const auto [most_tracks, most_vectors] = highest();
+        const TimelineActivity curves = activity();
         const double half = row.activity.height() / 2;
-        painter.setPen(trackCurveColour());
-        name(row.activity.adjusted(0, 0, 0, -half), tr("tracks ≤ %1").arg(most_tracks));
-        painter.setPen(vectorCurveColour());
-        name(row.activity.adjusted(0, half, 0, 0), tr("vectors ≤ %1").arg(most_vectors));
+        painter.setPen(curves.trackColour());
+        name(row.activity.adjusted(0, 0, 0, -half), tr("tracks ≤ %1").arg(curves.mostTracks()));
+        painter.setPen(curves.vectorColour());
+        name(row.activity.adjusted(0, half, 0, 0), tr("vectors ≤ %1").arg(curves.mostVectors()));
         painter.setPen(palette().color(QPalette::PlaceholderText));
     }
     name(row.track, track_life_ ? track_name_ : tr("Selected"));
@@ -197,7 +170,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
     painter.setClipRect(QRectF(axis_.left() - 1, 0, axis_.right() - axis_.left() + 2, height()));
     paintQuality(painter, row.quality);
     paintMarks(painter, row.marks);
-    paintActivity(painter, row.activity);
+    activity().paint(painter, row.activity, axis_);
     paintTrackLife(painter, row.track);
     painter.restore();
     paintCursor(painter);
@@ -269,68 +242,6 @@ void TimelineView::paintMarks(QPainter& painter, const QRectF& row) const {
     for (const TimelineMarks::Stroke& stroke : marks_.strokes(axis_))
         painter.fillRect(QRectF(stroke.x - 1, row.top() + 1, TimelineMarks::kStrokeWidth, row.height() - 2),
                          stroke.colour);
-}
-
-void TimelineView::paintActivity(QPainter& painter, const QRectF& row) const {
-    painter.fillRect(row, palette().color(QPalette::Base));
-    const auto [most_tracks, most_vectors] = highest();
-    const FrameIndex first = axis_.firstVisible();
-    const FrameIndex last = std::min(axis_.lastVisible(), static_cast<FrameIndex>(frames_.size()) - 1);
-    QPainterPath tracks;
-    QPainterPath vectors;
-    bool drawing = false;
-    const auto close = [&](FrameIndex before) {
-        if (!drawing) return;
-        tracks.lineTo(axis_.xOf(before), row.bottom());
-        drawing = false;
-    };
-    for (FrameIndex f = first; f <= last; ++f) {
-        const TimelineFrame& frame = frames_[static_cast<size_t>(f)];
-        if (!frame.done) {
-            close(f);
-            continue;
-        }
-        const double track_y = row.bottom() - (row.height() - 3) * frame.tracks / most_tracks;
-        const double vector_y = row.bottom() - (row.height() - 3) * frame.motion_vectors / most_vectors;
-        if (!drawing) {
-            tracks.moveTo(axis_.xOf(f), row.bottom());
-            tracks.lineTo(axis_.xOf(f), track_y);
-            vectors.moveTo(axis_.centreOf(f), vector_y);
-            drawing = true;
-        }
-        tracks.lineTo(axis_.xOf(f), track_y);
-        tracks.lineTo(axis_.xOf(f + 1), track_y);
-        vectors.lineTo(axis_.centreOf(f), vector_y);
-    }
-    close(last + 1);
-    QColor area = blend(colours_.track, palette().color(QPalette::Base), 0.45);
-    painter.fillPath(tracks, area);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(vectorCurveColour(), 1.2));
-    painter.drawPath(vectors);
-    painter.setRenderHint(QPainter::Antialiasing, false);
-}
-
-std::pair<int, int> TimelineView::highest() const {
-    std::pair<int, int> most{1, 1};
-    for (const TimelineFrame& frame : frames_) {
-        most.first = std::max(most.first, frame.tracks);
-        most.second = std::max(most.second, frame.motion_vectors);
-    }
-    return most;
-}
-
-// The overlays' colours are made for video; on the window's ground they are darkened until they read.
-QColor TimelineView::trackCurveColour() const {
-    return darkGround() ? colours_.track.darker(115) : colours_.track.darker(190);
-}
-
-QColor TimelineView::vectorCurveColour() const {
-    return darkGround() ? colours_.motion_vector.darker(115) : colours_.motion_vector.darker(190);
-}
-
-bool TimelineView::darkGround() const {
-    return palette().color(QPalette::Base).lightness() < 128;
 }
 
 void TimelineView::paintTrackLife(QPainter& painter, const QRectF& row) const {

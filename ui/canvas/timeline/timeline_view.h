@@ -7,22 +7,12 @@
 #include <vector>
 
 #include "canvas/overlay_colours.h"
+#include "canvas/timeline/timeline_activity.h"
 #include "canvas/timeline/timeline_axis.h"
+#include "canvas/timeline/timeline_frame.h"
 #include "canvas/timeline/timeline_marks.h"
-#include "core/values/corner.h"
 
 namespace eyrie::ui {
-
-/// What the timeline knows of a frame that a run has done.
-struct TimelineFrame {
-    bool done = false;
-    RegistrationState state = RegistrationState::first;
-    double rms_px = 0;
-    int inliers = 0;
-    int corners = 0;
-    int motion_vectors = 0;
-    int tracks = 0;
-};
 
 /// Ruler with the video's own times, registration quality, activity, the life of the selected track and the place
 /// shown. Clicking and dragging scrub; the wheel zooms; arrow keys are left to the window.
@@ -83,15 +73,11 @@ class TimelineView : public QWidget {
     void paintMarks(QPainter& painter, const QRectF& row) const;
     /// The mark under a place of the widget.
     const TimelineMark* markAt(QPointF place) const;
-    void paintActivity(QPainter& painter, const QRectF& row) const;
     void paintTrackLife(QPainter& painter, const QRectF& row) const;
     void paintCursor(QPainter& painter) const;
     QString describeFrame(FrameIndex frame) const;
-    /// Most tracks and most motion vectors of any frame, at least 1.
-    std::pair<int, int> highest() const;
-    QColor trackCurveColour() const;
-    QColor vectorCurveColour() const;
-    bool darkGround() const;
+    /// The curves as they are now; valid while frames and axis are not changed.
+    TimelineActivity activity() const;
 
     TimelineAxis axis_;
     std::vector<std::int64_t> times_us_;
@@ -106,10 +92,5 @@ class TimelineView : public QWidget {
     FrameIndex current_ = 0;
     bool scrubbing_ = false;
 };
-
-/// Colour of a frame's registration: green at rms 0 towards amber at `kPoorRms`, red when it failed, blue-grey when the
-/// picture was frozen.
-QColor qualityColour(const TimelineFrame& frame);
-inline constexpr double kPoorRms = 0.5;  ///< px
 
 }  // namespace eyrie::ui
