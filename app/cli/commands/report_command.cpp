@@ -1,7 +1,5 @@
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 
 #include "cli/arguments/earlier_state.h"
@@ -11,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "report/evaluation_report.h"
 
 namespace eyrie::cli {
@@ -27,15 +26,6 @@ struct ReportArguments {
     std::string out;
     OutputArguments outputs;
 };
-
-std::string nowUtcText() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
-}
 
 void makeReport(const ReportArguments& arguments) {
     arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, arguments.ground_truth.file});
@@ -61,7 +51,7 @@ void makeReport(const ReportArguments& arguments) {
         }
     }
     ReportOptions options;
-    options.made_utc = nowUtcText();
+    options.made_utc = nowUtc();
     options.chips = arguments.chips;
     writeHtmlReport(arguments.out, makeEvaluationReport(*evaluation, pixels.get(), options));
     std::printf("Report: %s, f-score %.4f at T_ov %g, %zu errors\n", arguments.out.c_str(),

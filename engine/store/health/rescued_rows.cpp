@@ -2,12 +2,12 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "core/utc_time.h"
 #include "store/database/rows.h"
 #include "store/health/report_text.h"
 #include "store/health/row_rules.h"
 #include "store/labels/journal_check.h"
 #include "store/labels/label_rows.h"
-#include "store/project/sequence_rows.h"
 #include "store/review/review_check.h"
 
 namespace eyrie {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/utc_time.h"
 #include "store/database/rows.h"
 #include "store/labels/label_rows.h"
 #include "store/project/sequence_rows.h"

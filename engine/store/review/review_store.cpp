@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/utc_time.h"
 #include "store/database/rows.h"
 #include "store/labels/label_rows.h"
-#include "store/project/sequence_rows.h"
 #include "store/review/review_rows.h"
 
 namespace eyrie {
