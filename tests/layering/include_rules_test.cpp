@@ -46,6 +46,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"annotation", {"core", "stacking"}},
     {"io", {"core"}},
     {"metadata", {"core", "io"}},
+    {"georeference", {"core", "annotation", "io", "metadata"}},
     {"formats", {"core", "io"}},
     {"imaging", {"core"}},
     {"registration", {"core"}},
