@@ -6,12 +6,15 @@
 #include <opencv2/core.hpp>
 
 #include "core/geometry/outline_map.h"
+#include "io/tables/number_text.h"
 
 namespace eyrie {
 namespace {
 
 constexpr double kStep_s = 0.5;
 constexpr double kReach_s = 5;
+constexpr double kCompared_s = 2;
+constexpr double kDoubt = 0.05;          ///< of the picture's diagonal
 constexpr double kFarOutside = 1;        ///< widths of the picture: a corner farther out of another frame is no measure
 constexpr double kHorizon = 1e-9;        ///< denominators of projective maps
 constexpr double kFarthest_m = 200'000;  ///< of any corner from the middle of the video
@@ -69,6 +72,43 @@ GeoReference::GeoReference(const MetadataTimeline& timeline, GeoFootage footage)
     const auto most = std::max_element(sources.begin(), sources.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
     if (most != sources.end()) source_ = most->first;
+    measureDisagreement();
+    footage_.time_us = {};  // its source need not live on
+}
+
+void GeoReference::measureDisagreement() {
+    const int apart = std::max(1, static_cast<int>(std::lround(kCompared_s * footage_.frame_rate_hz)));
+    const cv::Size size = footage_.image_size;
+    const cv::Point2d middle((size.width - 1) / 2.0, (size.height - 1) / 2.0);
+    std::vector<double> distances, diagonals;
+    for (const auto& [frame, statement] : views_) {
+        const auto later = views_.lower_bound(frame + apart);
+        if (later == views_.end()) break;
+        const auto there = footage_.camera.map(frame, later->first);
+        const auto px = there ? mapped(there->matrix, middle) : std::nullopt;
+        const auto here = mapped(statement.plane_from_image, middle);
+        const auto found = px ? mapped(later->second.plane_from_image, *px) : std::nullopt;
+        const auto a = mapped(statement.plane_from_image, {0, 0});
+        const auto b = mapped(statement.plane_from_image, {size.width - 1.0, size.height - 1.0});
+        if (!here || !found || !a || !b) continue;
+        distances.push_back(cv::norm(*found - *here));
+        diagonals.push_back(cv::norm(*b - *a));
+    }
+    if (distances.empty()) return;
+    disagreement_m_ = medianOf(distances);
+    doubtful_ = *disagreement_m_ > kDoubt * medianOf(diagonals);
+}
+
+std::string GeoReference::origin() const {
+    if (!known()) return {};
+    std::string text = std::string(nameOf(source_)) + " in the metadata, steadied by the registration";
+    if (!disagreement_m_) return text;
+    const std::string apart =
+        fixedText(*disagreement_m_, *disagreement_m_ < 10 ? 1 : 0) + " m within " + fixedText(kCompared_s, 0) + " s";
+    text += doubtful_ ? "; the metadata contradict the pictures by " + apart +
+                            ", so places of different moments cannot be compared"
+                      : "; both agree to " + apart;
+    return text;
 }
 
 std::optional<cv::Matx33d> GeoReference::mapOf(FrameIndex frame) const {

@@ -4,6 +4,7 @@
 #include <map>
 #include <opencv2/core/matx.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "annotation/keyframes/camera_motion.h"
@@ -37,6 +38,14 @@ class GeoReference {
     bool known() const { return !views_.empty(); }
     /// What most statements rest on.
     GroundSource source() const { return source_; }
+    /// How far statements two seconds apart place the same ground apart, as the registration finds it again: median, m.
+    /// Nothing where no two can be compared. Stated places are not better than that.
+    std::optional<double> disagreement_m() const { return disagreement_m_; }
+    /// Whether that is more than a twentieth of the picture's diagonal: then registration and metadata contradict each
+    /// other, and places of different moments cannot be compared.
+    bool doubtful() const { return doubtful_; }
+    /// For people: where places come from and how well they agree.
+    std::string origin() const;
     /// The place under a pixel; nothing where no statement is near, or for a pixel beyond the horizon.
     std::optional<GeoPoint> placeOf(FrameIndex frame, cv::Point2d px) const;
     /// The same in metres east and north of a point of the video's own, for distances and directions.
@@ -56,12 +65,15 @@ class GeoReference {
     };
     std::optional<cv::Matx33d> mapOf(FrameIndex frame) const;
     const Statement* nearest(FrameIndex frame) const;
+    void measureDisagreement();
 
     GeoFootage footage_;
     LocalPlane plane_;
     int reach_ = 0;                          ///< frames
     std::map<FrameIndex, Statement> views_;  ///< every half second
     GroundSource source_ = GroundSource::none;
+    std::optional<double> disagreement_m_;
+    bool doubtful_ = false;
     mutable FrameIndex mapped_frame_ = -1;
     mutable std::optional<cv::Matx33d> mapped_;
 };

@@ -127,6 +127,23 @@ TEST(GeoReference, theRegistrationSteadiesJitteringStatements) {
     EXPECT_LT(jump, kJitter_m);
 }
 
+TEST(GeoReference, itIsToldHowFarMetadataAndRegistrationAgree) {
+    const VideoMetadata exact(flight({}), picturesOf());
+    const GeoReference good(exact.timeline(), footage());
+    ASSERT_TRUE(good.disagreement_m());
+    EXPECT_LT(*good.disagreement_m(), 0.05);
+    EXPECT_FALSE(good.doubtful());
+    // The picture stands still, by the registration, while the metadata fly on: 10 m in two seconds.
+    GeoFootage standing = footage();
+    standing.camera = CameraMotion::standing(0, kFilmed - 1);
+    const GeoReference bad(exact.timeline(), standing);
+    ASSERT_TRUE(bad.disagreement_m());
+    EXPECT_NEAR(*bad.disagreement_m(), 2 * kRate_hz * kPixel_m, 0.1);
+    EXPECT_TRUE(bad.doubtful());
+    EXPECT_NE(bad.origin().find("contradict"), std::string::npos);
+    EXPECT_EQ(good.origin().find("contradict"), std::string::npos);
+}
+
 TEST(GeoReference, framesWithoutMetadataHavePlacesWhereTheRegistrationReaches) {
     const VideoMetadata metadata(flight({.from = 70, .to = 90}), picturesOf());
     const GeoReference reference(metadata.timeline(), footage());

@@ -43,6 +43,8 @@ class EventsPanel : public TablePanel {
     void editNote(int id);
 
  signals:
+    /// The user wants a report: of every event, or of those judged relevant or unsure.
+    void reportWanted(bool all);
     /// The user wants to see an event.
     void eventChosen(int id);
     void listingChanged();
