@@ -85,7 +85,8 @@ std::vector<std::pair<std::string, std::string>> changedLimits(const EventChoice
             review.describe(visitor);
         });
     };
-    const std::vector<Parameter> now = valuesOf(choice.options, choice.review), usual = valuesOf(EventOptions(), ReviewOptions());
+    const std::vector<Parameter> now = valuesOf(choice.options, choice.review),
+                                 usual = valuesOf(EventOptions(), ReviewOptions());
     std::vector<std::pair<std::string, std::string>> changed;
     for (std::size_t i = 0; i < now.size(); ++i)
         if (now[i].value != usual[i].value)
