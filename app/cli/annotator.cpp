@@ -32,8 +32,7 @@ void drawBox(cv::Mat& picture, const OrientedBox& box, double zoom, const cv::Sc
 }
 
 cv::Mat canvas(const Frame& frame, int zoom) {
-    cv::Mat colour = frame.colour;
-    if (colour.empty()) cv::cvtColor(frame.gray, colour, cv::COLOR_GRAY2BGR);
+    const cv::Mat colour = colourOf(frame);
     if (zoom == 1) return colour.clone();
     cv::Mat enlarged;
     cv::resize(colour, enlarged, {}, zoom, zoom, cv::INTER_CUBIC);
@@ -42,6 +41,13 @@ cv::Mat canvas(const Frame& frame, int zoom) {
 
 }  // namespace
 
+cv::Mat colourOf(const Frame& frame) {
+    if (!frame.colour.empty()) return frame.colour;
+    cv::Mat colour;
+    cv::cvtColor(frame.gray, colour, cv::COLOR_GRAY2BGR);
+    return colour;
+}
+
 int annotationZoom(cv::Size size) {
     return std::clamp(960 / std::max(size.width, 1), 1, 4);
 }
@@ -49,19 +55,22 @@ int annotationZoom(cv::Size size) {
 cv::Mat Annotator::draw(const Frame& frame, const FrameResult& result) {
     const int zoom = annotationZoom(frame.gray.size());
     cv::Mat picture = canvas(frame, zoom);
-    for (const auto& vector : result.motion.motion_vectors) {
-        const cv::Point2d from = vector.position;
-        drawLine(picture, from, from + cv::Point2d(vector.velocity) * 5, zoom, yellow);
+    if (parts_ == Parts::all) {
+        for (const auto& vector : result.motion.motion_vectors) {
+            const cv::Point2d from = vector.position;
+            drawLine(picture, from, from + cv::Point2d(vector.velocity) * 5, zoom, yellow);
+        }
+        for (const auto& cluster : result.clusters) drawBox(picture, cluster.box, zoom, cyan);
+        for (const auto& detection : result.detections) {
+            if (detection.rejection == Rejection::none) drawBox(picture, detection.box, zoom, red);
+        }
     }
-    for (const auto& cluster : result.clusters) drawBox(picture, cluster.box, zoom, cyan);
-    for (const auto& detection : result.detections) {
-        if (detection.rejection == Rejection::none) drawBox(picture, detection.box, zoom, red);
-    }
+    follow(result);
     drawTracks(picture, result, zoom);
     return picture;
 }
 
-void Annotator::drawTracks(cv::Mat& picture, const FrameResult& result, double zoom) {
+void Annotator::follow(const FrameResult& result) {
     std::map<TrackId, std::deque<cv::Point2d>> living;
     for (const auto& track : result.tracks) {
         auto& trail = living[track.id];
@@ -69,8 +78,15 @@ void Annotator::drawTracks(cv::Mat& picture, const FrameResult& result, double z
         // The ground moves under the camera, and the trail with it.
         for (auto& point : trail) point = result.motion.registration.current_from_previous.apply(point);
         trail.push_back(track.box.centre);
-        if (trail.size() > trail_frames_) trail.pop_front();
+        if (trail.size() > kTrailFrames) trail.pop_front();
+    }
+    trails_ = std::move(living);
+}
+
+void Annotator::drawTracks(cv::Mat& picture, const FrameResult& result, double zoom) const {
+    for (const auto& track : result.tracks) {
         if (track.status == TrackStatus::tentative) continue;
+        const auto& trail = trails_.at(track.id);
         for (std::size_t i = 1; i < trail.size(); ++i) drawLine(picture, trail[i - 1], trail[i], zoom, green);
         drawBox(picture, track.box, zoom, green);
         const cv::Point2d top(track.box.centre.x, track.box.centre.y - track.box.upright().width / 2);
@@ -79,7 +95,6 @@ void Annotator::drawTracks(cv::Mat& picture, const FrameResult& result, double z
         cv::putText(picture, label, at, cv::FONT_HERSHEY_SIMPLEX, 0.4, dark, 3, cv::LINE_AA);
         cv::putText(picture, label, at, cv::FONT_HERSHEY_SIMPLEX, 0.4, green, 1, cv::LINE_AA);
     }
-    trails_ = std::move(living);
 }
 
 }  // namespace eyrie::cli

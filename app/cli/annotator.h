@@ -13,15 +13,25 @@ namespace eyrie::cli {
 /// red, tracks green with id and trail (the thesis' colours). Small videos are enlarged so that labels can be read.
 class Annotator {
  public:
+    enum class Parts { all, tracks };
+    explicit Annotator(Parts parts = Parts::all) : parts_(parts) {}
+    /// How far trails go back.
+    static constexpr int kTrailFrames = 50;
+
+    /// A frame that is not drawn, for the trails of those that follow.
+    void follow(const FrameResult& result);
     /// Picture of one frame, CV_8UC3; frames must come in ascending order for the trails.
     cv::Mat draw(const Frame& frame, const FrameResult& result);
 
  private:
-    void drawTracks(cv::Mat& picture, const FrameResult& result, double zoom);
+    void drawTracks(cv::Mat& picture, const FrameResult& result, double zoom) const;
 
-    static constexpr std::size_t trail_frames_ = 50;
+    Parts parts_;
     std::map<TrackId, std::deque<cv::Point2d>> trails_;
 };
+
+/// The picture in colours, CV_8UC3.
+cv::Mat colourOf(const Frame& frame);
 
 /// Factor by which frames of this size are enlarged.
 int annotationZoom(cv::Size size);

@@ -57,6 +57,10 @@ LabelFormat viratFormat();
 LabelFormat viameFormat();
 LabelFormat vividFormat();
 LabelFormat columnsFormat();
+LabelFormat tracksCsvFormat();
+LabelFormat geoJsonFormat();
+LabelFormat kmlFormat();
+LabelFormat stanag4676Format();
 
 /// A box by the fields left, top, width, height from `first` on.
 OrientedBox boxByEdges(const TextLine& line, std::size_t first, double first_pixel_edge);

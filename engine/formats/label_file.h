@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <string>
@@ -22,6 +23,8 @@ struct LabelBox : BoxRecord {
 
 using LabelBoxes = std::map<FrameIndex, std::vector<LabelBox>>;
 
+struct TrackWorld;
+
 struct LabelFile {
     std::string format;  ///< name of the format it was read from
     LabelBoxes boxes;    ///< every frame an object is seen in; boxes without id belong to no object
@@ -34,6 +37,7 @@ struct LabelFile {
     std::optional<double> frame_rate_hz;
     std::optional<double> gsd_m;                       ///< ground sampling distance, m/px
     std::map<FrameIndex, std::string> image_names;     ///< where the format names images
+    std::shared_ptr<const TrackWorld> world;           ///< when and where (track_world.h); of runs, else null
     int first_frame_number = 0;                        ///< the number the format gives to a video's first frame
     std::vector<std::filesystem::path> further_files;  ///< read besides the one named
     std::vector<std::string> notes;                    ///< what was odd, one sentence each

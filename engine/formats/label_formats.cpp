@@ -153,9 +153,11 @@ void applyOptions(LabelFile& labels, const ImportOptions& options, const std::fi
 
 const std::vector<LabelFormat>& formatTable() {
     static const std::vector<LabelFormat> table{
-        nativeFormat(), nativeResultFormat(), cvatFormat(),    kwcocoFormat(),  cocoFormat(),      trackEvalFormat(),
-        uavdtFormat(),  visDroneFormat(),     motCvatFormat(), motFormat(),     motResultFormat(), viameFormat(),
-        vividFormat(),  kw18Format(),         viratFormat(),   yoloObbFormat(), dotaFormat(),      columnsFormat()};
+        nativeFormat(),    nativeResultFormat(), cvatFormat(),     kwcocoFormat(),    cocoFormat(),
+        trackEvalFormat(), uavdtFormat(),        visDroneFormat(), motCvatFormat(),   motFormat(),
+        motResultFormat(), viameFormat(),        vividFormat(),    kw18Format(),      viratFormat(),
+        yoloObbFormat(),   dotaFormat(),         columnsFormat(),  tracksCsvFormat(), geoJsonFormat(),
+        kmlFormat(),       stanag4676Format()};
     return table;
 }
 

@@ -83,6 +83,7 @@ struct LabelFormatInfo {
     bool reads = true;
     bool writes = true;
     Carries carries;
+    bool tells_world = false;  ///< writes places on the earth or clock times where LabelFile::world knows them
 };
 
 const std::vector<LabelFormatInfo>& labelFormats();

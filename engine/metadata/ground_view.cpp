@@ -6,6 +6,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/homography_jacobian.h"
+#include "core/geometry/outline_map.h"
 #include "io/tables/number_text.h"
 #include "metadata/sensor_attitude.h"
 
@@ -19,23 +20,6 @@ constexpr double kCoarsestScale = 100.0;  ///< m/px
 constexpr double kAgreement = 2;          ///< ratio of two scales that are taken for the same
 
 using Quad = std::array<cv::Point2d, 4>;
-
-/// The projective map from the image, whose outline is half a pixel outside its pixels' centres, onto four corners
-/// (Heckbert's closed form over the unit square).
-cv::Matx33d mapOnto(const Quad& q, cv::Size size) {
-    const cv::Point2d sum = q[0] - q[1] + q[2] - q[3];
-    const cv::Point2d right = q[1] - q[2];
-    const cv::Point2d lower = q[3] - q[2];
-    const double area = right.cross(lower);
-    const double g = sum.cross(lower) / area;
-    const double h = right.cross(sum) / area;
-    const cv::Point2d a = q[1] - q[0] + g * q[1];
-    const cv::Point2d b = q[3] - q[0] + h * q[3];
-    const cv::Matx33d from_square(a.x, b.x, q[0].x, a.y, b.y, q[0].y, g, h, 1);
-    const cv::Matx33d to_square(1.0 / size.width, 0, 0.5 / size.width, 0, 1.0 / size.height, 0.5 / size.height, 0, 0,
-                                1);
-    return from_square * to_square;
-}
 
 cv::Point2d middleOf(cv::Size size) {
     return {(size.width - 1) / 2.0, (size.height - 1) / 2.0};
@@ -63,7 +47,7 @@ const char* disbelief(const Quad& quad) {
 const char* lay(GroundView& view, const LocalPlane& plane, const Quad& quad, const MetadataState& state, cv::Size size,
                 GroundSource source) {
     if (const char* why = disbelief(quad)) return why;
-    const cv::Matx33d map = mapOnto(quad, size);
+    const cv::Matx33d map = outlineOnto(quad, size);
     const HomographyJacobian middle(map, middleOf(size));
     const auto latitude = state.number(tag::kCentreLatitude);
     const auto longitude = state.number(tag::kCentreLongitude);

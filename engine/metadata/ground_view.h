@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "metadata/local_plane.h"
+#include "core/geometry/local_plane.h"
 #include "metadata/metadata_timeline.h"
 
 namespace eyrie {

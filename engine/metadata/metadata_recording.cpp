@@ -1,7 +1,6 @@
 #include "metadata/metadata_recording.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <numeric>
@@ -168,20 +167,6 @@ MetadataRecording readMetadata(const std::filesystem::path& path, const IndexPro
         }
     }
     return recording;
-}
-
-std::string utcText(std::int64_t utc_us) {
-    using namespace std::chrono;
-    const sys_time<microseconds> time{microseconds(utc_us)};
-    const auto day = floor<days>(time);
-    const year_month_day date(day);
-    const hh_mm_ss clock(time - day);
-    char text[64];
-    std::snprintf(text, sizeof text, "%04d-%02u-%02uT%02d:%02d:%02d.%06dZ", static_cast<int>(date.year()),
-                  static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                  static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
-                  static_cast<int>(clock.seconds().count()), static_cast<int>(clock.subseconds().count()));
-    return text;
 }
 
 }  // namespace eyrie

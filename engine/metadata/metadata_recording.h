@@ -73,7 +73,4 @@ MetadataRecording readMetadata(const std::filesystem::path& path, const IndexPro
 /// Whether a file is KLV and nothing else.
 bool isRawKlv(const std::filesystem::path& path);
 
-/// "2009-01-12T22:08:22.000000Z"
-std::string utcText(std::int64_t utc_us);
-
 }  // namespace eyrie

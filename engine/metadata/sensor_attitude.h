@@ -4,7 +4,7 @@
 #include <opencv2/core/types.hpp>
 #include <optional>
 
-#include "metadata/local_plane.h"
+#include "core/geometry/local_plane.h"
 #include "metadata/metadata_timeline.h"
 
 namespace eyrie {

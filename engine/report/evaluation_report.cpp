@@ -58,30 +58,6 @@ void tellWhat(ReportPage& page, const RunEvaluation& e, const ReportOptions& opt
         page.paragraph(differenceText("MOTA", *e.difference->difference.mota, e.difference->other));
 }
 
-/// Parameters other than the default, with the default's value.
-std::set<std::string> tellDifferentParameters(ReportPage& page, const RunEvaluation& e) {
-    std::map<std::string, std::string> defaults;
-    for (const auto& [name, value] : parameterValues(builtInPreset("default"))) defaults[name] = value;
-    std::set<std::string> different;
-    page.heading("Parameters that differ from the default");
-    std::vector<std::vector<std::string>> rows;
-    for (const auto& [name, value] : e.parameters) {
-        const auto usual = defaults.find(name);
-        if (usual != defaults.end() && usual->second == value) continue;
-        different.insert(name);
-        rows.push_back({markupEscaped(name), "<b>" + markupEscaped(value) + "</b>",
-                        usual == defaults.end() ? "(unknown to this version)" : markupEscaped(usual->second)});
-    }
-    if (rows.empty()) {
-        page.paragraph("None: the run has the default parameters.");
-        return different;
-    }
-    page.beginTable({"Parameter", "Value", "Default"});
-    for (const auto& row : rows) page.row(row);
-    page.endTable();
-    return different;
-}
-
 void tellMeasures(ReportPage& page, const RunEvaluation& e, bool on_a_new_page) {
     if (on_a_new_page)
         page.chapter("Measures");
@@ -130,31 +106,46 @@ std::string fixedDigits(double value, int decimals) {
     return text;
 }
 
-EvaluationReportFile makeEvaluationReport(const RunEvaluation& evaluation, FrameSource* pixels,
-                                          const ReportOptions& options, const std::function<void(double)>& progress,
-                                          const std::stop_token& stop) {
-    EvaluationReportFile report;
+std::set<std::string> tellDifferentParameters(ReportPage& page,
+                                              const std::vector<std::pair<std::string, std::string>>& parameters) {
+    std::map<std::string, std::string> defaults;
+    for (const auto& [name, value] : parameterValues(builtInPreset("default"))) defaults[name] = value;
+    std::set<std::string> different;
+    page.heading("Parameters that differ from the default");
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [name, value] : parameters) {
+        const auto usual = defaults.find(name);
+        if (usual != defaults.end() && usual->second == value) continue;
+        different.insert(name);
+        rows.push_back({markupEscaped(name), "<b>" + markupEscaped(value) + "</b>",
+                        usual == defaults.end() ? "(unknown to this version)" : markupEscaped(usual->second)});
+    }
+    if (rows.empty()) {
+        page.paragraph("None: the run has the default parameters.");
+        return different;
+    }
+    page.beginTable({"Parameter", "Value", "Default"});
+    for (const auto& row : rows) page.row(row);
+    page.endTable();
+    return different;
+}
+
+ReportFile makeEvaluationReport(const RunEvaluation& evaluation, FrameSource* pixels, const ReportOptions& options,
+                                const std::function<void(double)>& progress, const std::stop_token& stop) {
+    ReportFile report;
     const std::string name = std::filesystem::path(evaluation.run.sequence.path).filename().string();
     const std::string title =
         options.title.empty() ? "Evaluation of run " + std::to_string(evaluation.run.id) + ", " + name : options.title;
     ReportPage page;
     tellWhat(page, evaluation, options);
-    const std::set<std::string> different = tellDifferentParameters(page, evaluation);
+    const std::set<std::string> different = tellDifferentParameters(page, evaluation.parameters);
     tellMeasures(page, evaluation, different.size() > kFewParameters);
     addFigures(page, evaluation, report);
     tellCauses(page, evaluation, report);
     addChips(page, evaluation, pixels, options, report, progress, stop);
     listErrors(page, evaluation, options.rows);
     listParameters(page, evaluation, different);
-    report.html =
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + markupEscaped(title) +
-        "</title>\n<style>body{font-family:sans-serif;font-size:14px;max-width:900px;margin:24px auto;padding:0 12px;"
-        "color:#222;background:#fff}h1{font-size:22px}h2{font-size:17px;margin-top:28px}"
-        "table{border-collapse:collapse;margin:6px 0}th{border-bottom:2px solid #888;font-size:13px}"
-        "td{border-bottom:1px solid #ddd;font-size:13px;vertical-align:middle}img{max-width:100%}"
-        "@media print{h2.chapter{break-before:page}thead{display:table-header-group}}</style></head>\n"
-        "<body><h1>" +
-        markupEscaped(title) + "</h1>\n" + page.take() + "</body></html>\n";
+    report.html = reportPage(title, page.take());
     return report;
 }
 

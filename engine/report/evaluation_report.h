@@ -1,24 +1,15 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
-#include <map>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "diagnosis/run_evaluation.h"
 #include "io/video/frame_source.h"
+#include "report/report_file.h"
 
 namespace eyrie {
-
-/// An evaluation as a document: HTML that a browser and a simple printer understand, and its pictures by name. In
-/// `html` they stand as <img src="NAME">.
-struct EvaluationReportFile {
-    std::string html;
-    std::map<std::string, std::string> figures;  ///< SVG text
-    std::map<std::string, std::string> chips;    ///< bytes of PNG files
-};
 
 struct ReportOptions {
     std::string title;       ///< empty: made from the video's name
@@ -30,14 +21,7 @@ struct ReportOptions {
 /// Parameters that differ from the default come first, then figures, tables, the errors with most frames as chips, all
 /// errors, all parameters. `pixels` may be null: then there are no chips; what of it cannot be read is left out and
 /// said. `progress` (0 … 1) may be empty. When `stop` is requested the rest of the chips is left out.
-EvaluationReportFile makeEvaluationReport(const RunEvaluation& evaluation, FrameSource* pixels,
-                                          const ReportOptions& options = {},
-                                          const std::function<void(double)>& progress = {},
-                                          const std::stop_token& stop = {});
-
-/// The document with its pictures inside, for one file without network.
-std::string selfContained(const EvaluationReportFile& report);
-/// Throws Error(output); the file is either complete or as it was before.
-void writeHtmlReport(const std::filesystem::path& path, const EvaluationReportFile& report);
+ReportFile makeEvaluationReport(const RunEvaluation& evaluation, FrameSource* pixels, const ReportOptions& options = {},
+                                const std::function<void(double)>& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace eyrie

@@ -1,7 +1,8 @@
 #include <cstdint>
 
+#include "core/text.h"
 #include "io/atomic_file.h"
-#include "report/evaluation_report.h"
+#include "report/report_file.h"
 
 namespace eyrie {
 namespace {
@@ -27,15 +28,34 @@ void replaceSource(std::string& html, const std::string& name, const std::string
 
 }  // namespace
 
-std::string selfContained(const EvaluationReportFile& report) {
+std::string reportPage(const std::string& title, const std::string& body) {
+    return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + markupEscaped(title) +
+           "</title>\n<style>body{font-family:sans-serif;font-size:14px;max-width:900px;margin:24px auto;padding:0 "
+           "12px;"
+           "color:#222;background:#fff}h1{font-size:22px}h2{font-size:17px;margin-top:28px}h3{font-size:15px;"
+           "margin:22px 0 4px}table{border-collapse:collapse;margin:6px 0}th{border-bottom:2px solid "
+           "#888;font-size:13px}"
+           "td{border-bottom:1px solid #ddd;font-size:13px;vertical-align:middle}img{max-width:100%}"
+           "table.event td{border:0;vertical-align:top;padding:0 12px 4px 0}table.event table td{border-bottom:1px "
+           "solid "
+           "#ddd;padding:2px 8px 2px 0}table.event{break-inside:avoid}h3{break-after:avoid}"
+           "@media print{h2.chapter{break-before:page}thead{display:table-header-group}}</style></head>\n"
+           "<body><h1>" +
+           markupEscaped(title) + "</h1>\n" + body + "</body></html>\n";
+}
+
+std::string selfContained(const ReportFile& report) {
     std::string html = report.html;
-    for (const auto& [name, svg] : report.figures)
-        replaceSource(html, name, "data:image/svg+xml;base64," + base64(svg));
-    for (const auto& [name, png] : report.chips) replaceSource(html, name, "data:image/png;base64," + base64(png));
+    for (const auto& [name, picture] : report.pictures) {
+        const char* type = picture.kind == ReportPicture::Kind::svg   ? "svg+xml"
+                           : picture.kind == ReportPicture::Kind::png ? "png"
+                                                                      : "jpeg";
+        replaceSource(html, name, std::string("data:image/") + type + ";base64," + base64(picture.bytes));
+    }
     return html;
 }
 
-void writeHtmlReport(const std::filesystem::path& path, const EvaluationReportFile& report) {
+void writeHtmlReport(const std::filesystem::path& path, const ReportFile& report) {
     writeFileAtomically(path, selfContained(report));
 }
 

@@ -12,6 +12,7 @@ namespace {
 constexpr const char* kBar = "#4a6fa5";
 constexpr std::size_t kChipsOnPage = 16;
 constexpr int kChipHeight = 72;
+constexpr double kChipWidth_mm = 21;
 constexpr double kChipShape = 1.6;
 constexpr double kAround = 2.6;  ///< a chip is as many boxes wide
 
@@ -73,7 +74,7 @@ std::vector<std::size_t> gravest(const RunEvaluation& e, std::size_t most) {
 
 }  // namespace
 
-void tellCauses(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& report) {
+void tellCauses(ReportPage& page, const RunEvaluation& e, ReportFile& report) {
     page.chapter("Errors by kind and probable cause");
     std::map<std::pair<int, int>, std::pair<int, int>> cells;  // kind, cause → entries, boxes
     std::map<int, int> by_cause;
@@ -92,7 +93,7 @@ void tellCauses(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
     for (const auto& [cause, count] : by_cause)
         bars.push_back({nameOf(static_cast<ErrorCause>(cause)), kBar, static_cast<double>(count)});
     std::stable_sort(bars.begin(), bars.end(), [](const ChartBar& a, const ChartBar& b) { return a.value > b.value; });
-    report.figures["figure-causes"] = lyingBarsSvg(bars);
+    report.add("figure-causes", ReportPicture::Kind::svg, lyingBarsSvg(bars), kFigureWidth_mm);
     page.figure("figure-causes", "How often each cause occurs, in boxes.");
     page.beginTable({"Kind", "Probable cause", "Errors", "Count", ""});
     for (const auto& [key, cell] : cells) {
@@ -104,7 +105,7 @@ void tellCauses(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
 }
 
 void addChips(ReportPage& page, const RunEvaluation& e, FrameSource* pixels, const ReportOptions& options,
-              EvaluationReportFile& report, const std::function<void(double)>& progress, const std::stop_token& stop) {
+              ReportFile& report, const std::function<void(double)>& progress, const std::stop_token& stop) {
     if (e.errors.empty() || pixels == nullptr || options.chips == 0) return;
     std::vector<std::size_t> chosen = gravest(e, options.chips);
     std::vector<std::size_t> by_frame = chosen;
@@ -115,8 +116,8 @@ void addChips(ReportPage& page, const RunEvaluation& e, FrameSource* pixels, con
     for (std::size_t k = 0; k < by_frame.size() && trouble.empty() && !stop.stop_requested(); ++k) {
         try {
             const std::size_t i = by_frame[k];
-            report.chips["chip-" + std::to_string(i + 1)] =
-                pngChip(pixels->read(place(i).frame, false).gray, place(i).box);
+            report.add("chip-" + std::to_string(i + 1), ReportPicture::Kind::png,
+                       pngChip(pixels->read(place(i).frame, false).gray, place(i).box), kChipWidth_mm);
         } catch (const std::exception& error) {
             trouble = error.what();
         }
@@ -137,7 +138,7 @@ void addChips(ReportPage& page, const RunEvaluation& e, FrameSource* pixels, con
         const DiagnosedError& one = e.errors[i];
         const std::string name = "chip-" + std::to_string(i + 1);
         const bool is_switch = one.error.kind == ResultErrorKind::id_switch;
-        page.row({report.chips.contains(name) ? "<img src=\"" + name + "\">" : "",
+        page.row({report.pictures.contains(name) ? "<img src=\"" + name + "\">" : "",
                   markupEscaped(nameOf(one.error.kind)), frames(one.error), std::to_string(one.error.count()),
                   ids(one.error.objects, ", "), ids(one.error.tracks, is_switch ? " → " : ", "),
                   markupEscaped(nameOf(one.cause)), markupEscaped(one.text)});

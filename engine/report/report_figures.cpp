@@ -14,7 +14,7 @@ constexpr const char* kRecall = "#2d78c8";
 
 }  // namespace
 
-void addFigures(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& report) {
+void addFigures(ReportPage& page, const RunEvaluation& e, ReportFile& report) {
     page.chapter("Over time");
     CurveChart counts{"frame", "objects", {}, {}, 0, true};
     counts.series = {{"found", kFound, {}}, {"missed", kMissed, {}}, {"false", kFalse, {}}};
@@ -24,7 +24,7 @@ void addFigures(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
         counts.series[1].values.push_back(frame.missed);
         counts.series[2].values.push_back(frame.false_alarms);
     }
-    report.figures["figure-counts"] = curvesSvg(counts);
+    report.add("figure-counts", ReportPicture::Kind::svg, curvesSvg(counts), kFigureWidth_mm);
     page.figure("figure-counts", "Objects found and missed, and false alarms, per frame.");
 
     const int half = std::max(1, static_cast<int>(std::lround(e.run.sequence.frame_rate_hz))) / 2;
@@ -45,7 +45,7 @@ void addFigures(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
         ratios.series[0].values.push_back(share(sum.false_alarms));
         ratios.series[1].values.push_back(share(sum.missed));
     }
-    report.figures["figure-ratios"] = curvesSvg(ratios);
+    report.add("figure-ratios", ReportPicture::Kind::svg, curvesSvg(ratios), kFigureWidth_mm);
     page.figure("figure-ratios", "Precision and recall over " + std::to_string(2 * half + 1) + " frames.");
 
     std::vector<ChartBar> shares;
@@ -56,8 +56,9 @@ void addFigures(ReportPage& page, const RunEvaluation& e, EvaluationReportFile& 
     if (shares.empty()) return;
     std::stable_sort(shares.begin(), shares.end(),
                      [](const ChartBar& a, const ChartBar& b) { return a.value > b.value; });
-    report.figures["figure-tracked"] =
-        sharesSvg(shares, {1, 0.8, 0.2}, std::to_string(shares.size()) + " objects, best first");
+    report.add("figure-tracked", ReportPicture::Kind::svg,
+               sharesSvg(shares, {1, 0.8, 0.2}, std::to_string(shares.size()) + " objects, best first"),
+               kFigureWidth_mm);
     page.figure(
         "figure-tracked",
         "Share of its frames in which each object was found: mostly tracked from 80 %, mostly lost below 20 %.");

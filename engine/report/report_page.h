@@ -13,6 +13,7 @@ class ReportPage {
     void heading(const std::string& text) { html_ += "<h2>" + markupEscaped(text) + "</h2>\n"; }
     /// A heading that begins a page where the document is printed.
     void chapter(const std::string& text) { html_ += "<h2 class=\"chapter\">" + markupEscaped(text) + "</h2>\n"; }
+    void subheading(const std::string& text) { html_ += "<h3>" + markupEscaped(text) + "</h3>\n"; }
     void paragraph(const std::string& safe) { html_ += "<p>" + safe + "</p>\n"; }
     void figure(const std::string& name, const std::string& words) {
         html_ += "<p><img src=\"" + name + "\"><br><i>" + markupEscaped(words) + "</i></p>\n";

@@ -118,6 +118,7 @@ TEST_F(Outputs, NoCommandOverwritesAProject) {
     expectRefused({{"run", "@clip.mp4", "--project", "@p.eyrie", "--tracks", "@p.eyrie"}}, 4, "two outputs");
     expectRefused({{"export", "--project", "@p.eyrie", "--format", "mot", "--out", "@p.eyrie"},
                    {"evaluate", "--project", "@p.eyrie", "--ground-truth", "@boxes.csv", "--errors", "@p.eyrie"},
+                   {"report", "--project", "@p.eyrie", "--events", "--out", "@p.eyrie"},
                    {"report", "--project", "@p.eyrie", "--ground-truth", "@boxes.csv", "--out", "@p.eyrie"}},
                   4, "is read by this command");
 }
@@ -127,6 +128,7 @@ TEST_F(Outputs, FilesOfAnotherKindStayEvenWithForce) {
         {{"run", "@clip.mp4", "--project", "@n.eyrie", "--annotated", "@table.csv", "--force"},
          {"run", "scene:demo", "--project", "@n.eyrie", "--tracks", "@clip.mp4", "--force"},
          {"report", "--project", "@p.eyrie", "--ground-truth", "@boxes.csv", "--out", "@table.csv", "--force"},
+         {"report", "--project", "@p.eyrie", "--events", "--out", "@table.csv", "--force"},
          {"export", "--from", "@boxes.csv", "--format", "coco", "--out", "@table.csv", "--force"},
          {"classify", "--model", "@m", "--patches", "@d", "--roc", "@settings.json", "--force"}},
         4, "does not replace");

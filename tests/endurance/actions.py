@@ -7,7 +7,7 @@ from pathlib import Path
 from cases import Failure, judge
 from project_facts import facts
 
-READERS = ("info", "export", "evaluate", "report")
+READERS = ("info", "export", "evaluate", "report", "event-report")
 WRITERS = ("run", "sweep", "import", "merge", "window")
 OF_PROJECT = ("window", "run", "sweep", "import", "export", "info", "evaluate", "report", "merge")
 
@@ -207,6 +207,11 @@ class Report(Action):
         return text.rstrip().endswith("</html>")
 
 
+class EventReport(Report):
+    def words(self):
+        return ["report", "--project", self.project, "--events", "--verdict", "all", "--out", self.out("-events.html")]
+
+
 class Train(Action):
     """Needs no project; the model is compared with one made in peace."""
 
@@ -258,7 +263,7 @@ class Window(Action):
 CLASSES = {
     "run": Run, "run-tracks": RunWithTracks, "run-video": RunWithVideo, "sweep": Sweep, "sweep-run": SweepOfRun,
     "import": Import, "import-file": ImportToFile, "merge": Merge, "compare": Compare, "export": Export, "info": Info,
-    "evaluate": Evaluate, "report": Report, "train": Train, "render": Render, "window": Window,
+    "evaluate": Evaluate, "report": Report, "event-report": EventReport, "train": Train, "render": Render, "window": Window,
 }  # fmt: skip
 WITHOUT_PROJECT = ("import-file", "train", "render")
 MAKERS = ("run", "run-tracks", "run-video", "sweep", "import", "merge", "compare", "window")  # of a project

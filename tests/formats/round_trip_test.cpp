@@ -124,7 +124,8 @@ INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
                          });
 
 TEST(RoundTrips, CoverEveryFormat) {
-    EXPECT_EQ(labelFormats().size(), 18u);
+    const auto& all = labelFormats();
+    EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const LabelFormatInfo& info) { return info.reads; }), 18);
 }
 
 /// Writing what was read must say the same bytes: nothing drifts by half a pixel or a frame.
@@ -341,7 +342,7 @@ TEST(Export, NamesThatAreNotUtf8GiveWholeFiles) {
     ExportOptions options;
     options.sequence = "clip\xFF";
     for (const LabelFormatInfo& info : labelFormats()) {
-        if (!info.writes || info.name == "columns") continue;
+        if (!info.writes || !info.reads || info.name == "columns") continue;
         const auto target = folder / info.name;
         writeLabels(test::sampleLabels(), target, info.name, options);
         EXPECT_NO_THROW(readLabels(target.filename() == "uavdt" ? folder / "uavdt_gt.txt" : target, info.name))
@@ -351,7 +352,7 @@ TEST(Export, NamesThatAreNotUtf8GiveWholeFiles) {
 
 TEST(Export, EveryFileThatIsWrittenIsToldBefore) {
     for (const LabelFormatInfo& info : labelFormats()) {
-        if (!info.writes || info.name == "columns") continue;
+        if (!info.writes || !info.reads || info.name == "columns") continue;
         const test::TemporaryFolder folder;
         const auto target = folder / "target";
         const auto told = filesToWrite(target, info.name);

@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
     }
     const fs::path folder = argv[1];
     for (const eyrie::LabelFormatInfo& format : eyrie::labelFormats()) {
-        if (format.name == "trackeval" || !format.writes) continue;  // a tree is MOTChallenge inside
+        if (format.name == "trackeval" || !format.writes || !format.reads) continue;  // a tree is MOTChallenge inside
         seedsOfFormat(format.name, folder / format.name);
         std::cout << format.name << "\n";
     }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/utc_time.h"
 #include "metadata/collected.h"
 
 namespace eyrie {

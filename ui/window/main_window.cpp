@@ -32,6 +32,7 @@
 #include "window/bars/status_fields.h"
 #include "window/bars/transport_bar.h"
 #include "window/docks/evaluation_docks.h"
+#include "window/docks/event_report.h"
 #include "window/docks/review_docks.h"
 #include "window/docks/tuning.h"
 #include "window/opened_files.h"
@@ -70,6 +71,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     docks_ = new DockRegistry(*this);
     review_ = new ReviewDocks({session_, *inspection_, *docks_, *actions_, overlays_, *guard_, *messages_});
     events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
+    event_report_ = new EventReport({session_, *events_, *messages_, *this});
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
     buildEvaluation();

@@ -14,6 +14,7 @@ namespace eyrie::ui {
 
 class DockRegistry;
 class EvaluationDocks;
+class EventReport;
 class EventsDock;
 class Inspection;
 class LabelTimeline;
@@ -58,6 +59,7 @@ class MainWindow : public QMainWindow {
     Workspaces& workspaces() { return *workspaces_; }
     LabelWorkspace& labelling() { return *labelling_; }
     EventsDock& events() { return *events_; }
+    EventReport& eventReport() { return *event_report_; }
     EvaluationDocks& evaluation() { return *evaluation_; }
     Tuning& tuning() { return *tuning_; }
 
@@ -105,6 +107,7 @@ class MainWindow : public QMainWindow {
     DockRegistry* docks_;
     ReviewDocks* review_;
     EventsDock* events_;
+    EventReport* event_report_;
     EvaluationDocks* evaluation_;
     Tuning* tuning_;
     LabelWorkspace* labelling_;

@@ -6,6 +6,7 @@
 
 #include "cli/reports/figure_text.h"
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "core/values/scene_scale.h"
 
 namespace eyrie::cli {
@@ -53,6 +54,12 @@ FrameRange VideoArguments::range() const {
             "--frames " + frames + ": expected FIRST:LAST, both included and from 0, e.g. 100:249, 100: or :249");
     }
     return range;
+}
+
+std::optional<std::int64_t> startOf(const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    if (const auto utc_us = utcOf(text)) return utc_us;
+    throw Error(ErrorKind::parameter, "--start " + text + ": expected a time in UTC, e.g. 2026-11-21T08:00:00Z");
 }
 
 void checkGsd(double gsd) {

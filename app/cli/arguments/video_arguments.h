@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,11 @@ struct VideoArguments {
     /// "A:B", "A:", ":B" or "A" as first and last frame; all frames where nothing is said. Throws Error(parameter).
     FrameRange range() const;
 };
+
+/// What --start says: µs since 1970-01-01; nothing for an empty text. Throws Error(parameter).
+std::optional<std::int64_t> startOf(const std::string& text);
+inline constexpr const char* kStartHelp =
+    "When the video begins, UTC, e.g. 2026-11-21T08:00:00Z (default: by its metadata)";
 
 /// Throws Error(parameter) unless `gsd` is a usable number of metres per pixel.
 void checkGsd(double gsd_m_per_px);

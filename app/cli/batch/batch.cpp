@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
-#include <ctime>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "cli/command.h"
 #include "core/error.h"
 #include "core/project_name.h"
+#include "core/utc_time.h"
 #include "io/folder.h"
 #include "store/labels/annotation_store.h"
 #include "store/runs/run_counts.h"
@@ -62,12 +62,7 @@ std::optional<RunRecord> runOf(const RunStore& store, const BatchRow& row, Resum
 
 /// Whether a file was written after a run of it began, so that the run is one of other contents.
 bool isNewer(const BatchInput& input, const RunRecord& run) {
-    const auto seconds = static_cast<std::time_t>(input.changed_ns / 1'000'000'000);
-    std::tm parts{};
-    char text[32];
-    if (gmtime_r(&seconds, &parts) == nullptr || std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts) == 0)
-        return false;
-    return text > run.started_utc;  // ISO 8601 sorts as times do
+    return utcTextOfSeconds(input.changed_ns / 1'000'000'000) > run.started_utc;
 }
 
 /// Takes over what its project says of an input; answers the finished run, if there is one.

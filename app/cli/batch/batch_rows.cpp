@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "io/atomic_file.h"
 #include "io/tables/csv_reader.h"
-#include "store/project/sequence_rows.h"
 
 namespace eyrie::cli {
 

@@ -1,86 +1,39 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
-#include "cli/arguments/earlier_state.h"
+#include "cli/arguments/event_arguments.h"
 #include "cli/arguments/output_arguments.h"
-#include "cli/arguments/preset_arguments.h"
 #include "cli/command.h"
-#include "cli/project_runs.h"
 #include "cli/reports/event_table.h"
 #include "cli/reports/figure_text.h"
 #include "events/event_csv.h"
-#include "events/event_search.h"
-#include "events/stored_events.h"
-#include "events/zones/zone_file.h"
-#include "store/review/review_store.h"
 
 namespace eyrie::cli {
 namespace {
 
-struct EventArguments {
-    std::string project;
-    std::optional<int> run;
-    std::vector<std::string> kinds;
-    std::vector<std::string> verdicts;
-    std::string zones;
-    std::vector<std::string> settings;
+struct ListArguments {
+    EventArguments events;
     std::string csv;
     OutputArguments outputs;
 };
 
-/// The kinds that are asked for; all where nothing is.
-std::vector<EventKind> wantedKinds(const std::vector<std::string>& names) {
-    std::vector<EventKind> kinds;
-    kinds.reserve(names.size());
-    for (const std::string& name : names) kinds.push_back(eventKindOf(name));
-    return kinds.empty() ? allEventKinds() : kinds;
-}
-
-/// The verdicts that are asked for; all where nothing is.
-std::vector<Judgement> wantedJudgements(const std::vector<std::string>& names) {
-    std::vector<Judgement> wanted;
-    wanted.reserve(names.size());
-    for (const std::string& name : names) wanted.push_back(judgementOf(name));
-    if (!wanted.empty()) return wanted;
-    return {Judgement::open, Judgement::relevant, Judgement::not_relevant, Judgement::unsure};
-}
-
-template <class Value>
-bool isAmong(const std::vector<Value>& values, const Value& value) {
-    return std::find(values.begin(), values.end(), value) != values.end();
-}
-
-Judgement judgementIn(const Verdict* verdict) {
-    return verdict == nullptr ? Judgement::open : verdict->judgement;
-}
-
-JudgedEvents judgedEvents(const std::vector<Event>& events, const ReviewSet& review, const StoredTracks& stored,
-                          const std::vector<Zone>& zones, const ReviewOptions& options) {
-    const auto unsearched = unsearchedStretches(stored.footage, options);
-    const CarriedVerdicts carried = carryOver(review.verdicts, events, unsearched, stored, zones, options);
-    JudgedEvents judged{events, {}, carried.left, !review.verdicts.empty()};
-    for (const int id : carried.of_event) judged.verdicts.push_back(id == 0 ? nullptr : &review.verdicts.at(id));
-    return judged;
-}
-
-/// Leaves out events and verdicts of which nobody asked.
-void keepWanted(JudgedEvents& judged, const ReviewSet& review, const std::vector<EventKind>& kinds,
-                const std::vector<Judgement>& judgements) {
-    JudgedEvents kept{{}, {}, {}, judged.any};
-    for (std::size_t i = 0; i < judged.events.size(); ++i) {
-        if (!isAmong(kinds, judged.events[i].kind) || !isAmong(judgements, judgementIn(judged.verdicts[i]))) continue;
-        kept.events.push_back(judged.events[i]);
-        kept.verdicts.push_back(judged.verdicts[i]);
+/// What of it was asked for, in the order and with the numbers of all events.
+JudgedEvents wantedOf(const ReviewedRun& reviewed, const EventChoice& choice) {
+    JudgedEvents wanted;
+    wanted.any = !reviewed.review.verdicts.empty();
+    for (std::size_t i = 0; i < reviewed.events.size(); ++i) {
+        const Verdict* verdict = reviewed.verdictOn(i);
+        if (!choice.wants(reviewed.events[i].kind, verdict)) continue;
+        wanted.events.push_back(reviewed.events[i]);
+        wanted.numbers.push_back(static_cast<int>(i) + 1);
+        wanted.verdicts.push_back(verdict);
     }
-    for (const LeftVerdict& left : judged.left) {
-        const Verdict& verdict = review.verdicts.at(left.verdict);
-        const auto& kind = verdict.subject.kind;
-        if (kind && !isAmong(kinds, *kind)) continue;
-        if (isAmong(judgements, verdict.judgement)) kept.left.push_back(left);
+    for (const LeftVerdict& left : reviewed.carried.left) {
+        const Verdict& verdict = reviewed.review.verdicts.at(left.verdict);
+        if (choice.wants(verdict.subject.kind, &verdict)) wanted.left.push_back(left);
     }
-    judged = std::move(kept);
+    return wanted;
 }
 
 void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& remarks) {
@@ -97,62 +50,31 @@ void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& rem
     for (const std::string& remark : remarks) std::fprintf(stderr, "eyrie-cli: %s\n", remark.c_str());
 }
 
-void tellEvents(const EventArguments& arguments) {
-    const std::vector<EventKind> kinds = wantedKinds(arguments.kinds);
-    const std::vector<Judgement> judgements = wantedJudgements(arguments.verdicts);
-    EventOptions options;
-    ReviewOptions review_options;
-    applySettings(
-        [&](ParameterVisitor& visitor) {
-            options.describe(visitor);
-            review_options.describe(visitor);
-        },
-        arguments.settings);
-    std::vector<Zone> zones;
-    if (!arguments.zones.empty()) zones = readZones(arguments.zones);
-    arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.project, arguments.zones});
-    StoredTracks stored;
-    ReviewSet review;
-    {
-        ProjectFile project = openForReading(arguments.project);
-        const RunStore store(project);
-        const RunRecord run = chosenRun(store, arguments.project, arguments.run);
-        stored = readTracks(store, run);
-        review = readReview(project, run.sequence.id);
-    }
-    tellRemarks(stored, remarksOn(zones, stored.footage));
-    const std::vector<Event> events = findEvents(stored.tracks, stored.footage, options, zones);
-    JudgedEvents judged = judgedEvents(events, review, stored, zones, review_options);
-    keepWanted(judged, review, kinds, judgements);
+void tellEvents(const ListArguments& arguments) {
+    const EventChoice choice = arguments.events.choice();
+    arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.events.project, arguments.events.zones});
+    const ReviewedRun reviewed = arguments.events.read(choice);
+    const StoredTracks& stored = reviewed.tracks;
+    tellRemarks(stored, remarksOn(choice.zones, stored.footage));
+    const JudgedEvents wanted = wantedOf(reviewed, choice);
     if (!arguments.csv.empty()) {
         writeEventCsv(
-            arguments.csv, judged.events, [&](FrameIndex frame) { return stored.secondsOf(frame); }, judged.verdicts);
+            arguments.csv, wanted.events, [&](FrameIndex frame) { return stored.secondsOf(frame); }, wanted.verdicts,
+            wanted.numbers);
     }
-    printEvents(judged, stored);
-    printLeft(judged, review);
+    printEvents(wanted, stored);
+    printLeft(wanted, reviewed.review);
 }
 
 }  // namespace
 
 void addEventsCommand(CLI::App& app, int& exit_code) {
-    const auto arguments = std::make_shared<EventArguments>();
+    const auto arguments = std::make_shared<ListArguments>();
     CLI::App* command = app.add_subcommand(
         "events", "List what happened to the vehicles of a run: stops, turns back, against the flow, zones and more");
-    command->add_option("--project", arguments->project, "Project that holds the run")->required();
-    command->add_option("--run", arguments->run, "Number of the run (default: the last)");
-    std::string kinds;
-    for (const EventKind kind : allEventKinds()) kinds += (kinds.empty() ? "" : ", ") + std::string(nameOf(kind));
-    command->add_option("--kind", arguments->kinds, "Only these kinds: " + kinds)->type_name("KIND")->delimiter(',');
-    command
-        ->add_option("--verdict", arguments->verdicts,
-                     "Only what was judged so: open (by nobody), relevant, not relevant, unsure")
-        ->type_name("VERDICT")
-        ->delimiter(',');
-    command->add_option("--zone", arguments->zones, "JSON file of zones and lines to be watched")->type_name("FILE");
-    command
-        ->add_option("--set", arguments->settings,
-                     "Set one threshold, e.g. --set events.over=80 (eyrie-cli params lists them); may be repeated")
-        ->type_name("NAME=VALUE");
+    arguments->events.addRunTo(*command);
+    arguments->events.addChoiceTo(*command, "all");
+    arguments->events.addSearchTo(*command);
     command->add_option("--csv", arguments->csv, "Write the events as a table, too");
     arguments->outputs.addTo(*command);
     command->callback([arguments, &exit_code] {

@@ -1,17 +1,22 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <utility>
 
 #include "cli/arguments/described_sequence.h"
 #include "cli/arguments/earlier_state.h"
+#include "cli/arguments/input.h"
 #include "cli/arguments/label_arguments.h"
 #include "cli/arguments/output_arguments.h"
+#include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "cli/labels_of_project.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
 #include "exchange/project_labels.h"
+#include "exchange/project_world.h"
 #include "store/database/snapshot.h"
 #include "store/labels/annotation_store.h"
 
@@ -28,6 +33,7 @@ struct ExportArguments {
     LabelArguments from_labels;
     std::string format;
     std::string out;
+    std::string start;
     ExportOptions options;
     OutputArguments outputs;
     bool clip = false;
@@ -75,11 +81,28 @@ void exportAnnotations(const ExportArguments& arguments, ProjectFile& project) {
     writeAndTell(arguments, labels, labels.about, sequence.path);
 }
 
+bool tellsWorld(const std::string& format) {
+    const auto& formats = labelFormats();
+    return std::any_of(formats.begin(), formats.end(),
+                       [&](const LabelFormatInfo& info) { return info.name == format && info.tells_world; });
+}
+
 void exportRun(const ExportArguments& arguments, ProjectFile& project) {
     const RunStore store(project);
     const RunRecord run = chosenRun(store, arguments.project, arguments.run);
     const Snapshot unchanging(project);
-    const LabelStream labels = labelStreamOf(store, run, arguments.detections);
+    LabelStream labels = labelStreamOf(store, run, arguments.detections);
+    const InterruptGuard interrupt;
+    std::unique_ptr<FrameSource> pixels;
+    if (tellsWorld(arguments.format)) {
+        try {
+            pixels = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
+        } catch (const Error& error) {
+            // Boxes can be written without it; what needs times or places on the earth says so.
+            if (interrupt.token().stop_requested()) throw;
+        }
+        labels.about.world = trackWorldOf(store, run, pixels.get(), startOf(arguments.start), interrupt.token());
+    }
     writeAndTell(arguments, labels, labels.about, run.sequence.path);
 }
 
@@ -105,6 +128,7 @@ void addExportCommand(CLI::App& app, int& exit_code) {
         ->needs(project);
     command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
         ->needs(project);
+    command->add_option("--start", arguments->start, kStartHelp)->needs(project);
     command->add_option("--from", arguments->from, "File or folder of labels to convert")->excludes(project);
     addLabelOptions(*command, arguments->from_labels, "--from-format", "--from-columns");
     command->add_option("--format", arguments->format, "One of " + formatNames(true))->required();

@@ -1,17 +1,22 @@
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/evaluation_arguments.h"
+#include "cli/arguments/event_arguments.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
+#include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "cli/project_runs.h"
+#include "cli/reports/console_progress.h"
 #include "core/error.h"
+#include "core/utc_time.h"
+#include "io/file_digest.h"
 #include "report/evaluation_report.h"
+#include "report/review/review_report.h"
 
 namespace eyrie::cli {
 namespace {
@@ -19,6 +24,9 @@ namespace {
 struct ReportArguments {
     EvaluationRequest request;
     std::string project;
+    bool of_events = false;
+    EventArguments events;
+    std::string start;
     GroundTruthArguments ground_truth;
     EvaluationArguments evaluation;
     std::optional<int> run;
@@ -28,13 +36,58 @@ struct ReportArguments {
     OutputArguments outputs;
 };
 
-std::string nowUtcText() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
+/// The video of a run; null, with the reason told, where it cannot be read.
+std::unique_ptr<FrameSource> pixelsOf(const RunRecord& run, const char* without, const std::stop_token& stop) {
+    try {
+        return openInput(run.sequence.path, 0, stop, run.sequence.frame_rate_hz);
+    } catch (const Error& error) {
+        if (stop.stop_requested()) throw;
+        std::fprintf(stderr, "eyrie-cli: the report has no %s: %s\n", without, error.what());
+        return nullptr;
+    }
+}
+
+std::string digestOf(const std::string& video, const std::stop_token& stop) {
+    ConsoleProgress progress("% of the video hashed");
+    try {
+        return sha256Of(
+            video, [&](double share) { progress.showShare(share); }, stop);
+    } catch (const Error& error) {
+        std::fprintf(stderr, "eyrie-cli: the report has no hash of the video: %s\n", error.what());
+        return {};
+    }
+}
+
+/// Answers the exit code.
+int makeEventReport(const ReportArguments& arguments) {
+    EventArguments events = arguments.events;
+    events.project = arguments.project;
+    if (events.verdicts.empty()) events.verdicts = {nameOf(Judgement::relevant), nameOf(Judgement::unsure)};
+    if (events.verdicts == std::vector<std::string>{"all"}) events.verdicts.clear();
+    const EventChoice choice = events.choice();
+    const auto start = startOf(arguments.start);
+    const InterruptGuard interrupt;
+    ProjectFile project = openForReading(arguments.project);
+    const RunRecord run = chosenRun(RunStore(project), arguments.project, arguments.run);
+    arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, events.zones, run.sequence.path});
+    const std::unique_ptr<FrameSource> pixels = pixelsOf(run, "pictures", interrupt.token());
+    ReviewReportInput input = gatherReviewReport(project, run, choice, pixels.get(), start, interrupt.token());
+    if (pixels && pixels->info().container != "scene")
+        input.video_digest = digestOf(run.sequence.path, interrupt.token());
+    input.made_utc = nowUtc();
+    ReportFile report;
+    {
+        ConsoleProgress progress("% of the pictures");
+        report = makeReviewReport(
+            input, pixels.get(), [&](double share) { progress.showShare(share); }, interrupt.token());
+    }
+    if (interrupt.token().stop_requested()) return exit_stopped;
+    writeHtmlReport(arguments.out, report);
+    std::printf("Report: %s, %zu of %zu events\n", arguments.out.c_str(), countOfEvents(input),
+                input.reviewed.events.size());
+    if (countOfEvents(input) == 0 && !input.reviewed.events.empty())
+        std::fputs("None was judged so; --verdict all tells every event\n", stderr);
+    return exit_ok;
 }
 
 void makeReport(const ReportArguments& arguments) {
@@ -54,14 +107,10 @@ void makeReport(const ReportArguments& arguments) {
     const auto evaluation = evaluator.evaluate(request);
     std::unique_ptr<FrameSource> pixels;
     if (arguments.chips > 0) {
-        try {
-            pixels = openInput(evaluation->run.sequence.path, evaluation->run.sequence.frame_rate_hz, {});
-        } catch (const Error& error) {
-            std::fprintf(stderr, "eyrie-cli: the report has no chips: %s\n", error.what());
-        }
+        pixels = pixelsOf(evaluation->run, "chips", {});
     }
     ReportOptions options;
-    options.made_utc = nowUtcText();
+    options.made_utc = nowUtc();
     options.chips = arguments.chips;
     writeHtmlReport(arguments.out, makeEvaluationReport(*evaluation, pixels.get(), options));
     std::printf("Report: %s, f-score %.4f at T_ov %g, %zu errors\n", arguments.out.c_str(),
@@ -73,7 +122,8 @@ void makeReport(const ReportArguments& arguments) {
 void addReportCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<ReportArguments>();
     CLI::App* command = app.add_subcommand(
-        "report", "Write the evaluation of a run as one HTML file: parameters, measures, curves, errors with pictures");
+        "report",
+        "Write one HTML file about a run: its evaluation, with measures, curves and errors, or its events as judged");
     command->add_option("--project", arguments->project, "Project that holds the run")->required();
     command->add_option("--run", arguments->run, "Number of the run (default: the last)");
     arguments->ground_truth.addTo(*command, kLabelsOtherwise);
@@ -85,8 +135,28 @@ void addReportCommand(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     arguments->evaluation.addRuleTo(*command);
     command->add_option("--chips", arguments->chips, "Errors with a picture, at most")->capture_default_str();
+    command->add_flag("--events", arguments->of_events,
+                      "Report what happened, with pictures and verdicts; needs no ground truth");
+    arguments->events.addChoiceTo(*command, "relevant,unsure; all for every event");
+    arguments->events.addSearchTo(*command);
+    command->add_option("--start", arguments->start, kStartHelp);
     arguments->outputs.addTo(*command);
-    command->callback([arguments, &exit_code] {
+    command->callback([arguments, command, &exit_code] {
+        const std::vector<const char*> of_events{"--kind", "--verdict", "--zone", "--set", "--start"};
+        const std::vector<const char*> of_evaluations{"--ground-truth", "--against", "--detections", "--overlap",
+                                                      "--chips"};
+        for (const char* option : arguments->of_events ? of_evaluations : of_events) {
+            if (command->count(option) == 0) continue;
+            throw Error(
+                ErrorKind::parameter,
+                std::string(option) + (arguments->of_events ? " belongs to the report of an evaluation; leave "
+                                                              "it out, or leave out --events"
+                                                            : " belongs to the report of events; add --events"));
+        }
+        if (arguments->of_events) {
+            exit_code = makeEventReport(*arguments);
+            return;
+        }
         makeReport(*arguments);
         exit_code = exit_ok;
     });

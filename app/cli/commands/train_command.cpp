@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "cli/interrupt.h"
 #include "cli/reports/console_progress.h"
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "learning/training/background_mining.h"
 #include "learning/training/labelled_frames.h"
 #include "learning/training/trainer.h"
@@ -56,15 +56,6 @@ TrainingOptions optionsOf(const TrainArguments& arguments) {
     if (!arguments.rounds.empty()) set("training.hard_negative_rounds", arguments.rounds);
     if (!arguments.trees.empty()) set("training.trees", arguments.trees);
     return options;
-}
-
-std::string nowUtc() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
 }
 
 std::vector<std::filesystem::path> inputsOf(const TrainArguments& arguments) {

@@ -9,6 +9,7 @@ namespace eyrie::cli {
 /// Events of a run with what was said about them.
 struct JudgedEvents {
     std::vector<Event> events;
+    std::vector<int> numbers;              ///< of each event among all of the run, from 1
     std::vector<const Verdict*> verdicts;  ///< of each event, null for none
     std::vector<LeftVerdict> left;
     bool any = false;  ///< whether anything was said about this video

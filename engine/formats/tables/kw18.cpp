@@ -1,12 +1,13 @@
 #include <algorithm>
 
-#include "formats/format_functions.h"
+#include "formats/earth/placed_tracks.h"
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"
 
 /// KW18: blanks between columns, "#" begins a comment, pixels from 0, frames as the source counts them.
 ///   1 track id  2 states of the track  3 frame  4-5 plane x,y  6-7 velocity  8-9 image x,y  10-13
-///   left,top,right,bottom 14 area  15-17 world x,y,z  18 seconds  [19 confidence | 19 object type, 20 activity]
+///   left,top,right,bottom 14 area  15-17 longitude, latitude, 0 (0 0 0: not known)  18 seconds since 1970 where the
+///   clock time is known, else of the video   [19 confidence | 19 object type, 20 activity]
 namespace eyrie {
 namespace {
 
@@ -40,6 +41,18 @@ LabelFile readKw18(const std::filesystem::path& path, const ImportOptions&) {
     return labels;
 }
 
+/// Columns 15 to 18.
+std::string worldText(const TrackWorld* world, const LabelBox& box, double rate) {
+    constexpr int kDegreeDecimals = 8;
+    if (world == nullptr) return " 0 0 0 " + fixedText(box.frame / rate, 6);
+    const auto place = world->place ? world->place(box.frame, box.box.centre) : std::nullopt;
+    const auto utc = world->utc_us ? world->utc_us(box.frame) : std::nullopt;
+    return (place ? ' ' + fixedText(place->longitude_deg, kDegreeDecimals) + ' ' +
+                        fixedText(place->latitude_deg, kDegreeDecimals) + " 0 "
+                  : " 0 0 0 ") +
+           fixedText(utc ? static_cast<double>(*utc) / 1e6 : world->seconds(box.frame), 6);
+}
+
 void writeKw18(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions&, ExportReport& report) {
     const auto tracks = boxesById(labels.boxes);
     bool scored = false;
@@ -60,15 +73,18 @@ void writeKw18(const LabelFile& labels, const std::filesystem::path& path, const
             text = std::to_string(id) + ' ' + std::to_string(track.size()) + ' ' + std::to_string(record->frame) +
                    " 0 0" + number(record->velocity.x) + number(record->velocity.y) + number(e.left + e.width / 2) +
                    number(e.top + e.height / 2) + number(e.left) + number(e.top) + number(e.left + e.width) +
-                   number(e.top + e.height) + number(e.width * e.height) + " 0 0 0 " +
-                   fixedText(record->frame / rate, 6) + (scored ? ' ' + fixedText(record->score, 6) : "") + '\n';
+                   number(e.top + e.height) + number(e.width * e.height) +
+                   worldText(labels.world.get(), *record, rate) + (scored ? ' ' + fixedText(record->score, 6) : "") +
+                   '\n';
             file.write(text);
         }
     }
     file.finish();
     report.files.push_back(path);
     std::erase_if(report.losses, [](const ExportLoss& loss) { return loss.kind == LossKind::velocity; });
-    if (!labels.frame_rate_hz) report.notes.push_back("times count 25 frames a second, as no frame rate is known");
+    tellWorld(labels.world.get(), report);
+    if (!labels.frame_rate_hz && !labels.world)
+        report.notes.push_back("times count 25 frames a second, as no frame rate is known");
 }
 
 }  // namespace
@@ -77,6 +93,7 @@ LabelFormat kw18Format() {
     LabelFormat format;
     format.info = {"kw18", "KW18", {"kw18", "trk"}, false, true, true, {}};
     format.info.carries = {.id = true, .score = true};
+    format.info.tells_world = true;
     format.needs_id = true;
     format.read = readKw18;
     format.write = writeKw18;

@@ -53,6 +53,7 @@ struct VideoWriter::Implementation {
     std::int64_t last_ticks = -1;
     int frames = 0;
     bool finished = false;
+    bool abandoned = false;
 
     ~Implementation() {
         muxer.reset();
@@ -216,9 +217,13 @@ void VideoWriter::write(const cv::Mat& image, std::int64_t time_us) {
 }
 
 void VideoWriter::finish() {
-    if (implementation_->finished) return;
+    if (implementation_->finished || implementation_->abandoned) return;
     if (!implementation_->muxer || implementation_->muxer->pb == nullptr) return;
     implementation_->finish();
+}
+
+void VideoWriter::abandon() {
+    implementation_->abandoned = true;
 }
 
 }  // namespace eyrie

@@ -32,6 +32,9 @@ class VideoWriter {
     void write(const cv::Mat& image, std::int64_t time_us = -1);
     /// Writes what is outstanding. Throws Error(output).
     void finish();
+    /// Leaves what was there under the name as it is; nothing more can be written. Devices and pipes keep what they
+    /// got.
+    void abandon();
 
  private:
     struct Implementation;

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "store/project/sequence_rows.h"
+#include "core/utc_time.h"
 
 namespace eyrie {
 namespace {

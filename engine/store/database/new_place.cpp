@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "store/health/file_check.h"
-#include "store/project/sequence_rows.h"
 
 namespace eyrie {
 namespace {

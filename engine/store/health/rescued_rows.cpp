@@ -2,13 +2,13 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "core/utc_time.h"
 #include "store/database/rows.h"
 #include "store/health/report_text.h"
 #include "store/health/row_rules.h"
 #include "store/journal/journal_check.h"
 #include "store/labels/annotation_store.h"
 #include "store/labels/label_rows.h"
-#include "store/project/sequence_rows.h"
 #include "store/review/review_store.h"
 
 namespace eyrie {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "core/utc_time.h"
 #include "store/database/rows.h"
 #include "store/journal/journalled_store.h"
-#include "store/project/sequence_rows.h"
 
 /// The bodies of JournalledStore; only who instantiates it includes this.
 namespace eyrie {

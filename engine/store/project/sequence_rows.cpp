@@ -2,23 +2,12 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <chrono>
 #include <cmath>
-#include <ctime>
 
 #include "store/database/database_error.h"
 #include "store/database/rows.h"
 
 namespace eyrie {
-
-std::string nowUtc() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-    return text;
-}
 
 FrameIndex readFrameNumber(RowReader& row) {
     const FrameIndex frame = row.integer();

@@ -10,9 +10,6 @@ class Database;
 
 namespace eyrie {
 
-/// Now, ISO 8601.
-std::string nowUtc();
-
 /// No video is longer: a day at 230 frames a second.
 inline constexpr FrameIndex kLastFrame = 20'000'000;
 

@@ -2,8 +2,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "core/utc_time.h"
 #include "store/database/database_error.h"
-#include "store/project/sequence_rows.h"
 
 namespace eyrie {
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <optional>
+#include "core/utc_time.h"
 #include "store/database/rows.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/frame_rows.h"

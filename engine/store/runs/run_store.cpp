@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/utc_time.h"
 #include "store/database/rows.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/frame_rows.h"

@@ -2,9 +2,9 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "core/utc_time.h"
 #include "store/database/database_error.h"
 #include "store/database/rows.h"
-#include "store/project/sequence_rows.h"
 
 namespace eyrie {
 namespace {

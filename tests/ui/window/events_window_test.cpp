@@ -1,4 +1,6 @@
+#include <QFile>
 #include <QTest>
+#include <algorithm>
 
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
@@ -8,6 +10,7 @@
 #include "review/events/events_panel.h"
 #include "ui/session/session_support.h"
 #include "widgets/message_bar.h"
+#include "window/docks/event_report.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
@@ -53,6 +56,34 @@ class EventsWindowTest : public QObject {
         QTest::keyClick(window.get(), Qt::Key_1, Qt::ControlModifier);
         QVERIFY(window->actions().relevant->isEnabled());
         QVERIFY(!window->timeline().marks().empty());
+    }
+
+    void reportsAreWrittenOrSayWhyNot() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        const auto at = [this](const char* name) { return QString::fromStdString((*home_ / name).string()); };
+        const auto told = [&](const QString& words) {
+            const auto said = [&] {
+                const QStringList texts = window->messages().texts();
+                return std::any_of(texts.begin(), texts.end(),
+                                   [&](const QString& text) { return text.contains(words); });
+            };
+            return QTest::qWaitFor(said, kPatience_ms);
+        };
+        window->eventReport().write(at("all.html").toStdString(), true);
+        QVERIFY(told(tr("Wrote the report %1.").arg(at("all.html"))));
+        QFile html(at("all.html"));
+        QVERIFY(html.open(QIODevice::ReadOnly));
+        const QByteArray page = html.readAll();
+        QVERIFY(page.contains("over speed") && page.contains("data:image/jpeg;base64"));
+        QVERIFY2(page.contains("events.over_time"), "limits that are set in the dock");
+        window->eventReport().write(at("judged.pdf").toStdString(), false);
+        QVERIFY(told(tr("Wrote the report %1.").arg(at("judged.pdf"))));
+        QFile pdf(at("judged.pdf"));
+        QVERIFY(pdf.open(QIODevice::ReadOnly));
+        QVERIFY(pdf.read(5) == "%PDF-");
+        window->eventReport().write(at("no/where/r.html").toStdString(), true);
+        QVERIFY(told(QStringLiteral("no/where")));
     }
 
     void theVideoKeepsHalfOfASmallWindow() {

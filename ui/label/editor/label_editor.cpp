@@ -1,6 +1,5 @@
 #include "label/editor/label_editor.h"
 
-#include <QDateTime>
 #include <QtMath>
 #include <cmath>
 #include <exception>
@@ -8,6 +7,7 @@
 
 #include "annotation/edits/object_pieces.h"
 #include "annotation/review/proposals.h"
+#include "core/utc_time.h"
 #include "label/label_classes.h"
 #include "label/object_colours.h"
 
@@ -294,7 +294,7 @@ void LabelEditor::setNotes(const QString& notes) {
 
 void LabelEditor::mark(ReviewState state) {
     std::vector<ReviewMark> marks;
-    const std::string when = QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString();
+    const std::string when = nowUtc();
     for (const ObjectId id : labels_.selection()) {
         const LabelledObject* known = labels_.object(id);
         if (known == nullptr) continue;

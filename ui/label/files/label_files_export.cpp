@@ -31,7 +31,9 @@ LabelExportDialog::LabelExportDialog(LabelSession& labels, QWidget* parent)
       text_(reportField()) {
     setWindowTitle(tr("Export labels"));
     for (const LabelFormatInfo& format : labelFormats())
-        if (format.writes) format_->addItem(QString::fromStdString(format.title), QString::fromStdString(format.name));
+        // Paths on the earth are of runs; labels have none.
+        if (format.writes && (format.reads || !format.tells_world))
+            format_->addItem(QString::fromStdString(format.title), QString::fromStdString(format.name));
     carries_->setWordWrap(true);
     auto* choose = new QPushButton(tr("Choose…"));
     auto* place = new QHBoxLayout;

@@ -1,12 +1,12 @@
 #include "review/events/event_review.h"
 
-#include <QDateTime>
 #include <algorithm>
 #include <exception>
 #include <unordered_map>
 #include <utility>
 
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "session/project/person_name.h"
 #include "widgets/wiring.h"
 
@@ -224,7 +224,7 @@ std::vector<Judged> EventReview::judgedAt(const std::vector<std::size_t>& positi
 }
 
 Judge EventReview::whoJudges() const {
-    return {personName().toStdString(), QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString()};
+    return {personName().toStdString(), nowUtc()};
 }
 
 bool EventReview::apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions) {

@@ -88,6 +88,16 @@ void EventsPanel::buildButtons() {
     limits->setToolTip(tr("What counts as an event"));
     limits->setCheckable(true);
     buttons->addWidget(limits);
+    auto* report = new QToolButton;
+    report->setText(tr("Report…"));
+    report->setToolTip(tr("Write events with pictures and verdicts as one HTML or PDF file"));
+    report->setPopupMode(QToolButton::InstantPopup);
+    auto* choices = new QMenu(report);
+    connect(choices->addAction(tr("Relevant and unsure…")), &QAction::triggered, this,
+            [this] { emit reportWanted(false); });
+    connect(choices->addAction(tr("All events…")), &QAction::triggered, this, [this] { emit reportWanted(true); });
+    report->setMenu(choices);
+    buttons->insertWidget(buttons->count() - 1, report);
     bindSwitches(this, {{limits, [this](bool on) { thresholds_->setVisible(on); }}});
     layout()->addWidget(line);
 }

@@ -52,6 +52,10 @@ class EventsPanel : public TablePanel {
     /// Starts writing the note of an event.
     void editNote(int id);
 
+ signals:
+    /// The user wants a report: of every event, or of those judged relevant or unsure.
+    void reportWanted(bool all);
+
  protected:
     void rowSelected(int id) override { commands_.show(id); }
     void rowClicked(int id, int /*column*/) override { commands_.show(id); }

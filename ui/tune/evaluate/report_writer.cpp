@@ -1,8 +1,9 @@
 #include "tune/evaluate/report_writer.h"
 
 #include <QAbstractTextDocumentLayout>
-#include <QDateTime>
+#include <QDir>
 #include <QFile>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QGuiApplication>
 #include <QImage>
@@ -10,6 +11,7 @@
 #include <QPainter>
 #include <QPdfWriter>
 #include <QScreen>
+#include <QSettings>
 #include <QSvgRenderer>
 #include <QTextDocument>
 #include <QThread>
@@ -17,6 +19,7 @@
 #include <exception>
 
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "io/atomic_file.h"
 #include "io/output_files.h"
 
@@ -27,8 +30,6 @@ namespace {
 constexpr int kDotsPerInch = 144;  ///< of the page; pictures are drawn finer
 constexpr double kMargin_mm = 15;
 constexpr double kFigureScale = 3;
-constexpr double kFigureWidth_mm = 160;  ///< of the 180 between the margins
-constexpr double kChipWidth_mm = 21;
 constexpr double kFooter_mm = 8;
 constexpr double kPerInch_mm = 25.4;
 
@@ -92,7 +93,7 @@ void print(QTextDocument& document, QPdfWriter& writer, const QString& title) {
 
 namespace {
 
-void writePdf(const std::filesystem::path& path, const EvaluationReportFile& report) {
+void writePdf(const std::filesystem::path& path, const ReportFile& report) {
     const QString name = QString::fromStdString(path.string());
     // Readers see a whole file or none.
     const QString part = QString::fromStdString(temporaryBeside(path).string());
@@ -106,28 +107,25 @@ void writePdf(const std::filesystem::path& path, const EvaluationReportFile& rep
         writer.setCreator(QStringLiteral("Eyrie"));
         QTextDocument document;
         QString html = QString::fromStdString(report.html);
-        for (const auto& [key, svg] : report.figures) {
+        for (const auto& [key, picture] : report.pictures) {
             const QString source = QString::fromStdString(key);
-            const QImage picture = pictureOf(svg);
-            document.addResource(QTextDocument::ImageResource, QUrl(source), picture);
-            setWidth(html, source, kFigureWidth_mm, picture.size());
-        }
-        for (const auto& [key, png] : report.chips) {
-            const QString source = QString::fromStdString(key);
-            const QImage picture = QImage::fromData(QByteArray::fromStdString(png));
-            document.addResource(QTextDocument::ImageResource, QUrl(source), picture);
-            setWidth(html, source, kChipWidth_mm, picture.size());
+            const QImage image = picture.kind == ReportPicture::Kind::svg
+                                     ? pictureOf(picture.bytes)
+                                     : QImage::fromData(QByteArray::fromStdString(picture.bytes));
+            document.addResource(QTextDocument::ImageResource, QUrl(source), image);
+            setWidth(html, source, picture.width_mm, image.size());
         }
         QFont font(QStringLiteral("DejaVu Sans"));
         font.setPointSizeF(8.5);
         document.setDefaultFont(font);
         document.documentLayout()->setPaintDevice(&writer);
-        document.setDefaultStyleSheet(
-            QStringLiteral("h1{font-size:16pt} h2{font-size:12pt;margin-top:14px;margin-bottom:4px} "
-                           "h2.chapter{page-break-before:always;margin-top:0} table{border-collapse:collapse} "
-                           "td{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #dddddd} "
-                           "table.chips td{vertical-align:middle} "
-                           "th{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #666666}"));
+        document.setDefaultStyleSheet(QStringLiteral(
+            "h1{font-size:16pt} h2{font-size:12pt;margin-top:14px;margin-bottom:4px} "
+            "h2.chapter{page-break-before:always;margin-top:0} h3{font-size:9.5pt;margin-top:10px;margin-bottom:2px} "
+            "table{border-collapse:collapse} "
+            "td{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #dddddd} "
+            "table.chips td{vertical-align:middle} "
+            "th{font-size:8pt;padding:2px 8px 2px 0;border-bottom:1px solid #666666}"));
         html.remove(html.indexOf(QStringLiteral("<style>")),
                     html.indexOf(QStringLiteral("</style>")) + 8 - html.indexOf(QStringLiteral("<style>")));
         document.setHtml(html);
@@ -151,7 +149,7 @@ void writePdf(const std::filesystem::path& path, const EvaluationReportFile& rep
 
 }  // namespace
 
-void writePdfReport(const std::filesystem::path& path, const EvaluationReportFile& report) {
+void writePdfReport(const std::filesystem::path& path, const ReportFile& report) {
     // Text documents lay themselves out with timers, which only threads of Qt have.
     std::exception_ptr failure;
     const std::unique_ptr<QThread> thread(QThread::create([&] {
@@ -166,32 +164,43 @@ void writePdfReport(const std::filesystem::path& path, const EvaluationReportFil
     if (failure) std::rethrow_exception(failure);
 }
 
-void ReportWriter::write(const std::filesystem::path& path, std::shared_ptr<const RunEvaluation> evaluation,
-                         std::optional<Media> media, const std::filesystem::path& project) {
-    if (working_ || !evaluation) return;
+QString askForReportFile(QWidget& window, const QString& name) {
+    QSettings settings;
+    const QString folder = settings.value(QStringLiteral("report/folder"), QDir::homePath()).toString();
+    QString chosen;
+    QString path = QFileDialog::getSaveFileName(
+        &window, QCoreApplication::translate("report", "Write a report"),
+        QDir(folder).filePath(name + QStringLiteral(".html")),
+        QCoreApplication::translate("report", "Web page, one file (*.html);;PDF (*.pdf)"), &chosen);
+    if (path.isEmpty()) return {};
+    if (QFileInfo(path).suffix().isEmpty())
+        path += chosen.contains(QStringLiteral("pdf")) ? QStringLiteral(".pdf") : QStringLiteral(".html");
+    settings.setValue(QStringLiteral("report/folder"), QFileInfo(path).path());
+    return path;
+}
+
+void ReportWriter::write(WantedReport wanted) {
+    if (working_) return;
     working_ = true;
-    const auto work = [this, path, project, evaluation = std::move(evaluation),
-                       media = std::move(media)](const BackgroundTask& task) {
-        const bool pdf = QFileInfo(QString::fromStdString(path.string()))
+    const auto work = [this, wanted = std::move(wanted)](const BackgroundTask& task) {
+        const bool pdf = QFileInfo(QString::fromStdString(wanted.path.string()))
                              .suffix()
                              .compare(QStringLiteral("pdf"), Qt::CaseInsensitive) == 0;
-        filesToReplace({{path, pdf ? FileKind::pdf : FileKind::html}}, {project, evaluation->run.sequence.path});
+        filesToReplace({{wanted.path, pdf ? FileKind::pdf : FileKind::html}}, wanted.read);
         std::unique_ptr<FrameSource> pixels;
         try {
-            if (media) pixels = media->open({}, task.stop());
+            if (wanted.media) pixels = wanted.media->open({}, task.stop());
         } catch (const std::exception&) {
-            // Without the video the report has no chips.
+            // Without the video the report has no pictures.
         }
-        ReportOptions options;
-        options.made_utc = QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString();
         const auto tell = [&](double share) { task.tell([this, share] { answers_.show_progress(share); }); };
-        const EvaluationReportFile report = makeEvaluationReport(*evaluation, pixels.get(), options, tell, task.stop());
+        const ReportFile report = wanted.make(pixels.get(), tell, task.stop());
         if (task.stop().stop_requested()) return;
         if (pdf)
-            writePdfReport(path, report);
+            writePdfReport(wanted.path, report);
         else
-            writeHtmlReport(path, report);
-        task.tell([this, path] {
+            writeHtmlReport(wanted.path, report);
+        task.tell([this, path = wanted.path] {
             working_ = false;
             answers_.tell_written(path);
         });
@@ -200,6 +209,19 @@ void ReportWriter::write(const std::filesystem::path& path, std::shared_ptr<cons
         working_ = false;
         answers_.fail(failure);
     });
+}
+
+void ReportWriter::write(const std::filesystem::path& path, const std::shared_ptr<const RunEvaluation>& evaluation,
+                         std::optional<Media> media, const std::filesystem::path& project) {
+    if (!evaluation) return;
+    write({path,
+           {project, evaluation->run.sequence.path},
+           std::move(media),
+           [evaluation](FrameSource* pixels, const std::function<void(double)>& progress, const std::stop_token& stop) {
+               ReportOptions options;
+               options.made_utc = nowUtc();
+               return makeEvaluationReport(*evaluation, pixels, options, progress, stop);
+           }});
 }
 
 }  // namespace eyrie::ui

@@ -5,11 +5,14 @@
 #include <functional>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "diagnosis/run_evaluation.h"
 #include "report/evaluation_report.h"
 #include "session/background/background_query.h"
 #include "session/project/media.h"
+
+class QWidget;
 
 namespace eyrie::ui {
 
@@ -20,15 +23,30 @@ struct ReportAnswers {
     std::function<void(const QString& message)> fail;
 };
 
-/// Writes the report of an evaluation in the background: PDF where the name ends so, else HTML. Answers arrive on the
+/// A report that is to be made and written.
+struct WantedReport {
+    std::filesystem::path path;
+    std::vector<std::filesystem::path> read;  ///< what it is made from, and is not overwritten
+    std::optional<Media> media;               ///< the video, for pictures; without it there are none
+    /// Makes it on a thread of its own; `pixels` is null where the video cannot be read.
+    std::function<ReportFile(FrameSource* pixels, const std::function<void(double)>& progress,
+                             const std::stop_token& stop)>
+        make;
+};
+
+/// Asks for a file to write a report to, suggested as `name` in the folder of the last one; empty when nobody chose.
+QString askForReportFile(QWidget& window, const QString& name);
+
+/// Writes reports in the background: PDF where the name ends so, else HTML. Answers arrive on the
 /// thread it was made on.
 class ReportWriter {
  public:
     explicit ReportWriter(ReportAnswers answers) : answers_(std::move(answers)) {}
 
-    /// `media`: the video, for chips; without it there are none. `project` holds the run and is not overwritten, as
-    /// nothing else is but another report. One at a time.
-    void write(const std::filesystem::path& path, std::shared_ptr<const RunEvaluation> evaluation,
+    /// Nothing but another report is overwritten. One at a time.
+    void write(WantedReport wanted);
+    /// The report of an evaluation. `media`: the video, for chips. `project` holds the run.
+    void write(const std::filesystem::path& path, const std::shared_ptr<const RunEvaluation>& evaluation,
                std::optional<Media> media, const std::filesystem::path& project = {});
     bool working() const { return working_; }
 
@@ -39,6 +57,6 @@ class ReportWriter {
 };
 
 /// The same as a PDF file, A4. Throws Error(output). May be called on any thread.
-void writePdfReport(const std::filesystem::path& path, const EvaluationReportFile& report);
+void writePdfReport(const std::filesystem::path& path, const ReportFile& report);
 
 }  // namespace eyrie::ui

@@ -1,10 +1,7 @@
 #include "window/docks/evaluation_docks.h"
 
-#include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMainWindow>
-#include <QSettings>
 #include <algorithm>
 #include <utility>
 
@@ -336,16 +333,8 @@ void EvaluationDocks::askForReport() {
         return;
     }
     const QString name = QFileInfo(QString::fromStdString(evaluation->run.sequence.path)).completeBaseName();
-    QSettings settings;
-    const QString folder = settings.value(QStringLiteral("report/folder"), QDir::homePath()).toString();
-    QString chosen;
-    QString path = QFileDialog::getSaveFileName(
-        &window_, tr("Write a report"), QDir(folder).filePath(tr("%1 run %2.html").arg(name).arg(evaluation->run.id)),
-        tr("Web page, one file (*.html);;PDF (*.pdf)"), &chosen);
+    const QString path = askForReportFile(window_, tr("%1 run %2").arg(name).arg(evaluation->run.id));
     if (path.isEmpty()) return;
-    if (QFileInfo(path).suffix().isEmpty())
-        path += chosen.contains(QStringLiteral("pdf")) ? QStringLiteral(".pdf") : QStringLiteral(".html");
-    settings.setValue(QStringLiteral("report/folder"), QFileInfo(path).path());
     writeReport(path);
 }
 

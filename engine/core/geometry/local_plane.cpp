@@ -1,4 +1,4 @@
-#include "metadata/local_plane.h"
+#include "core/geometry/local_plane.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,59 @@
+#include "cli/arguments/event_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/arguments/earlier_state.h"
+#include "cli/arguments/preset_arguments.h"
+#include "cli/project_runs.h"
+#include "events/zones/zone_file.h"
+
+namespace eyrie::cli {
+
+void EventArguments::addRunTo(CLI::App& command) {
+    command.add_option("--project", project, "Project that holds the run")->required();
+    command.add_option("--run", run, "Number of the run (default: the last)");
+}
+
+void EventArguments::addSearchTo(CLI::App& command) {
+    command.add_option("--zone", zones, "JSON file of zones and lines to be watched")->type_name("FILE");
+    command
+        .add_option("--set", settings,
+                    "Set one threshold, e.g. --set events.over=80 (eyrie-cli params lists them); may be repeated")
+        ->type_name("NAME=VALUE");
+}
+
+void EventArguments::addChoiceTo(CLI::App& command, const std::string& usual_verdicts) {
+    std::string names;
+    for (const EventKind kind : allEventKinds()) names += (names.empty() ? "" : ", ") + std::string(nameOf(kind));
+    command.add_option("--kind", kinds, "Only these kinds: " + names)->type_name("KIND")->delimiter(',');
+    command
+        .add_option("--verdict", verdicts,
+                    "Only what was judged so: open (by nobody), relevant, not relevant, unsure (default: " +
+                        usual_verdicts + ")")
+        ->type_name("VERDICT")
+        ->delimiter(',');
+}
+
+EventChoice EventArguments::choice() const {
+    EventChoice wanted;
+    wanted.kinds.reserve(kinds.size());
+    for (const std::string& name : kinds) wanted.kinds.push_back(eventKindOf(name));
+    wanted.judgements.reserve(verdicts.size());
+    for (const std::string& name : verdicts) wanted.judgements.push_back(judgementOf(name));
+    applySettings(
+        [&](ParameterVisitor& visitor) {
+            wanted.options.describe(visitor);
+            wanted.review.describe(visitor);
+        },
+        settings);
+    if (!zones.empty()) wanted.zones = readZones(zones);
+    return wanted;
+}
+
+ReviewedRun EventArguments::read(const EventChoice& wanted) const {
+    ProjectFile file = openForReading(project);
+    const RunRecord record = chosenRun(RunStore(file), project, run);
+    return readReviewedRun(file, record, wanted);
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "events/review/reviewed_run.h"
+
+namespace CLI {
+class App;
+}
+
+namespace eyrie::cli {
+
+/// Which events of which run a command is about.
+struct EventArguments {
+    std::string project;
+    std::optional<int> run;
+    std::vector<std::string> kinds;
+    std::vector<std::string> verdicts;
+    std::string zones;
+    std::vector<std::string> settings;
+
+    /// --project (required) and --run.
+    void addRunTo(CLI::App& command);
+    /// --zone and --set: what is an event.
+    void addSearchTo(CLI::App& command);
+    /// --kind and --verdict.
+    void addChoiceTo(CLI::App& command, const std::string& usual_verdicts);
+
+    /// Throws Error(parameter | input).
+    EventChoice choice() const;
+    /// Throws Error(project | parameter).
+    ReviewedRun read(const EventChoice& choice) const;
+};
+
+}  // namespace eyrie::cli

@@ -1,0 +1,47 @@
+#include "events/review/reviewed_run.h"
+
+#include <algorithm>
+
+#include "store/review/review_store.h"
+
+namespace eyrie {
+namespace {
+
+const Verdict* verdictWith(const ReviewSet& review, int id) {
+    const auto found = review.verdicts.find(id);
+    return found == review.verdicts.end() ? nullptr : &found->second;
+}
+
+template <class Value>
+bool isNoneOrAmong(const std::vector<Value>& values, const Value& value) {
+    return values.empty() || std::find(values.begin(), values.end(), value) != values.end();
+}
+
+}  // namespace
+
+const Verdict* ReviewedRun::verdictOn(std::size_t event) const {
+    return verdictWith(review, carried.of_event.at(event));
+}
+
+const Verdict* ReviewedRun::verdictOnStretch(std::size_t stretch) const {
+    return verdictWith(review, carried.of_stretch.at(stretch));
+}
+
+bool EventChoice::wants(const std::optional<EventKind>& kind, const Verdict* verdict) const {
+    return (!kind || isNoneOrAmong(kinds, *kind)) &&
+           isNoneOrAmong(judgements, verdict == nullptr ? Judgement::open : verdict->judgement);
+}
+
+ReviewedRun readReviewedRun(ProjectFile& project, const RunRecord& run, const EventChoice& choice) {
+    ReviewedRun found;
+    found.run = run;
+    found.tracks = readTracks(RunStore(project), run);
+    found.review = readReview(project, run.sequence.id);
+    found.events = findEvents(found.tracks.tracks, found.tracks.footage, choice.options, choice.zones);
+    found.unsearched = unsearchedStretches(found.tracks.footage, choice.review);
+    found.carried =
+        carryOver(found.review.verdicts, found.events, found.unsearched, found.tracks, choice.zones, choice.review);
+    return found;
+}
+
+}  // namespace eyrie

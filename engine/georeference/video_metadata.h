@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "metadata/metadata_timeline.h"
+
+namespace eyrie {
+
+/// The stream of metadata that says most, in the time of its video. Never changed once made; may be shared by threads.
+class VideoMetadata {
+ public:
+    VideoMetadata(MetadataStream stream, const std::vector<PictureStamp>& pictures)
+        : stream_(std::move(stream)), timeline_(stream_, pictures) {}
+    VideoMetadata(const VideoMetadata&) = delete;
+    VideoMetadata& operator=(const VideoMetadata&) = delete;
+
+    const MetadataStream& stream() const { return stream_; }
+    const MetadataTimeline& timeline() const { return timeline_; }
+
+ private:
+    MetadataStream stream_;
+    MetadataTimeline timeline_;
+};
+
+/// The metadata of a video, or why there are none.
+struct FoundMetadata {
+    std::shared_ptr<const VideoMetadata> metadata;  ///< null: none
+    std::string why_not;                            ///< for people: "the video carries no metadata (KLV)"
+};
+
+/// Reads the metadata beside the pictures of `source`. Never throws for what is wrong with them: a video is to be
+/// worked on all the same. Throws nothing when `stop` is requested either; then there are none.
+FoundMetadata metadataOf(const FrameSource& source, const std::stop_token& stop = {});
+
+}  // namespace eyrie

@@ -1,0 +1,88 @@
+#include "io/file_digest.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/folder.h"
+#include "io/video/image_sequence.h"
+
+extern "C" {
+#include <libavutil/mem.h>
+#include <libavutil/sha.h>
+}
+
+namespace eyrie {
+namespace {
+
+class Sha256 {
+ public:
+    Sha256() : state_(av_sha_alloc()) {
+        if (!state_ || av_sha_init(state_.get(), 256) < 0) throw Error(ErrorKind::internal, "no SHA-256");
+    }
+    void add(const char* bytes, std::size_t count) {
+        av_sha_update(state_.get(), reinterpret_cast<const std::uint8_t*>(bytes), count);
+    }
+    std::string digits() {
+        std::array<std::uint8_t, 32> digest{};
+        av_sha_final(state_.get(), digest.data());
+        static constexpr const char* kDigits = "0123456789abcdef";
+        std::string text;
+        for (const std::uint8_t byte : digest) {
+            text += kDigits[byte >> 4];
+            text += kDigits[byte & 15];
+        }
+        return text;
+    }
+
+ private:
+    struct Free {
+        void operator()(AVSHA* state) const { av_free(state); }
+    };
+    std::unique_ptr<AVSHA, Free> state_;
+};
+
+std::vector<std::filesystem::path> imagesIn(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> images;
+    for (const std::filesystem::path& entry : entriesOf(folder))
+        if (isFile(entry) && ImageSequence::isImageFile(entry)) images.push_back(entry);
+    std::sort(images.begin(), images.end(),
+              [](const auto& a, const auto& b) { return naturalOrder(a.filename().string(), b.filename().string()); });
+    return images;
+}
+
+}  // namespace
+
+std::string sha256Of(const std::filesystem::path& path, const std::function<void(double)>& progress,
+                     const std::stop_token& stop) {
+    const bool folder = isFolder(path);
+    const std::vector<std::filesystem::path> files = folder ? imagesIn(path) : std::vector<std::filesystem::path>{path};
+    std::uintmax_t total = 0, done = 0;
+    for (const std::filesystem::path& file : files) {
+        checkReadableFile(file);
+        total += std::filesystem::file_size(file);
+    }
+    Sha256 sum;
+    std::vector<char> block(1 << 20);
+    for (const std::filesystem::path& file : files) {
+        const std::string name = file.filename().string();
+        if (folder) sum.add(name.c_str(), name.size() + 1);
+        std::ifstream stream(file, std::ios::binary);
+        while (stream) {
+            if (stop.stop_requested()) return {};
+            stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+            const auto count = static_cast<std::size_t>(stream.gcount());
+            sum.add(block.data(), count);
+            done += count;
+            if (progress && total > 0) progress(std::min(1.0, static_cast<double>(done) / static_cast<double>(total)));
+        }
+        if (!stream.eof()) throw Error(ErrorKind::input, file.string() + ": cannot be read to its end");
+    }
+    return sum.digits();
+}
+
+}  // namespace eyrie

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <stop_token>
+#include <string>
+
+namespace eyrie {
+
+/// SHA-256 of a file's bytes as 64 hexadecimal digits, as `sha256sum` prints it; of a folder of images that of their
+/// names (each ended by a zero byte) and bytes, in the order of the frames. `progress` (0 … 1) may be empty. Empty when
+/// `stop` was requested. Throws Error(input) for what cannot be read.
+std::string sha256Of(const std::filesystem::path& path, const std::function<void(double)>& progress = {},
+                     const std::stop_token& stop = {});
+
+}  // namespace eyrie

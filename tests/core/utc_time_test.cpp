@@ -1,0 +1,44 @@
+#include "core/utc_time.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace eyrie {
+
+TEST(UtcTime, TextsOfMomentsAreThoseOfTheCalendar) {
+    EXPECT_EQ(utcTextOfSeconds(0), "1970-01-01T00:00:00Z");
+    EXPECT_EQ(utcTextOfSeconds(951'782'400), "2000-02-29T00:00:00Z");
+    EXPECT_EQ(utcTextOfSeconds(-1), "1969-12-31T23:59:59Z");
+    EXPECT_EQ(utcText(1'231'798'102'000'000), "2009-01-12T22:08:22.000000Z");
+    EXPECT_EQ(utcText(-1), "1969-12-31T23:59:59.999999Z");
+    EXPECT_EQ(utcTextToMilliseconds(1'231'798'102'034'999), "2009-01-12T22:08:22.034Z");
+}
+
+TEST(UtcTime, WhatHasNoFourDigitsOfYearHasNoText) {
+    EXPECT_EQ(utcTextOfSeconds(253'402'300'799), "9999-12-31T23:59:59Z");
+    EXPECT_EQ(utcTextOfSeconds(253'402'300'800), "");
+    for (const auto extreme : {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
+        EXPECT_EQ(utcText(extreme), "");
+        EXPECT_EQ(utcTextOfSeconds(extreme), "");
+    }
+}
+
+TEST(UtcTime, TextsAreReadBack) {
+    for (const std::int64_t us : {0LL, 1'231'798'102'034'567LL, -86'400'000'001LL, 4'107'542'400'000'000LL})
+        EXPECT_EQ(utcOf(utcText(us)), us) << us;
+    EXPECT_EQ(utcOf("2009-01-12 22:08:22"), 1'231'798'102'000'000);
+    EXPECT_EQ(utcOf("2009-01-12T22:08:22.5Z"), 1'231'798'102'500'000);
+    EXPECT_EQ(utcOf(nowUtc()).has_value(), true);
+}
+
+TEST(UtcTime, WhatIsNoMomentIsRefused) {
+    for (const char* text :
+         {"", "now", "2009-01-12", "2009-01-12T22:08", "2009-02-29T00:00:00Z", "2009-13-01T00:00:00Z",
+          "2009-00-10T00:00:00Z", "2009-01-12T24:00:00Z", "2009-01-12T22:60:22Z", "2009-01-12T22:08:60Z",
+          "2009-01-12T22:08:22.Z", "2009-01-12T22:08:22.1234567Z", "2009-01-12T22:08:22+01:00", "2009-01-12T22:08:22ZZ",
+          " 2009-01-12T22:08:22Z", "-009-01-12T22:08:22Z", "2009-1-12T22:08:22Z"})
+        EXPECT_EQ(utcOf(text), std::nullopt) << text;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,54 @@
+#include "io/file_digest.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+void write(const std::filesystem::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+}  // namespace
+
+TEST(FileDigest, isThatOfTheStandard) {
+    const test::TemporaryFolder folder;
+    write(folder / "abc", "abc");  // FIPS 180-4, example B.1
+    EXPECT_EQ(sha256Of(folder / "abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    write(folder / "none", "");
+    EXPECT_EQ(sha256Of(folder / "none"), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    write(folder / "million", std::string(1'000'000, 'a'));  // and B.3
+    double told = 0;
+    EXPECT_EQ(sha256Of(folder / "million", [&](double share) { told = share; }),
+              "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+    EXPECT_EQ(told, 1);
+}
+
+TEST(FileDigest, ofAFolderIsThatOfItsImagesAndTheirNames) {
+    const test::TemporaryFolder folder;
+    write(folder / "frame10.png", "b");
+    write(folder / "frame2.png", "a");
+    const std::string before = sha256Of(folder.path());
+    write(folder / "notes.txt", "of no account");
+    EXPECT_EQ(sha256Of(folder.path()), before);
+    write(folder / "all", std::string("frame2.png\0aframe10.png\0b", 25));
+    EXPECT_EQ(sha256Of(folder / "all"), before);
+    std::filesystem::rename(folder / "frame2.png", folder / "frame3.png");
+    EXPECT_NE(sha256Of(folder.path()), before);
+}
+
+TEST(FileDigest, whatCannotBeReadIsRefused) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW(sha256Of(folder / "absent"), Error);
+    write(folder / "a", "abc");
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_EQ(sha256Of(folder / "a", {}, stop.get_token()), "");
+}
+
+}  // namespace eyrie
