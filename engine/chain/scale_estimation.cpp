@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "chain/chain.h"
 #include "core/error.h"
+#include "detection/detector_factory.h"
 
 namespace eyrie {
 namespace {
@@ -20,6 +22,7 @@ constexpr int kSettledFrames = 14;  ///< until tracks have formed
 constexpr std::size_t kFewestStates = 8;
 constexpr double kFewestLooks = 8;  ///< sure windows under the best assumption; fewer are chance
 constexpr int kReach = 2;           ///< assumptions on both sides of the best one that have a say
+constexpr int kPlenty = 10;         ///< vehicles; where fewer drive, later frames are looked at, too
 constexpr double kOwnError = 0.11;  ///< standard error of the logarithm where very many vehicles drive
 /// Of the logarithm within one step of the assumptions.
 const double kStepVariance = std::log(kStep) * std::log(kStep) / 12;
@@ -52,6 +55,11 @@ struct Outcome {
         return decision * alike * alike * car_sized * car_sized;
     }
 };
+
+Outcome operator+(const Outcome& a, const Outcome& b) {
+    return {a.detections + b.detections, a.looks + b.looks, a.decision + b.decision, a.tracks + b.tracks,
+            a.cars + b.cars};
+}
 
 Outcome outcomeUnder(const std::vector<Frame>& frames, const ChainOptions& options, const SceneScale& scale,
                      const std::stop_token& stop, const std::function<void()>& tell) {
@@ -125,11 +133,19 @@ ChainOptions lookingOptions(const ChainOptions& options) {
     return looking;
 }
 
-}  // namespace
+/// Why nobody can say what is a vehicle; empty where the classifier is there.
+std::string missingClassifier(const ChainOptions& options, const SceneScale& scale) {
+    try {
+        makeDetector(lookingOptions(options).detection, scale);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
 
-std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
-                                           const ChainOptions& options, double frame_rate_hz,
-                                           const std::stop_token& stop, const ScaleProgress& told) {
+/// What every assumption gives on the frames from `first` on; nothing when a stop is requested.
+std::vector<Outcome> outcomesOf(FrameSource& source, FrameIndex first, FrameIndex last, const ChainOptions& options,
+                                double frame_rate_hz, const std::stop_token& stop, const ScaleProgress& told) {
     const ChainOptions looking = lookingOptions(options);
     std::vector<Frame> frames;
     for (FrameIndex i = first; i <= last && i < first + kPilotFrames && !stop.stop_requested(); ++i) {
@@ -157,9 +173,18 @@ std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first
     for (int i = 0; i < kAssumptions; ++i) {
         scale.gsd_m_per_px = assumption(i);
         outcomes.push_back(outcomeUnder(frames, looking, scale, stop, tell));
-        if (stop.stop_requested()) return std::nullopt;
+        if (stop.stop_requested()) return {};
     }
-    return estimateFrom(outcomes);
+    return outcomes;
+}
+
+}  // namespace
+
+std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
+                                           const ChainOptions& options, double frame_rate_hz,
+                                           const std::stop_token& stop, const ScaleProgress& told) {
+    const auto outcomes = outcomesOf(source, first, last, options, frame_rate_hz, stop, told);
+    return outcomes.empty() ? std::nullopt : estimateFrom(outcomes);
 }
 
 bool isFallbackScale(const SceneScale& scale) {
@@ -167,24 +192,35 @@ bool isFallbackScale(const SceneScale& scale) {
 }
 
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
-                       const std::stop_token& stop, const ScaleProgress& told,
-                       std::optional<ScaleEstimate>* estimated) {
+                       const std::stop_token& stop, const ScaleProgress& told, std::optional<ScaleEstimate>* estimated,
+                       std::string* why_not) {
     if (estimated != nullptr) estimated->reset();
+    if (why_not != nullptr) why_not->clear();
     SceneScale scale = sceneScale(source.info(), gsd_m_per_px);
     if (scale.gsd_known) return scale;
     const FrameIndex end = source.info().frame_count - 1;
     const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
     if (range.first < 0 || range.first > last) return scale;
+    if (!looksThroughWindows(options.detection.method)) {
+        const std::string missing = missingClassifier(options, scale);
+        if (why_not != nullptr) *why_not = missing;
+        if (!missing.empty()) return scale;
+    }
     const FrameIndex farthest = std::max(range.first, last - kPilotFrames + 1);
     FrameIndex looked_to = range.first - 1;
+    std::vector<Outcome> together(kAssumptions);
     for (const FrameIndex first : {range.first, range.first + (farthest - range.first) / 2, farthest}) {
         if (first <= looked_to || stop.stop_requested()) continue;
         looked_to = first + kPilotFrames - 1;
-        const auto estimate = estimateScale(source, first, last, options, scale.frame_rate_hz, stop, told);
+        const auto outcomes = outcomesOf(source, first, last, options, scale.frame_rate_hz, stop, told);
+        // What looks like a vehicle by chance must not add up to traffic.
+        if (outcomes.empty() || !estimateFrom(outcomes)) continue;
+        for (std::size_t i = 0; i < outcomes.size(); ++i) together[i] = together[i] + outcomes[i];
+        const auto estimate = estimateFrom(together);
         if (!estimate) continue;
         scale.gsd_m_per_px = estimate->gsd_m_per_px;
         if (estimated != nullptr) *estimated = estimate;
-        break;
+        if (estimate->vehicles >= kPlenty) break;
     }
     return scale;
 }

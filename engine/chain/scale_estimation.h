@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
 
 #include "chain/recording/run_recorder.h"
 #include "io/video/frame_source.h"
@@ -23,19 +24,22 @@ using ScaleProgress = std::function<void(const RunProgress&)>;
 /// finer to coarser assumptions, and the one under which most of what moves looks to the classifier like vehicles, and
 /// has a car's size, is taken. Relief and glare look like vehicles under none. Right to a fifth where cars drive;
 /// nothing when too little looks like vehicles or `stop` is requested. Takes some seconds.
-/// Throws Error(input) when frames cannot be read.
+/// Throws Error(input) when frames cannot be read, or when the classifier is missing or damaged.
 /// `told`, if any, learns after every frame how far the look is.
 std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
                                            const ChainOptions& options, double frame_rate_hz,
                                            const std::stop_token& stop, const ScaleProgress& told = {});
 
 /// The scale of a run: the given GSD, or for `gsd_m_per_px` ≤ 0 an estimate, or 0.25 m/px where that fails. Where the
-/// first frames show too little traffic, those in the middle and at the end are looked at. An estimate gives the
-/// chain's lengths a footing; `gsd_known` stays false, so that nobody is shown metres that were guessed. `estimated`,
-/// if any, receives what the estimate rests on; nothing where the scale is none.
+/// first frames show few vehicles, those in the middle and at the end are looked at, too, and what shows traffic is
+/// taken together: a queue that stands and one rider that drives past it would settle the scale otherwise. An estimate
+/// gives the chain's lengths a footing; `gsd_known` stays false, so that nobody is shown metres that were guessed.
+/// `estimated`, if any, receives what the estimate rests on; nothing where the scale is none. Where no classifier can
+/// be loaded and the run itself needs none, nothing is looked for, and `why_not`, if any, receives the reason. Throws
+/// Error(input) where the run needs it.
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
                        const std::stop_token& stop, const ScaleProgress& told = {},
-                       std::optional<ScaleEstimate>* estimated = nullptr);
+                       std::optional<ScaleEstimate>* estimated = nullptr, std::string* why_not = nullptr);
 
 /// Whether a scale is neither given nor estimated but the fallback of chooseScale().
 bool isFallbackScale(const SceneScale& scale);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "scene/scene_source.h"
 #include "support/moving_scene.h"
 #include "support/shared_data.h"
@@ -68,6 +69,30 @@ TEST(ScaleEstimation, withoutTrafficItFallsBackAndDoesNotFail) {
     scene.frames = 20;
     test::MemorySource source(scene);
     EXPECT_DOUBLE_EQ(chooseScale(source, {}, ChainOptions{}, 0, {}).gsd_m_per_px, SceneScale{}.gsd_m_per_px);
+}
+
+TEST(ScaleEstimation, aStandingQueueAndOneRiderDoNotSettleTheScaleOfAllThatDrivesLater) {
+    EYRIE_NEED_SHARED_DATA("uavdt_s1606");
+    SourceOptions at_30_hz;
+    at_30_hz.frame_rate_hz = 30;
+    const auto source = openSource(test::sharedData("uavdt_s1606/frames"), at_30_hz);
+    const SceneScale scale = chooseScale(*source, {}, ChainOptions{}, 0, {});
+    EXPECT_NEAR(scale.gsd_m_per_px, 0.09, kAllowed * 0.09) << "the first 40 frames alone say 0.15";
+}
+
+TEST(ScaleEstimation, withoutAClassifierARunThatNeedsNoneFallsBackAndSaysWhy) {
+    test::MemorySource source((test::MovingScene()));
+    ChainOptions options;
+    options.detection.sliding_window.model = "nowhere.eyriemodel";
+    options.detection.method = DetectionMethod::gradient;
+    std::string why_not;
+    const SceneScale scale = chooseScale(source, {}, options, 0, {}, {}, nullptr, &why_not);
+    EXPECT_TRUE(isFallbackScale(scale));
+    EXPECT_NE(why_not.find("nowhere.eyriemodel"), std::string::npos) << why_not;
+    chooseScale(source, {}, options, 0.3, {}, {}, nullptr, &why_not);
+    EXPECT_TRUE(why_not.empty()) << "nothing to look for";
+    options.detection.method = DetectionMethod::window_and_gradient;
+    EXPECT_THROW(chooseScale(source, {}, options, 0, {}), Error);
 }
 
 TEST(ScaleEstimation, tellsHowFarItIs) {

@@ -187,8 +187,12 @@ int compare(const CompareArguments& arguments) {
     GroundTruth truth = readGroundTruth(arguments.ground_truth.source(), video.size);
     FrameRange range = arguments.video.range();
     if (range.last < 0) range.last = video.frame_count - 1;
-    const SceneScale scale = chooseScale(*source, range, planned.front().variant.options,
-                                         arguments.video.gsd_m_per_px.value_or(0), interrupt.token());
+    std::string no_estimate;
+    const SceneScale scale =
+        chooseScale(*source, range, planned.front().variant.options, arguments.video.gsd_m_per_px.value_or(0),
+                    interrupt.token(), {}, nullptr, &no_estimate);
+    if (!no_estimate.empty())
+        report.remarks.push_back("The scale is not estimated, which needs a classifier: " + no_estimate);
 
     std::vector<MethodVariant> methods;
     for (const Planned& method : planned) methods.push_back(method.variant);

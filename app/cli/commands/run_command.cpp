@@ -114,6 +114,7 @@ SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& op
     if (gsd <= 0 && source.info().gsd_m_per_px <= 0 && !arguments.quiet)
         std::fputs("GSD unknown: estimating the scale from the traffic\n", stderr);
     std::optional<ScaleEstimate> estimated;
+    std::string why_not;
     SceneScale scale;
     {
         ConsoleProgress console("looks");  // ends its line
@@ -124,8 +125,10 @@ SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& op
                     console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
                                  progress.seconds_left);
             },
-            &estimated);
+            &estimated, &why_not);
     }
+    if (!why_not.empty() && !arguments.quiet)
+        std::fprintf(stderr, "The scale is not estimated, which needs a classifier: %s\n", why_not.c_str());
     if (estimated && !arguments.quiet) std::fprintf(stderr, "%s\n", estimateText(*estimated).c_str());
     return scale;
 }

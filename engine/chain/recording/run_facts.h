@@ -8,7 +8,7 @@ namespace eyrie {
 /// Where the metres per pixel of a run come from.
 enum class ScaleOrigin {
     given,      ///< by a person, or known to the source itself
-    estimated,  ///< from the traffic of the first frames
+    estimated,  ///< from the traffic
     fallback    ///< neither: an assumption
 };
 ScaleOrigin originOf(const SceneScale& scale);
