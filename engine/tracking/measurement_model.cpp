@@ -216,6 +216,12 @@ BoxMeasurement MeasurementModel::reconstructed(const Reconstruction& reconstruct
     if (reconstruction.heading_known) {
         m.heading = 2 * headingDeviation(std::hypot(reconstruction.velocity.x, reconstruction.velocity.y));
     }
+    if (reconstruction.size_known) {
+        // As good as any detection.
+        m.along = m.across = position_;
+        m.length = m.width = size_;
+        m.heading /= 2;
+    }
     return m;
 }
 

@@ -120,7 +120,11 @@ void Tracker::predict(const FrameMotion& motion) {
         place.centre = map.apply(place.centre);
         place.length *= scale;
         place.width *= scale;
-        for (AssociatedVector& vector : track.vectors) vector.in_box *= scale;
+        for (AssociatedVector& vector : track.vectors) {
+            vector.in_box *= scale;
+            vector.length *= scale;
+            vector.width *= scale;
+        }
         ++track.age;
     }
     frozen_frames_ = 0;
@@ -149,8 +153,11 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     if (trace != nullptr) traceAssociation(matrix, association, predicted, positions, *trace);
 
     const FrameVectors vectors(motion.motion_vectors);
+    for (Track& track : tracks_) keepSeenVectors(track.vectors, vectors);
+    std::vector<std::vector<AssociatedVector>> first_vectors(found.size());
+    const bool vectors_first = options_.use_vectors && options_.vectors_first;
+    if (vectors_first) first_vectors = associateByPrediction(detected, association.used, vectors);
     for (std::size_t j = 0; j < tracks_.size(); ++j) {
-        keepSeenVectors(tracks_[j].vectors, vectors);
         updateTrack(tracks_[j], association.tracks[j], found, vectors);
         lookAround(tracks_[j], picture);
         manager_.count(tracks_[j], model_.slowSpeed());
@@ -165,8 +172,12 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
             if (!lives && traced.ended_by.empty()) traced.ended_by = "tracking.suppress_duplicates";
         }
     }
-    startTracks(found, association.used, positions, trace);
-    if (options_.use_vectors) associateMotionVectors(vectors);
+    startTracks(found, association.used, std::move(first_vectors), positions, trace);
+    if (vectors_first) {
+        storeVectorPlaces(vectors);
+    } else if (options_.use_vectors) {
+        associateByUpdate(vectors);
+    }
 }
 
 std::vector<MovingBox> Tracker::predictedBoxes() const {
@@ -313,15 +324,9 @@ bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Dete
     return track.filter.update(update.measurement);
 }
 
-bool Tracker::updateByVectors(Track& track, const FrameVectors& vectors) {
-    if (!manager_.mayBeReconstructed(track)) return false;
-    const auto rebuilt = reconstructBox(track.vectors, vectors, track.filter.box(), options_.min_vectors,
-                                        model_.slowSpeed(), options_.agreement);
-    return rebuilt && track.filter.update(model_.reconstructed(*rebuilt));
-}
-
 void Tracker::startTracks(const std::vector<const Detection*>& detections, const std::vector<char>& used,
-                          const std::vector<int>& positions, TrackingTrace* trace) {
+                          std::vector<std::vector<AssociatedVector>> first_vectors, const std::vector<int>& positions,
+                          TrackingTrace* trace) {
     const std::size_t known = tracks_.size();
     std::vector<Track> born;
     for (std::size_t i = 0; i < detections.size(); ++i) {
@@ -334,6 +339,7 @@ void Tracker::startTracks(const std::vector<const Detection*>& detections, const
         Track track(model_.first(detection));
         track.id = next_id_++;
         if (trace != nullptr) trace->started.emplace_back(positions[i], track.id);
+        track.vectors = std::move(first_vectors[i]);
         track.whole_hits = 1;
         track.whole_boxes = detection.complete;
         track.filter.pointForward(model_.slowSpeed());
@@ -342,24 +348,6 @@ void Tracker::startTracks(const std::vector<const Detection*>& detections, const
     }
     tracks_.reserve(known + born.size());
     for (Track& track : born) tracks_.push_back(std::move(track));
-}
-
-void Tracker::associateMotionVectors(const FrameVectors& vectors) {
-    VectorLimits limits;
-    limits.max_vectors = options_.max_vectors;
-    limits.speed_difference = options_.vector_speed_difference;
-    limits.speed_floor = 5 * model_.backgroundSpeedSigma();
-    limits.slow_speed = model_.slowSpeed();
-    limits.relative_position_gain = options_.relative_position_gain;
-    std::vector<VectorClaim> claims;
-    for (Track& track : tracks_) {
-        VectorClaim claim{track.filter.box(), track.filter.velocity(), true, true, &track.vectors};
-        claim.may_gain = track.origin == StateOrigin::detected || track.origin == StateOrigin::reconstructed;
-        claim.may_gain = claim.may_gain && !track.merged;
-        claim.learns = track.origin == StateOrigin::detected;
-        claims.push_back(claim);
-    }
-    associateVectors(claims, vectors, limits);
 }
 
 }  // namespace eyrie

@@ -81,8 +81,16 @@ class Tracker {
     bool updateByDetection(Track& track, const OrientedBox& box, const Detection& detection);
     bool updateByVectors(Track& track, const FrameVectors& vectors);
     void startTracks(const std::vector<const Detection*>& detections, const std::vector<char>& used,
-                     const std::vector<int>& positions, TrackingTrace* trace);
-    void associateMotionVectors(const FrameVectors& vectors);
+                     std::vector<std::vector<AssociatedVector>> first_vectors, const std::vector<int>& positions,
+                     TrackingTrace* trace);
+    VectorLimits vectorLimits() const;
+    /// Before the update, by predicted boxes. Returns the vectors of each detection that is free to start a track.
+    std::vector<std::vector<AssociatedVector>> associateByPrediction(const std::vector<MovingBox>& detected,
+                                                                     const std::vector<char>& used,
+                                                                     const FrameVectors& vectors);
+    void storeVectorPlaces(const FrameVectors& vectors);
+    /// After the update, by updated boxes.
+    void associateByUpdate(const FrameVectors& vectors);
 
     TrackerOptions options_;
     MeasurementModel model_;

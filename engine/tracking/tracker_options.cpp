@@ -63,6 +63,18 @@ void describeVectors(TrackerOptions& o, const ParameterDeclarer& declare) {
     declare.flag("tracking.use_vectors", o.use_vectors,
                  {"", "Rebuild the box from associated motion vectors when a detection is split, merged or missed.",
                   "Teutsch §6.2.2, §6.3"});
+    declare.flag("tracking.vectors_first", o.vectors_first,
+                 {"",
+                  "Motion vectors join predicted boxes and so help in the same frame, and their places follow every "
+                  "box. Otherwise they join updated boxes, only of tracks that are seen and not merged, and their "
+                  "places follow detections.",
+                  "Teutsch §6.2.2, fig. 6.6"});
+    declare.choice(
+        "tracking.rebuilt_size", o.rebuilt_size, {"predicted", "stored"},
+        {"",
+         "The size of a rebuilt box. stored: the median of the sizes that its vectors stored, and the box is "
+         "measured like a detection; predicted: the track keeps its size, and the place is trusted more.",
+         "Teutsch §6.3"});
     declare.integer("tracking.max_vectors", o.max_vectors, 1, 1000,
                     {"", "Largest number of motion vectors associated to a track.", "Teutsch §6.2.2"});
     declare.integer("tracking.min_vectors", o.min_vectors, 1, 1000,
@@ -232,6 +244,8 @@ TrackerOptions TrackerOptions::thesis() {
     options.car_length_m = 0;
     options.car_width_m = 0;
     options.one_vehicle_factor = 0;
+    options.vectors_first = true;
+    options.rebuilt_size = RebuiltSize::stored;
     options.max_vectors = 20;
     options.min_vectors = 1;
     options.agreement = 0;

@@ -18,6 +18,12 @@ enum class AppearanceUse {
     lost      ///< all reliable ones
 };
 
+/// The size of a box that motion vectors rebuild.
+enum class RebuiltSize {
+    predicted,  ///< the track's own; only the place is measured
+    stored      ///< the median of what the vectors stored; the box is measured like a detection, as in the thesis
+};
+
 /// Parameters of the tracker (Teutsch ch. 6). Metres are turned into pixels once, in the tracker's constructor; pixel
 /// values beside them are floors for noise that does not shrink with the object.
 struct TrackerOptions {
@@ -38,6 +44,8 @@ struct TrackerOptions {
 
     // Association of motion vectors and reconstruction.
     bool use_vectors = true;
+    bool vectors_first = false;
+    RebuiltSize rebuilt_size = RebuiltSize::predicted;
     int max_vectors = 20;
     int min_vectors = 2;
     double agreement = 1.0 / 3;

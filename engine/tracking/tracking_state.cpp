@@ -6,7 +6,7 @@ namespace eyrie {
 
 template <class Archive>
 void transfer(Archive& archive, AssociatedVector& vector) {
-    archive(vector.id, vector.in_box, vector.heading_offset, vector.index);
+    archive(vector.id, vector.in_box, vector.heading_offset, vector.index, vector.length, vector.width);
 }
 
 template <class Archive>

@@ -230,6 +230,29 @@ TEST(SplitMerge, reconstructionTurnsWithItsVectors) {
     EXPECT_NEAR(rebuilt->box.centre.y, 50, 1e-4);
 }
 
+TEST(SplitMerge, theRebuiltSizeIsPredictedOrTheMedianOfTheStoredOnes) {
+    std::vector<MotionVector> vectors;
+    std::vector<AssociatedVector> associations;
+    const std::vector<cv::Size2d> stored{{22, 11}, {60, 9}, {20, 14}};
+    for (const cv::Size2d& size : stored) {
+        const auto id = CornerId(vectors.size());
+        vectors.push_back({id, {50, 50}, {3, 1}, 10});
+        associations.push_back({id, {0, 0}, 0, int(id), size.width, size.height});
+    }
+    const FrameVectors frame(vectors);
+    const OrientedBox predicted{{50, 50}, 30, 13, 0};
+    const auto kept = reconstructBox(associations, frame, predicted, 1, 100, 0);
+    ASSERT_TRUE(kept);
+    EXPECT_DOUBLE_EQ(kept->box.length, 30);
+    EXPECT_DOUBLE_EQ(kept->box.width, 13);
+    EXPECT_FALSE(kept->size_known);
+    const auto told = reconstructBox(associations, frame, predicted, 1, 100, 0, RebuiltSize::stored);
+    ASSERT_TRUE(told);
+    EXPECT_DOUBLE_EQ(told->box.length, 22);
+    EXPECT_DOUBLE_EQ(told->box.width, 11);
+    EXPECT_TRUE(told->size_known);
+}
+
 TEST(VectorAssociation, fourCriteria) {
     const std::vector<MotionVector> vectors{{1, {0, 0}, {2, 0}, 9},    // free, inside, similar
                                             {2, {12, 0}, {2, 0}, 9},   // inside both boxes
@@ -282,6 +305,37 @@ TEST(VectorAssociation, keepsItsOwnAndAtMostTheGivenNumber) {
     EXPECT_EQ(own.size(), 20u);
     EXPECT_EQ(own[0].id, 3);
     EXPECT_EQ(own[1].id, 49) << "the oldest first";
+}
+
+TEST(VectorAssociation, aVectorStoresPlaceAndSizeOfTheBoxThatItJoins) {
+    const std::vector<MotionVector> vectors{{1, {13, 22}, {0, 2}, 9}};
+    const FrameVectors frame(vectors);
+    std::vector<AssociatedVector> own;
+    // Heading down the image: along is y, across is −x.
+    const OrientedBox box{{10, 20}, 18, 8, kPi / 2};
+    associateVectors({{box, {0, 2}, true, false, &own}}, frame, {});
+    ASSERT_EQ(own.size(), 1U);
+    EXPECT_NEAR(own[0].in_box.x, 2, 1e-6);
+    EXPECT_NEAR(own[0].in_box.y, -3, 1e-6);
+    EXPECT_NEAR(own[0].heading_offset, 0, 1e-6);
+    EXPECT_DOUBLE_EQ(own[0].length, 18);
+    EXPECT_DOUBLE_EQ(own[0].width, 8);
+
+    const OrientedBox later{{11, 20}, 28, 10, kPi / 2 + 0.2};
+    std::vector<AssociatedVector> replaced = own;
+    storePlaces(replaced, later, frame, 1, 0.1);
+    const cv::Point2d place = later.toBox({13, 22});
+    EXPECT_NEAR(replaced[0].in_box.x, place.x, 1e-6);
+    EXPECT_NEAR(replaced[0].in_box.y, place.y, 1e-6);
+    EXPECT_NEAR(replaced[0].heading_offset, 0.2, 1e-6);
+    EXPECT_DOUBLE_EQ(replaced[0].length, 28);
+    EXPECT_DOUBLE_EQ(replaced[0].width, 10);
+    std::vector<AssociatedVector> followed = own;
+    storePlaces(followed, later, frame, 0.3, 0.1);
+    EXPECT_NEAR(followed[0].in_box.x, 2 + 0.3 * (place.x - 2), 1e-6);
+    EXPECT_NEAR(followed[0].heading_offset, 0.06, 1e-6);
+    EXPECT_NEAR(followed[0].length, 21, 1e-9);
+    EXPECT_NEAR(followed[0].width, 8.6, 1e-9);
 }
 
 }  // namespace eyrie

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tracking/measurement_model.h"
 #include "tracking/tracked_scene.h"
 
 namespace eyrie {
@@ -127,6 +128,99 @@ TEST(TrackerSplitMerge, duplicatesOfATrackAreSuppressedButNotNeighbours) {
     ASSERT_EQ(states.size(), 2u);
     EXPECT_EQ(states[0].id, 1);
     EXPECT_EQ(states[1].id, 2);
+}
+
+TEST(TrackerSplitMerge, thesisTakesVectorsByThePredictedBoxSoThatTheyHelpInTheSameFrame) {
+    const MovingScene scene = neighbours();
+    constexpr int kMergedFrom = 15;
+    constexpr int kNewCorners = 18;  // all are lost and found again while both are merged
+    for (const bool first : {true, false}) {
+        TrackerOptions options = TrackerOptions::thesis();
+        options.min_overlap = 0.3;
+        options.vectors_first = first;
+        Tracker tracker(options, scene.scale);
+        for (int frame = 0; frame < 24; ++frame) {
+            std::vector<Detection> detections = scene.detections(frame);
+            FrameMotion motion = scene.motion(frame);
+            if (frame >= kMergedFrom) {
+                detections[0].box = unionBox(detections[0].box, detections[1].box);
+                detections.resize(1);
+            }
+            if (frame >= kNewCorners) {
+                for (MotionVector& vector : motion.motion_vectors) vector.id += 1000;
+            }
+            const auto states = tracker.next(motion, detections);
+            ASSERT_EQ(states.size(), 2U) << frame;
+            const bool reconstructed = frame >= kMergedFrom && (first || frame < kNewCorners);
+            for (std::size_t i = 0; i < 2; ++i) {
+                if (frame < kMergedFrom) {
+                    EXPECT_EQ(states[i].origin, StateOrigin::detected) << frame;
+                } else {
+                    EXPECT_EQ(states[i].origin, reconstructed ? StateOrigin::reconstructed : StateOrigin::predicted)
+                        << frame;
+                }
+                EXPECT_GT(overlap(states[i].box, scene.box(i, frame)), 0.85) << frame;
+            }
+        }
+    }
+}
+
+TEST(TrackerSplitMerge, thesisRebuildsATrackFromTheVectorsOfItsFirstDetection) {
+    const MovingScene scene = twoCars();
+    Tracker tracker(TrackerOptions::thesis(), scene.scale);
+    tracker.next(scene.motion(0), scene.detections(0));
+    const auto states = tracker.next(scene.motion(1), {});
+    ASSERT_EQ(states.size(), 2U);
+    for (const TrackState& state : states) EXPECT_EQ(state.origin, StateOrigin::reconstructed);
+}
+
+TEST(TrackerSplitMerge, storedSizesGrowWithTheZoom) {
+    MovingScene scene = twoCars();
+    for (auto& object : scene.objects) object.start.x += 150;
+    scene.camera.zoom = [](int frame) { return std::pow(1.02, frame); };
+    scene.camera.turn = [](int frame) { return 0.01 * frame; };
+    for (const RebuiltSize size : {RebuiltSize::stored, RebuiltSize::predicted}) {
+        TrackerOptions options = TrackerOptions::thesis();
+        options.rebuilt_size = size;
+        Tracker tracker(options, scene.scale);
+        for (int frame = 0; frame < 25; ++frame) {
+            const bool missed = frame >= 15;
+            const auto states =
+                tracker.next(scene.motion(frame), missed ? std::vector<Detection>{} : scene.detections(frame));
+            ASSERT_EQ(states.size(), 2U) << frame;
+            if (!missed) continue;
+            for (std::size_t i = 0; i < 2; ++i) {
+                ASSERT_EQ(states[i].origin, StateOrigin::reconstructed) << frame;
+                EXPECT_NEAR(states[i].box.length / scene.box(i, frame).length, 1, 0.02) << frame;
+                EXPECT_GT(overlap(states[i].box, scene.box(i, frame)), 0.9) << frame;
+            }
+        }
+    }
+}
+
+TEST(TrackerSplitMerge, aBoxOfStoredSizeIsMeasuredLikeADetection) {
+    const MovingScene scene = twoCars();
+    MeasurementModel model(TrackerOptions::thesis(), scene.scale);
+    model.startFrame(scene.image, 0.02);
+    const Detection detection = scene.detection(0, 0);
+    const BoxMeasurement seen = model.update(detection.box, detection, detection.box, true).measurement;
+    Reconstruction rebuilt;
+    rebuilt.box = detection.box;
+    rebuilt.velocity = detection.velocity;
+    rebuilt.heading_known = true;
+    rebuilt.size_known = true;
+    const BoxMeasurement told = model.reconstructed(rebuilt);
+    EXPECT_DOUBLE_EQ(told.along, seen.along);
+    EXPECT_DOUBLE_EQ(told.across, seen.across);
+    EXPECT_DOUBLE_EQ(told.length, seen.length);
+    EXPECT_DOUBLE_EQ(told.width, seen.width);
+    EXPECT_DOUBLE_EQ(told.heading, seen.heading);
+    rebuilt.size_known = false;
+    const BoxMeasurement placed = model.reconstructed(rebuilt);
+    EXPECT_EQ(placed.length, BoxMeasurement::kUnknown);
+    EXPECT_EQ(placed.width, BoxMeasurement::kUnknown);
+    EXPECT_LT(placed.along, seen.along);
+    EXPECT_GT(placed.heading, seen.heading);
 }
 
 }  // namespace eyrie

@@ -220,7 +220,7 @@ FrameAssociation associateDetections(const OverlapMatrix& matrix, const std::vec
 
 std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>& vectors, const FrameVectors& frame,
                                              const OrientedBox& predicted, int min_vectors, double slow_speed,
-                                             double agreement) {
+                                             double agreement, RebuiltSize size) {
     if (vectors.empty() || static_cast<int>(vectors.size()) < min_vectors) return std::nullopt;
     Reconstruction result;
     result.box = predicted;
@@ -239,6 +239,18 @@ std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>
     if (2 * turns.size() > vectors.size()) {
         result.box.heading = wrapPi(predicted.heading + median(turns));
         result.heading_known = true;
+    }
+
+    if (size == RebuiltSize::stored) {
+        std::vector<double> lengths;
+        std::vector<double> widths;
+        for (const AssociatedVector& associated : vectors) {
+            lengths.push_back(associated.length);
+            widths.push_back(associated.width);
+        }
+        result.box.length = median(std::move(lengths));
+        result.box.width = median(std::move(widths));
+        result.size_known = true;
     }
 
     const auto suggestedCentre = [&](const AssociatedVector& associated) {

@@ -62,14 +62,16 @@ struct Reconstruction {
     OrientedBox box;
     cv::Point2d velocity{0, 0};  ///< px/frame relative to the ground
     bool heading_known = false;  ///< the vectors were fast enough to tell it
+    bool size_known = false;     ///< told by the vectors, not predicted
     int vectors = 0;             ///< how many agreed
 };
 
 /// The median of the boxes that a track's associated motion vectors suggest by their stored places (Teutsch §6.3, fig.
-/// 6.5), with the predicted size. Nothing when fewer than `min_vectors` of them are in the frame and agree, that is,
-/// put the centre within `agreement` of the shorter side (or 1.5 px); 0: they need not agree.
+/// 6.5), with the predicted size or the median of the stored ones. Nothing when fewer than `min_vectors` of them are in
+/// the frame and agree, that is, put the centre within `agreement` of the shorter side (or 1.5 px); 0: they need not
+/// agree.
 std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>& vectors, const FrameVectors& frame,
                                              const OrientedBox& predicted, int min_vectors, double slow_speed,
-                                             double agreement = 1.0 / 3);
+                                             double agreement = 1.0 / 3, RebuiltSize size = RebuiltSize::predicted);
 
 }  // namespace eyrie

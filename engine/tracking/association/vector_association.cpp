@@ -35,17 +35,6 @@ bool isOutlier(const AssociatedVector& associated, const VectorClaim& claim, con
            !limits.similar(velocityOf(vector), claim.velocity);
 }
 
-void learnPlaces(const VectorClaim& claim, const FrameVectors& frame, const VectorLimits& limits) {
-    for (AssociatedVector& associated : *claim.vectors) {
-        const MotionVector& vector = frame.at(associated.index);
-        const cv::Point2d now = claim.box.toBox(positionOf(vector));
-        associated.in_box += (now - associated.in_box) * limits.relative_position_gain;
-        const double offset = headingOffset(vector, claim.box, limits.slow_speed);
-        associated.heading_offset = wrapPi(
-            associated.heading_offset + limits.relative_position_gain * turnBetween(associated.heading_offset, offset));
-    }
-}
-
 }  // namespace
 
 FrameVectors::FrameVectors(const std::vector<MotionVector>& vectors) : vectors_(&vectors) {
@@ -95,6 +84,20 @@ void keepSeenVectors(std::vector<AssociatedVector>& vectors, const FrameVectors&
     std::erase_if(vectors, [&frame](const AssociatedVector& v) { return v.index < 0 || !finite(frame.at(v.index)); });
 }
 
+void storePlaces(std::vector<AssociatedVector>& vectors, const OrientedBox& box, const FrameVectors& frame, double gain,
+                 double slow_speed) {
+    for (AssociatedVector& associated : vectors) {
+        const MotionVector& vector = frame.at(associated.index);
+        const cv::Point2d now = box.toBox(positionOf(vector));
+        associated.in_box += (now - associated.in_box) * gain;
+        const double offset = headingOffset(vector, box, slow_speed);
+        associated.heading_offset =
+            wrapPi(associated.heading_offset + gain * turnBetween(associated.heading_offset, offset));
+        associated.length += (box.length - associated.length) * gain;
+        associated.width += (box.width - associated.width) * gain;
+    }
+}
+
 void associateVectors(const std::vector<VectorClaim>& claims, const FrameVectors& frame, const VectorLimits& limits) {
     std::vector<char> taken(static_cast<std::size_t>(frame.count()), 0);
     for (const VectorClaim& claim : claims) {
@@ -102,7 +105,8 @@ void associateVectors(const std::vector<VectorClaim>& claims, const FrameVectors
             return taken[static_cast<std::size_t>(v.index)] || isOutlier(v, claim, frame, limits);
         });
         for (const AssociatedVector& v : *claim.vectors) taken[static_cast<std::size_t>(v.index)] = 1;
-        if (claim.learns) learnPlaces(claim, frame, limits);
+        if (claim.learns)
+            storePlaces(*claim.vectors, claim.box, frame, limits.relative_position_gain, limits.slow_speed);
     }
 
     std::vector<std::vector<int>> inside;
@@ -127,7 +131,8 @@ void associateVectors(const std::vector<VectorClaim>& claims, const FrameVectors
             if (static_cast<int>(claim.vectors->size()) >= limits.max_vectors) break;
             const MotionVector& vector = frame.at(index);
             claim.vectors->push_back({vector.id, claim.box.toBox(positionOf(vector)),
-                                      headingOffset(vector, claim.box, limits.slow_speed), index});
+                                      headingOffset(vector, claim.box, limits.slow_speed), index, claim.box.length,
+                                      claim.box.width});
         }
     }
 }

@@ -8,12 +8,15 @@
 
 namespace eyrie {
 
-/// A motion vector that belongs to a track, and where it sits in the track's box (Teutsch §6.2.2).
+/// A motion vector that belongs to a track, where it sits in the track's box, and that box's size (Teutsch §6.2.2,
+/// §6.3).
 struct AssociatedVector {
     CornerId id = 0;
     cv::Point2d in_box{0, 0};   ///< px in the axes of the track's box
     double heading_offset = 0;  ///< radians from the vector's direction to the box's heading; 0 when it was slow
     int index = -1;             ///< into the motion vectors of the current frame
+    double length = 0;          ///< px: of the track's box
+    double width = 0;           ///< px
 };
 
 /// The motion vectors of one frame, to be looked up by id and by place. Refers to the vectors; they must outlive it.
@@ -56,6 +59,11 @@ struct VectorClaim {
 
 /// Removes the vectors that are not in this frame and fills in the indices of the others.
 void keepSeenVectors(std::vector<AssociatedVector>& vectors, const FrameVectors& frame);
+
+/// Lets the stored places, directions and sizes follow the track's box by `gain`; 1: replaces them. The indices must be
+/// those of the frame.
+void storePlaces(std::vector<AssociatedVector>& vectors, const OrientedBox& box, const FrameVectors& frame, double gain,
+                 double slow_speed);
 
 /// Drops outliers, associates further vectors by the four criteria of Teutsch §6.2.2 (free, inside this box, inside no
 /// other, similar motion) and updates the stored places. The indices must be those of the frame.
