@@ -210,5 +210,42 @@ TEST(EvaluationInput, TrackEvalRefusesAnIdTwiceInAFrame) {
     }
 }
 
+TEST(Matching, EverySideOfTheImageHasItsBorder) {
+    EvaluationOptions options = at(0.1);
+    options.border = 3;
+    options.image_size = {200, 100};
+    // A car is 20 × 10; the last pixels are 199 and 99.
+    const auto leftOut = [&](double x, double y) {
+        return !matchFrames(boxes({car(0, 1, 100)}), boxes({detection(x, y)}), options).at(0).border_results.empty();
+    };
+    EXPECT_FALSE(leftOut(13, 50));
+    EXPECT_TRUE(leftOut(12.99, 50));
+    EXPECT_FALSE(leftOut(186, 50));
+    EXPECT_TRUE(leftOut(186.01, 50));
+    EXPECT_FALSE(leftOut(100, 8));
+    EXPECT_TRUE(leftOut(100, 7.99));
+    EXPECT_FALSE(leftOut(100, 91));
+    EXPECT_TRUE(leftOut(100, 91.01));
+}
+
+TEST(Matching, TrackEvalEndsWithTheLastFrameOfTheVideo) {
+    const BoxesByFrame truth = boxes({car(0, 1, 100), car(2, 1, 100)});
+    const BoxesByFrame result = boxes({car(2, 1, 100), car(3, 1, 100)});
+    EvaluationOptions options = at(0.5);
+    options.convention = Convention::trackeval;
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{1, 0, 1})) << "frame 3 lies behind the truth";
+    options.frame_count = 4;
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{1, 1, 1}));
+}
+
+TEST(Matching, MorePairsComeBeforeLargerOverlaps) {
+    // Eq. 7.1: the first result lies on both cars, but the second car has no other.
+    const BoxesByFrame truth = boxes({car(0, 1, 100), car(0, 2, 110)});
+    const auto match = matchFrames(truth, boxes({detection(101), detection(86)}), at(0.1)).at(0);
+    ASSERT_EQ(match.pairs.size(), 2U);
+    EXPECT_TRUE(match.missed.empty());
+    for (const MatchedPair& pair : match.pairs) EXPECT_EQ(pair.result, pair.truth == 0 ? 1 : 0);
+}
+
 }  // namespace
 }  // namespace eyrie

@@ -419,5 +419,54 @@ TEST(BoxErrors, UprightBoxesAreComparedWithoutHeadings) {
     EXPECT_EQ(withValue(evaluate(truth, {}, options)), 0) << "nor an error without pairs";
 }
 
+TEST(DetectionMeasures, OneObjectIsEnoughForAllOfThem) {
+    const BoxesByFrame truth = boxes({car(0, 1, 100)});
+    const Measures right = evaluate(truth, boxes({car(0, 7, 100)}), at(0.5));
+    EXPECT_EQ(right.detection.precision, 1);
+    EXPECT_EQ(right.detection.recall, 1);
+    EXPECT_EQ(right.detection.f_score, 1);
+    EXPECT_EQ(right.detection.n_moda, 1);
+    EXPECT_EQ(right.detection.n_modp, 1);
+    ASSERT_TRUE(right.tracking && right.identity && right.hota);
+    EXPECT_EQ(right.tracking->mota, 1);
+    EXPECT_EQ(right.tracking->mota_log, 1) << "no switch has no logarithm";
+    EXPECT_EQ(right.tracking->mota_soft, 1);
+    EXPECT_EQ(right.tracking->mostly_tracked, 1);
+    EXPECT_EQ(right.identity->idf1, 1);
+    EXPECT_EQ(right.identity->idp, 1);
+    EXPECT_EQ(right.identity->idr, 1);
+    for (const HotaCurve* curve : {&right.hota->det_re, &right.hota->det_pr, &right.hota->det_a, &right.hota->ass_re,
+                                   &right.hota->ass_pr, &right.hota->ass_a, &right.hota->loc_a, &right.hota->hota}) {
+        EXPECT_EQ(curve->front(), 1);
+        EXPECT_EQ(curve->back(), 1);
+    }
+    const Measures twice = evaluate(truth, boxes({car(0, 7, 100), car(0, 8, 300)}), at(0.5));
+    EXPECT_EQ(twice.detection.n_moda, 0);
+    EXPECT_EQ(twice.detection.false_positives_per_frame, 1);
+    EXPECT_EQ(twice.tracking->mota, 0);
+    EXPECT_EQ(twice.tracking->mota_soft, 0);
+}
+
+TEST(DetectionMeasures, ForgivenAndLeftOutResultsAreCountedTogether) {
+    const BoxesByFrame truth = boxes({car(0, 1, 100), ignored(car(0, 2, 60))});
+    EvaluationOptions options = at(0.5);
+    options.border = 3;
+    options.image_size = {200, 100};
+    const BoxesByFrame result = boxes({car(0, {}, 100), car(0, {}, 61), car(0, {}, 58), car(0, {}, 195)});
+    const Measures m = evaluate(truth, result, options);
+    EXPECT_EQ(m.detection.ignored_results, 3) << "two on what is ignored, one at the border";
+    EXPECT_EQ(m.detection.false_positives, 0);
+}
+
+TEST(TrackingMeasures, ASingleTrackWaitsForItself) {
+    BoxesByFrame truth;
+    BoxesByFrame result;
+    for (int frame = 0; frame < 5; ++frame) {
+        truth[frame].push_back(car(frame, 1, 100));
+        result[frame].push_back(car(frame, 4, frame < 3 ? 300 : 100));
+    }
+    EXPECT_EQ(evaluate(truth, result, at(0.5)).tracking->initialisation_frames, 3);
+}
+
 }  // namespace
 }  // namespace eyrie
