@@ -173,6 +173,8 @@ TEST(ModelLocation, SaysWhereItLooked) {
     EXPECT_THAT(messageOf([] { modelLocation("nowhere/at/all.eyriemodel"); }),
                 testing::HasSubstr("nowhere/at/all.eyriemodel: there is no such model"));
     EXPECT_EQ(modelLocation(test::drivenSceneModel()), test::drivenSceneModel());
+    EXPECT_EQ(modelLocation("").filename(), kShippedModel);
+    EXPECT_EQ(modelLocation("thesis").filename(), kThesisModel);
     EXPECT_THAT(messageOf([] { makeSlidingWindowDetector({}, kContractScale, 0.5); }),
                 testing::AnyOf("no error", testing::HasSubstr("eyrie-cli train")));
 }

@@ -144,13 +144,14 @@ TEST(Trainer, optionsAreDeclared) {
     EXPECT_EQ(options.classifier_options.trees, 77);
 }
 
-TEST(ShippedModel, tellsVehiclesOfACameraItHasNeverSeen) {
+TEST(ShippedModels, tellVehiclesOfACameraTheyHaveNeverSeen) {
     EYRIE_NEED_SHARED_DATA("patches/cats_madison");
-    const VehicleModel model =
-        loadModel(test::sourceFolder() / "resources/classifiers/vehicle_chnftrs_adaboost.eyriemodel");
-    EXPECT_TRUE(WindowScanner(model).fast());
-    EXPECT_EQ(model.record.data.find("cats_madison"), std::string::npos);
-    EXPECT_GE(areaUnderRoc(model, readPatchSheets(test::sharedData("patches/cats_madison"))), 0.99);
+    for (const char* name : {"vehicle_chnftrs_adaboost.eyriemodel", "vehicle_thesis.eyriemodel"}) {
+        const VehicleModel model = loadModel(test::sourceFolder() / "resources/classifiers" / name);
+        EXPECT_TRUE(WindowScanner(model).fast()) << name;
+        EXPECT_EQ(model.record.data.find("cats_madison"), std::string::npos) << name;
+        EXPECT_GE(areaUnderRoc(model, readPatchSheets(test::sharedData("patches/cats_madison"))), 0.99) << name;
+    }
 }
 
 }  // namespace eyrie

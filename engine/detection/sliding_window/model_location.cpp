@@ -23,7 +23,8 @@ bool isFile(const fs::path& path) {
 }  // namespace
 
 fs::path modelLocation(const std::string& path) {
-    if (!path.empty()) {
+    const bool thesis = path == kThesisModelWord;
+    if (!path.empty() && !thesis) {
         if (isFile(path)) return path;
         throw Error(ErrorKind::input,
                     path +
@@ -34,7 +35,7 @@ fs::path modelLocation(const std::string& path) {
     std::string looked;
     for (const fs::path& folder :
          {program / "classifiers", program / "../share/eyrie/classifiers", fs::path(EYRIE_RESOURCES) / "classifiers"}) {
-        const fs::path file = (folder / kShippedModel).lexically_normal();
+        const fs::path file = (folder / (thesis ? kThesisModel : kShippedModel)).lexically_normal();
         if (isFile(file)) return file;
         looked += "\n  " + file.string();
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detection/sliding_window/model_location.h"
+
 namespace eyrie {
 
 std::vector<double> SlidingWindowOptions::scales() const {
@@ -28,6 +30,7 @@ std::vector<double> SlidingWindowOptions::scales() const {
 
 SlidingWindowOptions SlidingWindowOptions::thesis() {
     SlidingWindowOptions options;
+    options.model = kThesisModelWord;
     // Beside the original, cars of 4 to 5 m, an image for smaller cars and one for buses and lorries of 15 to 20 m.
     options.smallest_scale = 0.85;
     options.middle_scale = 1;
@@ -43,7 +46,10 @@ void SlidingWindowOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer deciding = declare.decisionOnly();
     declare.words(
         "sliding_window.model", model,
-        {"", "Path of the model file that decides; empty: the model that comes with Eyrie.", "Teutsch §5.4.3"});
+        {"",
+         "Path of the model file that decides; empty: the model that comes with Eyrie; thesis: the one trained "
+         "as the thesis says.",
+         "Teutsch §5.4.3"});
     declare.words("sliding_window.descriptor", descriptor,
                   {"",
                    "Descriptor that the model must have been trained for, so that no other is used by mistake; empty: "
