@@ -468,5 +468,11 @@ TEST(TrackingMeasures, ASingleTrackWaitsForItself) {
     EXPECT_EQ(evaluate(truth, result, at(0.5)).tracking->initialisation_frames, 3);
 }
 
+TEST(Measures, SharedFramesHaveBoxesOfBoth) {
+    const BoxesByFrame truth = boxes({car(0, 1, 100), car(1, 1, 100), car(2, 1, 100)});
+    EXPECT_EQ(evaluate(truth, boxes({car(1, 7, 100)}), at(0.5)).shared_frames, 1);
+    EXPECT_EQ(evaluate(truth, boxes({car(5, 7, 100)}), at(0.5)).shared_frames, 0);
+}
+
 }  // namespace
 }  // namespace eyrie
