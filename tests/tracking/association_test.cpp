@@ -338,4 +338,23 @@ TEST(VectorAssociation, aVectorStoresPlaceAndSizeOfTheBoxThatItJoins) {
     EXPECT_NEAR(followed[0].width, 8.6, 1e-9);
 }
 
+TEST(SplitMerge, aMergedBoxIsAFifthLargerThanEachOfItsTracks) {
+    // It covers .65 of each of two cars side by side, at 1.3 times the area of one.
+    const auto result =
+        associated({at(0, 5, 20, 13)}, {at(0, 0, 20, 10), at(0, 10, 20, 10)}, SplitMergeRule::containment);
+    EXPECT_EQ(result.tracks[0].kind, AssociationKind::merged);
+    EXPECT_EQ(result.tracks[1].kind, AssociationKind::merged);
+}
+
+TEST(VectorAssociation, aVectorLeavesItsListWithMoreThanAQuarterOfTheShorterSideOutside) {
+    // 20 × 10 px: 2.5 px and one for noise.
+    for (const float outside : {3.4F, 3.6F}) {
+        const std::vector<MotionVector> vectors{{1, {10 + outside, 0}, {2, 0}, 9}};
+        const FrameVectors frame(vectors);
+        std::vector<AssociatedVector> own{{1, {10, 0}, 0, 0}};
+        associateVectors({{{{0, 0}, 20, 10, 0}, {2, 0}, true, true, &own}}, frame, {});
+        EXPECT_EQ(own.size(), outside < 3.5F ? 1U : 0U) << outside;
+    }
+}
+
 }  // namespace eyrie

@@ -197,4 +197,12 @@ TEST(BoxKalmanFilter, nothingNotFiniteGetsIn) {
     EXPECT_TRUE(filter.covariance().allFinite());
 }
 
+TEST(BoxKalmanFilter, anUnmeasuredSizeMayBeOffByHalfOfIt) {
+    BoxMeasurement first;
+    first.box = {{50, 50}, 20, 10, 0};
+    const BoxKalmanFilter filter(first);
+    EXPECT_NEAR(filter.covariance()(4, 4), 11 * 11, 1e-9);
+    EXPECT_NEAR(filter.covariance()(5, 5), 6 * 6, 1e-9);
+}
+
 }  // namespace eyrie

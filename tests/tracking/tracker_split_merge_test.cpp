@@ -223,4 +223,20 @@ TEST(TrackerSplitMerge, aBoxOfStoredSizeIsMeasuredLikeADetection) {
     EXPECT_GT(placed.heading, seen.heading);
 }
 
+TEST(TrackerSplitMerge, aPartAtTheEndOfALongVehicleStartsNoTrack) {
+    MovingScene scene;
+    scene.objects = {{{100, 100}, {2, 0}, 60, 12, 0}};
+    TrackerOptions options;
+    options.split_merge = SplitMergeRule::none;  // otherwise it is fused before it could start one
+    Tracker tracker(options, scene.scale);
+    for (int frame = 0; frame < 20; ++frame) {
+        auto detections = scene.detections(frame);
+        if (frame >= 10) {
+            detections.push_back(detections[0]);
+            detections[1].box = {detections[0].box.toImage({25, 0}), 8, 10, detections[0].box.heading};
+        }
+        ASSERT_EQ(tracker.next(scene.motion(frame), detections).size(), 1U) << frame;
+    }
+}
+
 }  // namespace eyrie

@@ -373,6 +373,26 @@ TEST(MeasurementModel, sizesMayBeMeasuredAllAlike) {
     EXPECT_LT(update.measurement.across, 1);
 }
 
+TEST(MeasurementModel, aFirstBoxSmallerThanACarMayMissHalfOfWhatItLacks) {
+    const SceneScale scale{0.25, 25, true};  // a car is 18 × 7.2 px
+    MeasurementModel model({}, scale);
+    model.startFrame({640, 480}, 0.02);
+    const double noise = model.sizeDeviation() / 2;
+    const auto sizeOf = [&](double length, double width) {
+        Detection detection;
+        detection.box = {{100, 100}, length, width, 0};
+        detection.velocity = {2, 0};
+        const BoxMeasurement first = model.first(detection);
+        return std::pair(first.length, first.width);
+    };
+    const auto ofEnds = [&](double missing) { return std::sqrt(2.0) * std::hypot(noise, missing); };
+    EXPECT_NEAR(sizeOf(12, 4.2).first, ofEnds(3), 1e-9);
+    EXPECT_NEAR(sizeOf(12, 4.2).second, ofEnds(1.5), 1e-9);
+    // A larger one may miss a sixth of its own size.
+    EXPECT_NEAR(sizeOf(30, 12).first, ofEnds(5), 1e-9);
+    EXPECT_NEAR(sizeOf(30, 12).second, ofEnds(2), 1e-9);
+}
+
 TEST(TrackerOptions, everyParameterSurvivesSavingAndLoading) {
     TrackerOptions options = TrackerOptions::thesis();
     TrackerOptions loaded;
@@ -385,6 +405,17 @@ TEST(TrackerOptions, everyParameterSurvivesSavingAndLoading) {
     const auto b = listParameters(describeOf(loaded));
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].value, b[i].value) << a[i].name;
     EXPECT_THROW(setParameter(describeOf(loaded), "tracking.min_overlap", "0"), Error);
+}
+
+TEST(Tracker, oneDetectionMayBeEnoughToConfirm) {
+    const MovingScene scene = twoCars();
+    TrackerOptions options;
+    for (const int hits : {1, 2}) {
+        options.confirm_hits = hits;
+        Tracker tracker(options, scene.scale);
+        for (const TrackState& state : tracker.next(scene.motion(0), scene.detections(0)))
+            EXPECT_EQ(state.status, hits == 1 ? TrackStatus::confirmed : TrackStatus::tentative);
+    }
 }
 
 }  // namespace eyrie
