@@ -41,8 +41,8 @@ struct Position {
 int readBytes(void* opaque, std::uint8_t* to, int size) {
     auto& position = *static_cast<Position*>(opaque);
     const auto left = static_cast<std::int64_t>(position.bytes.size) - position.at;
+    if (left <= 0) return AVERROR_EOF;  // also far behind the end, where a damaged offset may lead
     const auto count = static_cast<int>(std::min<std::int64_t>(size, left));
-    if (count <= 0) return AVERROR_EOF;
     std::memcpy(to, position.bytes.data + position.at, static_cast<std::size_t>(count));
     position.at += count;
     return count;

@@ -12,26 +12,29 @@ std::optional<RawFile> RawFile::open(const std::filesystem::path& path) {
     auto* file = static_cast<sqlite3_file*>(sqlite3_malloc(system->szOsFile));
     if (file == nullptr) return std::nullopt;
     file->pMethods = nullptr;
-    // SQLite wants names of its own making for main databases.
+    // SQLite wants names of its own making for main databases, and goes on using them until the file is closed.
     const char* name = sqlite3_create_filename(std::filesystem::absolute(path).c_str(), "", "", 0, nullptr);
-    sqlite3_int64 size = 0;
+    if (name == nullptr) {
+        sqlite3_free(file);
+        return std::nullopt;
+    }
     const bool open =
-        name != nullptr &&
-        system->xOpen(system, name, file, SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB, nullptr) == SQLITE_OK &&
-        file->pMethods->xFileSize(file, &size) == SQLITE_OK;
-    sqlite3_free_filename(const_cast<char*>(name));
-    if (open) return RawFile(file, static_cast<std::uint64_t>(size));
-    if (file->pMethods != nullptr) file->pMethods->xClose(file);
-    sqlite3_free(file);
-    return std::nullopt;
+        system->xOpen(system, name, file, SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB, nullptr) == SQLITE_OK;
+    RawFile opened(file, name);
+    sqlite3_int64 size = 0;
+    if (!open || file->pMethods->xFileSize(file, &size) != SQLITE_OK) return std::nullopt;
+    opened.size_ = static_cast<std::uint64_t>(size);
+    return opened;
 }
 
-RawFile::RawFile(RawFile&& other) noexcept : file_(std::exchange(other.file_, nullptr)), size_(other.size_) {}
+RawFile::RawFile(RawFile&& other) noexcept
+    : file_(std::exchange(other.file_, nullptr)), name_(std::exchange(other.name_, nullptr)), size_(other.size_) {}
 
 RawFile::~RawFile() {
     if (file_ == nullptr) return;
-    file_->pMethods->xClose(file_);
+    if (file_->pMethods != nullptr) file_->pMethods->xClose(file_);
     sqlite3_free(file_);
+    sqlite3_free_filename(const_cast<char*>(name_));
 }
 
 bool RawFile::read(std::uint64_t offset, std::span<unsigned char> bytes) const {

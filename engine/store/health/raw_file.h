@@ -29,9 +29,11 @@ class RawFile {
     bool read(std::uint64_t offset, std::span<unsigned char> bytes) const;
 
  private:
-    RawFile(sqlite3_file* file, std::uint64_t size) : file_(file), size_(size) {}
+    /// Takes both, whether the file is open or not.
+    RawFile(sqlite3_file* file, const char* name) : file_(file), name_(name) {}
     sqlite3_file* file_;
-    std::uint64_t size_;
+    const char* name_;
+    std::uint64_t size_ = 0;
 };
 
 }  // namespace eyrie
