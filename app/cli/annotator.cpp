@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "io/video/frame_colour.h"
+
 namespace eyrie::cli {
 namespace {
 
@@ -40,13 +42,6 @@ cv::Mat canvas(const Frame& frame, int zoom) {
 }
 
 }  // namespace
-
-cv::Mat colourOf(const Frame& frame) {
-    if (!frame.colour.empty()) return frame.colour;
-    cv::Mat colour;
-    cv::cvtColor(frame.gray, colour, cv::COLOR_GRAY2BGR);
-    return colour;
-}
 
 int annotationZoom(cv::Size size) {
     return std::clamp(960 / std::max(size.width, 1), 1, 4);

@@ -30,9 +30,6 @@ class Annotator {
     std::map<TrackId, std::deque<cv::Point2d>> trails_;
 };
 
-/// The picture in colours, CV_8UC3.
-cv::Mat colourOf(const Frame& frame);
-
 /// Factor by which frames of this size are enlarged.
 int annotationZoom(cv::Size size);
 

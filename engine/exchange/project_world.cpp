@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "events/stored_events.h"
-#include "georeference/geo_reference.h"
-#include "georeference/video_clock.h"
+#include "georeference/video_world.h"
 
 namespace eyrie {
 namespace {
@@ -14,8 +13,7 @@ struct WorldFacts {
     explicit WorldFacts(StoredTracks stored_tracks) : stored(std::move(stored_tracks)), ground(stored.footage) {}
     StoredTracks stored;
     GroundStretches ground;
-    GeoReference places;
-    VideoClock clock;
+    VideoWorld video;
 };
 
 }  // namespace
@@ -34,35 +32,26 @@ std::shared_ptr<const TrackWorld> trackWorldOf(const RunStore& store, const RunR
             return TrackWorld::GroundPlace{stretch, facts->ground.toGround(frame, px)};
         };
     }
-    if (start_utc_us) facts->clock = VideoClock::startingAt(*start_utc_us);
-    FoundMetadata found{nullptr, "the video cannot be read"};
-    if (pixels != nullptr) found = metadataOf(*pixels, stop);
-    if (found.metadata) {
-        if (!start_utc_us) facts->clock = VideoClock::byMetadata(found.metadata);
-        const FrameIndex last = std::min(footage.last_frame, pixels->info().frame_count - 1);
-        facts->places = GeoReference(found.metadata->timeline(),
-                                     {footage.image_size, footage.first_frame, last, footage.scale.frame_rate_hz,
-                                      [pixels](FrameIndex frame) { return pixels->timeOf(frame); }, footage.camera});
-        found.why_not = "its metadata (KLV) tell no place of the picture on the ground that can be believed";
-    }
-    if (facts->places.known()) {
-        world->place = [facts](FrameIndex frame, cv::Point2d px) { return facts->places.placeOf(frame, px); };
+    facts->video = videoWorldOf(
+        pixels,
+        {footage.image_size, footage.first_frame, footage.last_frame, footage.scale.frame_rate_hz, {}, footage.camera},
+        start_utc_us, stop);
+    world->no_clock = facts->video.no_clock;
+    world->no_place = facts->video.no_places;
+    if (facts->video.places.known()) {
+        world->place = [facts](FrameIndex frame, cv::Point2d px) { return facts->video.places.placeOf(frame, px); };
         world->height = [facts](FrameIndex frame) -> std::optional<TrackWorld::Height> {
-            const auto height = facts->places.elevationOf(frame);
+            const auto height = facts->video.places.elevationOf(frame);
             if (!height) return std::nullopt;
             return TrackWorld::Height{height->metres, height->ellipsoid};
         };
-        world->place_origin = facts->places.origin();
-    } else {
-        world->no_place = found.why_not;
+        world->place_origin = facts->video.places.origin();
     }
-    if (facts->clock.source() != VideoClock::Source::none) {
+    if (facts->video.clock.source() != VideoClock::Source::none) {
         world->utc_us = [facts](FrameIndex frame) {
-            return facts->clock.at(std::llround(facts->stored.secondsOf(frame) * 1e6));
+            return facts->video.clock.at(std::llround(facts->stored.secondsOf(frame) * 1e6));
         };
-        world->clock_origin = facts->clock.origin();
-    } else {
-        world->no_clock = found.metadata ? "its metadata (KLV) hold no time" : found.why_not;
+        world->clock_origin = facts->video.clock.origin();
     }
     return world;
 }

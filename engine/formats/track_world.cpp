@@ -49,8 +49,7 @@ GroundState groundStateOf(const TrackWorld* world, const LabelBox& box) {
     const auto a = world->place(box.frame, box.box.centre), b = world->place(box.frame, there);
     if (!a || !b) return state;
     const cv::Point2d east_north = LocalPlane(*a).metresOf(*b);
-    const double degrees = degreesFromRadians(std::atan2(east_north.x, east_north.y));
-    state.course_deg = degrees < 0 ? degrees + 360 : degrees;
+    state.course_deg = degreesFromRadians(std::atan2(east_north.x, east_north.y));
     return state;
 }
 

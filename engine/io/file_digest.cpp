@@ -46,15 +46,6 @@ class Sha256 {
     std::unique_ptr<AVSHA, Free> state_;
 };
 
-std::vector<std::filesystem::path> imagesIn(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> images;
-    for (const std::filesystem::path& entry : entriesOf(folder))
-        if (isFile(entry) && ImageSequence::isImageFile(entry)) images.push_back(entry);
-    std::sort(images.begin(), images.end(),
-              [](const auto& a, const auto& b) { return naturalOrder(a.filename().string(), b.filename().string()); });
-    return images;
-}
-
 }  // namespace
 
 std::string sha256Of(const std::filesystem::path& path, const std::function<void(double)>& progress,

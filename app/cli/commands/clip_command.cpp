@@ -16,6 +16,7 @@
 #include "cli/project_runs.h"
 #include "cli/reports/console_progress.h"
 #include "core/error.h"
+#include "io/video/frame_colour.h"
 #include "io/video/video_writer.h"
 
 namespace eyrie::cli {

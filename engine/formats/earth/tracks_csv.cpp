@@ -26,8 +26,7 @@ std::string rowOf(const LabelBox& box, const TrackWorld* world, double rate) {
     const auto ground = world != nullptr && world->ground ? world->ground(box.frame, box.box.centre) : std::nullopt;
     const auto place = world != nullptr && world->place ? world->place(box.frame, box.box.centre) : std::nullopt;
     const GroundState state = groundStateOf(world, box);
-    double heading = degreesFromRadians(box.box.heading);
-    if (heading < 0) heading += 360;
+    const double heading = degreesFromRadians(box.box.heading);
     std::string row = (box.id ? std::to_string(*box.id) : "") + ',' + std::to_string(box.frame) + ',' +
                       fixedText(seconds, 6) + ',' + (utc ? utcText(*utc) : "");
     for (const double px : {box.box.centre.x, box.box.centre.y, box.box.length, box.box.width})

@@ -60,18 +60,6 @@ cv::Mat decode(const std::filesystem::path& file) {
     return image;
 }
 
-std::vector<std::filesystem::path> imagesIn(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> files;
-    for (const std::filesystem::path& file : entriesOf(folder))
-        if (ImageSequence::isImageFile(file) && isFile(file)) files.push_back(file);
-    if (files.empty())
-        throw Error(ErrorKind::input,
-                    folder.string() + ": the folder holds no images; expected png, jpg, tif, pgm or bmp files");
-    std::sort(files.begin(), files.end(),
-              [](const auto& a, const auto& b) { return naturalOrder(a.filename().string(), b.filename().string()); });
-    return files;
-}
-
 /// Values of a 16 bit image that become black and white; see ImageSequence.
 std::pair<double, double> rangeOf(const cv::Mat& image) {
     std::vector<int> histogram(65536, 0);
@@ -101,6 +89,18 @@ std::pair<double, double> rangeOf(const cv::Mat& image) {
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> imagesIn(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    for (const std::filesystem::path& file : entriesOf(folder))
+        if (ImageSequence::isImageFile(file) && isFile(file)) files.push_back(file);
+    if (files.empty())
+        throw Error(ErrorKind::input,
+                    folder.string() + ": the folder holds no images; expected png, jpg, tif, pgm or bmp files");
+    std::sort(files.begin(), files.end(),
+              [](const auto& a, const auto& b) { return naturalOrder(a.filename().string(), b.filename().string()); });
+    return files;
+}
 
 bool naturalOrder(const std::string& a, const std::string& b) {
     std::size_t i = 0;

@@ -34,6 +34,9 @@ class ImageSequence : public FrameSource {
     double white_ = 65535;  ///< 16 bit value that becomes 255
 };
 
+/// The images of a folder that make a sequence, in its order. Throws Error(input) for a folder without images.
+std::vector<std::filesystem::path> imagesIn(const std::filesystem::path& folder);
+
 /// Whether `a` comes before `b` when runs of digits are compared as numbers.
 bool naturalOrder(const std::string& a, const std::string& b);
 

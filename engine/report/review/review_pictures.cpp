@@ -3,6 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "io/video/frame_colour.h"
 #include "report/review/review_parts.h"
 
 namespace eyrie {
@@ -25,13 +26,6 @@ std::string jpegOf(const cv::Mat& picture) {
     std::vector<unsigned char> bytes;
     cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
     return {bytes.begin(), bytes.end()};
-}
-
-cv::Mat colourOf(const Frame& frame) {
-    if (!frame.colour.empty()) return frame.colour;
-    cv::Mat colour;
-    cv::cvtColor(frame.gray, colour, cv::COLOR_GRAY2BGR);
-    return colour;
 }
 
 /// A part of the video's picture, enlarged, with drawing in px of the video.

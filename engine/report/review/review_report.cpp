@@ -5,7 +5,7 @@
 
 #include "core/utc_time.h"
 #include "events/event_csv.h"
-#include "georeference/video_metadata.h"
+#include "georeference/video_world.h"
 #include "io/tables/number_text.h"
 #include "metadata/metadata_scale.h"
 #include "report/report_parts.h"
@@ -21,8 +21,9 @@ constexpr double kSpeedWidth_mm = 80;
 
 /// Where a given scale came from, as far as that can be told afterwards: from the metadata, if these say the same.
 std::string originOfScale(const RunRecord& run, const MetadataTimeline& timeline, const FrameSource& source) {
-    const MetadataScale stated =
-        scaleByMetadata(timeline, source, run.first_frame, std::min(run.last_frame, source.info().frame_count - 1));
+    const FrameIndex last = std::min(run.last_frame, source.info().frame_count - 1);
+    if (last < run.first_frame) return {};
+    const MetadataScale stated = scaleByMetadata(timeline, source, run.first_frame, last);
     if (!run.scale.gsd_known || !stated.usable()) return {};
     const double difference = std::abs(stated.gsd_m_per_px / run.scale.gsd_m_per_px - 1);
     if (difference < 1e-6) return std::string("from the video's metadata (") + nameOf(stated.source) + ")";
@@ -204,17 +205,14 @@ ReviewReportInput gatherReviewReport(ProjectFile& project, const RunRecord& run,
     input.facts = factsOf(project, run);
     input.parameters = RunStore(project).parameters(run.id);
     input.seen = seenBy(project, run.sequence.id);
-    if (start_utc_us) input.clock = VideoClock::startingAt(*start_utc_us);
-    if (pixels == nullptr) return input;
-    const FoundMetadata found = metadataOf(*pixels, stop);
-    if (!found.metadata) return input;
-    if (!start_utc_us) input.clock = VideoClock::byMetadata(found.metadata);
     const Footage& footage = input.reviewed.tracks.footage;
-    const FrameIndex last = std::min(footage.last_frame, pixels->info().frame_count - 1);
-    input.places = GeoReference(found.metadata->timeline(),
-                                {footage.image_size, footage.first_frame, last, footage.scale.frame_rate_hz,
-                                 [pixels](FrameIndex frame) { return pixels->timeOf(frame); }, footage.camera});
-    if (last >= footage.first_frame) input.scale_origin = originOfScale(run, found.metadata->timeline(), *pixels);
+    VideoWorld video = videoWorldOf(
+        pixels,
+        {footage.image_size, footage.first_frame, footage.last_frame, footage.scale.frame_rate_hz, {}, footage.camera},
+        start_utc_us, stop);
+    input.clock = std::move(video.clock);
+    input.places = std::move(video.places);
+    if (video.metadata) input.scale_origin = originOfScale(run, video.metadata->timeline(), *pixels);
     return input;
 }
 

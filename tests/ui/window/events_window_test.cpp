@@ -1,4 +1,5 @@
 #include <QFile>
+#include <QPushButton>
 #include <QTest>
 #include <algorithm>
 
@@ -82,6 +83,14 @@ class EventsWindowTest : public QObject {
         QFile pdf(at("judged.pdf"));
         QVERIFY(pdf.open(QIODevice::ReadOnly));
         QVERIFY(pdf.read(5) == "%PDF-");
+        window->eventReport().write(at("stopped.html").toStdString(), true);
+        const auto buttons = window->messages().findChildren<QPushButton*>();
+        const auto cancel = std::find_if(buttons.begin(), buttons.end(),
+                                         [](const QPushButton* button) { return button->text() == tr("Cancel"); });
+        QVERIFY(cancel != buttons.end());
+        (*cancel)->click();
+        QVERIFY(told(tr("The report was stopped")));
+        QVERIFY(!QFile::exists(at("stopped.html")));
         window->eventReport().write(at("no/where/r.html").toStdString(), true);
         QVERIFY(told(QStringLiteral("no/where")));
     }

@@ -195,7 +195,13 @@ void ReportWriter::write(WantedReport wanted) {
         }
         const auto tell = [&](double share) { task.tell([this, share] { answers_.show_progress(share); }); };
         const ReportFile report = wanted.make(pixels.get(), tell, task.stop());
-        if (task.stop().stop_requested()) return;
+        if (task.stop().stop_requested()) {
+            task.tell([this] {
+                working_ = false;
+                answers_.tell_stopped();
+            });
+            return;
+        }
         if (pdf)
             writePdfReport(wanted.path, report);
         else
@@ -205,7 +211,7 @@ void ReportWriter::write(WantedReport wanted) {
             answers_.tell_written(path);
         });
     };
-    query_.post(work, [this](const QString& failure) {
+    writing_ = query_.post(work, [this](const QString& failure) {
         working_ = false;
         answers_.fail(failure);
     });

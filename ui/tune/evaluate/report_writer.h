@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct ReportAnswers {
     std::function<void(double share)> show_progress;
     std::function<void(const std::filesystem::path& path)> tell_written;
     std::function<void(const QString& message)> fail;
+    /// Nothing was written, as stop() asked.
+    std::function<void()> tell_stopped = [] {};
 };
 
 /// A report that is to be made and written.
@@ -49,10 +52,13 @@ class ReportWriter {
     void write(const std::filesystem::path& path, const std::shared_ptr<const RunEvaluation>& evaluation,
                std::optional<Media> media, const std::filesystem::path& project = {});
     bool working() const { return working_; }
+    /// Gives up the report that is being written; what was under its name stays.
+    void stop() { writing_.request_stop(); }
 
  private:
     ReportAnswers answers_;
     bool working_ = false;
+    std::stop_source writing_;
     BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 

@@ -34,7 +34,7 @@ EventReport::EventReport(const EventReportParts& parts)
     : QObject(&parts.events),
       parts_(parts),
       writer_({
-          .show_progress = [](double) {},
+          .show_progress = [this](double share) { showWriting(share); },
           .tell_written =
               [this](const std::filesystem::path& path) {
                   parts_.messages.showTopic(kReportTopic, MessageKind::info,
@@ -42,6 +42,11 @@ EventReport::EventReport(const EventReportParts& parts)
               },
           .fail =
               [this](const QString& message) { parts_.messages.showTopic(kReportTopic, MessageKind::error, message); },
+          .tell_stopped =
+              [this] {
+                  parts_.messages.showTopic(kReportTopic, MessageKind::info,
+                                            tr("The report was stopped; nothing was written."));
+              },
       }) {
     connect(&parts_.events.panel(), &EventsPanel::reportWanted, this, &EventReport::ask);
 }
@@ -58,6 +63,12 @@ void EventReport::ask(bool all) {
     if (!path.isEmpty()) write(path.toStdString(), all);
 }
 
+void EventReport::showWriting(double share) {
+    parts_.messages.showTopic(kReportTopic, MessageKind::info,
+                              tr("Writing the report… %1 %").arg(static_cast<int>(100 * share)), tr("Cancel"),
+                              [this] { writer_.stop(); });
+}
+
 void EventReport::write(const std::filesystem::path& path, bool all) {
     if (!parts_.session.runData()) return;
     if (writer_.working()) {
@@ -65,7 +76,7 @@ void EventReport::write(const std::filesystem::path& path, bool all) {
                                   tr("A report is being written. Wait until it is done."));
         return;
     }
-    parts_.messages.showTopic(kReportTopic, MessageKind::info, tr("Writing the report…"));
+    showWriting(0);
     EventChoice choice;
     choice.options = parts_.events.panel().thresholds().options();
     if (!all) choice.judgements = {Judgement::relevant, Judgement::unsure};

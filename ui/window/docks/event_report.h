@@ -35,6 +35,7 @@ class EventReport : public QObject {
 
  private:
     void ask(bool all);
+    void showWriting(double share);
 
     EventReportParts parts_;
     ReportWriter writer_;  ///< last: stops before the rest goes
