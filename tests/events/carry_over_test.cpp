@@ -186,6 +186,34 @@ TEST(CarryOver, AcrossFramesThatWereNotRegisteredThePictureCounts) {
     EXPECT_EQ(carryOver(verdicts, events, {}, run).of_event[0], 0);
 }
 
+TEST(CarryOver, ReachesAsFarAsItsLimitsOnTheGroundAndInThePicture) {
+    test::DrivenTracks driven;
+    driven.noise_px = 0;
+    driven.drive({40, 60}, 0, {{4, 40, 40}, {3, 40, 0}, {8, 0, 0}}, 20);
+    StoredTracks run = runOf(driven);
+    const auto events = driven.events(EventKind::stops);
+    ASSERT_EQ(events.size(), 1U);
+    auto verdicts = verdictsOn(events, run);
+    const auto carried = [&](const char* name, const char* value) {
+        ReviewOptions options;
+        setParameter(describeOf(options), name, value);
+        return carryOver(verdicts, events, {}, run, {}, options).of_event[0];
+    };
+    verdicts.at(1).subject.place.y += 40;  // 8 m
+    EXPECT_EQ(carried("review.carry_distance", "5"), 0);
+    EXPECT_EQ(carried("review.carry_distance", "7.9"), 0);
+    EXPECT_EQ(carried("review.carry_distance", "8.1"), 1);
+    EXPECT_EQ(carried("review.carry_picture", "50"), 0) << "the frames are connected";
+    run.tracks.clear();
+    run.footage.camera = CameraMotion();
+    verdicts.at(1).subject.frame += 30;
+    verdicts.at(1).subject.last_frame += 30;
+    EXPECT_EQ(carried("review.carry_picture", "30"), 0);
+    EXPECT_EQ(carried("review.carry_picture", "39.9"), 0);
+    EXPECT_EQ(carried("review.carry_picture", "40.1"), 1);
+    EXPECT_EQ(carried("review.carry_distance", "50"), 0) << "nothing tells of the ground between them";
+}
+
 TEST(CarryOver, StretchesThatCouldNotBeSearchedKeepTheirVerdicts) {
     test::DrivenTracks driven;
     StoredTracks run = runOf(driven);

@@ -59,6 +59,23 @@ TEST(ReviewQueue, UnsureIsWhatAPersonOrTheTrackSays) {
     EXPECT_THAT(unsureEvents(events, run, carried, {{4, verdict}}), ElementsAre(false, true, false));
 }
 
+TEST(ReviewQueue, UnsureAreScoresBelowTheGivenOne) {
+    const std::vector<Event> events = {eventOf(EventKind::stops, 1, 1), eventOf(EventKind::stops, 2, 2),
+                                       eventOf(EventKind::stops, 3, 3)};
+    StoredTracks run;
+    run.scores = {{1, 0.95}, {2, 0.85}};  // nobody knows that of the third
+    CarriedVerdicts carried;
+    carried.of_event = {0, 0, 0};
+    const auto unsure = [&](const char* value) {
+        ReviewOptions options;
+        setParameter(describeOf(options), "review.unsure_score", value);
+        return unsureEvents(events, run, carried, {}, options);
+    };
+    EXPECT_THAT(unsure("0.8"), ElementsAre(false, false, false));
+    EXPECT_THAT(unsure("0.9"), ElementsAre(false, true, false));
+    EXPECT_THAT(unsure("1"), ElementsAre(true, true, false));
+}
+
 TEST(ReviewQueue, TheNextOpenOneIsFoundAroundTheEnd) {
     const std::vector<QueueItem> queue(4);
     const auto open = [&](std::vector<bool> judged) {
