@@ -198,10 +198,17 @@ void describeNoise(TrackerOptions& o, const ParameterDeclarer& declare) {
                   "Deviation by which the size of an object changes from frame to frame. Vehicles keep theirs; small "
                   "changes come from the view.",
                   "Teutsch §6.5"});
-    declare.real("tracking.position_noise_m", o.position_noise_m, 0, 20,
-                 {"m", "Deviation of a detection's centre.", "Teutsch §6.5"});
-    declare.real("tracking.position_noise_px", o.position_noise_px, 0.01, 50,
-                 {"px", "The same, the part that does not scale.", ""});
+    declare.real(
+        "tracking.position_noise_m", o.position_noise_m, 0, 20,
+        {"m",
+         "Deviation of a detection's centre. Where adapt_size measures the ends of a box, it follows from size_noise.",
+         "Teutsch §6.5"});
+    declare.real(
+        "tracking.position_noise_px", o.position_noise_px, 0.01, 50,
+        {"px",
+         "The same, the part that does not scale; and the deviation of places from motion vectors or from a vehicle's "
+         "look.",
+         ""});
     declare.real("tracking.size_noise_m", o.size_noise_m, 0, 20,
                  {"m", "Deviation of a detection's length and width.", "Teutsch §6.5"});
     declare.real("tracking.size_noise_px", o.size_noise_px, 0.01, 50,

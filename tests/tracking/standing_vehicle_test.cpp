@@ -10,6 +10,7 @@
 #include "tracking/finishing/track_finishing.h"
 #include "tracking/tracked_scene.h"
 #include "tracking/tracker.h"
+#include "tracking/vehicle_template.h"
 
 namespace eyrie {
 namespace {
@@ -20,6 +21,14 @@ using testing::MovingScene;
 constexpr int kStops = 40;      ///< frame in which the car comes to stand
 constexpr double kSpeed = 1.2;  ///< px/frame before and after; 7.5 m/s
 
+cv::Mat grained(const cv::Mat& image, double deviation, std::uint64_t seed) {
+    cv::Mat noise(image.size(), CV_16SC1);
+    cv::RNG(seed).fill(noise, cv::RNG::NORMAL, 0, deviation);
+    cv::Mat sum;
+    cv::add(image, noise, sum, cv::noArray(), CV_8U);
+    return sum;
+}
+
 /// A car that brakes, stands and drives on, seen by a camera that drifts and turns. It is detected while it moves.
 struct StoppingCar {
     int stands = 250;                 ///< frames
@@ -28,6 +37,7 @@ struct StoppingCar {
     std::optional<int> passes;        ///< frame in which another car is right in front of it
     std::optional<double> slides_by;  ///< px/frame that it goes on with unseen, instead of standing
     bool drove = true;                ///< otherwise it is detected where it stands, as what only seems to move
+    double grain = 0;                 ///< grey levels, deviation of noise over the pictures in which it stands
     TrackerOptions options;
 
     double wayAt(int frame) const {
@@ -110,7 +120,8 @@ struct StoppingCar {
             const auto seed = static_cast<std::uint64_t>(frame + 1);
             result.by_frame[frame] = tracker.next(motion, detections, nullptr, [&] {
                 ++result.pictures;
-                return drawnCars(drawn, seed, scene.image);
+                return frame > kStops + 30 ? grained(drawnCars(drawn, seed, scene.image), grain, seed)
+                                           : drawnCars(drawn, seed, scene.image);
             });
             for (const TrackState& state : result.by_frame[frame]) result.states.emplace_back(frame, state);
             result.motion.push_back({frame, motion.registration, scene.image});
@@ -198,6 +209,62 @@ TEST(StandingVehicle, isNothingThatNeverDrove) {
     const StoppingCar::Result result = car.run();
     EXPECT_NE(result.onCar(kStops - 5), nullptr);
     EXPECT_EQ(result.marked(0, 120), 0);
+}
+
+namespace {
+
+/// The last frame in which there is a track, of one whose options have a parameter set by its name.
+int lastFrameWith(StoppingCar car, const std::string& name, const std::string& value) {
+    setParameter(describeOf(car.options), name, value);
+    int last = -1;
+    for (const auto& [frame, states] : car.run().by_frame) {
+        if (!states.empty()) last = frame;
+    }
+    return last;
+}
+
+}  // namespace
+
+TEST(StandingVehicle, isWaitedForAsLongAsMaxHiddenSays) {
+    StoppingCar car;
+    car.frames = 320;
+    car.gone = 200;
+    EXPECT_NEAR(lastFrameWith(car, "tracking.max_hidden", "1"), 200 + 25, 3);
+    EXPECT_NEAR(lastFrameWith(car, "tracking.max_hidden", "3"), 200 + 75, 3);
+}
+
+TEST(StandingVehicle, isKeptByItsLookAsLongAsMaxStandingSays) {
+    StoppingCar car;
+    car.frames = 280;
+    const int short_life = lastFrameWith(car, "tracking.max_standing", "2");
+    EXPECT_NEAR(short_life, kStops + 50, 15) << "from when it is sure to stand";
+    EXPECT_EQ(lastFrameWith(car, "tracking.max_standing", "5") - short_life, 75);
+    EXPECT_EQ(lastFrameWith(car, "tracking.max_standing", "600"), 279);
+}
+
+TEST(StandingVehicle, mustLookAsItDidAsMuchAsAppearanceAgreementSays) {
+    StoppingCar car;
+    car.frames = 200;
+    car.grain = 60;  // correlations of about .8
+    EXPECT_EQ(lastFrameWith(car, "tracking.appearance_agreement", "0.7"), 199);
+    EXPECT_LT(lastFrameWith(car, "tracking.appearance_agreement", "0.9"), 150);
+    car.grain = 0;
+    EXPECT_EQ(lastFrameWith(car, "tracking.appearance_agreement", "0.9"), 199);
+}
+
+TEST(StandingVehicle, mustBeToldFromWhatIsBesideItAsAppearanceMarginSays) {
+    StoppingCar car;
+    car.frames = 200;
+    // What half a car beside it looks like is told by the pictures themselves.
+    const OrientedBox place{{100, 60}, 20, 10, 0};
+    const auto look = VehicleTemplate::of(drawnCars({place}, 1, {220, 120}), place);
+    ASSERT_TRUE(look);
+    const auto match = look->find(drawnCars({place}, 2, {220, 120}), place, 3);
+    ASSERT_TRUE(match);
+    const double margin = match->agreement - match->beside;
+    EXPECT_EQ(lastFrameWith(car, "tracking.appearance_margin", "0.1"), 199);
+    EXPECT_EQ(lastFrameWith(car, "tracking.appearance_margin", std::to_string(margin - 0.15)), 199);
+    EXPECT_LT(lastFrameWith(car, "tracking.appearance_margin", std::to_string(margin + 0.15)), 150) << margin;
 }
 
 }  // namespace eyrie
