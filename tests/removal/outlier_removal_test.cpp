@@ -35,6 +35,21 @@ TEST(OutlierRemoval, DefaultFollowsTheDensity) {
     EXPECT_EQ(removeOutliers({detection(100, 100, 18, 7)}, motion, {}, kScale)[0].rejection, Rejection::none);
 }
 
+TEST(OutlierRemoval, MaxMinVectorsIsEnoughHoweverDenseTheCornersAre) {
+    FrameMotion motion = sparseMotion();
+    fill(motion, {{100, 100}, 18, 7, 0}, 14);
+    motion.corner_count = 200000;  // 84 on a car, a quarter of that is 21
+    const auto rejection = [&](const char* most) {
+        OutlierRemovalOptions options;
+        setParameter(describeOf(options), "outliers.max_min_vectors", most);
+        return removeOutliers({detection(100, 100, 18, 7)}, motion, options, kScale)[0].rejection;
+    };
+    EXPECT_EQ(rejection("12"), Rejection::none);
+    EXPECT_EQ(rejection("14"), Rejection::none);
+    EXPECT_EQ(rejection("15"), Rejection::outlier);
+    EXPECT_EQ(rejection("1000"), Rejection::outlier);
+}
+
 TEST(OutlierRemoval, ScoreIsVectorsPerExpectedVector) {
     FrameMotion motion = sparseMotion();
     motion.corner_count = 30720;  // 0.1 per px²

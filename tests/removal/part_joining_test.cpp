@@ -44,6 +44,27 @@ TEST(PartJoining, NotBesideEachOtherNorAtDifferentSpeed) {
     EXPECT_EQ(kept(joinParts({detection(100, 100, 5, 7), turned}, {}, {}, kScale)), 2);
 }
 
+TEST(PartJoining, LimitsDecideOnEitherSideOfThePartsTheyAreAbout) {
+    const auto joined = [](const char* name, const char* value, const Detection& a, const Detection& b) {
+        PartJoiningOptions options;
+        setParameter(describeOf(options), name, value);
+        return kept(joinParts({a, b}, {}, options, kScale)) == 1;
+    };
+    // Two parts of 2 m that together are 10 m long.
+    const Detection front = detection(132, 100, 8, 9), rear = detection(100, 100, 8, 9);
+    EXPECT_TRUE(joined("duplicates.part_length", "2.5", front, rear));
+    EXPECT_TRUE(joined("duplicates.part_length", "2.1", front, rear));
+    EXPECT_FALSE(joined("duplicates.part_length", "1.9", front, rear));
+    const auto part = [](double x, cv::Point2d velocity) { return detection(x, 100, 5, 7, velocity); };
+    // So slow that a share of their speed allows nothing.
+    EXPECT_FALSE(joined("duplicates.part_velocity_floor", "0.04", part(100, {0.2, 0}), part(112, {0.2, 0.05})));
+    EXPECT_TRUE(joined("duplicates.part_velocity_floor", "0.06", part(100, {0.2, 0}), part(112, {0.2, 0.05})));
+    // They differ by 8 % of their speed.
+    EXPECT_FALSE(joined("duplicates.part_velocity_share", "0.05", part(100, {2, 0}), part(112, {2, 0.16})));
+    EXPECT_FALSE(joined("duplicates.part_velocity_share", "0.075", part(100, {2, 0}), part(112, {2, 0.16})));
+    EXPECT_TRUE(joined("duplicates.part_velocity_share", "0.085", part(100, {2, 0}), part(112, {2, 0.16})));
+}
+
 /// Vectors on the outline of a silhouette between two places on the line y = 100.
 FrameMotion silhouette(double from, double to) {
     FrameMotion motion;
