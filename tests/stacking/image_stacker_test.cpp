@@ -345,4 +345,27 @@ TEST(ImageStacker, refusesAStackThatMovesOtherwise) {
         << "not fully inside";
 }
 
+TEST(ImageStacker, refusesAsMuchAsItsParametersSay) {
+    const World world;
+    const OrientedBox extended = world.boxAt(7).scaled(2, 1.25);
+    const auto replaced = [&](const char* name, const char* value, const MotionCluster& cluster) {
+        StackingOptions options = StackingOptions::thesis();
+        options.min_height = 3;
+        setParameter(describeOf(options), name, value);
+        ImageStacker stacker(options, scale());
+        fill(stacker, world);
+        return stacker.replace(cluster, 0, extended, world.motionAt(7)).size() == 1;
+    };
+    MotionCluster faster = world.clustersAt(7)[0];
+    faster.velocity *= 1.6;  // the stack's speed differs by 0.6 of 1.6
+    EXPECT_FALSE(replaced("stacking.max_speed_difference", "0.25", faster));
+    EXPECT_FALSE(replaced("stacking.max_speed_difference", "0.37", faster));
+    EXPECT_TRUE(replaced("stacking.max_speed_difference", "0.38", faster));
+    MotionCluster turned = world.clustersAt(7)[0];
+    turned.box.heading += radiansFromDegrees(30);
+    EXPECT_FALSE(replaced("stacking.max_turn", "20", turned));
+    EXPECT_FALSE(replaced("stacking.max_turn", "29", turned));
+    EXPECT_TRUE(replaced("stacking.max_turn", "31", turned));
+}
+
 }  // namespace eyrie
