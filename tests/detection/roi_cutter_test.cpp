@@ -31,6 +31,20 @@ TEST(RoiCutter, ExtendsTheClusterAlongAndAcross) {
     EXPECT_DOUBLE_EQ(extendedCluster(cluster, {320, 240}, DetectionOptions::thesis(), kContractScale).length, 6);
 }
 
+TEST(RoiCutter, ExtendsAsMuchAsItsParametersSay) {
+    MotionCluster cluster;
+    cluster.box = {{100, 80}, 70, 40, 0.4};
+    const auto area = [&](const char* name, const char* factor) {
+        DetectionOptions options = segmentation();
+        setParameter(describeOf(options), name, factor);
+        return extendedCluster(cluster, {320, 240}, options, kContractScale);
+    };
+    EXPECT_DOUBLE_EQ(area("detection.extend_along", "3").length, 210);
+    EXPECT_DOUBLE_EQ(area("detection.extend_along", "3").width, 50);
+    EXPECT_DOUBLE_EQ(area("detection.extend_across", "1.5").length, 140);
+    EXPECT_DOUBLE_EQ(area("detection.extend_across", "1.5").width, 60);
+}
+
 TEST(RoiCutter, WindowsGetTheirContextAndSegmentsAreLeftTheMiddle) {
     const auto scene = drivenScene(0.8);
     DetectionOptions options = segmentation();

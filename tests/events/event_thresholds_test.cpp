@@ -179,6 +179,8 @@ void comesOverTheEdge(DrivenTracks& scene) {
 }
 
 const std::vector<Threshold> kThresholds = {
+    // Over more than the four seconds it is never slow.
+    {"events.smooth", "2", "8", EventKind::stops, 1, 0, standsForFour},
     {"events.standing_speed", "2.9", "3.1", EventKind::stops, 0, 1, crawlsBetween},
     {"events.moving_speed", "4.9", "5.1", EventKind::starts, 1, 0, setsOffSlowly},
     {"events.min_standing", "3.6", "4.6", EventKind::stops, 1, 0, standsForFour},

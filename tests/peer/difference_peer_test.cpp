@@ -63,6 +63,37 @@ TEST(ThreeFrameBoxes, AnswersForThePictureInTheMiddle) {
     }
 }
 
+TEST(ThreeFrameBoxes, AreMadeOfAreasAsTheParametersSay) {
+    test::MovingScene still;
+    still.camera_per_frame = {0, 0};
+    // Things that leap over a plain ground, 10 px down and 40 px aside from picture to picture.
+    const auto found = [&](const std::vector<cv::Rect>& things, const char* name, const char* value) {
+        PeerOptions options;
+        options.gap = 1;
+        options.joining_px = 0;
+        options.min_area_px = 1;
+        setParameter(describeOf(options), name, value);
+        ThreeFrameBoxes boxes(options);
+        std::size_t count = 0;
+        for (int i = 0; i < 4; ++i) {
+            Frame frame;
+            frame.index = i;
+            frame.gray = cv::Mat(still.size, CV_8UC1, cv::Scalar(100));
+            for (const cv::Rect& thing : things) frame.gray(thing + cv::Point(40 * i, 10 * i)).setTo(140);
+            if (const auto answer = boxes.next(frame, registrationOf(still, i))) count = answer->boxes.size();
+        }
+        return count;
+    };
+    const std::vector<cv::Rect> two = {{50, 50, 6, 6}, {60, 50, 6, 6}};  // with 4 px between them
+    EXPECT_EQ(found(two, "peer.joining", "2"), 2U);
+    EXPECT_EQ(found(two, "peer.joining", "5"), 1U);
+    EXPECT_EQ(found(two, "peer.min_area", "36"), 2U);
+    EXPECT_EQ(found(two, "peer.min_area", "37"), 0U);
+    const std::vector<cv::Rect> speck = {{50, 50, 1, 1}};
+    EXPECT_EQ(found(speck, "peer.blur", "0"), 1U);
+    EXPECT_EQ(found(speck, "peer.blur", "2"), 0U);
+}
+
 TEST(ThreeFrameBoxes, KnowNothingBeyondACutAndOfRepeatedPictures) {
     const test::MovingScene scene;
     PeerOptions options;

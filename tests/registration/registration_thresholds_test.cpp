@@ -69,6 +69,38 @@ cv::Point2f nowhere(const TrackedCorner& /*corner*/) {
 
 }  // namespace
 
+TEST(RegistrationThresholds, MetresBecomePixelsWithinWhatPixelsAllow) {
+    const auto window = [](const char* metres) {
+        return CornerTracker(with("registration.window", metres).tracking, test::scaleOf(0.3)).window();
+    };
+    EXPECT_EQ(window("0.6"), 5);
+    EXPECT_EQ(window("3.3"), 11);
+    EXPECT_EQ(window("20"), 15);
+    const auto spacing = [](const char* name, const char* value, double gsd) {
+        return CornerDetector(with(name, value).corners, test::scaleOf(gsd)).spacing();
+    };
+    EXPECT_NEAR(spacing("registration.corner_spacing", "3", 0.3), 10, 1e-9);
+    EXPECT_NEAR(spacing("registration.corner_spacing", "3", 3), RegistrationOptions().corners.min_corner_distance_px,
+                1e-9);
+    EXPECT_NEAR(spacing("registration.min_corner_distance", "5", 3), 5, 1e-9);
+}
+
+TEST(RegistrationThresholds, MaxSpeedIsHowFarACornerMayGo) {
+    // 6 px in a frame of 0.3 m pixels at 25 Hz are 45 m/s.
+    const TrackedGround scene({});
+    ImagePyramid next;
+    next.build(test::TexturedGround(5, 1.5).picture(kPicture, test::cameraMotion(kPicture, -6, 0, 0), 0, 1));
+    const auto found = [&](const char* value) {
+        const CornerTracker tracker(with("registration.max_speed", value).tracking, test::scaleOf(0.3));
+        int there = 0;
+        for (const TrackedPosition& position : tracker.track(scene.set, scene.picture, next, cv::Matx33d::eye(), 1, 1))
+            there += position.found;
+        return there;
+    };
+    EXPECT_GT(found("50"), 2 * found("40"));
+    EXPECT_GT(found("50"), scene.set.size() / 4);
+}
+
 TEST(RegistrationThresholds, ALargerTensorWindowLocatesWeakerCorners) {
     const auto corners = [](const char* value) {
         PaddedPicture picture;

@@ -60,6 +60,22 @@ TEST(DuplicateRemoval, ComparesVelocityAndHeading) {
     EXPECT_EQ(kept(removeDuplicates({whole, other}, motion, DuplicateRemovalOptions::thesis(), kScale)), 2);
 }
 
+TEST(DuplicateRemoval, VelocitiesMayDifferAsMuchAsTheParametersSay) {
+    const auto left = [](const char* name, const char* value, double speed, double other) {
+        DuplicateRemovalOptions options = withoutParts();
+        setParameter(describeOf(options), name, value);
+        return kept(
+            removeDuplicates({detection(100, 100, 18, 7, {speed, 0}), detection(100, 100, 17, 6, {speed, other})},
+                             sparseMotion(), options, kScale));
+    };
+    // So slow that a share of their speed allows nothing.
+    EXPECT_EQ(left("duplicates.velocity_floor", "0.19", 0.2, 0.2), 2);
+    EXPECT_EQ(left("duplicates.velocity_floor", "0.21", 0.2, 0.2), 1);
+    // They differ by 0.287 of the larger speed.
+    EXPECT_EQ(left("duplicates.velocity_share", "0.28", 2, 0.6), 2);
+    EXPECT_EQ(left("duplicates.velocity_share", "0.3", 2, 0.6), 1);
+}
+
 TEST(DuplicateRemoval, TheUnionMayNotGrowWithoutEnd) {
     const FrameMotion motion = sparseMotion();
     DuplicateRemovalOptions options = withoutParts();

@@ -86,6 +86,8 @@ const std::vector<Deviation> kDeviations = {
      [](const TrackState& s) { return s.box.heading; }},
     {"tracking.heading_noise", "1", "16", false, [](Detection& d) { d.box.heading += 0.3; },
      [](const TrackState& s) { return s.box.heading; }},
+    {"tracking.acceleration", "0.5", "40", true, [](Detection& d) { d.velocity.x += 0.4; },
+     [](const TrackState& s) { return s.velocity.x; }},
     {"tracking.size_rate", "0.01", "0.2", true, [](Detection& d) { d.box.length += 3; },
      [](const TrackState& s) { return s.box.length; }},
     {"tracking.size_noise_m", "0", "1.6", false, [](Detection& d) { d.box.length += 3; },

@@ -128,6 +128,30 @@ TEST(TrackerThresholds, SupportedHitsIsHowManyDetectionsEarnALongRebuiltLife) {
     }
 }
 
+TEST(TrackerThresholds, MaxVectorsIsHowManyATrackHas) {
+    const MovingScene scene = twoCars();  // with six vectors each
+    TrackerOptions options;
+    options.min_vectors = 4;
+    for (const auto& [most, rebuilt] : {std::pair("3", 0), {"4", 2}}) {
+        Tracker tracker = trackerAfter(10, scene, with("tracking.max_vectors", most, options));
+        EXPECT_EQ(countOf(tracker.next(scene.motion(10), {}), StateOrigin::reconstructed), rebuilt) << most;
+    }
+}
+
+TEST(TrackerThresholds, ConfirmWindowIsWithinHowManyFramesATrackIsConfirmed) {
+    const MovingScene scene = twoCars();  // detected in every other frame: five times in nine
+    for (const auto& [window, confirmed] : {std::pair("8", false), {"9", true}}) {
+        Tracker tracker(with("tracking.confirm_window", window), scene.scale);
+        bool any = false;
+        for (int frame = 0; frame < 30; ++frame) {
+            const auto detections = frame % 2 == 0 ? scene.detections(frame) : std::vector<Detection>{};
+            for (const TrackState& state : tracker.next(scene.motion(frame), detections))
+                any = any || state.status != TrackStatus::tentative;
+        }
+        EXPECT_EQ(any, confirmed) << window;
+    }
+}
+
 TEST(TrackerThresholds, MaxFailedIsHowLongTracksOutliveAFailingRegistration) {
     const MovingScene scene = twoCars();
     for (const auto& [value, frames] : {std::pair("0.4", 10), {"0.8", 20}}) {
