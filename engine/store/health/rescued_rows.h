@@ -11,6 +11,9 @@ class Database;
 /// SQLite::Exception. Lines are for people and say what was lost.
 namespace eyrie {
 
+/// Where the scale of a run comes from, or how sure it is, cannot be: it is told as for runs of which nothing was kept.
+std::vector<std::string> mendScaleOrigins(SQLite::Database& database);
+
 /// Deletes rows that no writer wrote.
 std::vector<std::string> dropImpossibleRows(SQLite::Database& database);
 
