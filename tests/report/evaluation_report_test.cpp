@@ -23,6 +23,8 @@ RunEvaluation sample() {
     e.run.id = 3;
     e.run.name = "a <b> & c";
     e.run.sequence = {.path = "/videos/street.mp4", .size = {320, 240}, .frame_count = 10, .frame_rate_hz = 5};
+    e.run.scale = {0.0335, 5, true};
+    e.run.scale_basis = {ScaleOrigin::metadata};
     e.run.frames_done = 10;
     e.parameters = parameterValues(builtInPreset("default"));
     for (auto& [name, value] : e.parameters)
@@ -92,6 +94,7 @@ TEST(EvaluationReport, isOneFileWithEverything) {
 
 TEST(EvaluationReport, parametersThatDifferComeFirst) {
     const std::string html = makeEvaluationReport(sample(), nullptr).html;
+    EXPECT_THAT(html, HasSubstr("0.0335 m/px, from the video's metadata"));
     const std::size_t different = html.find("differ from the default");
     const std::size_t changed = html.find("motion.min_age");
     const std::size_t measures = html.find("<h2>Measures");
