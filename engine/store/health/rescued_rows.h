@@ -11,7 +11,7 @@ class Database;
 /// SQLite::Exception. Lines are for people and say what was lost.
 namespace eyrie {
 
-/// Where the scale of a run comes from, or how sure it is, cannot be: it is told as for runs of which nothing was kept.
+/// Runs that say something impossible about where their scale comes from tell what those tell that kept nothing of it.
 std::vector<std::string> mendScaleOrigins(SQLite::Database& database);
 
 /// Deletes rows that no writer wrote.
