@@ -95,7 +95,7 @@ TEST_F(MetadataCommand, aRunTakesItsScaleFromThemUnlessOneIsGiven) {
     const auto other =
         call({"report", "--project", at("q.eyrie"), "--events", "--verdict", "all", "--out", at("f.html")});
     EXPECT_EQ(other.exit_code, 0) << other.errors;
-    EXPECT_THAT(textOf("f.html"), HasSubstr("0.05 m/px, as given; the video's metadata (the frame corners) say 0.03"));
+    EXPECT_THAT(textOf("f.html"), HasSubstr("0.05 m/px, as given; the video's metadata (the frame corners) say 0.04"));
 }
 
 }  // namespace eyrie
