@@ -115,6 +115,18 @@ TEST(Trainer, misfitsTeachWhereAVehicleEnds) {
     EXPECT_GT(lower_with, lower_without + 16 * 2);
 }
 
+TEST(Trainer, nearlyEqualSamplesAreUsedWhereAskedFor) {
+    SampleSet samples = test::drawnSamples(30, 400, 1);
+    for (std::size_t i = 0; i < 10; ++i) samples[i].duplicate = true;
+    const auto vehicles = [&](const char* duplicates) {
+        TrainingOptions options = smallOptions();
+        setParameter(describeOf(options), "training.duplicates", duplicates);
+        return trainModel(samples, options, {})->record.vehicles;
+    };
+    EXPECT_EQ(vehicles("false"), 20 * 5);
+    EXPECT_EQ(vehicles("true"), 30 * 5);
+}
+
 TEST(Trainer, reportsProgressAndStops) {
     std::stop_source stop;
     std::vector<std::string> phases;

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "motion/differences/difference_motion.h"
+
+namespace eyrie {
+namespace {
+
+/// A square of this side that leaps from picture to picture over plain ground, so much brighter than that.
+struct LeapingSquare {
+    int side;
+    int brighter;
+};
+
+/// Pixels that the difference of two pictures says to move, all that moved being in view twice; one parameter set by
+/// its name.
+int movingWith(const std::string& name, const std::string& value, const std::vector<LeapingSquare>& squares) {
+    DifferenceOptions options;
+    options.method = MotionMethod::two_frame_difference;
+    options.gap = 1;
+    options.blur_px = 0;
+    options.min_contrast = 10;
+    options.opening_m = options.closing_m = 0;
+    options.min_area_px = 1;
+    options.min_area_m2 = 0;
+    setParameter(describeOf(options), name, value);
+    DifferenceMotion difference(options, {0.2, 25, true});
+    DifferenceResult result;
+    for (int i = 0; i < 3; ++i) {
+        Frame frame;
+        frame.index = i;
+        frame.gray = cv::Mat(100, 200, CV_8UC1, cv::Scalar(100));
+        for (std::size_t k = 0; k < squares.size(); ++k) {
+            const cv::Rect place(10 + 60 * i, 10 + 40 * static_cast<int>(k), squares[k].side, squares[k].side);
+            frame.gray(place).setTo(100 + squares[k].brighter);
+        }
+        FrameMotion motion;
+        motion.frame = i;
+        motion.image_size = frame.gray.size();
+        motion.registration.state = i == 0 ? RegistrationState::first : RegistrationState::registered;
+        motion.registration.current_from_previous.from_frame = std::max(0, i - 1);
+        motion.registration.current_from_previous.to_frame = i;
+        result = difference.next(frame, motion);
+    }
+    return cv::countNonZero(result.moving);
+}
+
+}  // namespace
+
+TEST(DifferenceLimits, BlurTakesAwaySpecks) {
+    EXPECT_EQ(movingWith("difference.blur", "0", {{1, 60}}), 2) << "where it was and where it is";
+    EXPECT_EQ(movingWith("difference.blur", "2", {{1, 60}}), 0) << "60 / (2π · 4) is less than 10";
+}
+
+TEST(DifferenceLimits, StrongLimitIsUpToWhichOtsusThresholdIsFollowed) {
+    // Otsu's threshold lies between 25 and 120; the lowest difference is 10.
+    const std::vector<LeapingSquare> dull_and_bright = {{8, 25}, {8, 120}};
+    EXPECT_EQ(movingWith("difference.strong_limit", "2", dull_and_bright), 4 * 64);
+    EXPECT_EQ(movingWith("difference.strong_limit", "2.4", dull_and_bright), 4 * 64);
+    EXPECT_EQ(movingWith("difference.strong_limit", "2.6", dull_and_bright), 2 * 64);
+}
+
+}  // namespace eyrie
