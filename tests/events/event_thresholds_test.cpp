@@ -185,6 +185,9 @@ const std::vector<Threshold> kThresholds = {
     {"events.moving_speed", "4.9", "5.1", EventKind::starts, 1, 0, setsOffSlowly},
     {"events.min_standing", "3.6", "4.6", EventKind::stops, 1, 0, standsForFour},
     {"events.min_standing", "3.6", "4.6", EventKind::starts, 1, 0, standsForFour},
+    {"events.stands", "3.6", "4.6", EventKind::stands, 1, 0, standsForFour},
+    // Three deviations seem to move by 2.08 /s over a second; it counts half as much again.
+    {"events.noise", "2.1", "2.3", EventKind::starts, 1, 0, setsOffSlowly, {{"events.moving_speed", "4"}}},
     {"events.min_way", "2.7", "3.4", EventKind::starts, 1, 0, movesUp},
     {"events.border_time", "0.9", "1.1", EventKind::lost, 1, 0, isLostBeforeTheBorder},
     {"events.border_time", "0.9", "1.1", EventKind::leaves, 0, 1, isLostBeforeTheBorder},
@@ -202,6 +205,8 @@ const std::vector<Threshold> kThresholds = {
      1,
      loopsFortyWide,
      {{"events.turn_back_angle", "175"}}},
+    {"events.over", "35", "37", EventKind::over_speed, 2, 0, slowsForEight},
+    {"events.over_time", "3.8", "5", EventKind::over_speed, 2, 0, slowsForEight, {{"events.over", "35"}}},
     {"events.under", "9.8", "10.2", EventKind::under_speed, 0, 1, slowsForEight},
     {"events.under_time", "7.8", "9", EventKind::under_speed, 1, 0, slowsForEight},
     {"events.loiter_radius", "13.5", "14.5", EventKind::loiters, 0, 1, circles},
@@ -219,6 +224,7 @@ const std::vector<Threshold> kThresholds = {
     {"events.convoy_time", "20", "23", EventKind::convoy, 1, 0, threeInLine},
     // A place counts as passed from convoy_lane before it on.
     {"events.convoy_headway", "3.1", "3.3", EventKind::convoy, 0, 1, threeInLine, {{"events.convoy_lane", "0.5"}}},
+    {"events.convoy_vehicles", "3", "4", EventKind::convoy, 1, 0, threeInLine},
     {"events.convoy_lane", "1.9", "2.1", EventKind::convoy, 0, 1, threeFollow},
     {"events.convoy_spread",
      "0.28",

@@ -31,8 +31,6 @@ void MserOptions::describe(ParameterVisitor& visitor) {
         {"grey", "Regions are stable over this many grey values. Larger: fewer, stronger regions.", "Teutsch §7.4.1"});
     declare.real("mser.max_variation", max_variation, 0.01, 10,
                  {"", "Regions that grow by a larger share over that are not stable.", "Teutsch §7.4.1"});
-    declare.real("mser.min_diversity", min_diversity, 0, 10,
-                 {"", "Of nested regions that differ less than this, one is kept.", "Teutsch §7.4.1"});
     declare.real("mser.min_area", min_area_m2, 0, 1000, {"m²", "Smaller regions are dropped.", "Teutsch §7.4.1"});
     declare.real("mser.max_area", max_area_m2, 0.01, 100000, {"m²", "Larger regions are dropped.", "Teutsch §7.4.1"});
     declare.real("mser.max_eccentricity", max_eccentricity, 0, 1,
@@ -75,8 +73,7 @@ double eccentricityOf(const std::vector<cv::Point>& points) {
 cv::Mat MserSegmenter::objectPixels(const MotionRoi& roi, DetectionTrace* trace) const {
     cv::Mat kept = cv::Mat::zeros(roi.image.size(), CV_8UC1);
     if (std::min(roi.image.cols, roi.image.rows) < kSmallestRegionSide) return kept;
-    const auto mser =
-        cv::MSER::create(options_.delta, min_area_, max_area_, options_.max_variation, options_.min_diversity);
+    const auto mser = cv::MSER::create(options_.delta, min_area_, max_area_, options_.max_variation);
     std::vector<std::vector<cv::Point>> regions;
     std::vector<cv::Rect> boxes;
     mser->detectRegions(roi.image, regions, boxes);

@@ -9,7 +9,6 @@ namespace eyrie {
 struct MserOptions {
     int delta = 5;               ///< grey values over which a region must be stable
     double max_variation = 0.5;  ///< largest relative growth over delta
-    double min_diversity = 0.2;  ///< nested regions differ by at least this share
     double min_area_m2 = 0.6;    ///< size limits of a region
     double max_area_m2 = 40;
     double max_eccentricity = 0.98;
