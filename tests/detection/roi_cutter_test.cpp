@@ -24,6 +24,10 @@ TEST(RoiCutter, ExtendsTheClusterAlongAndAcross) {
     EXPECT_DOUBLE_EQ(area.length, 140);
     EXPECT_DOUBLE_EQ(area.width, 50);
     EXPECT_DOUBLE_EQ(area.heading, 0.4);
+    DetectionOptions wider = segmentation();
+    wider.extend_across = 3;
+    EXPECT_DOUBLE_EQ(extendedCluster(cluster, {320, 240}, wider, kContractScale).width, 120);
+    EXPECT_DOUBLE_EQ(extendedCluster(cluster, {320, 240}, wider, kContractScale).length, 140);
     cluster.box = {{100, 80}, 3, 1, 0.4};
     const OrientedBox smallest = extendedCluster(cluster, {320, 240}, segmentation(), kContractScale);
     EXPECT_DOUBLE_EQ(smallest.length, 7 / 0.11);

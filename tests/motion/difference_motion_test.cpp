@@ -205,6 +205,69 @@ TEST(DifferenceNoise, IsThatOfThePictures) {
     EXPECT_EQ(differenceNoise({}), 0);
 }
 
+TEST(MovingPixels, AreAreasWithAPixelAboveOtsusThresholdOrTheLimit) {
+    // Three areas of 12, 30 and 90 grey values, noise of 5; Otsu's threshold lies between 30 and 90.
+    DifferenceImage difference;
+    difference.values = cv::Mat(20, 60, CV_32FC1, cv::Scalar(5));
+    difference.overlap = cv::Mat(20, 60, CV_8UC1, cv::Scalar(255));
+    difference.values(cv::Rect(5, 5, 8, 8)).setTo(12);
+    difference.values(cv::Rect(25, 5, 8, 8)).setTo(30);
+    difference.values(cv::Rect(45, 5, 8, 8)).setTo(90);
+    const auto moving = [&](double strong_limit) {
+        return cv::countNonZero(movingPixels(difference, 10, strong_limit));
+    };
+    EXPECT_EQ(moving(100), 64);
+    EXPECT_EQ(moving(2), 128) << "Otsu's threshold is not followed beyond 20";
+    EXPECT_EQ(moving(1), 192);
+    EXPECT_EQ(cv::countNonZero(movingPixels(difference, 100, 1)), 0);
+    difference.values.at<float>(8, 28) = 95;
+    EXPECT_EQ(moving(100), 128) << "with the whole area of a strong pixel";
+    difference.overlap.colRange(40, 60).setTo(0);
+    EXPECT_EQ(moving(1), 128);
+}
+
+TEST(DifferenceMotion, EachLimitHasItsParameter) {
+    // Vehicles of 24×11 and 22×10 px, 2.2 and 2 m wide.
+    const MovingScene scene;
+    const struct {
+        MotionMethod method;
+        const char* parameter;
+        const char* passes;
+        const char* refuses;
+    } limits[] = {{MotionMethod::median_background, "difference.noise_factor", "2", "100"},
+                  {MotionMethod::median_background, "difference.min_contrast", "10", "250"},
+                  {MotionMethod::median_background, "difference.min_area", "4", "20"},
+                  {MotionMethod::median_background, "difference.min_area_px", "100", "500"},
+                  {MotionMethod::median_background, "difference.max_length", "8", "3"},
+                  {MotionMethod::median_background, "difference.opening", "1", "4"},
+                  {MotionMethod::difference_ghosts, "difference.ghost_deviation", "0", "255"},
+                  {MotionMethod::difference_ghosts, "difference.ghost_gradient", "0", "255"}};
+    for (const auto& limit : limits) {
+        DifferenceOptions options = optionsOf(limit.method);
+        // Either property of a ghost alone decides nothing.
+        if (limit.parameter == std::string("difference.ghost_gradient")) options.ghost_deviation = 255;
+        if (limit.parameter == std::string("difference.ghost_deviation")) options.ghost_gradient = 255;
+        setParameter(describeOf(options), limit.parameter, limit.passes);
+        EXPECT_GE(lastOf(scene, options).clusters.size(), 2U) << limit.parameter;
+        setParameter(describeOf(options), limit.parameter, limit.refuses);
+        EXPECT_EQ(lastOf(scene, options).clusters.size(), 0U) << limit.parameter;
+    }
+}
+
+TEST(DifferenceMotion, ClosingJoinsAndGradientsAreSuppressed) {
+    const MovingScene scene;
+    DifferenceOptions options = optionsOf(MotionMethod::median_background);
+    const auto pixels = [&](const char* parameter, const char* value) {
+        DifferenceOptions changed = options;
+        setParameter(describeOf(changed), parameter, value);
+        return cv::countNonZero(lastOf(scene, changed).moving);
+    };
+    EXPECT_LT(pixels("difference.closing", "0"), pixels("difference.closing", "2"));
+    options.noise_factor = 0;
+    options.closing_m = 0;
+    EXPECT_GT(pixels("difference.gradient_suppression", "0"), pixels("difference.gradient_suppression", "3"));
+}
+
 TEST(DifferenceMotion, WithoutVectorsTheLongerAxisGivesTheHeading) {
     const MovingScene scene;
     DifferenceMotion difference(optionsOf(MotionMethod::three_frame_difference), kScale);

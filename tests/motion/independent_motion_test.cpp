@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
+#include <string>
 
 #include "core/error.h"
 #include "motion/clusters/motion_clustering.h"
@@ -95,6 +97,24 @@ TEST(IndependentMotion, FindsSlowVehiclesOverTheLongBaselineOnly) {
     }
 }
 
+TEST(IndependentMotion, SlowCornersMustBeOldEnoughAndAreMeasuredOverTheirBaseline) {
+    for (const int slow_min_age : {10, 17, 18}) {
+        IndependentMotionOptions options = plain();
+        options.find_slow = true;
+        options.slow_min_age = slow_min_age;
+        options.slow_baseline = 17;
+        MovingCorners scene({{{300, 200}, {0.11, 0}}}, 0.01);
+        IndependentMotion motion(options, kScale);
+        FrameMotion last;
+        CornerVerdicts verdicts;
+        for (int i = 0; i < 18; ++i) last = motion.next(scene.next(), flatFrame(i), &verdicts);
+        EXPECT_EQ(last.motion_vectors.size(), slow_min_age <= 17 ? 24U : 0U) << slow_min_age;
+        EXPECT_EQ(verdicts.back().baseline, slow_min_age <= 17 ? 17 : 12) << slow_min_age;
+        EXPECT_NEAR(verdicts.back().speed, 0.11, 0.01);
+        EXPECT_EQ(verdicts.back().age, 17);
+    }
+}
+
 TEST(IndependentMotion, BridgesAFrozenPicture) {
     MovingCorners scene({{{300, 200}, {1.5, 0}}}, 0);
     IndependentMotion motion(plain(), kScale);
@@ -183,20 +203,25 @@ TEST(IndependentMotion, LocalBackgroundTakesOutParallax) {
     // The upper left corner of the scene drifts: a roof that one homography cannot follow.
     IndependentMotionOptions options = plain();
     options.find_slow = false;
-    std::size_t found[2] = {0, 0};
-    for (const bool correct : {false, true}) {
-        options.local_background.enabled = correct;
+    std::map<std::string, std::size_t> found;
+    for (const std::string setting : {"off", "on", "coarse", "crowded"}) {
+        options.local_background = {};
+        options.local_background.enabled = setting != "off";
+        if (setting == "coarse") options.local_background.local_background_cell_m = 200;  // 667 px
+        if (setting == "crowded") options.local_background.local_background_min_corners = 1000;
         MovingPatch roof{{60, 60}, {0.3, 0}, 100, 100, 200};
         MovingCorners scene({roof}, 0.01, 1, 1500);
         IndependentMotion motion(options, kScale);
         for (int t = 0; t < 10; ++t) {
             RegisteredFrame registered = scene.next();
             for (Corner& corner : registered.corners) corner.on_background = true;
-            found[correct] = motion.next(registered, flatFrame(t)).motion_vectors.size();
+            found[setting] = motion.next(registered, flatFrame(t)).motion_vectors.size();
         }
     }
-    EXPECT_GT(found[0], 150U);
-    EXPECT_LT(found[1], 100U);
+    EXPECT_GT(found["off"], 150U);
+    EXPECT_LT(found["on"], 100U);
+    EXPECT_EQ(found["coarse"], found["off"]) << "the median of the whole picture is that of the ground";
+    EXPECT_EQ(found["crowded"], found["off"]) << "no cell holds so many corners";
 }
 
 TEST(IndependentMotionOptions, ThesisUsesOneThresholdAfterFiveFrames) {

@@ -103,6 +103,21 @@ TEST(MotionClustering, NoiseRaisesTheVelocityFloorUpToALimit) {
     EXPECT_DOUBLE_EQ(MotionClustering({}, {2.0, 25, true}).linkageFor(0).across, 4) << "pixel floor";
 }
 
+TEST(MotionClustering, LimitsOfMembersAndNoiseAreParameters) {
+    FrameMotion motion = emptyMotion();
+    motion.corner_count = 22000;
+    MotionClusteringOptions options;
+    options.max_min_members = 30;
+    EXPECT_EQ(MotionClustering(options, {0.1, 25, true}).minMembersFor(motion), 19) << "a third of 58";
+    options.max_min_members = 15;
+    EXPECT_EQ(MotionClustering(options, {0.1, 25, true}).minMembersFor(motion), 15);
+    options.velocity_noise_limit_px = 0.2;
+    EXPECT_DOUBLE_EQ(MotionClustering(options, kScale).linkageFor(1.0).velocity_floor, 0.2);
+    EXPECT_DOUBLE_EQ(MotionClustering(options, kScale).linkageFor(0.15).velocity_floor, 0.15);
+    options.velocity_noise_factor = 2;
+    EXPECT_DOUBLE_EQ(MotionClustering(options, kScale).linkageFor(0.05).velocity_floor, 0.1);
+}
+
 TEST(MotionClustering, DropsWhatIsTooLargeForTraffic) {
     std::mt19937 random(5);
     FrameMotion motion = emptyMotion();

@@ -80,8 +80,9 @@ FrameMotion starved(const CarScene& scene) {
 
 /// What is inferred in the last frame. `change` alters the pictures.
 std::vector<MotionVector> inferred(const CarScene& scene, const FrameMotion& motion,
-                                   const std::function<void(int, cv::Mat&)>& change = {}) {
-    MovingAreas areas({}, kScale);
+                                   const std::function<void(int, cv::Mat&)>& change = {},
+                                   const MovingAreaOptions& options = {}) {
+    MovingAreas areas(options, kScale);
     for (int index = 0; index < kFrames; ++index) {
         cv::Mat gray = scene.draw(index);
         if (change) change(index, gray);
@@ -178,6 +179,52 @@ TEST(MovingAreas, AreForgottenAtACut) {
     MovingAreas off({.enabled = false}, kScale);
     off.add({0, 0, scene.draw(0), {}}, panned(scene, 0));
     EXPECT_THAT(off.infer(starved(scene), 0.1), IsEmpty());
+}
+
+struct AreaLimit {
+    const char* parameter;
+    const char* passes;
+    const char* refuses;
+};
+
+class LimitsOfMovingAreas : public testing::TestWithParam<AreaLimit> {};
+
+TEST_P(LimitsOfMovingAreas, LieAboutTheCar) {
+    // 14×6 px are 4.5×1.9 m and 84 px², 21 of the halved picture; three frames apart it has moved by 6 px. With 500
+    // corners in the picture half a corner lies on it.
+    const CarScene scene = sceneWith({2, 0});
+    const auto found = [&](const char* value) {
+        MovingAreaOptions options;
+        if (GetParam().parameter == std::string("motion.area_sure_correlation")) options.area_few_corners = 0.4;
+        if (GetParam().parameter == std::string("motion.area_few_corners")) options.area_sure_correlation = 1;
+        setParameter(describeOf(options), GetParam().parameter, value);
+        return !inferred(scene, starved(scene), {}, options).empty();
+    };
+    EXPECT_TRUE(found(GetParam().passes));
+    EXPECT_FALSE(found(GetParam().refuses));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, LimitsOfMovingAreas,
+    testing::Values(AreaLimit{"motion.area_max_corners", "0.6", "0.4"},
+                    AreaLimit{"motion.area_few_corners", "0.6", "0.4"},
+                    AreaLimit{"motion.area_noise_factor", "0", "100"}, AreaLimit{"motion.area_contrast", "20", "200"},
+                    AreaLimit{"motion.area_min_size", "2", "15"}, AreaLimit{"motion.area_min_size_px", "20", "300"},
+                    AreaLimit{"motion.area_max_length", "8", "2"}, AreaLimit{"motion.area_min_shift", "5.5", "6.5"},
+                    AreaLimit{"motion.area_min_correlation", "0.5", "0.9999"},
+                    AreaLimit{"motion.area_sure_correlation", "0.5", "0.9999"}),
+    [](const auto& info) { return std::string(info.param.parameter).substr(12); });
+
+TEST(MovingAreas, TheGapIsATimeInFrames) {
+    MovingAreaOptions options;
+    const auto frames = [&](double gap_s, double rate_hz) {
+        options.area_gap_s = gap_s;
+        return options.gapFrames({0.32, rate_hz, true});
+    };
+    EXPECT_EQ(frames(0.12, 25), 3);
+    EXPECT_EQ(frames(0.12, 60), 7);
+    EXPECT_EQ(frames(0.01, 25), 1);
+    EXPECT_EQ(frames(10, 25), 30);
 }
 
 TEST(AreaMatching, FindsTheShiftToAFractionOfAPixel) {

@@ -14,7 +14,8 @@ constexpr double kSigma = 0.01;  // px/frame
 /// seems to move by h · 0.1 · (p − epipole) / |p − epipole|.
 class Town {
  public:
-    explicit Town(cv::Point2d epipole, double highest = 1) : epipole_(epipole) {
+    explicit Town(cv::Point2d epipole, double highest = 1, const ParallaxTestOptions& options = {})
+        : epipole_(epipole), test_(options) {
         std::mt19937 random(5);
         std::uniform_real_distribution<double> x(0, 640);
         std::uniform_real_distribution<double> y(0, 480);
@@ -35,7 +36,7 @@ class Town {
 
  private:
     cv::Point2d epipole_;
-    ParallaxTest test_{ParallaxTestOptions{}};
+    ParallaxTest test_;
 };
 
 void explainsRoofsOnly(const Town& town) {
@@ -75,6 +76,25 @@ TEST(ParallaxTest, ExplainsNothingWhereResidualsAgreeOnNoEpipole) {
     }
     test.finish(kSigma);
     EXPECT_FALSE(test.active());
+}
+
+TEST(ParallaxTest, FactorIsHowMuchHigherARoofMayBe) {
+    // Nine tenths of the roofs show up to .09 px/frame.
+    ParallaxTestOptions options;
+    options.parallax_factor = 4;
+    const Town town({1e7, 2e6}, 1, options);
+    const cv::Point2d p(100, 60);
+    EXPECT_FALSE(Town({1e7, 2e6}).test().explains(p, town.parallax(p, 3)));
+    EXPECT_TRUE(town.test().explains(p, town.parallax(p, 3)));
+    EXPECT_FALSE(town.test().explains(p, town.parallax(p, 4.5)));
+}
+
+TEST(ParallaxTest, AgreementIsTheShareOfRoofsThatMustPointAlongTheLines) {
+    ParallaxTestOptions all;
+    all.parallax_agreement = 1;
+    EXPECT_FALSE(Town({1e7, 2e6}, 1, all).test().active()) << "noise takes some off their lines";
+    all.parallax_agreement = 0.9;
+    EXPECT_TRUE(Town({1e7, 2e6}, 1, all).test().active());
 }
 
 TEST(ParallaxTest, ForgetsTheFrameBefore) {

@@ -131,6 +131,26 @@ TEST(Silhouettes, TooLargeOnesAreNotUsed) {
     EXPECT_TRUE(LorryScene{}.inferred(options).empty());
 }
 
+TEST(Silhouettes, LimitsLieAboutTheLorry) {
+    // 15 m/s, 40 × 9 px = 12 × 2.7 m, about 110 grey values brighter than the ground.
+    const struct {
+        const char* parameter;
+        const char* passes;
+        const char* refuses;
+    } limits[] = {{"motion.silhouette_contrast", "60", "180"},
+                  {"motion.silhouette_min_speed", "14", "16"},
+                  {"motion.silhouette_max_length", "14", "11"},
+                  {"motion.silhouette_max_width", "3", "1.5"},
+                  {"motion.silhouette_noise_factor", "0", "50"}};
+    for (const auto& limit : limits) {
+        SilhouetteOptions options;
+        setParameter(describeOf(options), limit.parameter, limit.passes);
+        EXPECT_NEAR(reachBehindFront({}, LorryScene{}.inferred(options)), 40, 3) << limit.parameter;
+        setParameter(describeOf(options), limit.parameter, limit.refuses);
+        EXPECT_LT(reachBehindFront({}, LorryScene{}.inferred(options)), 30) << limit.parameter;
+    }
+}
+
 TEST(Silhouettes, CanBeSwitchedOffAndForget) {
     SilhouetteOptions off;
     off.enabled = false;
