@@ -87,6 +87,8 @@ TEST_P(EveryDifference, FindsTheVehiclesAndNothingElse) {
     const bool ghosts = GetParam() == MotionMethod::two_frame_difference;
     EXPECT_LE(result.clusters.size(), ghosts ? 4U : 2U);
     for (const auto& cluster : result.clusters) {
+        if (GetParam() == MotionMethod::three_frame_difference || GetParam() == MotionMethod::median_background)
+            EXPECT_EQ(cluster.members.size(), 1U) << "each area has its vehicle's vector";
         if (cluster.members.empty()) continue;  // the place a vehicle has left
         const cv::Point2d velocity = scene.vehicles[static_cast<std::size_t>(cluster.members[0])].velocity;
         EXPECT_NEAR(cluster.velocity.x, velocity.x, 1e-6);
@@ -263,6 +265,8 @@ TEST(DifferenceMotion, ClosingJoinsAndGradientsAreSuppressed) {
         return cv::countNonZero(lastOf(scene, changed).moving);
     };
     EXPECT_LT(pixels("difference.closing", "0"), pixels("difference.closing", "2"));
+    EXPECT_LT(pixels("difference.closing", "0"), pixels("difference.closing", "0.6")) << "3 px are a disc already";
+    EXPECT_EQ(pixels("difference.closing", "0"), pixels("difference.closing", "0.2")) << "1 px is none";
     options.noise_factor = 0;
     options.closing_m = 0;
     EXPECT_GT(pixels("difference.gradient_suppression", "0"), pixels("difference.gradient_suppression", "3"));
@@ -282,6 +286,9 @@ TEST(DifferenceMotion, WithoutVectorsTheLongerAxisGivesTheHeading) {
         EXPECT_TRUE(cluster.members.empty());
         EXPECT_EQ(cluster.velocity, cv::Point2d(0, 0));
         EXPECT_GE(cluster.box.length, cluster.box.width);
+        // One drives along x, the other along y; either way round.
+        const bool along_x = cluster.box.centre.y > 70;
+        EXPECT_NEAR(std::abs(std::sin(cluster.box.heading)), along_x ? 0 : 1, 0.2);
     }
 }
 
@@ -306,6 +313,15 @@ TEST(DifferenceMotion, ShowsWhatItSaw) {
     EXPECT_EQ(view.size(), gray.size());
     // The camera moves right and down, so older pictures lack what lies there.
     EXPECT_EQ(view.at<cv::Vec3b>(scene.size.height - 1, scene.size.width - 1)[2], 255);
+    const uchar grey = gray.at<uchar>(scene.size.height - 1, scene.size.width - 1);
+    EXPECT_EQ(view.at<cv::Vec3b>(scene.size.height - 1, scene.size.width - 1)[0], grey / 2);
+    EXPECT_EQ(view.at<cv::Vec3b>(scene.size.height - 1, scene.size.width - 1)[1], grey / 2);
+    const cv::Vec3b inside = view.at<cv::Vec3b>(100, 20);
+    const int seen = gray.at<uchar>(100, 20);
+    EXPECT_EQ(inside[0], seen);
+    EXPECT_EQ(inside[1], seen);
+    EXPECT_NEAR(inside[2], std::min(255.F, static_cast<float>(seen) + 3 * result.difference.values.at<float>(100, 20)),
+                0.51);
     EXPECT_EQ(differenceView(gray, {}).size(), gray.size());
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "core/error.h"
 #include "motion/clusters/motion_clustering.h"
@@ -158,6 +159,67 @@ TEST(IndependentMotion, GoesOnBehindAFrameThatFailed) {
     EXPECT_NEAR(cv::norm(found.motion_vectors[0].velocity), speed, 0.02) << "the lost frame took time too";
 }
 
+TEST(IndependentMotion, FasterThanAnyVehicleIsATrackingErrorWhereTheScaleIsKnown) {
+    // 70 m/s are 9.33 px/frame.
+    for (const auto& [speed, known, expected] : {std::tuple{9.0, true, 24U}, {10.0, true, 0U}, {10.0, false, 24U}}) {
+        IndependentMotion motion(plain(), {0.3, 25, known});
+        MovingCorners scene({{{100, 200}, {speed, 0}}}, 0);
+        CornerVerdicts verdicts;
+        FrameMotion last;
+        for (int i = 0; i < 8; ++i) last = motion.next(scene.next(), flatFrame(i), &verdicts);
+        EXPECT_EQ(last.motion_vectors.size(), expected) << speed;
+        EXPECT_EQ(verdicts.back().fate, expected > 0 ? CornerFate::moving : CornerFate::too_fast);
+        if (expected == 0) EXPECT_NEAR(verdicts.back().limit, 9.33, 0.01);
+    }
+}
+
+TEST(IndependentMotion, RoofsThatRiseAreTakenForStandingOnceHalfTheBaselineIsMeasured) {
+    // Roofs of many heights seem to move along x by up to .11 px/frame, below 1 m/s = .133; then four faster things.
+    std::vector<MovingPatch> patches;
+    for (int i = 0; i < 60; ++i) {
+        const cv::Point2d centre(40 + i % 10 * 60, 60 + i / 10 * 70);
+        patches.push_back({centre, {0.11 * (i + 1) / 60, 0}, 20, 10, 8});
+    }
+    for (const cv::Point2d velocity : {cv::Point2d(0.17, 0), {0, 0.17}, {0.5, 0}, {-0.17, 0}})
+        patches.push_back({{320, 240}, velocity, 20, 10, 1});
+    MovingCorners scene(patches, 0.005);
+    IndependentMotion motion(plain(), kScale);
+    for (int t = 0; t < 10; ++t) {
+        RegisteredFrame registered = scene.next();
+        for (Corner& corner : registered.corners) corner.on_background = true;
+        CornerVerdicts verdicts;
+        motion.next(registered, flatFrame(t), &verdicts);
+        if (t < 5) continue;
+        const auto fateOf = [&](std::size_t from_end) { return verdicts[verdicts.size() - from_end].fate; };
+        EXPECT_EQ(fateOf(4), t < 6 ? CornerFate::moving : CornerFate::parallax) << t;
+        EXPECT_EQ(fateOf(3), CornerFate::moving) << "across the others, " << t;
+        EXPECT_EQ(fateOf(2), CornerFate::moving) << "far faster, " << t;
+        EXPECT_EQ(fateOf(1), CornerFate::moving) << "the other way, " << t;
+    }
+}
+
+TEST(IndependentMotion, NoiseIsThatOfTheBackgroundWhereAQuarterOfTheCornersBelongsToIt) {
+    for (const int every : {4, 5}) {
+        MovingCorners scene({}, 0.05);
+        IndependentMotion motion(plain(), kScale);
+        double sigma = 0;
+        for (int t = 0; t < 8; ++t) {
+            RegisteredFrame registered = scene.next();
+            for (std::size_t i = 0; i < registered.corners.size(); ++i) {
+                Corner& corner = registered.corners[i];
+                corner.on_background = i % static_cast<std::size_t>(every) == 0;
+                // All others drift.
+                if (!corner.on_background) corner.current.x += 3.F * static_cast<float>(t);
+            }
+            sigma = motion.next(registered, flatFrame(t)).background_speed_sigma;
+        }
+        if (every == 4)
+            EXPECT_NEAR(sigma, 0.05 * std::sqrt(2.0) / 7 * 7 / 12, 0.003) << "rare baselines: the way over 12 frames";
+        else
+            EXPECT_GT(sigma, 0.5) << "too few are left to be trusted";
+    }
+}
+
 TEST(IndependentMotion, StartsAnewAfterACut) {
     MovingCorners scene({{{300, 200}, {1.5, 0}}}, 0);
     IndependentMotion motion(plain(), kScale);
@@ -227,8 +289,16 @@ TEST(IndependentMotion, LocalBackgroundTakesOutParallax) {
 TEST(IndependentMotionOptions, ThesisUsesOneThresholdAfterFiveFrames) {
     const IndependentMotionOptions options = IndependentMotionOptions::thesis();
     EXPECT_EQ(options.min_age, 5);
+    EXPECT_EQ(options.baseline, 5);
+    EXPECT_FALSE(options.follow_turns);
     EXPECT_FALSE(options.find_slow);
+    EXPECT_EQ(options.sigma_factor, 0);
+    EXPECT_EQ(options.max_speed_m_s, 0);
     EXPECT_FALSE(options.shadow.enabled);
+    EXPECT_FALSE(options.silhouettes.enabled);
+    EXPECT_FALSE(options.areas.enabled);
+    EXPECT_FALSE(options.parallax.enabled);
+    EXPECT_FALSE(options.local_background.enabled);
     MovingCorners scene({{{300, 200}, {0.9, 0.5}}}, 0.02);
     IndependentMotion motion(options, kScale);
     EXPECT_EQ(after(motion, scene, 12).motion_vectors.size(), 24U);

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/geometry/oriented_box.h"
+#include "core/values/corner_density.h"
 #include "motion/differences/area_matching.h"
 
 namespace eyrie {
@@ -134,6 +135,10 @@ TEST(MovingAreas, AreLookedForOnlyWhereCornersStarve) {
     FrameMotion motion = starved(scene);
     motion.corner_count = 320 * 240 / 10;  // eight on a car
     EXPECT_THAT(inferred(scene, motion), IsEmpty());
+    // Fewer than the limit, not as many.
+    MovingAreaOptions options;
+    options.area_max_corners = cornersOnCar(starved(scene), kScale);
+    EXPECT_THAT(inferred(scene, starved(scene), {}, options), IsEmpty());
 }
 
 TEST(MovingAreas, MustBeSureWhereCornersNearlySuffice) {
@@ -245,6 +250,14 @@ TEST(AreaMatching, FindsTheShiftToAFractionOfAPixel) {
     const auto near = matchArea(pixels, from, to, {6, -5}, 2);
     ASSERT_TRUE(near);
     EXPECT_NEAR(near->shift.x, 6.3, 0.15);
+    for (const cv::Point2d truth : {cv::Point2d(7, 5), cv::Point2d(-5, -7), cv::Point2d(3, 8), cv::Point2d(-9, 11)}) {
+        cv::warpAffine(from, to, cv::Matx23d(1, 0, truth.x, 0, 1, truth.y), from.size(), cv::INTER_NEAREST,
+                       cv::BORDER_REPLICATE);
+        const auto whole = matchArea(pixels, from, to, {0, 0}, 12);
+        ASSERT_TRUE(whole);
+        EXPECT_NEAR(whole->correlation, 1, 1e-9) << "odd shifts, too, are found to the pixel";
+        EXPECT_NEAR(cv::norm(whole->shift - truth), 0, 0.1) << truth;
+    }
 }
 
 TEST(AreaMatching, HasNoAnswerForPlainAreasOrAtTheBorder) {

@@ -14,14 +14,14 @@ constexpr double kSigma = 0.01;  // px/frame
 /// seems to move by h · 0.1 · (p − epipole) / |p − epipole|.
 class Town {
  public:
-    explicit Town(cv::Point2d epipole, double highest = 1, const ParallaxTestOptions& options = {})
+    explicit Town(cv::Point2d epipole, double highest = 1, const ParallaxTestOptions& options = {}, int corners = 3000)
         : epipole_(epipole), test_(options) {
         std::mt19937 random(5);
         std::uniform_real_distribution<double> x(0, 640);
         std::uniform_real_distribution<double> y(0, 480);
         std::uniform_real_distribution<double> height(0, highest);
         std::normal_distribution<double> noise(0, kSigma);
-        for (int i = 0; i < 3000; ++i) {
+        for (int i = 0; i < corners; ++i) {
             const cv::Point2d p(x(random), y(random));
             const cv::Point2d v = i % 5 == 0 ? parallax(p, height(random)) : cv::Point2d(0, 0);
             test_.add(p, v + cv::Point2d(noise(random), noise(random)));
@@ -57,6 +57,10 @@ TEST(ParallaxTest, TakesRoofsForStandingWhenTheCameraMovesSideways) {
 
 TEST(ParallaxTest, TakesRoofsForStandingWhenTheCameraMovesTowardsAPointInThePicture) {
     explainsRoofsOnly(Town({320, 200}));
+}
+
+TEST(ParallaxTest, OfVeryManyRoofsEveryFewthVotes) {
+    explainsRoofsOnly(Town({320, 200}, 1, {}, 12000));
 }
 
 TEST(ParallaxTest, ExplainsNothingOverFlatGround) {

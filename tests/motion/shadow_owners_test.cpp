@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace eyrie {
 namespace {
@@ -75,6 +76,16 @@ TEST(ShadowOwners, ADarkThingThatMovesOtherwiseIsNoShadow) {
     scene.add({100, 100}, {18, 6}, kVelocity, false);
     scene.add({102, 109}, {18, 6}, {-1.5F, 0}, true);
     EXPECT_EQ(scene.cast(), 0);
+}
+
+TEST(ShadowOwners, AShadowMayDifferFromItsVehicleByAnEighthOfTheSpeed) {
+    // 2.5 times the 5 % that members of a vehicle may: .1875 px/frame.
+    for (const float faster : {-0.18F, 0.18F, -0.195F, 0.195F}) {
+        Scene scene;
+        scene.add({100, 100}, {18, 6}, kVelocity, false);
+        scene.add({102, 109}, {18, 6}, {1.5F + faster, 0}, true);
+        EXPECT_EQ(scene.cast(), std::abs(faster) < 0.19F ? 21 : 0) << faster;
+    }
 }
 
 TEST(ShadowOwners, AGlintOwnsNoShadow) {

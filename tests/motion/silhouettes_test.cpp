@@ -55,8 +55,8 @@ struct LorryScene {
         return registration;
     }
     /// What is inferred from the corners of the front in the last frame.
-    std::vector<MotionVector> inferred(const SilhouetteOptions& options = {}) const {
-        Silhouettes silhouettes(options, kScale);
+    std::vector<MotionVector> inferred(const SilhouetteOptions& options = {}, const SceneScale& scale = kScale) const {
+        Silhouettes silhouettes(options, scale);
         for (int index = 0; index < kFrames; ++index) silhouettes.add(frame(index), registration(index));
         const cv::Rect2d box = lorryAt(kFrames - 1);
         std::vector<MotionVector> corners;
@@ -87,6 +87,15 @@ TEST(Silhouettes, APlainRoofMovesLikeTheCornersInFrontOfIt) {
         EXPECT_LT(vector.position.y, lorry.br().y + 1.5);
     }
     EXPECT_GE(vectors.size(), 20u) << "an outline, both sides";
+}
+
+TEST(Silhouettes, OutlinesAreSampledEveryTwoPixelsAtAnyScale) {
+    // Two pixels to a cell, 40 of the lorry's length: 20 cells on either side, some with a corner beside them.
+    const LorryScene scene;
+    const auto vectors = scene.inferred({}, {0.15, 25, true});
+    EXPECT_NEAR(reachBehindFront(scene, vectors), 40, 3);
+    EXPECT_GE(vectors.size(), 30u);
+    EXPECT_LE(vectors.size(), 46u);
 }
 
 TEST(Silhouettes, IdsGrowAndAreNoCorners) {
