@@ -150,6 +150,51 @@ TEST(Mser, ThesisKeepsRegionsFromEdgeToEdge) {
     EXPECT_GT(cv::countNonZero(layerOf(options, roi, "binary")), 700);
 }
 
+TEST(Mser, AreasAreInSquareMetres) {
+    // 40 × 16 px at 0.11 m/px are 7.7 m².
+    MotionRoi roi = plainRoi({60, 90});
+    roi.image(cv::Rect(22, 25, 16, 40)).setTo(180);
+    DetectionOptions options;
+    options.method = DetectionMethod::mser;
+    const auto found = [&](double smallest, double largest) {
+        options.mser.min_area_m2 = smallest;
+        options.mser.max_area_m2 = largest;
+        return cv::countNonZero(layerOf(options, roi, "binary")) > 0;
+    };
+    EXPECT_TRUE(found(7, 8.5));
+    EXPECT_FALSE(found(8.5, 20));
+    EXPECT_FALSE(found(1, 7));
+}
+
+TEST(RelativeConnectivity, CarsAreScaledToTheirLength) {
+    // 4.6 m at 0.11 m/px: to this length nothing is scaled.
+    const MotionRoi roi = roiOf(drivenScene(0.4));
+    DetectionOptions options;
+    options.method = DetectionMethod::relative_connectivity;
+    const auto lines = [&](double car_length_px) {
+        options.relative_connectivity.car_length_px = car_length_px;
+        return layerOf(options, roi, "bright lines");
+    };
+    const cv::Mat as_it_is = lines(0);
+    EXPECT_EQ(cv::norm(as_it_is, lines(4.6 / 0.11), cv::NORM_INF), 0);
+    EXPECT_GT(cv::norm(as_it_is, lines(24), cv::NORM_INF), 0);
+}
+
+TEST(SegmentationViews, DrawTheRightAndLowerBordersOfSegments) {
+    const cv::Mat gray(4, 5, CV_8UC1, cv::Scalar(50));
+    cv::Mat labels = cv::Mat::zeros(4, 5, CV_32SC1);
+    labels(cv::Rect(1, 1, 2, 2)).setTo(1);
+    const cv::Mat drawn = drawSegments(gray, labels, {1, 2, 3});
+    const cv::Mat expected = (cv::Mat_<uchar>(4, 5) << 0, 1, 1, 0, 0,  //
+                              1, 0, 1, 0, 0,                           //
+                              1, 1, 1, 0, 0,                           //
+                              0, 0, 0, 0, 0);
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 5; ++x)
+            EXPECT_EQ(drawn.at<cv::Vec3b>(y, x), expected.at<uchar>(y, x) ? cv::Vec3b(1, 2, 3) : cv::Vec3b(50, 50, 50));
+    }
+}
+
 TEST(LiteratureSegmenters, TakeTheThesisSettings) {
     for (const DetectionMethod method : {DetectionMethod::relative_connectivity, DetectionMethod::tophat_otsu,
                                          DetectionMethod::mser, DetectionMethod::canny_harris}) {

@@ -53,6 +53,16 @@ TEST(RoiCutter, WindowsGetTheirContextAndSegmentsAreLeftTheMiddle) {
     }
 }
 
+TEST(RoiCutter, NarrowingLeavesAPixelAtLeast) {
+    MotionRoi roi;
+    roi.image = cv::Mat(2, 20, CV_8UC1, cv::Scalar(9));
+    roi.inside = cv::Mat(2, 20, CV_8UC1, cv::Scalar(255));
+    EXPECT_EQ(narrowed(roi, 5).image.size(), cv::Size(10, 2)) << "too low to be narrowed in its height";
+    EXPECT_EQ(narrowed(roi, 50).image.size(), cv::Size(2, 2));
+    EXPECT_EQ(narrowed(roi, 0).image.size(), cv::Size(20, 2));
+    EXPECT_EQ(narrowed(roi, -3).image.size(), cv::Size(20, 2));
+}
+
 TEST(RoiCutter, PlacesTheVectorsInTheRoi) {
     const auto scene = drivenScene(0.8);
     const MotionRoi roi = test::roiOf(scene, 2);

@@ -47,7 +47,11 @@ TEST(DecisionPeaks, KeepLocalMaximaOnly) {
     EXPECT_THAT(decisionPeaks(decision, 0.5), testing::ElementsAre(cv::Point(1, 1), cv::Point(4, 3)));
     EXPECT_TRUE(decisionPeaks({}, 0).empty());
     EXPECT_TRUE(decisionPeaks(cv::Mat(3, 3, CV_32FC1, cv::Scalar(minus_infinity)), 0).empty());
-    EXPECT_EQ(decisionPeaks(cv::Mat(3, 3, CV_32FC1, cv::Scalar(1)), 0).size(), 1U);
+    // Of equals the first in reading order.
+    EXPECT_THAT(decisionPeaks(cv::Mat(3, 3, CV_32FC1, cv::Scalar(1)), 0), testing::ElementsAre(cv::Point(0, 0)));
+    cv::Mat ties(6, 6, CV_32FC1, cv::Scalar(-1));
+    for (const cv::Point p : {cv::Point(1, 1), {1, 2}, {4, 1}, {3, 2}, {3, 4}, {4, 5}}) ties.at<float>(p) = 2;
+    EXPECT_THAT(decisionPeaks(ties, 0), testing::ElementsAre(cv::Point(1, 1), cv::Point(4, 1), cv::Point(3, 4)));
 }
 
 TEST(SuppressOverlapping, TheSurestStays) {
@@ -145,6 +149,27 @@ TEST(SlidingWindow, ScoresAreDecisionValuesAndTheThresholdHolds) {
     EXPECT_TRUE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty());
     options.fall_back = true;
     EXPECT_EQ(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).size(), 1U);
+}
+
+TEST(SlidingWindow, ShowsItsDecisionsWhereTheWindowsAre) {
+    SlidingWindowOptions options = drivenSceneWindow();
+    options.smallest_scale = options.largest_scale = 1;
+    const MotionRoi roi = roiOf(drivenScene(0.5));
+    DetectionTrace trace;
+    const auto found = makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi, &trace);
+    ASSERT_FALSE(found.empty());
+    const auto shown = std::find_if(trace.layers.begin(), trace.layers.end(),
+                                    [](const auto& layer) { return layer.name == "decision ×1.00"; });
+    ASSERT_NE(shown, trace.layers.end());
+    EXPECT_EQ(shown->image.size(), roi.image.size());
+    cv::Point peak;
+    cv::minMaxLoc(shown->image, nullptr, nullptr, nullptr, &peak);
+    const cv::Vec2d in_image = roi.image_from_roi * cv::Vec3d(peak.x, peak.y, 1);
+    // Windows have an even size: the middle lies between two places. A place is some two pixels of the search area.
+    EXPECT_LT(std::hypot(in_image[0] - found[0].box.centre.x, in_image[1] - found[0].box.centre.y), 2.5);
+    const auto& best = trace.checks.front();
+    EXPECT_EQ(best.parameter, "sliding_window.decision_threshold");
+    EXPECT_NEAR(best.value, found[0].score, 1e-6);
 }
 
 TEST(SlidingWindow, WithoutVectorsInsideAWindowIsDropped) {
