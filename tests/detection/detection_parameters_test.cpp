@@ -73,8 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
         DetectionEffect{DetectionMethod::canny_harris, "clustered", "canny_harris.link", "0.1", "1"},
         DetectionEffect{DetectionMethod::canny_harris, "clustered", "canny_harris.min_corners", "1000", "1"},
         DetectionEffect{DetectionMethod::canny_harris, "closed", "canny_harris.closing", "0", "1"}),
-    [](const auto& info) {
-        std::string name = info.param.parameter;
+    [](const auto& effect) {
+        std::string name = effect.param.parameter;
         name.replace(name.find('.'), 1, "_");
         return name;
     });
