@@ -24,6 +24,8 @@ double sumOf(const DetectionEffect& effect, const char* value) {
     DetectionOptions options;
     options.method = effect.method;
     if (effect.parameter == std::string("gradient.canny_variance")) options.gradient.method = GradientMethod::canny;
+    if (effect.parameter == std::string("canny_harris.low_share"))
+        options.canny_harris.high = 100;  // of the windows only
     setParameter(describeOf(options), effect.parameter, value);
     DetectionTrace trace;
     makeDetector(options, test::kContractScale)->detect(test::roiOf(test::drivenScene(0.4)), &trace);
