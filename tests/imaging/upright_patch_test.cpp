@@ -60,6 +60,15 @@ TEST(UprightPatch, BoxOfTheWholePatchIsTheArea) {
     }
 }
 
+TEST(UprightPatch, BoxesOfThePatchLieWhereItsPixelsDo) {
+    const UprightPatch patch = cutUpright(scene(), {{50, 40}, 21, 11, -kPi / 2});  // from (45, 30) on
+    const OrientedBox box = boxInImage(patch.image_from_patch, {3, 10, 4, 6});
+    EXPECT_NEAR(box.centre.x, 50, 1e-9);
+    EXPECT_NEAR(box.centre.y, 43, 1e-9);
+    EXPECT_EQ(box.length, 6);
+    EXPECT_EQ(box.width, 4);
+}
+
 TEST(UprightPatch, MarksWhatLiesOutsideTheImage) {
     const UprightPatch half = cutUpright(scene(), {{0, 45}, 21, 21, -kPi / 2});
     EXPECT_EQ(cv::countNonZero(half.inside), 11 * 21);
