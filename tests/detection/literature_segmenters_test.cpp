@@ -150,6 +150,21 @@ TEST(Mser, ThesisKeepsRegionsFromEdgeToEdge) {
     EXPECT_GT(cv::countNonZero(layerOf(options, roi, "binary")), 700);
 }
 
+TEST(Mser, OnlyWhatReachesFromEdgeToEdgeIsGround) {
+    // 24 px wide; down to the lower edge from the upper one, and from 2 px below it.
+    DetectionOptions options;
+    options.method = DetectionMethod::mser;
+    options.mser.max_area_m2 = 30;
+    const auto kept = [&](const cv::Rect& block) {
+        MotionRoi roi = plainRoi({60, 32});
+        roi.image(block).setTo(180);
+        return cv::countNonZero(layerOf(options, roi, "binary"));
+    };
+    EXPECT_EQ(kept({18, 0, 24, 32}), 0);
+    EXPECT_GT(kept({18, 2, 24, 30}), 600);
+    EXPECT_GT(kept({18, 0, 24, 29}), 600);
+}
+
 TEST(Mser, AreasAreInSquareMetres) {
     // 40 × 16 px at 0.11 m/px are 7.7 m².
     MotionRoi roi = plainRoi({60, 90});

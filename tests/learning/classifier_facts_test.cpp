@@ -5,7 +5,11 @@
 #include <cmath>
 #include <map>
 
+#include "core/error.h"
+#include "core/parameter.h"
+#include "learning/classifiers/classifier.h"
 #include "learning/classifiers/random_forest.h"
+#include "learning/classifiers/seeded_random.h"
 
 namespace eyrie {
 namespace {
@@ -75,6 +79,38 @@ TEST(RandomForest, LeavesSayTheShareOfVehiclesWhereNothingCanBeSplit) {
     const float one[1] = {1};
     EXPECT_NEAR(forest->decide(zero), -0.25, 0.02);
     EXPECT_NEAR(forest->decide(one), 0.25, 0.02);
+}
+
+TEST(Svm, NeedsASampleOfEachClassInEveryFold) {
+    TrainingSet set{cv::Mat1f(12, 1), {}};
+    for (int i = 0; i < 12; ++i) {
+        set.features(i, 0) = static_cast<float>(i);
+        set.vehicle.push_back(i < 4 ? 1 : 0);
+    }
+    ClassifierOptions options;
+    setParameter(describeOf(options), "training.folds", "4");
+    EXPECT_TRUE(trainClassifier(ClassifierKind::svm, set, options, 1));
+    setParameter(describeOf(options), "training.folds", "5");
+    EXPECT_THROW(trainClassifier(ClassifierKind::svm, set, options, 1), Error);
+}
+
+TEST(GentleAdaBoost, WeightTrimmingIsAParameter) {
+    TrainingSet set{cv::Mat1f(200, 1), {}};
+    SeededRandom random(3);
+    for (int i = 0; i < 200; ++i) {
+        set.features(i, 0) = static_cast<float>(random.between(0, 1) + 0.4 * (i % 2));
+        set.vehicle.push_back(i % 2);
+    }
+    ClassifierOptions options;
+    options.trees = 30;
+    options.feature_share = 1;
+    const auto bytes = [&](const char* trimming) {
+        setParameter(describeOf(options), "training.weight_trimming", trimming);
+        ByteWriter out;
+        trainClassifier(ClassifierKind::adaboost, set, options, 1)->write(out);
+        return out.bytes();
+    };
+    EXPECT_NE(bytes("0"), bytes("0.4"));
 }
 
 }  // namespace
