@@ -63,6 +63,18 @@ TEST(ParallaxTest, OfVeryManyRoofsEveryFewthVotes) {
     explainsRoofsOnly(Town({320, 200}, 1, {}, 12000));
 }
 
+TEST(ParallaxTest, RoofsMayStrayFromTheirLineByTwoAndAHalfDeviations) {
+    const Town town({1e7, 2e6});
+    for (const cv::Point2d p : {cv::Point2d(100, 60), cv::Point2d(500, 400)}) {
+        const cv::Point2d roof = town.parallax(p, 0.9);
+        const cv::Point2d across = cv::Point2d(-roof.y, roof.x) / cv::norm(roof);
+        for (const double side : {-1.0, 1.0}) {
+            EXPECT_TRUE(town.test().explains(p, roof + across * (side * 2.1 * kSigma)));
+            EXPECT_FALSE(town.test().explains(p, roof + across * (side * 2.9 * kSigma)));
+        }
+    }
+}
+
 TEST(ParallaxTest, ExplainsNothingOverFlatGround) {
     const Town town({1e7, 2e6}, 0);
     EXPECT_FALSE(town.test().active());

@@ -42,6 +42,15 @@ TEST(ShadowOwners, AShadowBesideItsVehicleIsOne) {
     EXPECT_EQ(scene.cast(), 21);
 }
 
+TEST(ShadowOwners, AShadowAheadOfItsVehicleOrBehindIsOne) {
+    for (const float x : {121.F, 91.F}) {
+        Scene scene;
+        scene.add({100, 100}, {18, 6}, kVelocity, false);
+        scene.add({x, 100}, {6, 6}, kVelocity, true);
+        EXPECT_EQ(scene.cast(), 9) << x;
+    }
+}
+
 TEST(ShadowOwners, WhatLitGroundPartsFromTheVehicleStays) {
     Scene scene;
     scene.add({100, 100}, {18, 6}, kVelocity, false);
