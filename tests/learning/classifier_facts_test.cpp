@@ -66,6 +66,22 @@ TEST(RandomForest, OneBorderTakesOneSplit) {
     EXPECT_EQ(forest->decide(above), 0.5);
 }
 
+TEST(RandomForest, TreesAreNoDeeperThanTheirLimit) {
+    // Each feature parts one sample from all others, so that a tree without a limit would be as deep as there are
+    // samples.
+    constexpr int kSamples = 160;
+    TrainingSet set{cv::Mat1f(kSamples, kSamples, 0.F), {}};
+    for (int i = 0; i < kSamples; ++i) {
+        set.features(i, i) = 1;
+        set.vehicle.push_back(i % 2);
+    }
+    const auto forest = trainRandomForest(set, 5, 1, {});
+    ByteWriter out;
+    forest->write(out);
+    EXPECT_LE(out.bytes().size(), 4U + 5 * (4 + 12 * (2 * 32 + 1)));
+    EXPECT_GE(out.bytes().size(), 4U + 5 * (4 + 12 * (2 * 28 + 1))) << "and they do get deep";
+}
+
 TEST(RandomForest, LeavesSayTheShareOfVehiclesWhereNothingCanBeSplit) {
     // Three of four samples at 1 are vehicles, one of four at 0.
     TrainingSet set{cv::Mat1f(4000, 1), {}};
