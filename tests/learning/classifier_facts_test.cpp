@@ -10,6 +10,7 @@
 #include "learning/classifiers/classifier.h"
 #include "learning/classifiers/random_forest.h"
 #include "learning/classifiers/seeded_random.h"
+#include "learning/classifiers/standardisation.h"
 
 namespace eyrie {
 namespace {
@@ -95,6 +96,16 @@ TEST(RandomForest, LeavesSayTheShareOfVehiclesWhereNothingCanBeSplit) {
     const float one[1] = {1};
     EXPECT_NEAR(forest->decide(zero), -0.25, 0.02);
     EXPECT_NEAR(forest->decide(one), 0.25, 0.02);
+}
+
+TEST(Standardisation, TakesOffTheMeanAndDividesByTheDeviation) {
+    const cv::Mat1f features = (cv::Mat1f(4, 2) << 1, 10, 3, 10, 5, 10, 7, 10);
+    const Standardisation standard = standardisationOf(features);
+    EXPECT_FLOAT_EQ(standard.mean[0], 4);
+    EXPECT_NEAR(standard.scale[0], 1 / std::sqrt(5.0), 1e-6) << "squares 9, 1, 1 and 9";
+    const cv::Mat1f scaled = standardiseAll(standard, features);
+    EXPECT_NEAR(scaled(0, 0), -3 / std::sqrt(5.0), 1e-6);
+    EXPECT_EQ(scaled(2, 1), 0) << "a feature that never varies";
 }
 
 TEST(Svm, NeedsASampleOfEachClassInEveryFold) {
