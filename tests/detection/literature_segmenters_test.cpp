@@ -181,6 +181,24 @@ TEST(Mser, AreasAreInSquareMetres) {
     EXPECT_FALSE(found(1, 7));
 }
 
+TEST(CannyHarris, ASlantingStepIsAsHighAsAnUprightOne) {
+    // Sobel's masks answer to a step of height h along the diagonal with 3h both ways, 4.2h in all; the limit is 4
+    // · 20.
+    DetectionOptions options;
+    options.method = DetectionMethod::canny_harris;
+    options.canny_harris.high = 20;
+    options.canny_harris.low_share = 1;
+    const auto edges = [&](int height) {
+        MotionRoi roi = plainRoi({60, 60});
+        for (int y = 0; y < 60; ++y) {
+            for (int x = 0; x < 60; ++x) roi.image.at<uchar>(y, x) = static_cast<uchar>(x + y < 60 ? 90 : 90 + height);
+        }
+        return cv::countNonZero(layerOf(options, roi, "edges"));
+    };
+    EXPECT_EQ(edges(17), 0);
+    EXPECT_GT(edges(21), 20);
+}
+
 TEST(RelativeConnectivity, CarsAreScaledToTheirLength) {
     // 4.6 m at 0.11 m/px: to this length nothing is scaled.
     const MotionRoi roi = roiOf(drivenScene(0.4));

@@ -139,6 +139,27 @@ TEST(ScanAtScale, WithoutRejectionEveryWindowIsLookedAtToTheEnd) {
     EXPECT_EQ(cv::norm(decision, all, cv::NORM_INF), 0) << "a trace changes no value";
 }
 
+TEST(ScanAtScale, BoxesLieAroundTheMiddleOfTheirWindows) {
+    // A car of the window's own size: nothing is scaled, and the window at (x, y) covers 16 × 32 pixels from there.
+    SlidingWindowOptions options = drivenSceneWindow();
+    options.car_length_m = 21.5 * kContractScale.gsd_m_per_px;
+    options.car_width_m = 10 * kContractScale.gsd_m_per_px;
+    options.decision_threshold = -1000;
+    options.rejection_margin = SlidingWindowOptions::kNoRejection;
+    const WindowScanner scanner(loadModel(test::drivenSceneModel()));
+    cv::Mat decision;
+    const auto found = scanAtScale(scanner, roiOf(drivenScene(0.5)).image, 1, options, kContractScale, decision);
+    const auto peaks = decisionPeaks(decision, -1000);
+    ASSERT_FALSE(found.empty());
+    ASSERT_EQ(found.size(), peaks.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_NEAR(found[i].box.x + found[i].box.width / 2, peaks[i].x + 7.5, 1e-9);
+        EXPECT_NEAR(found[i].box.y + found[i].box.height / 2, peaks[i].y + 15.5, 1e-9);
+        EXPECT_NEAR(found[i].box.width, 10, 1e-9);
+        EXPECT_NEAR(found[i].box.height, 21.5, 1e-9);
+    }
+}
+
 TEST(SlidingWindow, ScoresAreDecisionValuesAndTheThresholdHolds) {
     SlidingWindowOptions options = drivenSceneWindow();
     const MotionRoi roi = roiOf(drivenScene(0.5));
@@ -179,6 +200,8 @@ TEST(SlidingWindow, WithoutVectorsInsideAWindowIsDropped) {
     EXPECT_TRUE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty());
     options.need_support = false;
     EXPECT_FALSE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty());
+    roi.inside = cv::Mat::zeros(roi.image.size(), CV_8UC1);
+    EXPECT_TRUE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty()) << "beyond the video";
 }
 
 TEST(SlidingWindow, TheGlobalOneFindsTheVehicleWithoutMotion) {

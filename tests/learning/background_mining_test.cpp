@@ -80,6 +80,8 @@ TEST(BackgroundMining, TakesTheTypicalVehicleWhereNoneIsLabelled) {
     LabelledImage image = barsAt({{170, 130}}, 0, 1);
     image.vehicles.clear();
     EXPECT_TRUE(mineBackground(barModel(), {image}, {}, 10, 1).empty()) << "of no size nothing can be looked for";
+    EXPECT_FALSE(mineBackground(barModel(), {image, barsAt({{90, 80}, {240, 180}}, 0.4, 1)}, {}, 10, 1).empty())
+        << "but the next one is looked at";
     // Headings are drawn at random; in one of many images one fits.
     const std::vector<LabelledImage> many(12, image);
     EXPECT_FALSE(mineBackground(barModel(), many, {{0, 0}, 21.5, 10, 0}, 100, 1).empty());

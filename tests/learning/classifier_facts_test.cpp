@@ -10,6 +10,7 @@
 #include "learning/classifiers/classifier.h"
 #include "learning/classifiers/random_forest.h"
 #include "learning/classifiers/seeded_random.h"
+#include "learning/classifiers/standardisation.h"
 
 namespace eyrie {
 namespace {
@@ -66,6 +67,22 @@ TEST(RandomForest, OneBorderTakesOneSplit) {
     EXPECT_EQ(forest->decide(above), 0.5);
 }
 
+TEST(RandomForest, TreesAreNoDeeperThanTheirLimit) {
+    // Each feature parts one sample from all others, so that a tree without a limit would be as deep as there are
+    // samples.
+    constexpr int kSamples = 160;
+    TrainingSet set{cv::Mat1f(kSamples, kSamples, 0.F), {}};
+    for (int i = 0; i < kSamples; ++i) {
+        set.features(i, i) = 1;
+        set.vehicle.push_back(i % 2);
+    }
+    const auto forest = trainRandomForest(set, 5, 1, {});
+    ByteWriter out;
+    forest->write(out);
+    EXPECT_LE(out.bytes().size(), 4U + 5 * (4 + 12 * (2 * 32 + 1)));
+    EXPECT_GE(out.bytes().size(), 4U + 5 * (4 + 12 * (2 * 28 + 1))) << "and they do get deep";
+}
+
 TEST(RandomForest, LeavesSayTheShareOfVehiclesWhereNothingCanBeSplit) {
     // Three of four samples at 1 are vehicles, one of four at 0.
     TrainingSet set{cv::Mat1f(4000, 1), {}};
@@ -79,6 +96,16 @@ TEST(RandomForest, LeavesSayTheShareOfVehiclesWhereNothingCanBeSplit) {
     const float one[1] = {1};
     EXPECT_NEAR(forest->decide(zero), -0.25, 0.02);
     EXPECT_NEAR(forest->decide(one), 0.25, 0.02);
+}
+
+TEST(Standardisation, TakesOffTheMeanAndDividesByTheDeviation) {
+    const cv::Mat1f features = (cv::Mat1f(4, 2) << 1, 10, 3, 10, 5, 10, 7, 10);
+    const Standardisation standard = standardisationOf(features);
+    EXPECT_FLOAT_EQ(standard.mean[0], 4);
+    EXPECT_NEAR(standard.scale[0], 1 / std::sqrt(5.0), 1e-6) << "squares 9, 1, 1 and 9";
+    const cv::Mat1f scaled = standardiseAll(standard, features);
+    EXPECT_NEAR(scaled(0, 0), -3 / std::sqrt(5.0), 1e-6);
+    EXPECT_EQ(scaled(2, 1), 0) << "a feature that never varies";
 }
 
 TEST(Svm, NeedsASampleOfEachClassInEveryFold) {

@@ -337,6 +337,16 @@ TEST(Descriptor, groundIsTheMedianOfTheOutermostPixels) {
     }
 }
 
+TEST(Descriptor, everyOutermostPixelCountsOnceForTheGround) {
+    // Half of the 92 are 100: upper and lower row and 14 of the sides. Of as many of both the brighter is the median.
+    cv::Mat window(32, 16, CV_8UC1, cv::Scalar(150));
+    window.row(0).setTo(100);
+    window.row(31).setTo(100);
+    window.rowRange(1, 8).col(0).setTo(100);
+    window.rowRange(1, 8).col(15).setTo(100);
+    EXPECT_NEAR(valuesOf(DescriptorKind::moments, window)[7], 46 * 50 / 512., 1e-4);
+}
+
 TEST(Descriptor, huInvariantsDoNotChangeWhenTheBlobIsTurnedByARightAngle) {
     cv::Mat window(32, 16, CV_8UC1, cv::Scalar(60));
     cv::Mat turned = window.clone();

@@ -287,6 +287,26 @@ TEST(DifferenceMotion, ClosingJoinsAndGradientsAreSuppressed) {
     EXPECT_EQ(parts, pixels("difference.closing", "0.2")) << "1 px is none";
 }
 
+TEST(DifferenceMotion, AllVectorsOnAnAreaBelongToIt) {
+    // At the middle of each vehicle, 8 px ahead and behind, and beside it by more than its width.
+    const MovingScene scene;
+    DifferenceMotion difference(optionsOf(MotionMethod::median_background), kScale);
+    const int last = scene.frames - 1;
+    for (int i = 0; i < last; ++i) difference.remember(frameOf(scene, i), trueMotion(scene, i));
+    FrameMotion motion = trueMotion(scene, last);
+    for (const auto& vehicle : scene.vehicles) {
+        const cv::Point2d ahead = vehicle.velocity / cv::norm(vehicle.velocity);
+        const cv::Point2d centre = scene.vehicleAt(vehicle, last);
+        for (const cv::Point2d offset : {8 * ahead, -8 * ahead, 11 * cv::Point2d(-ahead.y, ahead.x)})
+            motion.motion_vectors.push_back({99, centre + offset, vehicle.velocity, 9});
+    }
+    const DifferenceResult result = difference.next(frameOf(scene, last), motion);
+    ASSERT_EQ(result.clusters.size(), 2U);
+    std::vector<std::vector<int>> members{result.clusters[0].members, result.clusters[1].members};
+    std::sort(members.begin(), members.end());
+    EXPECT_EQ(members, (std::vector<std::vector<int>>{{0, 2, 3}, {1, 5, 6}}));
+}
+
 TEST(DifferenceMotion, WithoutVectorsTheLongerAxisGivesTheHeading) {
     const MovingScene scene;
     DifferenceMotion difference(optionsOf(MotionMethod::three_frame_difference), kScale);
