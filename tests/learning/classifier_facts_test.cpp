@@ -103,9 +103,7 @@ TEST(Standardisation, TakesOffTheMeanAndDividesByTheDeviation) {
     const Standardisation standard = standardisationOf(features);
     EXPECT_FLOAT_EQ(standard.mean[0], 4);
     EXPECT_NEAR(standard.scale[0], 1 / std::sqrt(5.0), 1e-6) << "squares 9, 1, 1 and 9";
-    const cv::Mat1f scaled = standardiseAll(standard, features);
-    EXPECT_NEAR(scaled(0, 0), -3 / std::sqrt(5.0), 1e-6);
-    EXPECT_EQ(scaled(2, 1), 0) << "a feature that never varies";
+    EXPECT_EQ(standard.scale[1], 0) << "a feature that never varies";
 }
 
 TEST(Svm, NeedsASampleOfEachClassInEveryFold) {
