@@ -234,6 +234,7 @@ std::vector<VerdictMark> EvaluationSession::marksAt(FrameIndex frame) const {
     };
     for (const int index : match.ignored_results) mark(VerdictKind::ignored, at_index(results, index), {});
     for (const int index : match.border_results) mark(VerdictKind::ignored, at_index(results, index), {});
+    for (const int index : match.other_class_results) mark(VerdictKind::ignored, at_index(results, index), {});
     for (const MatchedPair& pair : match.pairs) {
         const auto switched = switches.find(pair.truth);
         if (switched == switches.end()) {
