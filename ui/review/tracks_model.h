@@ -22,6 +22,7 @@ class TracksModel : public RecordModel<TrackSummary> {
         width_column,
         status_column,
         score_column,
+        class_column,
         column_count
     };
 
