@@ -204,7 +204,6 @@ TEST_F(RoundTripLosses, ClassesOfTracksBecomeTheNearestOfFixedLists) {
     EXPECT_EQ(readBack("v.txt", "visdrone"), (Words{"car", "motorcycle", "person", "other"}));
     EXPECT_EQ(readBack("o.txt", "virat"), (Words{"vehicle", "bicycle", "person", ""}));
     EXPECT_EQ(readBack("r.csv", "native-result"), (Words{"vehicle", "two_wheeler", "person", ""}));
-    EXPECT_EQ(readBack("c.json", "coco"), (Words{"vehicle", "two_wheeler", "person", ""}));
 }
 
 TEST_F(RoundTripLosses, ClippingIsByOptionAndCounted) {
