@@ -53,10 +53,10 @@ TEST(TrackClass, NothingIsToldWhereMetresMeanNothing) {
 
 TEST(TrackClass, AnEstimatedScaleMakesItMoreCareful) {
     const SceneScale estimated{kGsd, kRate, false};
-    // 2.8 m is the limit, of which four fifths hold: 2.24 m.
-    EXPECT_EQ(classOf(extent(2.2, 0.8, 14), estimated, {}), TrackClass::two_wheeler);
-    EXPECT_EQ(classOf(extent(2.3, 0.8, 14), estimated, {}), TrackClass::vehicle);
-    EXPECT_EQ(classOf(extent(2.3, 0.8, 14), known(), {}), TrackClass::two_wheeler);
+    // 2.5 m is the limit, of which four fifths hold: 2 m.
+    EXPECT_EQ(classOf(extent(1.9, 0.8, 14), estimated, {}), TrackClass::two_wheeler);
+    EXPECT_EQ(classOf(extent(2.1, 0.8, 14), estimated, {}), TrackClass::vehicle);
+    EXPECT_EQ(classOf(extent(2.1, 0.8, 14), known(), {}), TrackClass::two_wheeler);
 }
 
 TEST(TrackClass, LimitsAreParameters) {

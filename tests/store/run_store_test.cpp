@@ -200,9 +200,9 @@ TEST_F(RunStoreTest, TracksHaveTheClassThatTheRunsLimitsGiveThem) {
         return told;
     };
     RunRecord run = sampleRun();
-    run.scale = {0.2, 25, true};  // 13 × 6 px on average are 2.6 × 1.2 m, 5 px/frame 25 m/s
+    run.scale = {0.15, 25, true};  // 13 × 6 px on average are 1.95 × 0.9 m
     EXPECT_EQ(classOf(run, {}), TrackClass::two_wheeler);
-    EXPECT_EQ(classOf(run, {{"classes.two_wheeler_length", "2.5"}}), TrackClass::vehicle);
+    EXPECT_EQ(classOf(run, {{"classes.two_wheeler_length", "1.9"}}), TrackClass::vehicle);
     EXPECT_EQ(classOf(run, {{"classes.two_wheeler_length", "long"}, {"classes.no_such", "1"}}), TrackClass::two_wheeler)
         << "what this version does not take has its default";
     run.scale = {0.345, 25, true};

@@ -25,7 +25,7 @@ TrackClass trackClassOf(const std::string& object_class);
 struct TrackClassOptions {
     double person_size_m = 1.2;
     double person_speed_m_s = 3.5;
-    double two_wheeler_length_m = 2.8;
+    double two_wheeler_length_m = 2.5;
     double two_wheeler_width_m = 1.3;
 
     void describe(ParameterVisitor& visitor);
