@@ -196,7 +196,8 @@ TEST_F(RoundTripLosses, ClassesOfTracksBecomeTheNearestOfFixedLists) {
     const auto readBack = [&](const char* name, const char* format) {
         writeLabels(labels, folder_ / name, format, exportOptions());
         std::map<int, std::string> classes;
-        for (const LabelBox& box : readLabels(folder_ / name, format).boxes.at(0)) classes[*box.id] = box.object_class;
+        const LabelFile read = readLabels(folder_ / name, format);
+        for (const LabelBox& box : read.boxes.at(0)) classes[*box.id] = box.object_class;
         return std::vector<std::string>{classes[1], classes[2], classes[3], classes[4]};
     };
     using Words = std::vector<std::string>;
