@@ -113,9 +113,8 @@ QString TracksModel::helpOf(int column) const {
             return tr("Probability that the track is a moving vehicle, from 0 to 1");
         case class_column:
             return tr(
-                "What the track is, by its mean size and speed over the ground (classes.*); a dash where neither "
-                "tells"); a "
-                "dash where the scale is not known");
+                "What the track is, by its mean size and speed over the ground (classes.*); a dash where they do not "
+                "tell");
         default:
             return {};
     }
