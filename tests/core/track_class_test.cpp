@@ -16,9 +16,9 @@ SceneScale known() {
     return {kGsd, kRate, true};
 }
 
-/// Metres and m/s as they are in the image.
+/// Metres and m/s as they are in the image, for two seconds.
 TrackExtent extent(double length_m, double width_m, double speed_m_s, const SceneScale& scale = known()) {
-    return {scale.px(length_m), scale.px(width_m), scale.pxPerFrame(speed_m_s)};
+    return {50, scale.px(length_m), scale.px(width_m), scale.pxPerFrame(speed_m_s)};
 }
 
 TrackClass classed(double length_m, double width_m, double speed_m_s) {
@@ -41,14 +41,28 @@ TEST(TrackClass, PartsOfVehiclesAreNoPersonsAndNoTwoWheelers) {
     EXPECT_EQ(classed(4.2, 0.9, 12), TrackClass::vehicle) << "its side";
 }
 
+TEST(TrackClass, WhatIsSmallMustHaveBeenFollowedForASecond) {
+    TrackExtent rider = extent(2, 0.8, 8);
+    TrackExtent car = extent(4.5, 1.8, 8);
+    rider.states = car.states = 24;  // of 25 a second
+    EXPECT_EQ(classOf(rider, known(), {}), TrackClass::unknown) << "it may be a part of a car";
+    EXPECT_EQ(classOf(car, known(), {}), TrackClass::vehicle);
+    rider.states = 25;
+    EXPECT_EQ(classOf(rider, known(), {}), TrackClass::two_wheeler);
+    TrackClassOptions at_once;
+    at_once.min_life_s = 0;
+    rider.states = 1;
+    EXPECT_EQ(classOf(rider, known(), at_once), TrackClass::two_wheeler);
+}
+
 TEST(TrackClass, NothingIsToldWhereMetresMeanNothing) {
     const SceneScale fallback;
     EXPECT_EQ(classOf(extent(4.5, 1.8, 14, fallback), fallback, {}), TrackClass::unknown);
     EXPECT_EQ(classOf(extent(0.6, 0.6, 1, fallback), fallback, {}), TrackClass::unknown);
     EXPECT_EQ(classOf({}, known(), {}), TrackClass::unknown);
     const double none = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(classOf({none, 5, 1}, known(), {}), TrackClass::unknown);
-    EXPECT_EQ(classOf({5, 5, none}, known(), {}), TrackClass::unknown);
+    EXPECT_EQ(classOf({50, none, 5, 1}, known(), {}), TrackClass::unknown);
+    EXPECT_EQ(classOf({50, 5, 5, none}, known(), {}), TrackClass::unknown);
 }
 
 TEST(TrackClass, AnEstimatedScaleMakesItMoreCareful) {
@@ -95,7 +109,9 @@ TEST(TrackClass, AllBoxesOfATrackGetTheClassOfItsMeans) {
     add(1, 1, 4.0);
     add(0, 2, 2.0);
     add(1, {}, 2.0);
-    nameClasses(boxes, known(), {});
+    TrackClassOptions at_once;
+    at_once.min_life_s = 0;
+    nameClasses(boxes, known(), at_once);
     EXPECT_EQ(boxes[0][0].object_class, "vehicle");
     EXPECT_EQ(boxes[1][0].object_class, "vehicle");
     EXPECT_EQ(boxes[0][1].object_class, "two_wheeler");

@@ -201,9 +201,12 @@ TEST_F(RunStoreTest, TracksHaveTheClassThatTheRunsLimitsGiveThem) {
     };
     RunRecord run = sampleRun();
     run.scale = {0.15, 25, true};  // 13 × 6 px on average are 1.95 × 0.9 m
-    EXPECT_EQ(classOf(run, {}), TrackClass::two_wheeler);
+    EXPECT_EQ(classOf(run, {}), TrackClass::unknown) << "three frames are too short for what is smaller than a car";
+    EXPECT_EQ(classOf(run, {{"classes.min_life", "0.1"}}), TrackClass::two_wheeler);
     EXPECT_EQ(classOf(run, {{"classes.two_wheeler_length", "1.9"}}), TrackClass::vehicle);
-    EXPECT_EQ(classOf(run, {{"classes.two_wheeler_length", "long"}, {"classes.no_such", "1"}}), TrackClass::two_wheeler)
+    EXPECT_EQ(
+        classOf(run, {{"classes.min_life", "0.1"}, {"classes.two_wheeler_length", "long"}, {"classes.no_such", "1"}}),
+        TrackClass::two_wheeler)
         << "what this version does not take has its default";
     run.scale = {0.345, 25, true};
     EXPECT_EQ(classOf(run, {}), TrackClass::vehicle);

@@ -51,6 +51,11 @@ void TrackClassOptions::describe(ParameterVisitor& v) {
                   "Teutsch §3, §7.2"});
     declare.real("classes.two_wheeler_width", two_wheeler_width_m, 0, 100,
                  {"m", "The same for the width. Larger values call the fronts and rears of cars two-wheelers.", ""});
+    declare.real("classes.min_life", min_life_s, 0, 60,
+                 {"s",
+                  "A track that is smaller than a vehicle has no class until it was followed for this long: parts of "
+                  "vehicles make short tracks.",
+                  ""});
 }
 
 TrackClass classOf(const TrackExtent& extent, const SceneScale& scale, const TrackClassOptions& options) {
@@ -60,31 +65,28 @@ TrackClass classOf(const TrackExtent& extent, const SceneScale& scale, const Tra
     const double speed = scale.metresPerSecond(extent.speed_px);
     if (!hasMetricLimits(scale) || !(length > 0) || !(width > 0) || !(speed >= 0)) return TrackClass::unknown;
     if (length > options.two_wheeler_length_m || width > options.two_wheeler_width_m) return TrackClass::vehicle;
+    if (extent.states < options.min_life_s * scale.frame_rate_hz) return TrackClass::unknown;
     if (std::max(length, width) > options.person_size_m) return TrackClass::two_wheeler;
     return speed <= options.person_speed_m_s ? TrackClass::person : TrackClass::unknown;
 }
 
 void nameClasses(BoxesByFrame& tracks, const SceneScale& scale, const TrackClassOptions& options) {
-    struct Sums {
-        TrackExtent extent;
-        int boxes = 0;
-    };
-    std::map<int, Sums> sums;
+    std::map<int, TrackExtent> sums;
     for (const auto& [frame, records] : tracks) {
         for (const BoxRecord& record : records) {
             if (!record.id) continue;
-            Sums& track = sums[*record.id];
-            track.extent.length_px += record.box.length;
-            track.extent.width_px += record.box.width;
-            track.extent.speed_px += std::hypot(record.velocity.x, record.velocity.y);
-            ++track.boxes;
+            TrackExtent& sum = sums[*record.id];
+            sum.length_px += record.box.length;
+            sum.width_px += record.box.width;
+            sum.speed_px += std::hypot(record.velocity.x, record.velocity.y);
+            ++sum.states;
         }
     }
     std::map<int, const char*> words;
-    for (const auto& [id, track] : sums) {
-        const double n = track.boxes;
-        words[id] = wordOf(classOf({track.extent.length_px / n, track.extent.width_px / n, track.extent.speed_px / n},
-                                   scale, options));
+    for (const auto& [id, sum] : sums) {
+        const double n = sum.states;
+        words[id] =
+            wordOf(classOf({sum.states, sum.length_px / n, sum.width_px / n, sum.speed_px / n}, scale, options));
     }
     for (auto& [frame, records] : tracks) {
         for (BoxRecord& record : records) {

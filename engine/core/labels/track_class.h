@@ -27,19 +27,22 @@ struct TrackClassOptions {
     double person_speed_m_s = 3.5;
     double two_wheeler_length_m = 2.5;
     double two_wheeler_width_m = 1.3;
+    double min_life_s = 1;
 
     void describe(ParameterVisitor& visitor);
 };
 
-/// Means over the states of a track.
+/// How many states a track has so far, and means over them.
 struct TrackExtent {
+    int states = 0;
     double length_px = 0;
     double width_px = 0;
     double speed_px = 0;  ///< px/frame relative to the ground
 };
 
-/// What a track of that extent is. Unknown where lengths in metres mean nothing, and for what is too small for a
-/// two-wheeler and too fast for a person: a part of something. Limits are a fifth lower where the GSD was estimated.
+/// What a track of that extent is. Unknown where lengths in metres mean nothing, for what is smaller than a vehicle and
+/// was followed too shortly, and for what is too small for a two-wheeler and too fast for a person: parts of vehicles
+/// look like that. Limits are a fifth lower where the GSD was estimated.
 TrackClass classOf(const TrackExtent& extent, const SceneScale& scale, const TrackClassOptions& options);
 
 /// Writes the class of every track, by all of its boxes, into its boxes. Boxes without id keep theirs.
