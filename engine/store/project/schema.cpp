@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array kMigrations{
     addRuns,          addLabels,    addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
-    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview};
+    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview,  addZones};
 
 }  // namespace
 
