@@ -111,6 +111,9 @@ class ZonesWindowTest : public QObject {
             auto* editor = window->events().zones().panel().table()->findChild<QLineEdit*>();
             QVERIFY(editor != nullptr && editor->isVisible());
             editor->setText(QStringLiteral("yard"));
+            // Events that are found meanwhile do not take it away.
+            QVERIFY(waitForEvents(*window, EventKind::enters, 1));
+            QCOMPARE(editor->text(), QStringLiteral("yard"));
             QTest::keyClick(editor, Qt::Key_Return);
             QCOMPARE(zones(*window).begin()->second.zone.name, std::string("yard"));
             QVERIFY(waitForEvents(*window, EventKind::enters, 1));

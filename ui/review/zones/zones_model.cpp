@@ -1,5 +1,7 @@
 #include "review/zones/zones_model.h"
 
+#include <algorithm>
+
 #include "review/zones/zone_colours.h"
 #include "widgets/swatch.h"
 #include "widgets/tables/table_roles.h"
@@ -16,7 +18,16 @@ void ZonesModel::setZones(const std::map<int, StoredZone>& zones, const std::map
         const auto found = events.find(zone.zone.name);
         entries.push_back({id, zone, found == events.end() ? 0 : found->second});
     }
-    replaceRecords(std::move(entries));
+    const auto is_same = [](const ZoneEntry& a, const ZoneEntry& b) { return a.stored == b.stored; };
+    if (!std::equal(records().begin(), records().end(), entries.begin(), entries.end(), is_same)) {
+        replaceRecords(std::move(entries));
+        return;
+    }
+    // Events are found while a name is still being written.
+    for (int row = 0; row < rowCount(); ++row) {
+        const ZoneEntry& entry = entries[static_cast<std::size_t>(row)];
+        if (entry.events != recordAt(row)->events) changeRecord(row, entry, events_column);
+    }
 }
 
 QVariant ZonesModel::data(const QModelIndex& index, int role) const {
