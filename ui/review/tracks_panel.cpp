@@ -41,6 +41,7 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     auto* narrowing = new QHBoxLayout;
     narrowing->setContentsMargins(2, 0, 4, 0);
     narrowing->addWidget(chips_, 1);
+    count_->setFixedHeight(chips_->minimumSizeHint().height());  // beside the first row of chips
     narrowing->addWidget(count_, 0, Qt::AlignTop);
     static_cast<QVBoxLayout*>(layout())->insertLayout(1, narrowing);
     connect(chips_, &FilterChips::edited, this, &TracksPanel::filterTracks);

@@ -115,7 +115,7 @@ class ZonesWindowTest : public QObject {
             QVERIFY(waitForEvents(*window, EventKind::enters, 1));
             QCOMPARE(editor->text(), QStringLiteral("yard"));
             QTest::keyClick(editor, Qt::Key_Return);
-            QCOMPARE(zones(*window).begin()->second.zone.name, std::string("yard"));
+            QTRY_COMPARE(zones(*window).begin()->second.zone.name, std::string("yard"));
             QVERIFY(waitForEvents(*window, EventKind::enters, 1));
             QVERIFY(waitForEvents(*window, EventKind::exits, 1));
             const auto& model = window->events().model();

@@ -63,6 +63,15 @@ void ZoneLayer::paint(QPainter& painter, const OverlayScene& scene) const {
                        {zone.colour, scene.style.colours.edge, scene.style.line_width + (zone.selected ? 1.4 : 0.2)});
     }
     if (!scene.style.labels) return;
+    // Vehicles are drawn on top: names that they cover could not be read.
+    std::vector<QRectF> vehicles;
+    for (const TrackState& track : scene.result.tracks) {
+        QPolygonF box;
+        for (const cv::Point2d& corner : track.box.corners())
+            box << scene.transform.viewFromImage({corner.x, corner.y});
+        vehicles.push_back(box.boundingRect());
+    }
+    scene.captions.keepClearOf(std::move(vehicles));
     for (const ZoneMark& zone : scene.frame.zones) {
         QPolygonF points;
         for (const QPointF& point : zone.points) points << scene.transform.viewFromImage(point);

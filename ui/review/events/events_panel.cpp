@@ -84,16 +84,17 @@ void EventsPanel::buildButtons() {
     buttons->addWidget(buttonOf(actions_.star, QStringLiteral("★")));
     buttons->addWidget(buttonOf(actions_.undo_verdict, tr("Undo")));
     buttons->addStretch(1);
-    const auto addSwitch = [&](const QString& text, const QString& tip) {
+    const auto addSwitch = [](QHBoxLayout& row, const QString& text, const QString& tip) {
         auto* button = new QToolButton;
         button->setText(text);
         button->setToolTip(tip);
         button->setCheckable(true);
-        buttons->addWidget(button);
+        row.addWidget(button);
         return button;
     };
-    limits_button_ = addSwitch(tr("Limits"), tr("What counts as an event"));
-    zones_button_ = addSwitch(tr("Zones"), tr("Areas and lines that are watched: draw, name, delete them"));
+    limits_button_ = addSwitch(*buttons, tr("Limits"), tr("What counts as an event"));
+    // Up there: the row of buttons decides how narrow the column can be.
+    zones_button_ = addSwitch(*toolRow(), tr("Zones"), tr("Areas and lines that are watched: draw, name, delete them"));
     auto* report = new QToolButton;
     report->setText(tr("Report…"));
     report->setToolTip(tr("Write events with pictures and verdicts as one HTML or PDF file"));
@@ -103,7 +104,7 @@ void EventsPanel::buildButtons() {
             [this] { emit reportWanted(false); });
     connect(choices->addAction(tr("All events…")), &QAction::triggered, this, [this] { emit reportWanted(true); });
     report->setMenu(choices);
-    buttons->insertWidget(buttons->count() - 2, report);
+    buttons->insertWidget(buttons->count() - 1, report);
     bindSwitches(this, {{limits_button_, [this](bool on) { showThresholds(on); }},
                         {zones_button_, [this](bool on) { showZones(on); }}});
     layout()->addWidget(line);

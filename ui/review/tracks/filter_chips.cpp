@@ -234,6 +234,7 @@ void FilterChips::fillEvents(QVBoxLayout& rows) {
     for (const EventKind kind : allEventKinds()) {
         const int count =
             doings_ ? countOfTracks(*doings_, [&](const TrackDoings& did) { return did.events.contains(kind); }) : 0;
+        if (doings_ && count == 0 && !filter_.events.contains(kind)) continue;  // the list would be long
         auto* box = new QCheckBox(QStringLiteral("%1   %2").arg(QLatin1String(eyrie::nameOf(kind))).arg(count));
         box->setChecked(filter_.events.contains(kind));
         bindCommands(

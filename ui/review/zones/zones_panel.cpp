@@ -11,6 +11,7 @@
 #include <QTableView>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "review/zones/zone_colours.h"
 #include "review/zones/zones_model.h"
@@ -23,7 +24,7 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr int kMostHeight = 190;  ///< px: the events above are what one looks at
+constexpr int kMostRows = 5;  ///< the events above are what one looks at
 constexpr int kSwatchIcon = 14;
 
 }  // namespace
@@ -37,7 +38,7 @@ ZonesPanel::ZonesPanel(ZonesModel* model, const WindowActions& actions, QWidget*
     auto* rows = new QVBoxLayout(this);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(2);
-    setMaximumHeight(kMostHeight);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
     hint_->setWordWrap(true);
     hint_->setContentsMargins(6, 2, 6, 2);
     hint_->setTextFormat(Qt::PlainText);
@@ -160,6 +161,9 @@ void ZonesPanel::askForFile(bool reading) {
 void ZonesPanel::enableButtons() {
     remove_->setEnabled(currentId() != 0);
     table_->setVisible(model_->rowCount() > 0);
+    const int rows = std::clamp(model_->rowCount(), 1, kMostRows);
+    table_->setFixedHeight(table_->horizontalHeader()->sizeHint().height() +
+                           rows * table_->verticalHeader()->defaultSectionSize() + 2 * table_->frameWidth());
     hint_->setVisible(model_->rowCount() == 0);
 }
 
