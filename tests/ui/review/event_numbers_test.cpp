@@ -1,3 +1,4 @@
+#include <QTableView>
 #include <QTest>
 #include <map>
 #include <tuple>
