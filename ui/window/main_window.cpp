@@ -194,6 +194,8 @@ void MainWindow::buildWorkspaces() {
             docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
         labelling_->setActive(kind == WorkspaceKind::label);
         events_->setActive(kind != WorkspaceKind::label);
+        // Zones are drawn and tracks narrowed by what they did, whichever list is in front.
+        if (kind == WorkspaceKind::review) events_->review().setWanted();
         evaluation_->enterWorkspace(kind);
     });
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());

@@ -24,7 +24,9 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr int kMostRows = 5;  ///< the events above are what one looks at
+// The events above are what one looks at.
+constexpr int kLeastRows = 2;
+constexpr int kMostRows = 5;
 constexpr int kSwatchIcon = 14;
 
 }  // namespace
@@ -161,10 +163,12 @@ void ZonesPanel::askForFile(bool reading) {
 void ZonesPanel::enableButtons() {
     remove_->setEnabled(currentId() != 0);
     table_->setVisible(model_->rowCount() > 0);
-    const int rows = std::clamp(model_->rowCount(), 1, kMostRows);
-    table_->setFixedHeight(table_->horizontalHeader()->sizeHint().height() +
-                           rows * table_->verticalHeader()->defaultSectionSize() + 2 * table_->frameWidth());
-    hint_->setVisible(model_->rowCount() == 0);
+    const auto height = [this](int rows) {
+        return table_->horizontalHeader()->sizeHint().height() + rows * table_->verticalHeader()->defaultSectionSize() +
+               2 * table_->frameWidth();
+    };
+    table_->setMinimumHeight(height(std::clamp(model_->rowCount(), 1, kLeastRows)));
+    table_->setMaximumHeight(height(std::clamp(model_->rowCount(), 1, kMostRows)));
 }
 
 void ZonesPanel::setHint(const QString& text) {
