@@ -168,6 +168,7 @@ void ZonesPanel::enableButtons() {
                2 * table_->frameWidth();
     };
     table_->setMinimumHeight(height(std::clamp(model_->rowCount(), 1, kLeastRows)));
+    hint_->setVisible(model_->rowCount() == 0);
     table_->setMaximumHeight(height(std::clamp(model_->rowCount(), 1, kMostRows)));
 }
 
