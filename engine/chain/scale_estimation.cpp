@@ -187,8 +187,10 @@ std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first
     return outcomes.empty() ? std::nullopt : estimateFrom(outcomes);
 }
 
-bool isFallbackScale(const SceneScale& scale) {
-    return !scale.gsd_known && scale.gsd_m_per_px == SceneScale().gsd_m_per_px;
+ScaleBasis basisOf(const SceneScale& scale, const std::optional<ScaleEstimate>& estimated) {
+    if (scale.gsd_known) return {ScaleOrigin::given};
+    if (!estimated) return {ScaleOrigin::assumed};
+    return {ScaleOrigin::estimated, estimated->uncertainty, estimated->vehicles};
 }
 
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,

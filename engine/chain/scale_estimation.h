@@ -6,6 +6,7 @@
 #include <string>
 
 #include "chain/recording/run_recorder.h"
+#include "core/values/scale_basis.h"
 #include "io/video/frame_source.h"
 
 namespace eyrie {
@@ -41,7 +42,8 @@ SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions
                        const std::stop_token& stop, const ScaleProgress& told = {},
                        std::optional<ScaleEstimate>* estimated = nullptr, std::string* why_not = nullptr);
 
-/// Whether a scale is neither given nor estimated but the fallback of chooseScale().
-bool isFallbackScale(const SceneScale& scale);
+/// Where a scale comes from that chooseScale() chose, with what it said about its estimate. A known one counts as
+/// given: that it is the metadata's only knows who took it from there.
+ScaleBasis basisOf(const SceneScale& scale, const std::optional<ScaleEstimate>& estimated);
 
 }  // namespace eyrie

@@ -5,6 +5,7 @@ namespace eyrie {
 RegistrationOptions RegistrationOptions::thesis() {
     RegistrationOptions options;
     options.corners.favour_movers = false;
+    options.corners.max_corners = 50'000;  // the text knows no limit: about 22,000 vectors an image (table 7.11)
     options.feature_search = false;
     return options;
 }

@@ -51,7 +51,7 @@ TEST(RunFacts, aRunWithTracksSaysHowMany) {
     EXPECT_EQ(found.counts.tracks, 2);
     EXPECT_EQ(found.counts.unregistered, 0);
     EXPECT_EQ(found.frames_planned, 40);
-    EXPECT_EQ(found.scale_origin, ScaleOrigin::given);
+    EXPECT_EQ(found.scale_basis, ScaleBasis{ScaleOrigin::given});
 }
 
 TEST(RunFacts, theFirstStepThatLeftNothingIsNamed) {
@@ -74,13 +74,15 @@ TEST(RunFacts, theFirstStepThatLeftNothingIsNamed) {
     EXPECT_EQ(facts(source, sceneScale(source.info(), 0.2), options).nothing, NothingFollowed::none_confirmed);
 }
 
-TEST(RunFacts, aScaleNobodyGaveIsAnEstimateOrAFallback) {
-    SceneScale scale;
-    EXPECT_EQ(originOf(scale), ScaleOrigin::fallback);
-    scale.gsd_m_per_px = 0.091;
-    EXPECT_EQ(originOf(scale), ScaleOrigin::estimated);
-    scale.gsd_known = true;
-    EXPECT_EQ(originOf(scale), ScaleOrigin::given);
+TEST(RunFacts, theScaleComesFromWhereTheRunWasToldItDoes) {
+    const test::TemporaryFolder folder;
+    const test::MovingScene scene;
+    test::MemorySource source(scene);
+    RunRecord planned = plannedRun(source.info(), {0.21, 25, false}, {}, "default");
+    planned.scale_basis = {ScaleOrigin::estimated, 1.2, 14};
+    const RunRecorder recorder(folder / "p.eyrie", planned, {});
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    EXPECT_EQ(factsOf(project, *RunStore(project).run(1)).scale_basis, planned.scale_basis);
 }
 
 TEST(RunFacts, aRunThatNobodyWritesAnyMoreWasStopped) {

@@ -384,7 +384,9 @@ TEST_F(StoppedRun, ThatFailedGoesOnWhenTheCauseIsGone) {
     test::MemorySource source = clip();
     const SceneScale scale = sceneScale(source.info(), 0.2);
     {
-        RunRecorder recorder(failed, plannedRun(source.info(), scale, {}, "default"), {}, &disk);
+        RunRecord planned = plannedRun(source.info(), scale, {}, "default");
+        planned.scale_basis = {ScaleOrigin::metadata};
+        RunRecorder recorder(failed, planned, {}, &disk);
         const RunRecord run = recorder.finish(ChainRun({}, scale).run(source, {}, recorder, {}));
         EXPECT_EQ(run.state, RunState::failed);
         EXPECT_EQ(run.message, "no space left");
@@ -392,6 +394,7 @@ TEST_F(StoppedRun, ThatFailedGoesOnWhenTheCauseIsGone) {
     const Resumed resumed = resume(failed, 1);
     EXPECT_EQ(resumed.run.state, RunState::finished);
     EXPECT_EQ(resumed.run.message, "");
+    EXPECT_EQ(resumed.run.scale_basis, ScaleBasis{ScaleOrigin::metadata});
     expectSame(whole, failed);
 }
 

@@ -30,6 +30,8 @@ TEST(ScaleEstimation, findsTheScaleOfRealTraffic) {
     EXPECT_EQ(estimate->gsd_m_per_px, scale.gsd_m_per_px);
     EXPECT_GT(estimate->uncertainty, 1.1);
     EXPECT_LT(estimate->uncertainty, 1.3) << "many cars drive there";
+    const ScaleBasis basis{ScaleOrigin::estimated, estimate->uncertainty, estimate->vehicles};
+    EXPECT_EQ(basisOf(scale, estimate), basis);
 }
 
 TEST(ScaleEstimation, findsTheScaleOfARenderedSceneAndIsWideWhereFewVehiclesDrive) {
@@ -58,7 +60,9 @@ TEST(ScaleEstimation, aHouseThatIsFlownRoundIsNoTraffic) {
 
 TEST(ScaleEstimation, aGivenScaleIsTakenAsItIs) {
     test::MemorySource source((test::MovingScene()));
-    const SceneScale scale = chooseScale(source, {}, ChainOptions{}, 0.31, {});
+    std::optional<ScaleEstimate> estimate;
+    const SceneScale scale = chooseScale(source, {}, ChainOptions{}, 0.31, {}, {}, &estimate);
+    EXPECT_EQ(basisOf(scale, estimate), ScaleBasis{ScaleOrigin::given});
     EXPECT_TRUE(scale.gsd_known);
     EXPECT_DOUBLE_EQ(scale.gsd_m_per_px, 0.31);
 }
@@ -68,7 +72,10 @@ TEST(ScaleEstimation, withoutTrafficItFallsBackAndDoesNotFail) {
     scene.vehicles.clear();
     scene.frames = 20;
     test::MemorySource source(scene);
-    EXPECT_DOUBLE_EQ(chooseScale(source, {}, ChainOptions{}, 0, {}).gsd_m_per_px, SceneScale{}.gsd_m_per_px);
+    std::optional<ScaleEstimate> estimate;
+    const SceneScale scale = chooseScale(source, {}, ChainOptions{}, 0, {}, {}, &estimate);
+    EXPECT_DOUBLE_EQ(scale.gsd_m_per_px, SceneScale{}.gsd_m_per_px);
+    EXPECT_EQ(basisOf(scale, estimate), ScaleBasis{ScaleOrigin::assumed});
 }
 
 TEST(ScaleEstimation, aStandingQueueAndOneRiderDoNotSettleTheScaleOfAllThatDrivesLater) {
@@ -87,7 +94,7 @@ TEST(ScaleEstimation, withoutAClassifierARunThatNeedsNoneFallsBackAndSaysWhy) {
     options.detection.method = DetectionMethod::gradient;
     std::string why_not;
     const SceneScale scale = chooseScale(source, {}, options, 0, {}, {}, nullptr, &why_not);
-    EXPECT_TRUE(isFallbackScale(scale));
+    EXPECT_EQ(basisOf(scale), ScaleBasis{ScaleOrigin::assumed});
     EXPECT_NE(why_not.find("nowhere.eyriemodel"), std::string::npos) << why_not;
     chooseScale(source, {}, options, 0.3, {}, {}, nullptr, &why_not);
     EXPECT_TRUE(why_not.empty()) << "nothing to look for";

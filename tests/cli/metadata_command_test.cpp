@@ -81,7 +81,21 @@ TEST_F(MetadataCommand, aRunTakesItsScaleFromThemUnlessOneIsGiven) {
         call({"run", shared("aphill_short.ts"), "--frames", "0:5", "--gsd", "0.05", "--project", at("q.eyrie")});
     EXPECT_EQ(given.exit_code, 0) << given.errors;
     EXPECT_THAT(given.errors, Not(HasSubstr("metadata")));
-    EXPECT_THAT(given.output, HasSubstr("0.05 m/px"));
+    EXPECT_THAT(given.output, HasSubstr("0.05 m/px, as given"));
+    EXPECT_THAT(run.output, HasSubstr("m/px, from the video's metadata"));
+    const auto origin = [&](const std::string& project) {
+        return nlohmann::json::parse(call({"info", at(project), "--json"}).output)["runs"][0]["scale_origin"];
+    };
+    EXPECT_EQ(origin("p.eyrie"), "metadata");
+    EXPECT_EQ(origin("q.eyrie"), "given");
+    const auto report =
+        call({"report", "--project", at("p.eyrie"), "--events", "--verdict", "all", "--out", at("e.html")});
+    EXPECT_EQ(report.exit_code, 0) << report.errors;
+    EXPECT_THAT(textOf("e.html"), HasSubstr("m/px, from the video's metadata</td>"));
+    const auto other =
+        call({"report", "--project", at("q.eyrie"), "--events", "--verdict", "all", "--out", at("f.html")});
+    EXPECT_EQ(other.exit_code, 0) << other.errors;
+    EXPECT_THAT(textOf("f.html"), HasSubstr("0.05 m/px, as given; the video's metadata (the frame corners) say 0.04"));
 }
 
 }  // namespace eyrie

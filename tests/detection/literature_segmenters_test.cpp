@@ -196,6 +196,10 @@ TEST(SegmentationViews, CutTheRoiIntoSegments) {
     EXPECT_EQ(segmentsOf(cut), 2);
     EXPECT_GT(cv::countNonZero(cut), 100);
     EXPECT_EQ(cv::norm(cut, graphCutSegments(roi), cv::NORM_INF), 0);
+    const cv::Mat contours = contourMap(roi);
+    EXPECT_EQ(contours.size(), roi.image.size());
+    EXPECT_GT(cv::countNonZero(contours), 20);
+    EXPECT_EQ(drawContourMap(roi.image, contours).type(), CV_8UC3);
     const cv::Mat drawn = drawSegments(roi.image, cut);
     EXPECT_EQ(drawn.type(), CV_8UC3);
     EXPECT_EQ(drawn.size(), roi.image.size());
@@ -209,6 +213,7 @@ TEST(SegmentationViews, TakeWhateverRoiComes) {
             EXPECT_EQ(superpixelSegments(roi, kContractScale).size(), roi.image.size());
             EXPECT_EQ(watershedSegments(roi).size(), roi.image.size());
             EXPECT_EQ(graphCutSegments(roi).size(), roi.image.size());
+            EXPECT_EQ(contourMap(roi).size(), roi.image.size());
         }
     }
     MotionRoi pixel;
@@ -219,6 +224,7 @@ TEST(SegmentationViews, TakeWhateverRoiComes) {
     EXPECT_EQ(segmentsOf(graphCutSegments(pixel)), 1);
     EXPECT_TRUE(superpixelSegments({}, kContractScale).empty());
     EXPECT_TRUE(graphCutSegments({}).empty());
+    EXPECT_TRUE(contourMap({}).empty());
 }
 
 }  // namespace eyrie

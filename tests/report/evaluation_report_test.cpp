@@ -23,6 +23,8 @@ RunEvaluation sample() {
     e.run.id = 3;
     e.run.name = "a <b> & c";
     e.run.sequence = {.path = "/videos/street.mp4", .size = {320, 240}, .frame_count = 10, .frame_rate_hz = 5};
+    e.run.scale = {0.0335, 5, true};
+    e.run.scale_basis = {ScaleOrigin::metadata};
     e.run.frames_done = 10;
     e.parameters = parameterValues(builtInPreset("default"));
     for (auto& [name, value] : e.parameters)
@@ -88,6 +90,7 @@ TEST(EvaluationReport, isOneFileWithEverything) {
     EXPECT_THAT(html, HasSubstr("too slow"));
     EXPECT_THAT(html, HasSubstr("5 → 6"));
     EXPECT_THAT(html, HasSubstr("0.8750"));
+    EXPECT_THAT(html, HasSubstr("0.0335 m/px, from the video's metadata"));
 }
 
 TEST(EvaluationReport, parametersThatDifferComeFirst) {

@@ -56,6 +56,7 @@ class ReviewReport : public testing::Test {
             .path = "/nowhere/a <b>.mp4", .size = kSize, .frame_count = kLength, .frame_rate_hz = kTempo_hz};
         run.last_frame = frames - 1;
         run.scale = {0.2, kTempo_hz, gsd_known};
+        if (!gsd_known) run.scale_basis = {ScaleOrigin::estimated, 1.198, 14};
         ProjectFile::create(path_);
         ResultWriter writer(path_, run, {{"motion.min_age", "9"}});
         for (int frame = 0; frame < frames; ++frame) {
@@ -129,7 +130,7 @@ TEST_F(ReviewReport, TellsTheChosenEventsWithAllThatIsKnownOfThem) {
                                    HasSubstr("Ada, 2026-11-21T08:00:00Z"), HasSubstr("relevant")));
     EXPECT_THAT(report.html,
                 AllOf(HasSubstr("abc123"), HasSubstr("2026-11-22T09:00:00Z"), HasSubstr("the machine, run 1"),
-                      HasSubstr("the start time given"), HasSubstr("motion.min_age"), HasSubstr("0.2 m/px")));
+                      HasSubstr("the start time given"), HasSubstr("motion.min_age"), HasSubstr("0.2 m/px, as given")));
     EXPECT_THAT(report.html, Not(HasSubstr("<h3>1. appears")));
     // It stops where xAt does: frame 227 at 25 Hz, 9 s and some after 22:08:22.
     EXPECT_THAT(report.html, HasSubstr("2009-01-12T22:08:3"));
@@ -154,7 +155,9 @@ TEST_F(ReviewReport, WithoutAKnownScaleNobodyIsToldMetres) {
     const std::string html = htmlOf(gather());
     EXPECT_THAT(html, Not(HasSubstr(" km/h</td>")));
     EXPECT_THAT(html, HasSubstr("px/frame"));
-    EXPECT_THAT(html, HasSubstr("was estimated from the traffic"));
+    EXPECT_THAT(html,
+                HasSubstr("not known; the search worked with 0.2 m/px, estimated from 14 vehicles, right to within "
+                          "a factor of 1.2, and no speeds in km/h are told"));
     EXPECT_THAT(html, HasSubstr("Clock</b></td><td>not known"));
 }
 

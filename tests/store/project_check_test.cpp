@@ -109,7 +109,9 @@ TEST_F(CheckTest, FindsWhatDoesNotBelongInAProject) {
 TEST_F(CheckTest, FindsImpossibleValues) {
     for (const char* command :
          {"UPDATE run SET gsd_m_per_px = 0", "UPDATE sequence SET frame_count = 2147483647",
-          "UPDATE run SET state = 'asleep'", "UPDATE frame SET width = -1 WHERE frame = 3",
+          "UPDATE run SET state = 'asleep'", "UPDATE run SET scale_origin = 'perhaps'",
+          "UPDATE run SET scale_origin = 'estimated'", "UPDATE run SET scale_uncertainty = 0.5",
+          "UPDATE run SET scale_vehicles = -1", "UPDATE frame SET width = -1 WHERE frame = 3",
           "UPDATE motion_vectors SET data = x'0102' WHERE frame = 3",
           "UPDATE stationary_corners SET data = x'ff02' WHERE frame = 3",
           "UPDATE labelled_object SET keyframes = x'0901' WHERE id = 2",
@@ -119,6 +121,10 @@ TEST_F(CheckTest, FindsImpossibleValues) {
         change(command);
         EXPECT_EQ(itemOf("values").health, Health::damaged) << command;
     }
+    std::filesystem::remove(path_);
+    test::writeFullProject(path_);
+    change("UPDATE run SET scale_origin = 'perhaps' WHERE id = 1");
+    expectDamage("values", "where the scale of a run comes from, or how sure it is, is impossible (1 in run)");
 }
 
 TEST_F(CheckTest, FindsRowsThatBelongToNothing) {
@@ -174,6 +180,12 @@ TEST_F(CheckTest, AnOlderProjectIsHealthyAndStaysAsItIs) {
     EXPECT_TRUE(checkProject(path_).healthy());
     SQLite::Database database(path_.string(), SQLite::OPEN_READONLY);
     EXPECT_EQ(schema::numberOf(database), 1);
+}
+
+TEST_F(CheckTest, AProjectThatDoesNotKnowOriginsOfScalesIsHealthy) {
+    test::writeRunsOfSchemaEleven(path_);
+    EXPECT_EQ(itemOf("values").health, Health::good) << itemOf("values").words;
+    EXPECT_EQ(itemOf("tables").health, Health::good) << itemOf("tables").words;
 }
 
 TEST_F(CheckTest, WhatIsNoProjectIsRefused) {

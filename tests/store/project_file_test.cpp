@@ -134,6 +134,9 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP VIEW v_track_states",
                   "DROP VIEW v_tracks",
                   "DROP VIEW v_runs",
+                  "ALTER TABLE run DROP COLUMN scale_origin",
+                  "ALTER TABLE run DROP COLUMN scale_uncertainty",
+                  "ALTER TABLE run DROP COLUMN scale_vehicles",
                   "ALTER TABLE frame DROP COLUMN picture",
                   "ALTER TABLE frame DROP COLUMN reason_count",
                   "ALTER TABLE frame DROP COLUMN reason_of",
@@ -295,6 +298,16 @@ TEST_F(ProjectFileTest, SentencesOfOlderProjectsBecomeWordsWithFigures) {
     EXPECT_EQ(describe(read[2].failure), "blurred picture: too few corners tracked (7 of 900)");
     EXPECT_EQ(read[sentences.size()].failure, RegistrationFailure{});
     EXPECT_EQ(read[sentences.size() + 1].failure, RegistrationFailure{});
+}
+
+TEST_F(ProjectFileTest, RunsOfOlderProjectsTellWhereTheirScaleComesFromAsFarAsCanBe) {
+    test::writeRunsOfSchemaEleven(path_);
+    ProjectFile project = ProjectFile::open(path_);
+    test::expectOriginsOfSchemaEleven(project);
+    SQLite::Database other(path_.string(), SQLite::OPEN_READONLY);
+    EXPECT_EQ(
+        other.execAndGet("SELECT group_concat(scale_origin, ' ') FROM (SELECT * FROM v_runs ORDER BY run)").getString(),
+        "given assumed estimated given");
 }
 
 TEST_F(ProjectFileTest, ViewsTellTracksInUnitsOfPeople) {

@@ -115,6 +115,29 @@ TEST_F(RepairTest, SentencesOfAnOlderProjectBecomeWords) {
               "too few corners 12/40");
 }
 
+TEST_F(RepairTest, AnOlderProjectTellsWhereItsScalesComeFromAsIfItHadBeenOpened) {
+    const auto old = folder_ / "old.eyrie";
+    test::writeRunsOfSchemaEleven(old);
+    const RepairReport report = repairProject(old, fresh_);
+    for (const std::string& line : report.lost) EXPECT_THAT(line, testing::Not(HasSubstr("scale")));
+    ProjectFile project = ProjectFile::open(fresh_);
+    test::expectOriginsOfSchemaEleven(project);
+}
+
+TEST_F(RepairTest, ADamagedOriginOfAScaleDoesNotCostTheRun) {
+    for (const char* damage : {"scale_origin = 'perhaps'", "scale_uncertainty = 0.5", "scale_vehicles = -3",
+                               "scale_uncertainty = 'wide'", "scale_origin = 'assumed'"}) {
+        test::writeBytes(path_, whole_);
+        SQLite::Database(path_.string(), SQLite::OPEN_READWRITE).exec(std::string("UPDATE run SET ") + damage);
+        const RepairReport report = repair(test::bytesOf(path_));
+        EXPECT_THAT(report.lost, testing::Contains("where the scale of run 1 came from")) << damage;
+        ProjectFile project = ProjectFile::open(fresh_);
+        const auto run = RunStore(project).run(1);
+        EXPECT_EQ(run->name, "first try") << damage;
+        EXPECT_EQ(run->scale_basis, ScaleBasis{ScaleOrigin::given}) << damage;
+    }
+}
+
 TEST_F(RepairTest, AnythingAtTheBeginningOfTheFileCanBeLost) {
     for (const auto& [at, length] : std::vector<std::pair<std::size_t, std::size_t>>{{0, 16},
                                                                                      {16, 2},

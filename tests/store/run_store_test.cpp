@@ -88,6 +88,30 @@ TEST_F(RunStoreTest, RunsKeepWhatTheyWereStartedWith) {
     EXPECT_FALSE(store.run(-3).has_value());
 }
 
+TEST_F(RunStoreTest, RunsKeepWhereTheirScaleComesFromAndHowSureItIs) {
+    ProjectFile project = ProjectFile::create(path_);
+    const RunStore store(project);
+    const std::pair<SceneScale, ScaleBasis> cases[] = {
+        {{0.3, 25, true}, {ScaleOrigin::given}},
+        {{0.0335, 25, true}, {ScaleOrigin::metadata}},
+        {{0.21, 25, false}, {ScaleOrigin::estimated, 1.198, 14}},
+        {{0.25, 25, false}, {ScaleOrigin::estimated, 1.5, 3}},  // as much as is assumed elsewhere
+        {{0.25, 25, false}, {ScaleOrigin::assumed}}};
+    for (const auto& [scale, basis] : cases) {
+        RunRecord run = sampleRun();
+        run.scale = scale;
+        run.scale_basis = basis;
+        const ResultWriter writer(path_, run, {});
+        EXPECT_EQ(store.run(writer.runId())->scale_basis, basis) << nameOf(basis.origin);
+    }
+}
+
+TEST_F(RunStoreTest, ARunThatDoesNotSayWhereAKnownScaleComesFromWasGivenIt) {
+    const int run = test::writeSampleProject(path_, 1);
+    ProjectFile project = ProjectFile::open(path_);
+    EXPECT_EQ(RunStore(project).run(run)->scale_basis, ScaleBasis{ScaleOrigin::given});
+}
+
 TEST_F(RunStoreTest, SummariesAgreeWithTheFrames) {
     const int run = test::writeSampleProject(path_, 5);
     ProjectFile project = ProjectFile::open(path_);

@@ -1,9 +1,11 @@
 #include "store/samples.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "store/project/schema.h"
 #include "store/runs/result_writer.h"
 
 namespace eyrie::test {
@@ -192,6 +194,30 @@ int writeSampleProject(const std::filesystem::path& path, int frames, const Samp
     for (int frame = 0; frame < frames; ++frame) writer.write(sampleFrame(frame, size));
     writer.finish(RunState::finished, "");
     return writer.runId();
+}
+
+void writeRunsOfSchemaEleven(const std::filesystem::path& path) {
+    SQLite::Database database(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    schema::migrate(database, schema::migrations().first(11));
+    database.exec("PRAGMA application_id = " + std::to_string(schema::kApplicationId));
+    database.exec(
+        "INSERT INTO sequence (id, path, width, height, frame_count, frame_rate_hz) "
+        "VALUES (1, '/videos/old.mp4', 64, 48, 20, 25)");
+    for (const char* scale : {"0.3, 1", "0.25, 0", "0.091, 0", "0.25, 1"}) {
+        database.exec(std::string("INSERT INTO run (sequence_id, name, started_utc, engine_version, preset, "
+                                  "gsd_m_per_px, gsd_known, frame_rate_hz, first_frame, last_frame, state, message) "
+                                  "VALUES (1, 'old', '', '', '', ") +
+                      scale + ", 25, 0, 19, 'stopped', '')");
+    }
+}
+
+void expectOriginsOfSchemaEleven(ProjectFile& project) {
+    const RunStore store(project);
+    const ScaleOrigin expected[] = {ScaleOrigin::given, ScaleOrigin::assumed, ScaleOrigin::estimated,
+                                    ScaleOrigin::given};
+    for (int run = 1; run <= 4; ++run) {
+        EXPECT_EQ(store.run(run)->scale_basis, ScaleBasis{expected[run - 1]}) << run;
+    }
 }
 
 void readEverything(const std::filesystem::path& path) {

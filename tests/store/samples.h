@@ -34,6 +34,13 @@ void expectSame(const FrameResult& read, const FrameResult& written);
 /// A project with one finished run of `frames` frames; answers the run's id.
 int writeSampleProject(const std::filesystem::path& path, int frames, const SampleSize& size = {});
 
+/// A project as schema 11 wrote it, with runs whose scale is known (1), assumed (2), estimated (3), and known as much
+/// as is assumed elsewhere (4).
+void writeRunsOfSchemaEleven(const std::filesystem::path& path);
+
+/// What its runs tell about their scales once it was brought up to date.
+void expectOriginsOfSchemaEleven(ProjectFile& project);
+
 /// Reads everything the project holds, throwing Error where it cannot be read.
 void readEverything(const std::filesystem::path& path);
 

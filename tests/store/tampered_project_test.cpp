@@ -68,6 +68,12 @@ TEST_F(TamperedProject, NumbersThatCannotBeAreRefused) {
     const std::pair<const char*, const char*> cases[] = {
         {"UPDATE run SET gsd_m_per_px = 0", "scale"},
         {"UPDATE run SET gsd_m_per_px = 'wide'", "scale"},
+        {"UPDATE run SET scale_origin = 'perhaps'", "unknown word \"perhaps\""},
+        {"UPDATE run SET gsd_known = 0, scale_origin = 'estimated', scale_uncertainty = 0.5",
+         "uncertainty of its scale"},
+        {"UPDATE run SET gsd_known = 0, scale_origin = 'estimated', scale_uncertainty = 9e999",
+         "uncertainty of its scale"},
+        {"UPDATE run SET gsd_known = 0, scale_origin = 'estimated', scale_vehicles = -3", "number of vehicles"},
         {"UPDATE run SET frame_rate_hz = -25", "frame rate"},
         {"UPDATE run SET frame_rate_hz = 9e999", "frame rate"},
         {"UPDATE run SET last_frame = 2147483647", "frames outside"},

@@ -45,17 +45,8 @@ QString unregisteredText(const RunCounts& counts) {
 
 }  // namespace
 
-QString scaleText(const SceneScale& scale) {
-    const QString value = QLocale().toString(scale.gsd_m_per_px, 'g', 3);
-    switch (originOf(scale)) {
-        case ScaleOrigin::given:
-            return tr("%1 m/px").arg(value);
-        case ScaleOrigin::estimated:
-            return tr("about %1 m/px, estimated from the traffic").arg(value);
-        case ScaleOrigin::fallback:
-            break;
-    }
-    return tr("%1 m/px, assumed (the traffic shows none)").arg(value);
+QString scaleText(const RunRecord& run) {
+    return QString::fromStdString(describe(run.scale.gsd_m_per_px, run.scale_basis));
 }
 
 QString whyNoTracks(const RunFacts& facts) {
@@ -98,7 +89,7 @@ QString runSummaryText(const RunRecord& run, const RunFacts& facts) {
         sentences << tr("%1: %2.").arg(howItEnded(run, facts),
                                        tracks == 1 ? tr("1 track") : tr("%1 tracks").arg(QLocale().toString(tracks)));
     if (facts.counts.unregistered > 0) sentences << unregisteredText(facts.counts) + QLatin1Char('.');
-    sentences << tr("Scale: %1.").arg(scaleText(run.scale));
+    sentences << tr("Scale: %1.").arg(scaleText(run));
     return sentences.join(QLatin1Char(' '));
 }
 

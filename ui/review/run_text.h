@@ -7,8 +7,8 @@
 /// How a run ended, in words.
 namespace eyrie::ui {
 
-/// "0.08 m/px", "about 0.091 m/px, estimated from the traffic", "0.25 m/px, assumed".
-QString scaleText(const SceneScale& scale);
+/// The scale of a run, where it comes from and how sure it is, as all of Eyrie words it (core/values/scale_basis.h).
+QString scaleText(const RunRecord& run);
 
 /// "Run 2 finished: 118 tracks in 682 frames. 12 frames could not be registered (too few corners 9, cut 3). Scale: …";
 /// without tracks it says why.

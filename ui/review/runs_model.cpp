@@ -19,14 +19,15 @@ double secondsOfVideo(const RunRecord& run) {
 }
 
 /// Short, for a column: "0.080", "≈ 0.091", "unknown".
-QString gsdText(const SceneScale& scale) {
-    const QString value = numberText(scale.gsd_m_per_px, 3);
-    switch (originOf(scale)) {
+QString gsdText(const RunRecord& run) {
+    const QString value = numberText(run.scale.gsd_m_per_px, 3);
+    switch (run.scale_basis.origin) {
         case ScaleOrigin::given:
+        case ScaleOrigin::metadata:
             return value;
         case ScaleOrigin::estimated:
             return QStringLiteral("≈ ") + value;
-        case ScaleOrigin::fallback:
+        case ScaleOrigin::assumed:
             break;
     }
     return QCoreApplication::translate("RunsModel", "unknown");
@@ -100,7 +101,7 @@ QString RunsModel::textOf(const RunRecord& run, int column) const {
         case preset_column:
             return QString::fromStdString(run.preset);
         case gsd_column:
-            return gsdText(run.scale);
+            return gsdText(run);
         case video_column:
             return fileName(run);
         default:
@@ -143,7 +144,7 @@ QString RunsModel::toolTipOf(const RunRecord& run) const {
                       tr("frames %1 to %2, %3 processed").arg(run.first_frame).arg(run.last_frame).arg(run.frames_done),
                       tr("%1 frames/s, Eyrie %2")
                           .arg(numberText(run.scale.frame_rate_hz, 2), QString::fromStdString(run.engine_version))};
-    lines << tr("Scale: %1").arg(scaleText(run.scale));
+    lines << tr("Scale: %1").arg(scaleText(run));
     if (run.live && run.id != live_run_) lines << tr("Written by %1").arg(QString::fromStdString(run.writer));
     if (!run.message.empty()) lines << QString::fromStdString(run.message);
     return lines.join(QLatin1Char('\n'));
@@ -156,7 +157,9 @@ QString RunsModel::helpOf(int column) const {
         case length_column:
             return tr("Length of the processed part of the video");
         case gsd_column:
-            return tr("Ground sampling distance in metres per pixel; ≈: estimated from the traffic");
+            return tr(
+                "Ground sampling distance in metres per pixel; ≈: estimated from the traffic. Point at a run to see "
+                "where it comes from");
         default:
             return {};
     }

@@ -159,7 +159,10 @@ void ProjectSession::useRun(std::optional<int> run_id) {
 void ProjectSession::adoptGsd() {
     const RunRecord* run = current_run_ ? findRun(*current_run_) : nullptr;
     if (run == nullptr) return;
-    settings_.gsd_m_per_px = run->scale.gsd_known ? run->scale.gsd_m_per_px : 0;
+    if (run->scale.gsd_known)
+        settings_.useGsd(run->scale.gsd_m_per_px, run->scale_basis.origin);
+    else
+        settings_.useGsd(0);
     emit changed(SessionChange::scale);
 }
 

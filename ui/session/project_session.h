@@ -77,6 +77,8 @@ class ProjectSession : public QObject {
     /// The run that this window is making, if it is one of runs().
     const RunRecord* ownRun() const;
     std::optional<int> currentRun() const { return current_run_; }
+    /// The record of the current run; null without one.
+    const RunRecord* shownRun() const { return current_run_ ? findRun(*current_run_) : nullptr; }
     /// Lists of the current run; null until they were read.
     const std::shared_ptr<const RunData>& runData() const { return run_data_; }
     /// The scale that numbers on screen are given with: that of the current run, else of the settings.

@@ -119,7 +119,7 @@ void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep
         // A run over the former video may still be stopping: its frames are not of this one.
         setFollowing(false);
         run_project_.clear();
-        settings_.gsd_m_per_px = video.gsd_m_per_px;
+        settings_.useGsd(video.gsd_m_per_px);
         missing_.reset();
     }
     settings_.range = {};

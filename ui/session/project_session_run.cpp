@@ -27,6 +27,7 @@ void ProjectSession::startRun() {
     request.options = settings_.options;
     request.preset = settings_.preset;
     request.gsd_m_per_px = settings_.gsd_m_per_px;
+    request.gsd_origin = settings_.gsd_origin;
     request.range = settings_.range;
     beginRun(std::move(request));
 }

@@ -49,9 +49,13 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
                           .run(*source, resumed.range(), recorder, stop, true, resumed.start);
             recorder.finish(summary);
         } else {
-            const SceneScale scale = chooseScale(*source, request.range, request.options, request.gsd_m_per_px, stop,
-                                                 [&feed](const RunProgress& progress) { feed.onProgress(progress); });
+            std::optional<ScaleEstimate> estimated;
+            const SceneScale scale = chooseScale(
+                *source, request.range, request.options, request.gsd_m_per_px, stop,
+                [&feed](const RunProgress& progress) { feed.onProgress(progress); }, &estimated);
             RunRecord record = plannedRun(source->info(), scale, request.range, request.preset);
+            record.scale_basis = basisOf(scale, estimated);
+            if (request.gsd_m_per_px > 0) record.scale_basis.origin = request.gsd_origin;
             record.name = request.name;
             record.sequence.path = request.media.identity;
             RunRecorder recorder(request.project, record, request.options, &feed);

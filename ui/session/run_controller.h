@@ -21,8 +21,9 @@ struct RunRequest {
     std::filesystem::path project;
     ChainOptions options;
     std::string preset;
-    std::string name;         ///< for the list; may be empty
-    double gsd_m_per_px = 0;  ///< ≤ 0: not known
+    std::string name;                             ///< for the list; may be empty
+    double gsd_m_per_px = 0;                      ///< ≤ 0: not known
+    ScaleOrigin gsd_origin = ScaleOrigin::given;  ///< of a GSD that is known
     FrameRange range;
     int trail_length = 40;
     int resume_run = 0;  ///< > 0: goes on with this run of the project; options, scale, range and name are the run's

@@ -4,6 +4,7 @@
 
 #include "chain/chain_options.h"
 #include "chain/chain_run.h"
+#include "core/values/scale_basis.h"
 
 namespace eyrie::ui {
 
@@ -11,8 +12,15 @@ namespace eyrie::ui {
 struct RunSettings {
     ChainOptions options = builtInPreset("default");
     std::string preset = "default";
-    double gsd_m_per_px = 0;  ///< 0: not known
+    double gsd_m_per_px = 0;                      ///< 0: not known
+    ScaleOrigin gsd_origin = ScaleOrigin::given;  ///< of a GSD that is known: `given` or `metadata`
     FrameRange range;
+
+    /// Another GSD, with where it comes from.
+    void useGsd(double value, ScaleOrigin origin = ScaleOrigin::given) {
+        gsd_m_per_px = value;
+        gsd_origin = origin;
+    }
 };
 
 }  // namespace eyrie::ui

@@ -214,7 +214,7 @@ void OpenedFiles::becameReady(bool has_results) {
     const bool run_if_needed = std::exchange(run_when_ready_, false);
     const StartOptions asked = std::exchange(start_, {});
     if (asked.gsd_m_per_px > 0) {
-        session_.settings().gsd_m_per_px = asked.gsd_m_per_px;
+        session_.settings().useGsd(asked.gsd_m_per_px);
         parts_.run_bar.refresh();
     }
     rememberProject();

@@ -13,7 +13,8 @@ namespace {
 /// What a run was begun with otherwise than is wished; empty when nothing.
 std::string differenceOf(const RunStore& store, const RunRecord& run, const ResumeWishes& wishes) {
     if (wishes.gsd_m_per_px && !(run.scale.gsd_known && run.scale.gsd_m_per_px == *wishes.gsd_m_per_px)) {
-        return run.scale.gsd_known ? "--gsd " + numberText(run.scale.gsd_m_per_px) : "without --gsd";
+        return run.scale_basis.origin == ScaleOrigin::given ? "--gsd " + numberText(run.scale.gsd_m_per_px)
+                                                            : "without --gsd";
     }
     if (wishes.frame_rate_hz && run.scale.frame_rate_hz != *wishes.frame_rate_hz) {
         return "--fps " + numberText(run.scale.frame_rate_hz);

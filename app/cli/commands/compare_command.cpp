@@ -187,10 +187,11 @@ int compare(const CompareArguments& arguments) {
     GroundTruth truth = readGroundTruth(arguments.ground_truth.source(), video.size);
     FrameRange range = arguments.video.range();
     if (range.last < 0) range.last = video.frame_count - 1;
+    std::optional<ScaleEstimate> estimated;
     std::string no_estimate;
     const SceneScale scale =
         chooseScale(*source, range, planned.front().variant.options, arguments.video.gsd_m_per_px.value_or(0),
-                    interrupt.token(), {}, nullptr, &no_estimate);
+                    interrupt.token(), {}, &estimated, &no_estimate);
     if (!no_estimate.empty())
         report.remarks.push_back("The scale is not estimated, which needs a classifier: " + no_estimate);
 
@@ -199,7 +200,9 @@ int compare(const CompareArguments& arguments) {
     std::optional<Recorders> recorders;
     if (!arguments.project.empty()) {
         if (!keepEarlierState(arguments.project, interrupt.token())) return exit_stopped;
-        recorders.emplace(arguments.project, planned, plannedRun(video, scale, range, arguments.preset.preset));
+        RunRecord like = plannedRun(video, scale, range, arguments.preset.preset);
+        like.scale_basis = basisOf(scale, estimated);
+        recorders.emplace(arguments.project, planned, like);
     }
     ConsoleProgress console("frames");
     FrameIndex reached = range.first - 1;

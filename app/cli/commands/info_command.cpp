@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "chain/scale_estimation.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
 #include "cli/command.h"
@@ -55,8 +54,12 @@ Json factsOf(RunStore& store, const RunRecord& run) {
     facts["gsd_m_per_px"] = run.scale.gsd_known ? Json(run.scale.gsd_m_per_px) : Json(nullptr);
     if (!run.scale.gsd_known) {
         facts["worked_with_m_per_px"] = run.scale.gsd_m_per_px;
-        facts["scale_is_fallback"] = isFallbackScale(run.scale);
+        facts["scale_is_fallback"] = run.scale_basis.origin == ScaleOrigin::assumed;
     }
+    facts["scale_origin"] = nameOf(run.scale_basis.origin);
+    facts["scale_uncertainty"] = run.scale_basis.uncertainty ? Json(*run.scale_basis.uncertainty) : Json(nullptr);
+    facts["scale_vehicles"] = run.scale_basis.vehicles;
+    facts["scale"] = describe(run.scale.gsd_m_per_px, run.scale_basis);
     int confirmed = 0;
     for (const TrackSummary& track : store.tracks(run.id)) confirmed += track.confirmed ? 1 : 0;
     facts["tracks"] = confirmed;
@@ -72,14 +75,6 @@ void printVideo(const Json& facts) {
                 facts["duration_s"].get<double>());
 }
 
-std::string guessText(const Json& run) {
-    char text[80];
-    std::snprintf(text, sizeof text, "scale unknown, %s %.2g m/px",
-                  run["scale_is_fallback"].get<bool>() ? "worked with a fallback of" : "estimated",
-                  run["worked_with_m_per_px"].get<double>());
-    return text;
-}
-
 void printProject(const Json& facts) {
     std::printf("%s\n", facts["file"].get<std::string>().c_str());
     if (facts["runs"].empty()) std::printf("  no runs\n");
@@ -93,10 +88,10 @@ void printProject(const Json& facts) {
                     run["height"].get<int>());
         std::printf("    frames %d to %d, %d of %d done, %d tracks\n", run["first_frame"].get<int>(),
                     run["last_frame"].get<int>(), run["frames_done"].get<int>(), planned, run["tracks"].get<int>());
-        const Json& gsd = run["gsd_m_per_px"];
-        std::printf("    %s, engine %s, preset %s, %s\n", run["started"].get<std::string>().c_str(),
-                    run["engine_version"].get<std::string>().c_str(), run["preset"].get<std::string>().c_str(),
-                    gsd.is_null() ? guessText(run).c_str() : (gsd.dump() + " m/px").c_str());
+        const char* scale = run["gsd_m_per_px"].is_null() ? "scale unknown, worked with " : "";
+        std::printf("    %s, engine %s, preset %s, %s%s\n", run["started"].get<std::string>().c_str(),
+                    run["engine_version"].get<std::string>().c_str(), run["preset"].get<std::string>().c_str(), scale,
+                    run["scale"].get<std::string>().c_str());
     }
     for (const Json& labels : facts["labels"])
         std::printf("  labels of %s: %d objects\n", labels["video"].get<std::string>().c_str(),

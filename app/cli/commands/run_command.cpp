@@ -89,29 +89,37 @@ class ConsoleObserver : public ChainObserver {
     std::unique_ptr<VideoWriter> writer_;
 };
 
-/// The GSD of a run: the given one, else that of the metadata where it can be believed, which is said; 0: none.
-double gsdOf(const FrameSource& source, FrameRange range, const RunArguments& arguments, const std::stop_token& stop) {
-    if (arguments.video.gsd_m_per_px) return *arguments.video.gsd_m_per_px;
-    if (source.info().gsd_m_per_px > 0) return 0;
+/// A scale that is known before anything is looked at.
+struct StatedScale {
+    double gsd_m_per_px = 0;  ///< 0: none
+    ScaleOrigin origin = ScaleOrigin::given;
+};
+
+/// The GSD of a run: the given one, else that of the metadata where it can be believed, which is said.
+StatedScale statedScale(const FrameSource& source, FrameRange range, const RunArguments& arguments,
+                        const std::stop_token& stop) {
+    if (arguments.video.gsd_m_per_px) return {*arguments.video.gsd_m_per_px};
+    if (source.info().gsd_m_per_px > 0) return {};
     const FrameIndex end = source.info().frame_count - 1;
     const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
     const MetadataScale scale = scaleByMetadata(source, range.first, last, stop);
     if (!scale.usable()) {
         if (!arguments.quiet && !scale.why_not.empty())
             std::fprintf(stderr, "the video's metadata (KLV) are not used for the scale: %s\n", scale.why_not.c_str());
-        return 0;
+        return {};
     }
     if (!arguments.quiet)
         std::fprintf(
             stderr, "GSD %s m/px from the video's metadata (%s), known in %d of %d frames; --gsd overrides it\n",
             fixedText(scale.gsd_m_per_px, 4).c_str(), nameOf(scale.source), scale.frames_known, scale.frames_asked);
-    return scale.gsd_m_per_px;
+    return {scale.gsd_m_per_px, ScaleOrigin::metadata};
 }
 
-SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const RunArguments& arguments,
-                   const std::stop_token& stop) {
-    const double gsd = gsdOf(source, range, arguments, stop);
-    if (gsd <= 0 && source.info().gsd_m_per_px <= 0 && !arguments.quiet)
+/// The scale to work with, and where it comes from.
+std::pair<SceneScale, ScaleBasis> scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options,
+                                          const RunArguments& arguments, const std::stop_token& stop) {
+    const StatedScale stated = statedScale(source, range, arguments, stop);
+    if (stated.gsd_m_per_px <= 0 && source.info().gsd_m_per_px <= 0 && !arguments.quiet)
         std::fputs("GSD unknown: estimating the scale from the traffic\n", stderr);
     std::optional<ScaleEstimate> estimated;
     std::string why_not;
@@ -119,7 +127,7 @@ SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& op
     {
         ConsoleProgress console("looks");  // ends its line
         scale = chooseScale(
-            source, range, options, gsd, stop,
+            source, range, options, stated.gsd_m_per_px, stop,
             [&](const RunProgress& progress) {
                 if (!arguments.quiet)
                     console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
@@ -130,7 +138,9 @@ SceneScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& op
     if (!why_not.empty() && !arguments.quiet)
         std::fprintf(stderr, "The scale is not estimated, which needs a classifier: %s\n", why_not.c_str());
     if (estimated && !arguments.quiet) std::fprintf(stderr, "%s\n", estimateText(*estimated).c_str());
-    return scale;
+    ScaleBasis basis = basisOf(scale, estimated);
+    if (scale.gsd_known) basis.origin = stated.origin;
+    return {scale, basis};
 }
 
 /// Said before the work and not after it.
@@ -166,8 +176,9 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     const ChainOptions options = arguments.preset.options();
     const VideoInfo& video = source.info();
     checkRange(range, video);
-    const SceneScale scale = scaleOf(source, range, options, arguments, interrupt.token());
+    const auto [scale, basis] = scaleOf(source, range, options, arguments, interrupt.token());
     RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
+    planned.scale_basis = basis;
     planned.name = arguments.name;
     ConsoleObserver console(arguments, video);
     RunRecorder recorder(project, planned, options, &console);

@@ -34,18 +34,17 @@ std::string speedText(const SceneScale& scale, double px_per_frame) {
 }
 
 std::string scaleText(const RunFacts& facts) {
-    switch (facts.scale_origin) {
+    const std::string scale = describe(facts.gsd_m_per_px, facts.scale_basis);
+    switch (facts.scale_basis.origin) {
         case ScaleOrigin::given:
-            return formatted("%.3g m/px", facts.gsd_m_per_px);
+        case ScaleOrigin::metadata:
+            return scale;
         case ScaleOrigin::estimated:
-            return formatted("GSD unknown, estimated %.2g m/px from the traffic (give --gsd for metres and km/h)",
-                             facts.gsd_m_per_px);
-        case ScaleOrigin::fallback:
+            return "GSD unknown: worked with " + scale + " (give --gsd for metres and km/h)";
+        case ScaleOrigin::assumed:
             break;
     }
-    return formatted(
-        "GSD unknown and the traffic shows none: works with a fallback of %.2g m/px, which may be far off; give --gsd",
-        facts.gsd_m_per_px);
+    return "GSD unknown and the traffic shows none: worked with " + scale + "; give --gsd";
 }
 
 /// "Not registered: 12 frames (too few corners 9, cut 3)"; empty when all were.

@@ -1,7 +1,5 @@
 #include "chain/recording/run_facts.h"
 
-#include "chain/scale_estimation.h"
-
 namespace eyrie {
 namespace {
 
@@ -18,18 +16,13 @@ NothingFollowed firstGap(const RunCounts& counts) {
 
 }  // namespace
 
-ScaleOrigin originOf(const SceneScale& scale) {
-    if (scale.gsd_known) return ScaleOrigin::given;
-    return isFallbackScale(scale) ? ScaleOrigin::fallback : ScaleOrigin::estimated;
-}
-
 RunFacts factsOf(ProjectFile& project, const RunRecord& run) {
     RunFacts facts;
     facts.state = run.state == RunState::running && !run.live ? RunState::stopped : run.state;
     facts.frames_planned = run.last_frame >= run.first_frame ? run.last_frame - run.first_frame + 1 : 0;
     facts.counts = countRun(project, run.id);
     facts.gsd_m_per_px = run.scale.gsd_m_per_px;
-    facts.scale_origin = originOf(run.scale);
+    facts.scale_basis = run.scale_basis;
     facts.nothing = firstGap(facts.counts);
     return facts;
 }

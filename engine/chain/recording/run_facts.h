@@ -5,14 +5,6 @@
 
 namespace eyrie {
 
-/// Where the metres per pixel of a run come from.
-enum class ScaleOrigin {
-    given,      ///< by a person, or known to the source itself
-    estimated,  ///< from the traffic
-    fallback    ///< neither: an assumption
-};
-ScaleOrigin originOf(const SceneScale& scale);
-
 /// The first step of the chain after which nothing was left, for a run without tracks.
 enum class NothingFollowed {
     has_tracks,      ///< there are tracks
@@ -31,7 +23,7 @@ struct RunFacts {
     int frames_planned = 0;
     RunCounts counts;
     double gsd_m_per_px = 0;
-    ScaleOrigin scale_origin = ScaleOrigin::given;
+    ScaleBasis scale_basis;
     NothingFollowed nothing = NothingFollowed::has_tracks;
 };
 

@@ -97,6 +97,7 @@ RunRecord plannedRun(const VideoInfo& video, const SceneScale& scale, FrameRange
     run.engine_version = engineVersion();
     run.preset = preset;
     run.scale = scale;
+    run.scale_basis = basisOf(scale);
     run.first_frame = range.first;
     run.last_frame = range.last < 0 ? video.frame_count - 1 : range.last;
     return run;

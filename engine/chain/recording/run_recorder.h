@@ -46,7 +46,8 @@ class RunRecorder : public ChainObserver {
 /// Version of the engine as stored with every run, e.g. "0.1.0".
 std::string engineVersion();
 
-/// The record of a run to be made: sequence from the source, scale, planned frames.
+/// The record of a run to be made: sequence from the source, scale, planned frames. Whoever knows more of the scale
+/// than it tells itself sets `scale_basis`.
 RunRecord plannedRun(const VideoInfo& video, const SceneScale& scale, FrameRange range, const std::string& preset);
 
 /// The scale of a run: `gsd_m_per_px` ≤ 0 means not given; then the source may know it, else a value is assumed.

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "detection/segmenters/component_boxes.h"
+#include "imaging/contours/contour_hierarchy.h"
+#include "imaging/fixed_random.h"
 #include "imaging/gradients.h"
 
 namespace eyrie {
@@ -20,18 +22,6 @@ bool tooSmall(const cv::Mat& image) {
 cv::Mat oneSegment(const cv::Mat& image) {
     return cv::Mat::zeros(image.size(), CV_32SC1);
 }
-
-/// Graph cuts start from k-means, which draws from OpenCV's generator of this thread.
-class FixedRandom {
- public:
-    FixedRandom() : before_(cv::theRNG().state) { cv::theRNG().state = 1; }
-    ~FixedRandom() { cv::theRNG().state = before_; }
-    FixedRandom(const FixedRandom&) = delete;
-    FixedRandom& operator=(const FixedRandom&) = delete;
-
- private:
-    std::uint64_t before_;
-};
 
 }  // namespace
 
@@ -85,11 +75,35 @@ cv::Mat graphCutSegments(const MotionRoi& roi) {
     cv::cvtColor(roi.image, colour, cv::COLOR_GRAY2BGR);
     cv::Mat background_model;
     cv::Mat object_model;
-    const FixedRandom fixed;
+    const FixedRandom fixed;  // graph cuts start from k-means
     cv::grabCut(colour, mask, {}, background_model, object_model, kIterations, cv::GC_INIT_WITH_MASK);
     cv::Mat labels;
     cv::Mat(((mask == cv::GC_FGD) | (mask == cv::GC_PR_FGD)) / 255).convertTo(labels, CV_32S);
     return labels;
+}
+
+cv::Mat contourMap(const MotionRoi& roi) {
+    if (tooSmall(roi.image)) return cv::Mat::zeros(roi.image.size(), CV_32FC1);
+    return ContourHierarchy(probabilityOfBoundary(roi.image)).contourMap();
+}
+
+cv::Mat drawContourMap(const cv::Mat& gray, const cv::Mat& contours, const cv::Scalar& colour) {
+    CV_Assert(gray.type() == CV_8UC1 && contours.type() == CV_32FC1 && gray.size() == contours.size());
+    cv::Mat drawn;
+    if (gray.empty()) return drawn;
+    cv::cvtColor(gray, drawn, cv::COLOR_GRAY2BGR);
+    double strongest = 0;
+    cv::minMaxLoc(contours, nullptr, &strongest);
+    if (strongest <= 0) return drawn;
+    const cv::Vec3d line(colour[0], colour[1], colour[2]);
+    for (int y = 0; y < gray.rows; ++y) {
+        for (int x = 0; x < gray.cols; ++x) {
+            const double share = contours.at<float>(y, x) / strongest;
+            auto& pixel = drawn.at<cv::Vec3b>(y, x);
+            pixel = cv::Vec3b(cv::Vec3d(pixel) * (1 - share) + line * share);
+        }
+    }
+    return drawn;
 }
 
 cv::Mat drawSegments(const cv::Mat& gray, const cv::Mat& labels, const cv::Scalar& colour) {

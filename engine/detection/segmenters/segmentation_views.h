@@ -17,7 +17,12 @@ cv::Mat watershedSegments(const MotionRoi& roi, double smoothing_px = 1.0);
 /// Graph cut into background (0) and object (1): the ROI's border is background, the surroundings of the cluster's own
 /// vectors may be object.
 cv::Mat graphCutSegments(const MotionRoi& roi);
+/// gPb with OWT and UCM: borders of the segments at every level of detail, as strong as the level at which they vanish;
+/// CV_32FC1, see ContourHierarchy::contourMap(). Of grey values alone and without weights that were learned.
+cv::Mat contourMap(const MotionRoi& roi);
 
+/// The ROI with such borders blended in, the strongest in full colour, CV_8UC3.
+cv::Mat drawContourMap(const cv::Mat& gray, const cv::Mat& contours, const cv::Scalar& colour = {0, 220, 255});
 /// The ROI with the borders of the segments drawn in colour, CV_8UC3.
 cv::Mat drawSegments(const cv::Mat& gray, const cv::Mat& labels, const cv::Scalar& colour = {0, 220, 255});
 

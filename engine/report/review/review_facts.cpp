@@ -15,18 +15,10 @@ std::string secondsText(double seconds) {
 }
 
 std::string scaleText(const ReviewReportInput& input) {
-    const SceneScale& scale = input.reviewed.run.scale;
-    const std::string value = fixedText(scale.gsd_m_per_px, 4) + " m/px";
-    switch (input.facts.scale_origin) {
-        case ScaleOrigin::given:
-            return value + ", " + (input.scale_origin.empty() ? "as given" : input.scale_origin);
-        case ScaleOrigin::estimated:
-            return "not known; " + value +
-                   " was estimated from the traffic for the search, and no speeds in km/h are told";
-        case ScaleOrigin::fallback:
-            break;
-    }
-    return "not known; the search assumed " + value + ", and no speeds in km/h are told";
+    const RunRecord& run = input.reviewed.run;
+    std::string text = describe(run.scale.gsd_m_per_px, run.scale_basis);
+    if (!run.scale.gsd_known) text = "not known; the search worked with " + text + ", and no speeds in km/h are told";
+    return text + (input.scale_remark.empty() ? "" : "; " + input.scale_remark);
 }
 
 std::string clockFact(const ReviewReportInput& input) {

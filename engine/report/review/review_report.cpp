@@ -19,16 +19,15 @@ constexpr double kStillWidth_mm = 100;
 constexpr double kSmallWidth_mm = 44;
 constexpr double kSpeedWidth_mm = 80;
 
-/// Where a given scale came from, as far as that can be told afterwards: from the metadata, if these say the same.
-std::string originOfScale(const RunRecord& run, const MetadataTimeline& timeline, const FrameSource& source) {
+/// What the metadata say about the scale of a run that did not take it from them.
+std::string remarkOnScale(const RunRecord& run, const MetadataTimeline& timeline, const FrameSource& source) {
     const FrameIndex last = std::min(run.last_frame, source.info().frame_count - 1);
-    if (last < run.first_frame) return {};
+    if (last < run.first_frame || run.scale_basis.origin == ScaleOrigin::metadata) return {};
     const MetadataScale stated = scaleByMetadata(timeline, source, run.first_frame, last);
-    if (!run.scale.gsd_known || !stated.usable()) return {};
+    if (!stated.usable()) return {};
     const double difference = std::abs(stated.gsd_m_per_px / run.scale.gsd_m_per_px - 1);
-    if (difference < 1e-6) return std::string("from the video's metadata (") + nameOf(stated.source) + ")";
-    return "as given; the video's metadata (" + std::string(nameOf(stated.source)) + ") say " +
-           fixedText(stated.gsd_m_per_px, 4) + " m/px";
+    return "the video's metadata (" + std::string(nameOf(stated.source)) + ") say " +
+           (difference < 1e-6 ? "the same" : fixedText(stated.gsd_m_per_px, 4) + " m/px");
 }
 
 std::string tracksText(const Event& event) {
@@ -212,7 +211,7 @@ ReviewReportInput gatherReviewReport(ProjectFile& project, const RunRecord& run,
         start_utc_us, stop);
     input.clock = std::move(video.clock);
     input.places = std::move(video.places);
-    if (video.metadata) input.scale_origin = originOfScale(run, video.metadata->timeline(), *pixels);
+    if (video.metadata) input.scale_remark = remarkOnScale(run, video.metadata->timeline(), *pixels);
     return input;
 }
 

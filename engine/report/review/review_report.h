@@ -24,7 +24,7 @@ struct ReviewReportInput {
     std::map<std::string, std::vector<FrameSpan>> seen;           ///< by person, merged
     VideoClock clock;
     GeoReference places;
-    std::string scale_origin;  ///< for people; empty: as the run's facts say
+    std::string scale_remark;  ///< for people: what the video's metadata say about the scale; may be empty
     std::string video_digest;  ///< SHA-256; empty: not known
     std::string made_utc;      ///< when the report is made, ISO 8601; empty: not told
 };

@@ -121,12 +121,19 @@ bool fill(SQLite::Database& database, const DamagedCopy& copy, const CopyWatch& 
             if (!rescue.whole) report.lost.push_back("part of the rows of " + tables[i] + " (" + rescue.fault + ")");
             if (watch.progress) watch.progress(static_cast<double>(i + 1) / static_cast<double>(tables.size()));
         }
-        // Rows of a schema before that column.
-        const bool has_sentences =
-            textsOf(database, "SELECT name FROM pragma_table_info('frame', 'damaged') WHERE name = 'picture'").empty();
+        // Rows of a schema before these columns.
+        const auto lacks = [&](const std::string& table, const std::string& column) {
+            return textsOf(database, "SELECT name FROM pragma_table_info('" + table + "', 'damaged') WHERE name = '" +
+                                         column + "'")
+                .empty();
+        };
+        const bool has_sentences = lacks("frame", "picture");
+        const bool lacks_origins = lacks("run", "scale_origin");
         database.exec("DETACH damaged");
         SQLite::Transaction transaction(database);
         if (has_sentences) schema::wordRegistrationFaults(database);
+        if (lacks_origins) schema::tellScaleOrigins(database);
+        append(report.lost, mendScaleOrigins(database));
         append(report.lost, dropImpossibleRows(database));
         append(report.lost, mendReferences(database));
         append(report.lost, mendRuns(database, frames_whole));

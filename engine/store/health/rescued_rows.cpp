@@ -9,6 +9,7 @@
 #include "store/journal/journal_check.h"
 #include "store/labels/annotation_store.h"
 #include "store/labels/label_rows.h"
+#include "store/project/schema.h"
 #include "store/review/review_store.h"
 
 namespace eyrie {
@@ -80,6 +81,15 @@ SELECT ?1, '/lost/video ' || ?1,
 }
 
 }  // namespace
+
+std::vector<std::string> mendScaleOrigins(SQLite::Database& database) {
+    const std::string broken = "NOT (" + fittingScaleOrigin() + ")";
+    std::vector<std::string> lost;
+    for (const std::string& id : textsOf(database, "SELECT id FROM run WHERE " + broken + " ORDER BY id"))
+        lost.push_back("where the scale of run " + id + " came from");
+    schema::tellScaleOrigins(database, broken);
+    return lost;
+}
 
 std::vector<std::string> dropImpossibleRows(SQLite::Database& database) {
     addRowFunctions(database);

@@ -11,6 +11,9 @@ class Database;
 /// SQLite::Exception. Lines are for people and say what was lost.
 namespace eyrie {
 
+/// Runs that say something impossible about where their scale comes from tell what those tell that kept nothing of it.
+std::vector<std::string> mendScaleOrigins(SQLite::Database& database);
+
 /// Deletes rows that no writer wrote.
 std::vector<std::string> dropImpossibleRows(SQLite::Database& database);
 

@@ -91,6 +91,14 @@ void addRowFunctions(SQLite::Database& database) {
                             nullptr, nullptr);
 }
 
+std::string fittingScaleOrigin() {
+    static_assert(kMostUncertain == 1e9);
+    return isOneOf("scale_origin", stored::kScaleOrigins) +
+           " AND (CASE WHEN gsd_known THEN 1 ELSE 0 END) = (scale_origin IN ('given', 'metadata'))"
+           " AND (scale_uncertainty IS NULL OR scale_uncertainty BETWEEN 1 AND 1e9)"
+           " AND typeof(scale_vehicles) = 'integer' AND scale_vehicles BETWEEN 0 AND 2147483647";
+}
+
 std::vector<RowRule> rowRules() {
     const std::string frames = " BETWEEN 0 AND " + std::to_string(kLastFrame + 1);
     const std::string frame = "frame" + frames;
@@ -108,6 +116,7 @@ std::vector<RowRule> rowRules() {
              isOneOf("state", stored::kRunStates) + " AND " +
              areShort("name, started_utc, engine_version, preset, message"),
          "range, scale or state of a run is impossible"},
+        {"run", fittingScaleOrigin(), "where the scale of a run comes from, or how sure it is, is impossible", 12},
         {"frame",
          frame + " AND width" + kPixels + " AND height" + kPixels + " AND corner_count >= 0 AND " +
              isOneOf("registration_state", stored::kRegistrationStates),

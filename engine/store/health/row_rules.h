@@ -20,6 +20,9 @@ struct RowRule {
 /// All rules, tables in no order. They use functions that addRowFunctions() brings.
 std::vector<RowRule> rowRules();
 
+/// The condition of the rule about where the scale of a run comes from: what breaks it costs less than the run.
+std::string fittingScaleOrigin();
+
 /// Gives a connection the functions that the rules use: whether packed bytes can be unpacked.
 void addRowFunctions(SQLite::Database& database);
 

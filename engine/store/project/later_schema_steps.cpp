@@ -218,6 +218,21 @@ FROM seen JOIN sequence ON sequence.id = seen.sequence_id;
 )sql");
 }
 
+// Where the metres per pixel of a run come from, and how sure an estimate is.
+void addScaleOrigins(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE run ADD COLUMN scale_origin TEXT NOT NULL DEFAULT 'assumed';
+ALTER TABLE run ADD COLUMN scale_uncertainty REAL;
+ALTER TABLE run ADD COLUMN scale_vehicles INTEGER NOT NULL DEFAULT 0;
+DROP VIEW IF EXISTS v_runs;
+CREATE VIEW v_runs AS
+SELECT run.id AS run, sequence.path AS video, run.name, run.started_utc, run.state, run.first_frame, run.last_frame,
+    run.frame_rate_hz, CASE WHEN run.gsd_known THEN run.gsd_m_per_px END AS gsd_m_per_px, run.scale_origin
+FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE run.removed_utc = '';
+)sql");
+    tellScaleOrigins(database);
+}
+
 // Zones and lines that a person watches: of a video, like verdicts, whose steps they share. Points as of regions:
 // packed_labels.h.
 void addZones(SQLite::Database& database) {

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::array kMigrations{
     addRuns,          addLabels,    addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
-    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview,  addZones};
+    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview,  addScaleOrigins,
+    addZones};
 
 }  // namespace
 
@@ -36,6 +37,15 @@ UPDATE frame SET
         ELSE 'no match' END
 WHERE reason <> '';
 )sql");
+}
+
+void tellScaleOrigins(SQLite::Database& database, const std::string& condition) {
+    database.exec(R"sql(
+UPDATE run SET
+    scale_origin = CASE WHEN gsd_known THEN 'given' WHEN gsd_m_per_px = 0.25 THEN 'assumed' ELSE 'estimated' END,
+    scale_uncertainty = NULL,
+    scale_vehicles = 0
+WHERE )sql" + condition);
 }
 
 std::span<const Migration> migrations() {

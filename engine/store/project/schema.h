@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace SQLite {
 class Database;
@@ -32,6 +33,10 @@ void migrate(SQLite::Database& database, std::span<const Migration> steps);
 /// Turns the sentences that frames of projects before schema 9 have as reasons into words and figures. Not to be called
 /// where there are words already.
 void wordRegistrationFaults(SQLite::Database& database);
+
+/// Says where the scales of runs come from as far as can be told afterwards, as basisOf(SceneScale) does, of the rows
+/// for which `condition` holds: in projects before schema 12 a scale of the metadata counts as given.
+void tellScaleOrigins(SQLite::Database& database, const std::string& condition = "TRUE");
 
 /// Whether all tables and columns of the newest schema are there; what else is there does not matter. Throws
 /// MalformedRow naming what is missing, SQLite::Exception.

@@ -19,6 +19,7 @@ void addRunStates(SQLite::Database& database);
 void addRegistrationFaults(SQLite::Database& database);
 void addViews(SQLite::Database& database);
 void addReview(SQLite::Database& database);
+void addScaleOrigins(SQLite::Database& database);
 void addZones(SQLite::Database& database);
 
 }  // namespace eyrie::schema

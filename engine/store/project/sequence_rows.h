@@ -16,6 +16,8 @@ inline constexpr FrameIndex kLastFrame = 20'000'000;
 /// Metres per pixel of a stored run; beyond them a vehicle has no size in whole pixels.
 inline constexpr double kFinestGsd = 1e-4;
 inline constexpr double kCoarsestGsd = 1e4;
+/// The largest factor that an estimate of the scale may be off by.
+inline constexpr double kMostUncertain = 1e9;
 
 class RowReader;
 /// The next column as the number of a frame. Throws MalformedRow for one that no video has.

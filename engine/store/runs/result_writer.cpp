@@ -3,7 +3,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <chrono>
+#include <limits>
 #include <optional>
+
 #include "core/utc_time.h"
 #include "store/database/rows.h"
 #include "store/project/sequence_rows.h"
@@ -18,7 +20,9 @@ int storeRun(SQLite::Database& database, const RunRecord& run) {
     SQLite::Statement statement(
         database,
         "INSERT INTO run (sequence_id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, "
-        "frame_rate_hz, first_frame, last_frame, state, message) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        "frame_rate_hz, scale_origin, scale_uncertainty, scale_vehicles, first_frame, last_frame, state, message) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    const ScaleBasis basis = agreeing(run.scale_basis, run.scale);
     RowWriter(statement)
         .integer(run.sequence.id)
         .text(run.name)
@@ -28,6 +32,9 @@ int storeRun(SQLite::Database& database, const RunRecord& run) {
         .real(run.scale.gsd_m_per_px)
         .integer(run.scale.gsd_known)
         .real(run.scale.frame_rate_hz)
+        .word(stored::kScaleOrigins, basis.origin)
+        .real(basis.uncertainty.value_or(std::numeric_limits<double>::quiet_NaN()))
+        .integer(basis.vehicles)
         .integer(run.first_frame)
         .integer(run.last_frame)
         .word(stored::kRunStates, run.state)

@@ -22,8 +22,21 @@ void check(const RunRecord& run) {
         refuse("an impossible scale");
     if (!(run.scale.frame_rate_hz > 0 && std::isfinite(run.scale.frame_rate_hz)))
         refuse("a frame rate that is not above 0");
+    const auto& uncertainty = run.scale_basis.uncertainty;
+    if (uncertainty && !(*uncertainty >= 1 && *uncertainty <= kMostUncertain))
+        refuse("an impossible uncertainty of its scale");
+    if (run.scale_basis.vehicles < 0) refuse("an impossible number of vehicles that its scale rests on");
     if (run.first_frame < 0 || run.last_frame > kLastFrame) refuse("frames outside every video");
     checkSequence(run.sequence);
+}
+
+ScaleBasis readBasis(RowReader& row) {
+    ScaleBasis basis;
+    basis.origin = row.word(stored::kScaleOrigins);
+    const double uncertainty = row.real();
+    if (!std::isnan(uncertainty)) basis.uncertainty = uncertainty;
+    basis.vehicles = row.integer();
+    return basis;
 }
 
 RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& project) {
@@ -37,6 +50,7 @@ RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& pro
     run.scale.gsd_m_per_px = row.real();
     run.scale.gsd_known = row.integer() != 0;
     run.scale.frame_rate_hz = row.real();
+    run.scale_basis = agreeing(readBasis(row), run.scale);
     run.first_frame = row.integer();
     run.last_frame = row.integer();
     run.state = row.word(stored::kRunStates);
@@ -62,7 +76,8 @@ std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, 
     SQLite::Statement statement(
         project.database(),
         "SELECT run.id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, run.frame_rate_hz, "
-        "first_frame, last_frame, state, message, sequence.id, path, width, height, frame_count, "
+        "scale_origin, scale_uncertainty, scale_vehicles, first_frame, last_frame, state, message, sequence.id, path, "
+        "width, height, frame_count, "
         "sequence.frame_rate_hz, (SELECT count(*) FROM frame WHERE frame.run_id = run.id) "
         "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE " +
             where + " ORDER BY run.id");

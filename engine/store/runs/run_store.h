@@ -8,6 +8,7 @@
 
 #include "core/labels/box_record.h"
 #include "core/values/frame_result.h"
+#include "core/values/scale_basis.h"
 #include "core/values/scene_scale.h"
 #include "store/project/project_file.h"
 
@@ -34,6 +35,7 @@ struct RunRecord {
     std::string engine_version;
     std::string preset;  ///< name of the preset it started from
     SceneScale scale;
+    ScaleBasis scale_basis;      ///< where `scale` comes from; stored as agreeing() with it
     FrameIndex first_frame = 0;  ///< planned range, inclusive
     FrameIndex last_frame = 0;
     int frames_done = 0;                 ///< whole frames in the file

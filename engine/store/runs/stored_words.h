@@ -8,6 +8,7 @@
 #include "core/values/detection.h"
 #include "core/values/dropped_state.h"
 #include "core/values/frame_result.h"
+#include "core/values/scale_basis.h"
 #include "core/values/track_state.h"
 #include "store/runs/run_store.h"
 
@@ -24,6 +25,10 @@ inline constexpr std::array<Word<RunState>, 4> kRunStates{{{RunState::running, "
                                                            {RunState::finished, "finished"},
                                                            {RunState::stopped, "stopped"},
                                                            {RunState::failed, "failed"}}};
+inline constexpr std::array<Word<ScaleOrigin>, 4> kScaleOrigins{{{ScaleOrigin::given, "given"},
+                                                                 {ScaleOrigin::metadata, "metadata"},
+                                                                 {ScaleOrigin::estimated, "estimated"},
+                                                                 {ScaleOrigin::assumed, "assumed"}}};
 inline constexpr std::array<Word<RegistrationState>, 4> kRegistrationStates{
     {{RegistrationState::first, "first"},
      {RegistrationState::registered, "registered"},

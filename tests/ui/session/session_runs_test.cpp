@@ -223,7 +223,7 @@ class SessionRunsTest : public QObject {
         QVERIFY(QTest::qWaitFor([&] { return facts.has_value(); }, kPatience_ms));
         QCOMPARE(facts->state, RunState::finished);
         QCOMPARE(facts->counts.frames, 40);
-        QCOMPARE(facts->scale_origin, ScaleOrigin::given);
+        QCOMPARE(facts->scale_basis, ScaleBasis{ScaleOrigin::given});
     }
 
     void theNextVideoIsNotDisturbedByARunThatStillEnds() {

@@ -90,6 +90,7 @@ class ModelsTest : public QObject {
         failed.state = RunState::failed;
         failed.message = "the video ends at frame 12";
         failed.scale.gsd_known = false;
+        failed.scale_basis = {ScaleOrigin::assumed};
         model.setRuns({sampleRun(1), named, killed, failed});
         QCOMPARE(cell(model, 0, RunsModel::name_column), QStringLiteral("Run 1"));
         QCOMPARE(cell(model, 1, RunsModel::name_column), QStringLiteral("with “shadows”"));
@@ -107,6 +108,24 @@ class ModelsTest : public QObject {
         QCOMPARE(model.rowOf(3), 2);
         QCOMPARE(model.rowOf(9), -1);
         QVERIFY(model.recordAt(9) == nullptr);
+    }
+
+    void runsTellWhereTheirScaleComesFrom() {
+        RunsModel model;
+        RunRecord estimated = sampleRun(2);
+        estimated.scale = {0.2104, 25, false};
+        estimated.scale_basis = {ScaleOrigin::estimated, 1.2, 14};
+        RunRecord stated = sampleRun(3);
+        stated.scale.gsd_m_per_px = 0.0335;
+        stated.scale_basis = {ScaleOrigin::metadata};
+        model.setRuns({sampleRun(1), estimated, stated});
+        QCOMPARE(cell(model, 1, RunsModel::gsd_column), QStringLiteral("≈ 0.210"));
+        QCOMPARE(cell(model, 2, RunsModel::gsd_column), QStringLiteral("0.034"));
+        const auto tip = [&](int row) { return model.index(row, 0).data(Qt::ToolTipRole).toString(); };
+        QVERIFY(tip(0).contains(QStringLiteral("Scale: 0.25 m/px, as given")));
+        QVERIFY(
+            tip(1).contains(QStringLiteral("0.21 m/px, estimated from 14 vehicles, right to within a factor of 1.2")));
+        QVERIFY(tip(2).contains(QStringLiteral("0.0335 m/px, from the video's metadata")));
     }
 
     void aRunIsRenamedInItsRow() {

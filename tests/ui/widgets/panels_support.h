@@ -67,6 +67,7 @@ inline RunRecord sampleRun(int id) {
     run.engine_version = "0.1.0";
     run.preset = id % 2 == 0 ? "thesis" : "default";
     run.scale = {0.25, 25, true};
+    run.scale_basis = {ScaleOrigin::given};
     run.last_frame = 99;
     run.frames_done = 100;
     run.state = RunState::finished;

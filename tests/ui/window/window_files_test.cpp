@@ -1,3 +1,4 @@
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <QDropEvent>
 #include <QLabel>
 #include <QLineEdit>
@@ -6,7 +7,6 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QSignalSpy>
-
 #include <QTableView>
 #include <QTest>
 
@@ -85,6 +85,39 @@ class WindowFilesTest : public QObject {
         QVERIFY(waitFor([&] { return window.session().runs().size() == 2; }));
         QVERIFY(window.session().runs()[1].scale.gsd_known);
         QCOMPARE(window.session().runs()[1].scale.gsd_m_per_px, 0.08);
+    }
+
+    void aGsdOfTheMetadataStaysOneUntilSomebodyTypesAnother() {
+        const auto folder = images("a");
+        {
+            MainWindow window;
+            QVERIFY(runs(window, folder));
+            ProjectFile project = ProjectFile::open(window.session().project());
+            project.database().exec("UPDATE run SET gsd_m_per_px = 0.2512345678, scale_origin = 'metadata'");
+        }
+        MainWindow window;
+        QVERIFY(open(window, folder));
+        QCOMPARE(gsd(window).text(), QStringLiteral("0.251235"));
+        QVERIFY(gsd(window).toolTip().contains(QStringLiteral("0.2512 m/px, from the video's metadata")));
+        const auto next = [&] {
+            QSignalSpy finished(&window.session(), &ProjectSession::runFinished);
+            const std::size_t before = window.session().runs().size();
+            if (!waitFor([&] { return window.actions().run->isEnabled(); })) return RunRecord();
+            window.actions().run->trigger();
+            if (!finished.wait(kPatience_ms)) return RunRecord();
+            waitFor([&] { return window.session().runs().size() == before + 1; });
+            return window.session().runs().back();
+        };
+        const RunRecord untouched = next();
+        QCOMPARE(untouched.scale_basis.origin, ScaleOrigin::metadata);
+        QCOMPARE(untouched.scale.gsd_m_per_px, 0.2512345678);
+        gsd(window).setFocus();
+        gsd(window).selectAll();
+        QTest::keyClicks(&gsd(window), QStringLiteral("0.2"));
+        const RunRecord typed = next();
+        QCOMPARE(typed.scale_basis.origin, ScaleOrigin::given);
+        QCOMPARE(typed.scale.gsd_m_per_px, 0.2);
+        QVERIFY(waitFor([&] { return gsd(window).toolTip().contains(QStringLiteral("0.2 m/px, as given")); }));
     }
 
     void aGsdThatIsNoneIsToldAndNotWiped() {
@@ -198,7 +231,7 @@ class WindowFilesTest : public QObject {
         MainWindow window;
         QVERIFY(runs(window, images("a", 40)));
         QVERIFY(waitFor([&] { return says(window, QStringLiteral("Run 1 finished")); }));
-        QVERIFY(says(window, QStringLiteral("Scale: 0.25 m/px.")));
+        QVERIFY(says(window, QStringLiteral("Scale: 0.25 m/px, as given.")));
     }
 
     void aRunWithoutTracksSaysWhy() {

@@ -15,7 +15,7 @@ constexpr auto kReplayProgressInterval = std::chrono::milliseconds(100);
 
 GeneralSegmentation generalSegmentation(const MotionRoi& roi, const SceneScale& scale) {
     return {drawSegments(roi.image, superpixelSegments(roi, scale)), drawSegments(roi.image, watershedSegments(roi)),
-            drawSegments(roi.image, graphCutSegments(roi))};
+            drawSegments(roi.image, graphCutSegments(roi)), drawContourMap(roi.image, contourMap(roi))};
 }
 
 }  // namespace

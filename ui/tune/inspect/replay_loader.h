@@ -25,6 +25,7 @@ struct GeneralSegmentation {
     cv::Mat superpixels;
     cv::Mat watershed;
     cv::Mat graph_cut;
+    cv::Mat contours;  ///< gPb with OWT and UCM, the stronger a border the fuller its colour
 };
 
 /// A replayed frame. Shared between threads, never changed once published.

@@ -266,6 +266,7 @@ std::vector<ChipCard> stageChips(const ReplayView& view, std::size_t trace) {
         add(translated("SLIC superpixels"), view.general->superpixels);
         add(translated("Watershed"), view.general->watershed);
         add(translated("Graph cut"), view.general->graph_cut);
+        add(translated("gPb-OWT-UCM"), view.general->contours);
     }
     return cards;
 }

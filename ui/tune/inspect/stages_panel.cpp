@@ -67,7 +67,8 @@ QWidget* StagesPanel::buildHeader() {
     searches_ = new QComboBox(header);
     searches_->setToolTip(tr("Several stacks were searched for this cluster"));
     general_ = new QCheckBox(tr("General segmentation"), header);
-    general_->setToolTip(tr("What superpixels, watershed and graph cut make of the search area (fig. 5.1)"));
+    general_->setToolTip(
+        tr("What superpixels, watershed, graph cut and gPb contours make of the search area (fig. 5.1)"));
     summary_ = new QLabel(header);
     summary_->setForegroundRole(QPalette::PlaceholderText);
     summary_->setWordWrap(true);

@@ -49,9 +49,6 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
     gsd_ = new QLineEdit(this);
     gsd_->setObjectName(QStringLiteral("gsd"));
     gsd_->setPlaceholderText(tr("unknown: speeds in px/frame"));
-    gsd_->setToolTip(
-        tr("Ground sampling distance: metres on the ground per pixel. Without it the run looks at the traffic for a "
-           "scale to work with, and results are shown in pixels instead of metres and km/h."));
     gsd_->setAccessibleName(tr("Ground sampling distance, metres per pixel"));
     gsd_->setClearButtonEnabled(true);
     gsd_->setMinimumWidth(fontMetrics().horizontalAdvance(gsd_->placeholderText()) + 40);
@@ -105,7 +102,7 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
         &session_, &ProjectSession::changed, this,
         Reactions<SessionChange>{
             {{SessionChange::video, SessionChange::opened, SessionChange::scale}, [this] { refresh(); }},
-            {{SessionChange::runs, SessionChange::current_run}, [this] { showGuess(); }},
+            {{SessionChange::runs, SessionChange::current_run}, [this] { showOrigin(); }},
             {{SessionChange::following, SessionChange::run_started, SessionChange::run_ended}, [this] { enable(); }},
         });
     refresh();
@@ -118,7 +115,7 @@ void RunBar::forgetRefusal() {
 void RunBar::refresh() {
     refreshing_ = true;
     const RunSettings& settings = session_.settings();
-    gsd_->setText(settings.gsd_m_per_px > 0 ? locale().toString(settings.gsd_m_per_px, 'g', 6) : QString());
+    gsd_->setText(gsdOfSettings());
     if (const auto& video = session_.video()) {
         frame_rate_->setValue(video->frame_rate_hz);
         const int last = std::max(0, video->frame_count - 1);
@@ -131,16 +128,26 @@ void RunBar::refresh() {
     }
     refreshing_ = false;
     forgetRefusal();
-    showGuess();
+    showOrigin();
     enable();
 }
 
-void RunBar::showGuess() {
-    const SceneScale scale = session_.scale();
+QString RunBar::gsdOfSettings() const {
+    const double gsd = session_.settings().gsd_m_per_px;
+    return gsd > 0 ? locale().toString(gsd, 'g', 6) : QString();
+}
+
+void RunBar::showOrigin() {
+    const RunRecord* run = session_.shownRun();
     // Without a run nothing was estimated yet.
-    gsd_->setPlaceholderText(session_.currentRun() && originOf(scale) == ScaleOrigin::estimated
-                                 ? tr("unknown; estimated %1").arg(locale().toString(scale.gsd_m_per_px, 'g', 3))
+    gsd_->setPlaceholderText(run != nullptr && run->scale_basis.origin == ScaleOrigin::estimated
+                                 ? tr("unknown; estimated %1").arg(locale().toString(run->scale.gsd_m_per_px, 'g', 3))
                                  : tr("unknown: speeds in px/frame"));
+    QString tip =
+        tr("Ground sampling distance: metres on the ground per pixel. Without it the run looks at the traffic for a "
+           "scale to work with, and results are shown in pixels instead of metres and km/h.");
+    if (run != nullptr) tip += QStringLiteral("\n\n") + tr("The run shown: %1.").arg(scaleText(*run));
+    gsd_->setToolTip(tip);
 }
 
 bool RunBar::takeEdits() {
@@ -175,7 +182,8 @@ bool RunBar::takeGsd() {
         return false;
     }
     forgetRefusal();
-    session_.settings().gsd_m_per_px = *value;
+    // What nobody changed keeps its digits that are not shown, and where it comes from.
+    if (gsd_->text() != gsdOfSettings()) session_.settings().useGsd(*value);
     return true;
 }
 

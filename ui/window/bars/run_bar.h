@@ -38,7 +38,10 @@ class RunBar : public QWidget {
     /// The GSD is being mended, or is good: what was said about it no longer holds.
     void forgetRefusal();
     bool takeGsd();
-    void showGuess();
+    /// As the field shows that of the settings; empty where it is not known.
+    QString gsdOfSettings() const;
+    /// Where the scale of the run shown comes from.
+    void showOrigin();
     void frameRateEdited();
     void takeFrameRate();
     void rangeEdited();
