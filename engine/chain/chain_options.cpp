@@ -15,6 +15,7 @@ void ChainOptions::describe(ParameterVisitor& visitor) {
     outliers.describe(visitor);
     tracking.describe(visitor);
     finishing.describe(visitor);
+    classes.describe(visitor);
 }
 
 std::vector<std::string> builtInPresets() {

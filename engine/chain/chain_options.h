@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/labels/track_class.h"
 #include "core/parameter.h"
 #include "core/values/scene_scale.h"
 #include "detection/detection_options.h"
@@ -31,6 +32,7 @@ struct ChainOptions {
     OutlierRemovalOptions outliers;
     TrackerOptions tracking;
     FinishingOptions finishing;
+    TrackClassOptions classes;
 
     void describe(ParameterVisitor& visitor);
 };

@@ -202,11 +202,15 @@ CauseHere causeOfMiss(const ErrorPlace& place, const ErrorEvidence& evidence) {
         if (taken.taken == nullptr) return {ErrorCause::merged, ""};
         return {ErrorCause::merged, "its box went to " + nameOf("object", at(evidence.truth, taken.taken->truth).id)};
     }
-    for (const int index : evidence.frame.border_results) {
+    const auto found = [&](int index) {
         const OrientedBox& other = at(evidence.result, index).box;
-        if ((evidence.upright ? overlap(place.box.upright(), other.upright()) : overlap(place.box, other)) >=
-            evidence.min_overlap)
-            return {ErrorCause::at_border, ""};
+        return (evidence.upright ? overlap(place.box.upright(), other.upright()) : overlap(place.box, other)) >=
+               evidence.min_overlap;
+    };
+    const std::vector<int>& at_border = evidence.frame.border_results;
+    if (std::any_of(at_border.begin(), at_border.end(), found)) return {ErrorCause::at_border, ""};
+    for (const int index : evidence.frame.other_class_results) {
+        if (found(index)) return {ErrorCause::other_class, "called " + at(evidence.result, index).object_class};
     }
     if (free.overlap > 0 && free.overlap >= kNearMiss * evidence.min_overlap)
         return {ErrorCause::box_off, offText(free.overlap, evidence.min_overlap)};
@@ -285,6 +289,7 @@ const char* nameOf(ErrorCause cause) {
                                                         "merged",
                                                         "split",
                                                         "at the border",
+                                                        "of another class",
                                                         "duplicate",
                                                         "ignored object",
                                                         "outside the image",
@@ -342,6 +347,8 @@ const char* explanationOf(ErrorCause cause) {
             return "The object was found in several parts.";
         case ErrorCause::at_border:
             return "It was found, but its result lies so near to the image's edge that it was left out.";
+        case ErrorCause::other_class:
+            return "It was found, but its result names another class, which size and speed decide (classes.*).";
         case ErrorCause::duplicate:
             return "A second box on an object that is found already (duplicates.*).";
         case ErrorCause::ignored_object:

@@ -30,6 +30,7 @@ enum class ErrorCause {
     merged,              ///< taken for one with a neighbour
     split,               ///< found in parts
     at_border,           ///< found, but by a result so near to the image's edge that it was left out
+    other_class,         ///< found, but by a result that names another class than the one that is measured
     duplicate,           ///< false: a second box on an object that is found
     ignored_object,      ///< false: beside an object that does not count
     outside_image,       ///< false: its middle lies outside the image

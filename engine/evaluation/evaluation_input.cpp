@@ -10,7 +10,13 @@ namespace eyrie {
 namespace {
 
 bool countsNeitherWay(const BoxRecord& object, const EvaluationOptions& options) {
-    return object.ignore || (options.vehicles_only && !isVehicleClass(object.object_class));
+    if (object.ignore || (options.vehicles_only && !isVehicleClass(object.object_class))) return true;
+    return options.one_class && trackClassOf(object.object_class) != *options.one_class;
+}
+
+/// A result that does not say what it is may be anything.
+bool isOfOtherClass(const BoxRecord& result, const EvaluationOptions& options) {
+    return options.one_class && !result.object_class.empty() && trackClassOf(result.object_class) != *options.one_class;
 }
 
 bool awayFromBorder(const OrientedBox& box, double border, cv::Size image) {
@@ -40,6 +46,10 @@ EvaluationFrame sortFrame(FrameIndex frame, const std::vector<BoxRecord>& truth,
         (ignored ? sorted.ignored_truth : sorted.truth).push_back(i);
     }
     for (int i = 0; i < static_cast<int>(result.size()); ++i) {
+        if (isOfOtherClass(result[static_cast<std::size_t>(i)], options)) {
+            sorted.other_class_results.push_back(i);
+            continue;
+        }
         const bool kept = !options.border ||
                           awayFromBorder(result[static_cast<std::size_t>(i)].box, *options.border, options.image_size);
         (kept ? sorted.results : sorted.border_results).push_back(i);

@@ -11,14 +11,15 @@ namespace eyrie {
 /// One frame, sorted into what counts. Rows of `overlap` are `truth`, columns are `results`.
 struct EvaluationFrame {
     FrameIndex frame = 0;
-    std::vector<int> truth;           ///< indices of the true objects that count, into the frame's records
-    std::vector<int> ignored_truth;   ///< indices of those that count neither way
-    std::vector<int> results;         ///< indices of the results that take part
-    std::vector<int> border_results;  ///< indices of those left out at the border
-    std::vector<int> truth_tracks;    ///< per row: position in EvaluationInput::truth_ids
-    std::vector<int> result_tracks;   ///< per column: position in EvaluationInput::result_ids
-    Eigen::MatrixXd overlap;          ///< |A ∩ B| / |A ∪ B|
-    std::vector<char> forgivable;     ///< per column: touches an ignored object (thesis only)
+    std::vector<int> truth;                ///< indices of the true objects that count, into the frame's records
+    std::vector<int> ignored_truth;        ///< indices of those that count neither way
+    std::vector<int> results;              ///< indices of the results that take part
+    std::vector<int> border_results;       ///< indices of those left out at the border
+    std::vector<int> other_class_results;  ///< indices of those left out for their class
+    std::vector<int> truth_tracks;         ///< per row: position in EvaluationInput::truth_ids
+    std::vector<int> result_tracks;        ///< per column: position in EvaluationInput::result_ids
+    Eigen::MatrixXd overlap;               ///< |A ∩ B| / |A ∪ B|
+    std::vector<char> forgivable;          ///< per column: touches an ignored object (thesis only)
 };
 
 /// Ground truth and result brought together once; every measure is computed from this.

@@ -2,7 +2,10 @@
 
 #include <opencv2/core/types.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "core/labels/track_class.h"
 #include "core/values/ids.h"
 
 namespace eyrie {
@@ -25,8 +28,12 @@ const char* nameOf(Convention convention);
 
 /// What counts in an evaluation, and how.
 struct EvaluationOptions {
-    double overlap = 0.1;         ///< T_ov of eq. 7.1, in (0, 1]
-    bool vehicles_only = false;   ///< objects of the ground truth that are no vehicles count as ignored
+    double overlap = 0.1;       ///< T_ov of eq. 7.1, in (0, 1]
+    bool vehicles_only = false; /**< objects of the ground truth that are no vehicles count as ignored; what results
+                                   say of their class is not looked at (Teutsch §7.2) */
+    /// Only objects of this class count, all others are ignored, and results that name another class are left out:
+    /// objects that they lie on are missed. Results without a class take part.
+    std::optional<TrackClass> one_class;
     bool upright = false;         ///< compare enclosing upright boxes, for ground truth without headings
     std::optional<double> border; /**< px; results whose upright box comes closer to the image's edge are left out, for
                                      ground truth that leaves cut objects out. Needs `image_size`. */
@@ -36,6 +43,15 @@ struct EvaluationOptions {
 
     bool operator==(const EvaluationOptions&) const = default;
 };
+
+/// The words for `one_class`: "vehicles", "two_wheelers", "persons"; "all" stands for none.
+const std::vector<std::string>& scoredClassWords();
+/// Throws Error(parameter) for any other word, naming those that there are.
+std::optional<TrackClass> scoredClass(const std::string& word);
+std::string wordOfScored(const std::optional<TrackClass>& one_class);
+
+/// Which objects count, for people, behind how boxes are compared: ", vehicles only"; empty where all do.
+std::string countedText(const EvaluationOptions& options);
 
 /// Throws Error(parameter) naming the option, its value and what is expected.
 void check(const EvaluationOptions& options);

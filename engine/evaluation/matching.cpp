@@ -119,6 +119,7 @@ FrameMatch describeMatch(const EvaluationFrame& frame, const std::vector<int>& c
     match.frame = frame.frame;
     match.ignored_truth = frame.ignored_truth;
     match.border_results = frame.border_results;
+    match.other_class_results = frame.other_class_results;
     std::vector<char> used(frame.results.size(), 0);
     for (std::size_t i = 0; i < column_of_row.size(); ++i) {
         const int column = column_of_row[i];

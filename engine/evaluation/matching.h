@@ -17,12 +17,13 @@ struct MatchedPair {
 /// What became of every box of one frame. All numbers are indices into the frame's records as given.
 struct FrameMatch {
     FrameIndex frame = 0;
-    std::vector<MatchedPair> pairs;    ///< true positives; ascending `truth`
-    std::vector<int> missed;           ///< false negatives
-    std::vector<int> false_results;    ///< false positives
-    std::vector<int> ignored_truth;    ///< objects that count neither way
-    std::vector<int> ignored_results;  ///< results on such objects
-    std::vector<int> border_results;   ///< results left out at the border
+    std::vector<MatchedPair> pairs;        ///< true positives; ascending `truth`
+    std::vector<int> missed;               ///< false negatives
+    std::vector<int> false_results;        ///< false positives
+    std::vector<int> ignored_truth;        ///< objects that count neither way
+    std::vector<int> ignored_results;      ///< results on such objects
+    std::vector<int> border_results;       ///< results left out at the border
+    std::vector<int> other_class_results;  ///< results left out for their class
 };
 
 /// Decides frame by frame which result found which object (Teutsch §7.1.1, fig. 7.2; conventions: see Convention).

@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "core/review/zone.h"
 #include "events/event.h"
 #include "events/event_options.h"
 #include "events/ground/ground_stretches.h"
-#include "events/zones/zone.h"
 
 namespace eyrie {
 

@@ -51,18 +51,37 @@ StoredTracks readTracks(const RunStore& store, const RunRecord& run) {
     return found;
 }
 
+namespace {
+
+std::string notSearched(const Zone& zone, const Footage& footage) {
+    return "zone \"" + zone.name + "\" is fixed to the ground of frame " + std::to_string(zone.frame) +
+           ", but the run holds the frames " + std::to_string(footage.first_frame) + " to " +
+           std::to_string(footage.last_frame);
+}
+
+bool isSearched(const Zone& zone, const Footage& footage) {
+    return zone.anchor == ZoneAnchor::image || (zone.frame >= footage.first_frame && zone.frame <= footage.last_frame);
+}
+
+}  // namespace
+
+void checkReach(const std::vector<Zone>& zones, const Footage& footage) {
+    if (footage.last_frame < footage.first_frame) return;
+    for (const Zone& zone : zones) {
+        if (!isSearched(zone, footage)) throw Error(ErrorKind::input, notSearched(zone, footage));
+    }
+}
+
 std::vector<std::string> remarksOn(const std::vector<Zone>& zones, const Footage& footage) {
     std::vector<std::string> remarks;
-    if (footage.last_frame < footage.first_frame) return remarks;
+    if (footage.last_frame < footage.first_frame || zones.empty()) return remarks;
     const GroundStretches ground(footage);
     for (const Zone& zone : zones) {
         if (zone.anchor == ZoneAnchor::image) continue;
         const GroundStretch* stretch = ground.of(zone.frame);
         if (stretch == nullptr) {
-            throw Error(ErrorKind::input, "zone \"" + zone.name + "\" is fixed to the ground of frame " +
-                                              std::to_string(zone.frame) + ", but the run holds the frames " +
-                                              std::to_string(footage.first_frame) + " to " +
-                                              std::to_string(footage.last_frame));
+            remarks.push_back(notSearched(zone, footage));
+            continue;
         }
         if (ground.all().size() == 1) continue;
         remarks.push_back("zone \"" + zone.name + "\" counts in frames " + std::to_string(stretch->first_frame) +

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/review/zone.h"
 #include "events/event.h"
 #include "events/ground/ground_stretches.h"
-#include "events/zones/zone.h"
 #include "store/runs/run_store.h"
 
 namespace eyrie {
@@ -26,8 +26,9 @@ struct StoredTracks {
 /// Reads a run's tracks and how its frames were registered. Throws Error(project).
 StoredTracks readTracks(const RunStore& store, const RunRecord& run);
 
-/// In which frames zones that are fixed to the ground hold, where these are not all; one sentence a zone. Throws
-/// Error(input) for a zone fixed to a frame that was not searched.
+/// Throws Error(input) for a zone that is fixed to the ground of a frame that was not searched.
+void checkReach(const std::vector<Zone>& zones, const Footage& footage);
+/// In which frames zones that are fixed to the ground hold, where these are not all; one sentence a zone.
 std::vector<std::string> remarksOn(const std::vector<Zone>& zones, const Footage& footage);
 
 }  // namespace eyrie

@@ -43,7 +43,7 @@ void tellWhat(ReportPage& page, const RunEvaluation& e, const ReportOptions& opt
     fact("Measured", e.detections ? "detections" : "tracks");
     fact("Ground truth", e.truth_name + ", " + std::to_string(e.frames.size()) + " frames");
     std::string how = e.options.upright ? "enclosing upright boxes" : "oriented boxes";
-    if (e.options.vehicles_only) how += ", vehicles only";
+    how += countedText(e.options);
     if (e.options.border) how += ", without results within " + fixedText(*e.options.border, 1) + " px of the edge";
     fact("Compared", how + ", definitions of the thesis (Teutsch §7.1)");
     if (!options.made_utc.empty()) fact("Report made", options.made_utc);

@@ -72,6 +72,7 @@ class Method {
             record.origin = nameOf(state.origin);
             result_.tracks[frame].push_back(record);
         }
+        nameClasses(result_.tracks, scale_, variant_.options.classes);
         for (std::size_t stage = 0; stage < result_.median_ms.size() && !times_.empty(); ++stage) {
             std::vector<float> values;
             for (const StageTimes& times : times_) values.push_back(times[stage]);

@@ -57,6 +57,8 @@ std::optional<RangeResult> runRange(const ReplaySource& source, const ChainOptio
                                     const std::stop_token& stop, const OnRangeFrame& on_frame) {
     RangeResult result;
     result.start = firstDifference(source.options, options);
+    result.scale = source.scale;
+    result.classes = options.classes;
     const FrameIndex wanted = std::max(source.first_frame, range.first);
     const FrameIndex begin = std::max(source.first_frame, wanted - std::max(kLeadFrames, framesBefore(options)));
     const int total = std::max(0, range.last - begin + 1);
@@ -108,6 +110,7 @@ BoxesByFrame trackBoxesOf(const RangeResult& result) {
             boxes[frame].push_back(std::move(record));
         }
     }
+    nameClasses(boxes, result.scale, result.classes);
     return boxes;
 }
 

@@ -18,6 +18,8 @@ struct RangeResult {
     /// Tracks are finished and have ids of their own.
     std::map<FrameIndex, std::shared_ptr<const FrameResult>> frames;
     ChainStage start = ChainStage::none;  ///< what differs from the run first
+    SceneScale scale;                     ///< of the run
+    TrackClassOptions classes;            ///< by which classes are told
     bool exact = false;  ///< as a run with these parameters: nothing before the frames done can play a part
 };
 
@@ -32,7 +34,8 @@ using OnRangeFrame =
 std::optional<RangeResult> runRange(const ReplaySource& source, const ChainOptions& options, FrameRange range,
                                     const std::stop_token& stop, const OnRangeFrame& on_frame = {});
 
-/// The same as boxes: every state of its tracks, or its kept detections (without ids).
+/// The same as boxes: every state of its tracks, with their classes by what is in the range, or its kept detections
+/// (without ids).
 BoxesByFrame trackBoxesOf(const RangeResult& result);
 BoxesByFrame detectionBoxesOf(const RangeResult& result);
 

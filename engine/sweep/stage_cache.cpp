@@ -307,6 +307,7 @@ std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& optio
         for (const auto& [frame, state] : finishTracks(states, summariesOf(motion), options.finishing, scale_,
                                                        {vectors_at, classifiedVehicles(options, vehicles_at)}))
             (*boxes)[frame].push_back(recordOf(frame, state));
+        nameClasses(*boxes, scale_, options.classes);
         return boxes;
     });
 }

@@ -204,6 +204,35 @@ TEST_F(Evaluate, theTruthMayHaveAnyFormatThatImportReads) {
     }
 }
 
+TEST_F(Evaluate, oneClassIsMeasuredAlone) {
+    const std::string truth = write("both.csv",
+                                    "frame,id,x,y,length,width,heading,class,ignore\n"
+                                    "0,1,50,40,20,10,0,car,0\n0,2,50,90,10,4,0,motorcycle,0\n");
+    const std::string result = write("named.csv",
+                                     "frame,id,x,y,length,width,heading,class,score\n"
+                                     "0,7,50,40,20,10,0,two_wheeler,1\n0,8,50,90,10,4,0,two_wheeler,1\n");
+    const auto measured = [&](const std::string& classes) {
+        const auto done =
+            evaluate({"--ground-truth", truth, "--result", result, "--classes", classes, "--overlap", "0.5", "--json"});
+        EXPECT_EQ(done.exit_code, 0) << done.errors;
+        auto json = nlohmann::json::parse(done.output);
+        EXPECT_EQ(json["classes"], classes);
+        json = json["measures"][0];
+        return std::vector<int>{json["tp"].get<int>(), json["fp"].get<int>(), json["fn"].get<int>()};
+    };
+    EXPECT_EQ(measured("all"), (std::vector<int>{2, 0, 0}));
+    EXPECT_EQ(measured("two_wheelers"), (std::vector<int>{1, 0, 0})) << "what is on the car counts neither way";
+    EXPECT_EQ(measured("vehicles"), (std::vector<int>{0, 0, 1})) << "the car was called something else";
+    EXPECT_EQ(measured("persons"), (std::vector<int>{0, 0, 0}));
+    EXPECT_THAT(evaluate({"--ground-truth", truth, "--result", result, "--classes", "two_wheelers"}).output,
+                HasSubstr("two-wheelers only, without results of other classes"));
+    const auto unknown = evaluate({"--ground-truth", truth, "--result", result, "--classes", "bikes"});
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_THAT(unknown.errors, AllOf(HasSubstr("bikes"), HasSubstr("two_wheelers")));
+    EXPECT_EQ(evaluate({"--ground-truth", truth, "--result", result, "--classes", "persons", "--vehicles"}).exit_code,
+              2);
+}
+
 TEST_F(Evaluate, theBorderFindsTheSizeOfTheImage) {
     const auto arguments = [&](std::vector<std::string> more) {
         std::vector<std::string> all{"--ground-truth", truth(), "--result", truth(), "--border", "3"};

@@ -156,6 +156,36 @@ TEST_F(EventsCommand, FramesThatCouldNotBeRegisteredAreTold) {
                                      HasSubstr("zone \"gate\" counts in frames 0 to 199 only")));
 }
 
+TEST_F(EventsCommand, ZonesOfTheProjectAreWatchedWhereNoFileIsGiven) {
+    {
+        ProjectFile project = ProjectFile::open(folder_ / "p.eyrie");
+        ReviewStore store(project, 1);
+        StoredZone zone;
+        for (const int x : {200, 300}) {
+            zone.id = store.newZoneId();
+            zone.zone = {
+                "gate " + std::to_string(x), ZoneShape::line, ZoneAnchor::ground, 0, {{x + 0., 100}, {x + 0., 300}}};
+            store.apply({"Add", {}, {}, {{std::nullopt, zone}}});
+        }
+        zone.id = store.newZoneId();
+        zone.zone = {"late", ZoneShape::area, ZoneAnchor::ground, 900, {{0, 0}, {50, 0}, {0, 50}}};
+        store.apply({"Add", {}, {}, {{std::nullopt, zone}}});
+    }
+    const auto own = call({"--project", "@p.eyrie", "--kind", "crosses"});
+    EXPECT_EQ(own.exit_code, 0) << own.errors;
+    EXPECT_THAT(own.output, AllOf(HasSubstr("gate 200"), HasSubstr("gate 300"), HasSubstr("2 events")));
+    EXPECT_THAT(own.errors, AllOf(HasSubstr("watching the zones of the project: gate 200, gate 300, late"),
+                                  HasSubstr("zone \"late\" is fixed to the ground of frame 900")));
+    const auto file = call({"--project", "@p.eyrie", "--kind", "crosses", "--zone", "@zones.json"});
+    EXPECT_THAT(file.output, AllOf(HasSubstr("gate"), HasSubstr("1 event of"), Not(HasSubstr("gate 200"))));
+    EXPECT_EQ(file.errors, "");
+    const auto report = test::runProcess({test::programPath("eyrie-cli"), "report", "--project", at("p.eyrie"),
+                                          "--events", "--verdict", "all", "--out", at("r.html")});
+    EXPECT_EQ(report.exit_code, 0) << report.errors;
+    EXPECT_THAT(report.errors, HasSubstr("watching the zones of the project"));
+    EXPECT_THAT(textOf("r.html"), AllOf(HasSubstr("Watched: gate 200, a line."), HasSubstr("crosses: gate 300")));
+}
+
 TEST_F(EventsCommand, BadZonesAreRefusedWithTheirPlace) {
     write("flat.json", R"({"eyrie_zones": 1, "zones": [{"name": "a", "points": [[0, 0], [5, 5], [9, 9]]}]})");
     write("broken.json", R"({"eyrie_zones": 1, "zones": [{"name": "a",)");

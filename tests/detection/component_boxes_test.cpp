@@ -89,6 +89,33 @@ TEST(ComponentBoxes, DoNotGrowFarBeyondTheirVectors) {
     EXPECT_EQ(boxes[0], cv::Rect2d(19.5, 50, 16, 49.5));
 }
 
+TEST(ComponentBoxes, GrowthMayBeLimitedInOneDirectionOnly) {
+    Scene scene;
+    scene.binary(cv::Rect(20, 20, 16, 80)).setTo(255);
+    scene.vectors = {{22, 60}, {33, 90}};
+    GradientOptions options = bare();
+    options.growth_along_m = 1;
+    ASSERT_EQ(scene.select(options).size(), 1U);
+    EXPECT_EQ(scene.select(options)[0], cv::Rect2d(19.5, 50, 16, 49.5));
+    options.growth_along_m = 0;
+    options.growth_across_m = 0.15;  // 1.5 px
+    EXPECT_EQ(scene.select(options)[0], cv::Rect2d(20.5, 19.5, 14, 80));
+    options.growth_across_m = 0.01;
+    EXPECT_EQ(scene.select(options)[0], cv::Rect2d(21, 19.5, 13, 80)) << "a pixel at least";
+}
+
+TEST(ComponentBoxes, AThinLineIsABoxUnlessItsAreaIsTooSmall) {
+    Scene scene;
+    scene.binary(cv::Rect(20, 30, 15, 1)).setTo(255);
+    scene.binary(cv::Rect(20, 60, 1, 15)).setTo(255);
+    GradientOptions options = bare();
+    EXPECT_EQ(scene.select(options).size(), 2U);
+    options.min_box_area_px = 15;
+    EXPECT_EQ(scene.select(options).size(), 2U);
+    options.min_box_area_px = 16;
+    EXPECT_EQ(scene.select(options).size(), 0U);
+}
+
 TEST(ComponentBoxes, ShrinkByTheWideningOfTheirPatterns) {
     Scene scene;
     scene.binary(cv::Rect(20, 20, 16, 40)).setTo(255);

@@ -150,6 +150,84 @@ TEST(Mser, ThesisKeepsRegionsFromEdgeToEdge) {
     EXPECT_GT(cv::countNonZero(layerOf(options, roi, "binary")), 700);
 }
 
+TEST(Mser, OnlyWhatReachesFromEdgeToEdgeIsGround) {
+    // 24 px wide; down to the lower edge from the upper one, and from 2 px below it.
+    DetectionOptions options;
+    options.method = DetectionMethod::mser;
+    options.mser.max_area_m2 = 30;
+    const auto kept = [&](const cv::Rect& block) {
+        MotionRoi roi = plainRoi({60, 32});
+        roi.image(block).setTo(180);
+        return cv::countNonZero(layerOf(options, roi, "binary"));
+    };
+    EXPECT_EQ(kept({18, 0, 24, 32}), 0);
+    EXPECT_GT(kept({18, 2, 24, 30}), 600);
+    EXPECT_GT(kept({18, 0, 24, 29}), 600);
+}
+
+TEST(Mser, AreasAreInSquareMetres) {
+    // 40 × 16 px at 0.11 m/px are 7.7 m².
+    MotionRoi roi = plainRoi({60, 90});
+    roi.image(cv::Rect(22, 25, 16, 40)).setTo(180);
+    DetectionOptions options;
+    options.method = DetectionMethod::mser;
+    const auto found = [&](double smallest, double largest) {
+        options.mser.min_area_m2 = smallest;
+        options.mser.max_area_m2 = largest;
+        return cv::countNonZero(layerOf(options, roi, "binary")) > 0;
+    };
+    EXPECT_TRUE(found(7, 8.5));
+    EXPECT_FALSE(found(8.5, 20));
+    EXPECT_FALSE(found(1, 7));
+}
+
+TEST(CannyHarris, ASlantingStepIsAsHighAsAnUprightOne) {
+    // Sobel's masks answer to a step of height h along the diagonal with 3h both ways, 4.2h in all; the limit is 4
+    // · 20.
+    DetectionOptions options;
+    options.method = DetectionMethod::canny_harris;
+    options.canny_harris.high = 20;
+    options.canny_harris.low_share = 1;
+    const auto edges = [&](int height) {
+        MotionRoi roi = plainRoi({60, 60});
+        for (int y = 0; y < 60; ++y) {
+            for (int x = 0; x < 60; ++x) roi.image.at<uchar>(y, x) = static_cast<uchar>(x + y < 60 ? 90 : 90 + height);
+        }
+        return cv::countNonZero(layerOf(options, roi, "edges"));
+    };
+    EXPECT_EQ(edges(17), 0);
+    EXPECT_GT(edges(21), 20);
+}
+
+TEST(RelativeConnectivity, CarsAreScaledToTheirLength) {
+    // 4.6 m at 0.11 m/px: to this length nothing is scaled.
+    const MotionRoi roi = roiOf(drivenScene(0.4));
+    DetectionOptions options;
+    options.method = DetectionMethod::relative_connectivity;
+    const auto lines = [&](double car_length_px) {
+        options.relative_connectivity.car_length_px = car_length_px;
+        return layerOf(options, roi, "bright lines");
+    };
+    const cv::Mat as_it_is = lines(0);
+    EXPECT_EQ(cv::norm(as_it_is, lines(4.6 / 0.11), cv::NORM_INF), 0);
+    EXPECT_GT(cv::norm(as_it_is, lines(24), cv::NORM_INF), 0);
+}
+
+TEST(SegmentationViews, DrawTheRightAndLowerBordersOfSegments) {
+    const cv::Mat gray(4, 5, CV_8UC1, cv::Scalar(50));
+    cv::Mat labels = cv::Mat::zeros(4, 5, CV_32SC1);
+    labels(cv::Rect(1, 1, 2, 2)).setTo(1);
+    const cv::Mat drawn = drawSegments(gray, labels, {1, 2, 3});
+    const cv::Mat expected = (cv::Mat_<uchar>(4, 5) << 0, 1, 1, 0, 0,  //
+                              1, 0, 1, 0, 0,                           //
+                              1, 1, 1, 0, 0,                           //
+                              0, 0, 0, 0, 0);
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 5; ++x)
+            EXPECT_EQ(drawn.at<cv::Vec3b>(y, x), expected.at<uchar>(y, x) ? cv::Vec3b(1, 2, 3) : cv::Vec3b(50, 50, 50));
+    }
+}
+
 TEST(LiteratureSegmenters, TakeTheThesisSettings) {
     for (const DetectionMethod method : {DetectionMethod::relative_connectivity, DetectionMethod::tophat_otsu,
                                          DetectionMethod::mser, DetectionMethod::canny_harris}) {

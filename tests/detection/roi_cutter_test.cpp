@@ -24,6 +24,10 @@ TEST(RoiCutter, ExtendsTheClusterAlongAndAcross) {
     EXPECT_DOUBLE_EQ(area.length, 140);
     EXPECT_DOUBLE_EQ(area.width, 50);
     EXPECT_DOUBLE_EQ(area.heading, 0.4);
+    DetectionOptions wider = segmentation();
+    wider.extend_across = 3;
+    EXPECT_DOUBLE_EQ(extendedCluster(cluster, {320, 240}, wider, kContractScale).width, 120);
+    EXPECT_DOUBLE_EQ(extendedCluster(cluster, {320, 240}, wider, kContractScale).length, 140);
     cluster.box = {{100, 80}, 3, 1, 0.4};
     const OrientedBox smallest = extendedCluster(cluster, {320, 240}, segmentation(), kContractScale);
     EXPECT_DOUBLE_EQ(smallest.length, 7 / 0.11);
@@ -61,6 +65,16 @@ TEST(RoiCutter, WindowsGetTheirContextAndSegmentsAreLeftTheMiddle) {
         EXPECT_NEAR(back[0], scene.motion.motion_vectors[i].position.x, 1e-3);
         EXPECT_NEAR(back[1], scene.motion.motion_vectors[i].position.y, 1e-3);
     }
+}
+
+TEST(RoiCutter, NarrowingLeavesAPixelAtLeast) {
+    MotionRoi roi;
+    roi.image = cv::Mat(2, 20, CV_8UC1, cv::Scalar(9));
+    roi.inside = cv::Mat(2, 20, CV_8UC1, cv::Scalar(255));
+    EXPECT_EQ(narrowed(roi, 5).image.size(), cv::Size(10, 2)) << "too low to be narrowed in its height";
+    EXPECT_EQ(narrowed(roi, 50).image.size(), cv::Size(2, 2));
+    EXPECT_EQ(narrowed(roi, 0).image.size(), cv::Size(20, 2));
+    EXPECT_EQ(narrowed(roi, -3).image.size(), cv::Size(20, 2));
 }
 
 TEST(RoiCutter, PlacesTheVectorsInTheRoi) {

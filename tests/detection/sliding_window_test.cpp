@@ -47,7 +47,11 @@ TEST(DecisionPeaks, KeepLocalMaximaOnly) {
     EXPECT_THAT(decisionPeaks(decision, 0.5), testing::ElementsAre(cv::Point(1, 1), cv::Point(4, 3)));
     EXPECT_TRUE(decisionPeaks({}, 0).empty());
     EXPECT_TRUE(decisionPeaks(cv::Mat(3, 3, CV_32FC1, cv::Scalar(minus_infinity)), 0).empty());
-    EXPECT_EQ(decisionPeaks(cv::Mat(3, 3, CV_32FC1, cv::Scalar(1)), 0).size(), 1U);
+    // Of equals the first in reading order.
+    EXPECT_THAT(decisionPeaks(cv::Mat(3, 3, CV_32FC1, cv::Scalar(1)), 0), testing::ElementsAre(cv::Point(0, 0)));
+    cv::Mat ties(6, 6, CV_32FC1, cv::Scalar(-1));
+    for (const cv::Point p : {cv::Point(1, 1), {1, 2}, {4, 1}, {3, 2}, {3, 4}, {4, 5}}) ties.at<float>(p) = 2;
+    EXPECT_THAT(decisionPeaks(ties, 0), testing::ElementsAre(cv::Point(1, 1), cv::Point(4, 1), cv::Point(3, 4)));
 }
 
 TEST(SuppressOverlapping, TheSurestStays) {
@@ -135,6 +139,27 @@ TEST(ScanAtScale, WithoutRejectionEveryWindowIsLookedAtToTheEnd) {
     EXPECT_EQ(cv::norm(decision, all, cv::NORM_INF), 0) << "a trace changes no value";
 }
 
+TEST(ScanAtScale, BoxesLieAroundTheMiddleOfTheirWindows) {
+    // A car of the window's own size: nothing is scaled, and the window at (x, y) covers 16 × 32 pixels from there.
+    SlidingWindowOptions options = drivenSceneWindow();
+    options.car_length_m = 21.5 * kContractScale.gsd_m_per_px;
+    options.car_width_m = 10 * kContractScale.gsd_m_per_px;
+    options.decision_threshold = -1000;
+    options.rejection_margin = SlidingWindowOptions::kNoRejection;
+    const WindowScanner scanner(loadModel(test::drivenSceneModel()));
+    cv::Mat decision;
+    const auto found = scanAtScale(scanner, roiOf(drivenScene(0.5)).image, 1, options, kContractScale, decision);
+    const auto peaks = decisionPeaks(decision, -1000);
+    ASSERT_FALSE(found.empty());
+    ASSERT_EQ(found.size(), peaks.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_NEAR(found[i].box.x + found[i].box.width / 2, peaks[i].x + 7.5, 1e-9);
+        EXPECT_NEAR(found[i].box.y + found[i].box.height / 2, peaks[i].y + 15.5, 1e-9);
+        EXPECT_NEAR(found[i].box.width, 10, 1e-9);
+        EXPECT_NEAR(found[i].box.height, 21.5, 1e-9);
+    }
+}
+
 TEST(SlidingWindow, ScoresAreDecisionValuesAndTheThresholdHolds) {
     SlidingWindowOptions options = drivenSceneWindow();
     const MotionRoi roi = roiOf(drivenScene(0.5));
@@ -147,6 +172,27 @@ TEST(SlidingWindow, ScoresAreDecisionValuesAndTheThresholdHolds) {
     EXPECT_EQ(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).size(), 1U);
 }
 
+TEST(SlidingWindow, ShowsItsDecisionsWhereTheWindowsAre) {
+    SlidingWindowOptions options = drivenSceneWindow();
+    options.smallest_scale = options.largest_scale = 1;
+    const MotionRoi roi = roiOf(drivenScene(0.5));
+    DetectionTrace trace;
+    const auto found = makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi, &trace);
+    ASSERT_FALSE(found.empty());
+    const auto shown = std::find_if(trace.layers.begin(), trace.layers.end(),
+                                    [](const auto& layer) { return layer.name == "decision ×1.00"; });
+    ASSERT_NE(shown, trace.layers.end());
+    EXPECT_EQ(shown->image.size(), roi.image.size());
+    cv::Point peak;
+    cv::minMaxLoc(shown->image, nullptr, nullptr, nullptr, &peak);
+    const cv::Vec2d in_image = roi.image_from_roi * cv::Vec3d(peak.x, peak.y, 1);
+    // Windows have an even size: the middle lies between two places. A place is some two pixels of the search area.
+    EXPECT_LT(std::hypot(in_image[0] - found[0].box.centre.x, in_image[1] - found[0].box.centre.y), 2.5);
+    const auto& best = trace.checks.front();
+    EXPECT_EQ(best.parameter, "sliding_window.decision_threshold");
+    EXPECT_NEAR(best.value, found[0].score, 1e-6);
+}
+
 TEST(SlidingWindow, WithoutVectorsInsideAWindowIsDropped) {
     SlidingWindowOptions options = drivenSceneWindow();
     MotionRoi roi = roiOf(drivenScene(0.5));
@@ -154,6 +200,8 @@ TEST(SlidingWindow, WithoutVectorsInsideAWindowIsDropped) {
     EXPECT_TRUE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty());
     options.need_support = false;
     EXPECT_FALSE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty());
+    roi.inside = cv::Mat::zeros(roi.image.size(), CV_8UC1);
+    EXPECT_TRUE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty()) << "beyond the video";
 }
 
 TEST(SlidingWindow, TheGlobalOneFindsTheVehicleWithoutMotion) {

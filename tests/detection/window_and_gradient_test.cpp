@@ -29,15 +29,17 @@ class Told : public Detector {
 };
 
 std::vector<Detection> together(double decision, const std::vector<OrientedBox>& windows,
-                                const std::vector<OrientedBox>& segments) {
+                                const std::vector<OrientedBox>& segments, DetectionTrace* trace = nullptr,
+                                double most_covered = WindowAndGradientOptions{}.most_covered) {
     WindowAndGradientOptions options;
     options.sure_decision = 5;
+    options.most_covered = most_covered;
     const WindowAndGradientDetector detector(std::make_unique<Told>(windows, true, decision),
                                              std::make_unique<Told>(segments, false, 0), options, 3);
     MotionRoi roi;
     roi.image = cv::Mat(60, 40, CV_8UC1, cv::Scalar(9));
     roi.inside = cv::Mat(60, 40, CV_8UC1, cv::Scalar(255));
-    return detector.detect(roi);
+    return detector.detect(roi, trace);
 }
 
 const OrientedBox kCar{{20, 20}, 16, 8, 0};
@@ -58,6 +60,29 @@ TEST(WindowAndGradient, AnUnsureWindowLeavesThePlaceToSegments) {
     ASSERT_EQ(found.size(), 1U);
     EXPECT_FALSE(found[0].complete);
     EXPECT_EQ(found[0].box.centre, kRear.centre);
+}
+
+TEST(WindowAndGradient, ASegmentIsCoveredByMoreThanItsShare) {
+    // A third of a box of 6 × 8 px that ends 2 px inside the car.
+    const OrientedBox third{{11, 20}, 6, 8, 0};
+    EXPECT_EQ(together(7, {kCar}, {third}, nullptr, 0.3).size(), 1U);
+    EXPECT_EQ(together(7, {kCar}, {third}, nullptr, 0.35).size(), 2U);
+    EXPECT_EQ(together(7, {kCar}, {kOther}, nullptr, 0).size(), 2U) << "what is not touched is never covered";
+    EXPECT_EQ(together(5, {kCar}, {kRear}).size(), 1U) << "sure from the limit on";
+}
+
+TEST(WindowAndGradient, TellsSharesOnlyBesideASureWindow) {
+    DetectionTrace trace;
+    together(3, {kCar}, {kRear}, &trace);
+    for (const auto& check : trace.checks) EXPECT_NE(check.parameter, "window_and_gradient.most_covered");
+    trace = {};
+    together(7, {kCar}, {kRear, kOther}, &trace);
+    std::vector<double> shares;
+    for (const auto& check : trace.checks)
+        if (check.parameter == std::string("window_and_gradient.most_covered")) shares.push_back(check.value);
+    ASSERT_EQ(shares.size(), 2U);
+    EXPECT_NEAR(shares[0], 0.9, 1e-6) << "half a pixel of five lies behind the car";
+    EXPECT_EQ(shares[1], 0);
 }
 
 TEST(WindowAndGradient, SegmentsBesideEachOtherDoNotCoverOneAnother) {

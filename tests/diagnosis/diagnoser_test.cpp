@@ -215,6 +215,16 @@ TEST_F(Causes, aMissAtTheBorder) {
     EXPECT_EQ(miss.cause, ErrorCause::at_border);
 }
 
+TEST_F(Causes, aMissByAResultOfAnotherClass) {
+    stored[0];
+    options.one_class = TrackClass::vehicle;
+    BoxRecord result = car(0, 7, 50);
+    result.object_class = "two_wheeler";
+    const auto miss = theOnly(ResultErrorKind::miss, boxes({car(0, 1, 50)}), boxes({result}));
+    EXPECT_EQ(miss.cause, ErrorCause::other_class);
+    EXPECT_EQ(miss.text, "called two_wheeler");
+}
+
 TEST_F(Causes, missesInMergesAndSplits) {
     stored[0];
     BoxRecord wide = car(0, 7, 61);

@@ -127,6 +127,68 @@ TEST(Matching, NonVehiclesAreIgnoredOnRequest) {
     EXPECT_EQ(countsOf(boxes({rider}), boxes({detection(102)}), options), (Counts{0, 0, 0}));
 }
 
+BoxRecord called(BoxRecord record, const char* object_class) {
+    record.object_class = object_class;
+    return record;
+}
+
+TEST(Matching, OneClassIsMeasuredAlone) {
+    const BoxesByFrame truth =
+        boxes({car(0, 1, 100), called(car(0, 2, 200), "motorcycle"), called(car(0, 3, 300), "person")});
+    EvaluationOptions options = at(0.1);
+    options.one_class = TrackClass::two_wheeler;
+    EXPECT_EQ(countsOf(truth, {}, options), (Counts{0, 0, 1})) << "the motorcycle alone counts";
+    const auto result = boxes({called(detection(100), ""), called(detection(200), ""), called(detection(300), ""),
+                               called(detection(400), "")});
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{1, 1, 0}))
+        << "results without a class take part; what lies on others counts neither way, what lies on nothing is false";
+    options.one_class = TrackClass::person;
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{1, 1, 0}));
+    options.one_class = TrackClass::vehicle;
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{1, 1, 0}));
+}
+
+TEST(Matching, ResultsOfAnotherClassAreLeftOutWhereOneIsMeasured) {
+    const BoxesByFrame truth = boxes({car(0, 1, 100), called(car(0, 2, 200), "bicycle")});
+    const auto result =
+        boxes({called(detection(100), "person"), called(detection(200), "two_wheeler"), called(detection(300), "bus")});
+    EvaluationOptions options = at(0.1);
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{2, 1, 0})) << "together classes do not matter";
+    options.one_class = TrackClass::vehicle;
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{0, 1, 1})) << "the car was called a person";
+    EXPECT_EQ(matchFrames(truth, result, options).at(0).other_class_results, (std::vector<int>{0, 1}));
+    options.one_class = TrackClass::two_wheeler;
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{1, 0, 0}));
+    options.one_class = TrackClass::person;
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{0, 0, 0})) << "the false person lies on a car";
+    options.one_class.reset();
+    options.vehicles_only = true;
+    EXPECT_EQ(countsOf(truth, result, options), (Counts{1, 1, 0})) << "--vehicles looks at the ground truth alone";
+}
+
+TEST(Matching, ClassesToBeMeasuredAreWords) {
+    EXPECT_FALSE(scoredClass("all"));
+    for (const std::string& word : scoredClassWords()) EXPECT_EQ(wordOfScored(scoredClass(word)), word);
+    EXPECT_EQ(scoredClass("two_wheelers"), TrackClass::two_wheeler);
+    try {
+        scoredClass("bikes");
+        FAIL() << "there is no such class";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::parameter);
+        EXPECT_NE(std::string(error.what()).find("\"bikes\""), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("two_wheelers"), std::string::npos) << error.what();
+    }
+    EvaluationOptions options = at(0.1);
+    options.one_class = TrackClass::person;
+    options.vehicles_only = true;
+    EXPECT_THROW(check(options), Error) << "nothing would count";
+    options.one_class = TrackClass::vehicle;
+    EXPECT_NO_THROW(check(options));
+    options.vehicles_only = false;
+    options.one_class = TrackClass::unknown;
+    EXPECT_THROW(check(options), Error);
+}
+
 TEST(Matching, TrackEvalForgivesNothing) {
     EvaluationOptions options = at(0.1);
     options.convention = Convention::trackeval;

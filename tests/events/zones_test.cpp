@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "events/driven_tracks.h"
+#include "events/zones/zone_edits.h"
 #include "events/zones/zone_file.h"
 #include "support/temporary_folder.h"
 
@@ -111,6 +112,64 @@ TEST(Zones, FixedToAnotherGroundTheyDoNotCount) {
     EXPECT_THAT(scene.events(EventKind::enters, {}, {elsewhere}), IsEmpty());
 }
 
+namespace {
+
+constexpr const char* kNow = "2026-11-21T08:00:00Z";
+
+/// A project's zones as steps make them.
+class ZoneSteps : public testing::Test {
+ protected:
+    ReviewEdit added(const std::vector<Zone>& zones) {
+        return addZones(set_, zones, {"Ada", kNow}, [this] { return ++last_id_; });
+    }
+    ReviewSet set_;
+    int last_id_ = 0;
+};
+
+}  // namespace
+
+TEST_F(ZoneSteps, WhatIsThereAlreadyIsNotAddedAgain) {
+    applyEdit(set_, added({square(), line()}));
+    ASSERT_EQ(set_.zones.size(), 2U);
+    EXPECT_EQ(set_.zones.at(1).person, "Ada");
+    EXPECT_EQ(zonesOf(set_.zones), (std::vector<Zone>{square(), line()}));
+    EXPECT_TRUE(added({square(), line()}).empty());
+    Zone other = square();
+    other.points[0].x += 5;
+    const ReviewEdit second = added({other});
+    EXPECT_EQ(second.name, "Add zone \"square\"");
+    EXPECT_THROW(applyEdit(set_, second), Error) << "its name is taken";
+    EXPECT_EQ(newZoneName(set_, ZoneShape::area), "zone 1");
+    applyEdit(set_, changeZone(set_, 1, [](StoredZone& zone) { zone.zone.name = "zone 1"; }, {"Bo", kNow}));
+    EXPECT_EQ(newZoneName(set_, ZoneShape::area), "zone 2");
+    EXPECT_EQ(newZoneName(set_, ZoneShape::line), "line 1");
+}
+
+TEST_F(ZoneSteps, ARenamedZoneKeepsWhatWasSaidAboutItsEvents) {
+    applyEdit(set_, added({square(), line()}));
+    for (const int id : {1, 2}) {
+        Verdict& verdict = set_.verdicts[id];
+        verdict.id = id;
+        verdict.subject.kind = EventKind::enters;
+        verdict.subject.zone = id == 1 ? "square" : "line";
+        verdict.judgement = Judgement::relevant;
+    }
+    const ReviewEdit rename = changeZone(set_, 1, [](StoredZone& zone) { zone.zone.name = "yard"; }, {"Bo", kNow});
+    EXPECT_EQ(rename.name, "Rename zone \"square\"");
+    applyEdit(set_, rename);
+    EXPECT_EQ(set_.verdicts.at(1).subject.zone, "yard");
+    EXPECT_EQ(set_.verdicts.at(2).subject.zone, "line");
+    EXPECT_EQ(set_.zones.at(1).person, "Bo");
+    applyEdit(set_, inverseOf(rename));
+    EXPECT_EQ(set_.verdicts.at(1).subject.zone, "square");
+    EXPECT_TRUE(changeZone(set_, 1, [](StoredZone&) {}, {"Bo", kNow}).empty());
+    EXPECT_TRUE(changeZone(set_, 9, [](StoredZone&) {}, {"Bo", kNow}).empty());
+    const ReviewEdit gone = removeZones(set_, {1, 2, 9});
+    EXPECT_EQ(gone.name, "Delete 2 zones");
+    applyEdit(set_, gone);
+    EXPECT_TRUE(set_.zones.empty());
+}
+
 class ZoneFiles : public testing::Test {
  protected:
     std::string messageOf(const std::string& text) const {
@@ -160,6 +219,16 @@ TEST_F(ZoneFiles, WhatIsWrongIsToldWithItsPlace) {
     const std::string good = R"({"name": "a", "points": [[0, 0], [9, 0], [9, 9]]})";
     EXPECT_THAT(messageOf(withZone(good + "," + good)), HasSubstr("second zone with the name \"a\""));
     EXPECT_EQ(messageOf(withZone(good)), "");
+}
+
+TEST_F(ZoneFiles, WhatIsWrittenIsReadToTheBit) {
+    Zone odd = square();
+    odd.name = "Höfe, \"Ost\"";
+    odd.points[0] = {400 + 1 / 3.0, -0.1};
+    Zone fixed = line();
+    fixed.anchor = ZoneAnchor::image;
+    writeZones(folder_ / "out.json", {odd, fixed});
+    EXPECT_EQ(readZones(folder_ / "out.json"), (std::vector<Zone>{odd, fixed}));
 }
 
 TEST_F(ZoneFiles, AZoneWithoutAreaIsRefused) {

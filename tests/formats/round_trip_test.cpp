@@ -183,6 +183,30 @@ TEST_F(RoundTripLosses, AreToldInNumbers) {
     EXPECT_GT(visdrone.lost(LossKind::rounded), 10);
 }
 
+TEST_F(RoundTripLosses, ClassesOfTracksBecomeTheNearestOfFixedLists) {
+    LabelFile labels;
+    labels.image_size = cv::Size(640, 480);
+    for (const char* word : {"vehicle", "two_wheeler", "person", ""}) {
+        LabelBox box;
+        box.id = static_cast<int>(labels.boxes[0].size()) + 1;
+        box.box = {{100.0 * *box.id, 100}, 20, 10, 0};
+        box.object_class = word;
+        labels.boxes[0].push_back(box);
+    }
+    const auto readBack = [&](const char* name, const char* format) {
+        writeLabels(labels, folder_ / name, format, exportOptions());
+        std::map<int, std::string> classes;
+        const LabelFile read = readLabels(folder_ / name, format);
+        for (const LabelBox& box : read.boxes.at(0)) classes[*box.id] = box.object_class;
+        return std::vector<std::string>{classes[1], classes[2], classes[3], classes[4]};
+    };
+    using Words = std::vector<std::string>;
+    EXPECT_EQ(readBack("gt.txt", "mot"), (Words{"vehicle", "motorcycle", "person", ""}));
+    EXPECT_EQ(readBack("v.txt", "visdrone"), (Words{"car", "motorcycle", "person", "other"}));
+    EXPECT_EQ(readBack("o.txt", "virat"), (Words{"vehicle", "bicycle", "person", ""}));
+    EXPECT_EQ(readBack("r.csv", "native-result"), (Words{"vehicle", "two_wheeler", "person", ""}));
+}
+
 TEST_F(RoundTripLosses, ClippingIsByOptionAndCounted) {
     LabelFile labels = sampleLabels(false);
     labels.boxes[0][0].box.centre = {2, 60};  // sticks out by 7.75 px on the left

@@ -45,6 +45,26 @@ TEST(CannyGradient, SmoothsNoise) {
     EXPECT_LT(cv::mean(smooth)[0], 0.5 * cv::mean(plain)[0]);
 }
 
+TEST(CannyGradient, SeesBothSidesAlikeAndNeedsAWidth) {
+    cv::RNG random(2);
+    cv::Mat gray(40, 50, CV_8UC1);
+    random.fill(gray, cv::RNG::UNIFORM, 0, 256);
+    for (const double variance : {0.5, 3.0}) {
+        cv::Mat gradient;
+        cannyGradient(gray, variance, gradient);
+        for (const int axis : {0, 1}) {
+            cv::Mat flipped;
+            cv::flip(gray, flipped, axis);
+            cv::Mat of_flipped;
+            cannyGradient(flipped, variance, of_flipped);
+            cv::flip(of_flipped, of_flipped, axis);
+            EXPECT_LT(cv::norm(gradient, of_flipped, cv::NORM_INF), 1e-2) << variance;
+        }
+    }
+    cv::Mat unused;
+    EXPECT_THROW(cannyGradient(gray, 0, unused), cv::Exception);
+}
+
 TEST(MorphologicalGradient, IsMaximumMinusMinimumOfTheNeighbourhood) {
     cv::Mat gray(7, 7, CV_8UC1, cv::Scalar(50));
     gray.at<uchar>(3, 3) = 90;

@@ -60,6 +60,15 @@ TEST(UprightPatch, BoxOfTheWholePatchIsTheArea) {
     }
 }
 
+TEST(UprightPatch, BoxesOfThePatchLieWhereItsPixelsDo) {
+    const UprightPatch patch = cutUpright(scene(), {{50, 40}, 21, 11, -kPi / 2});  // from (45, 30) on
+    const OrientedBox box = boxInImage(patch.image_from_patch, {3, 10, 4, 6});
+    EXPECT_NEAR(box.centre.x, 50, 1e-9);
+    EXPECT_NEAR(box.centre.y, 43, 1e-9);
+    EXPECT_EQ(box.length, 6);
+    EXPECT_EQ(box.width, 4);
+}
+
 TEST(UprightPatch, MarksWhatLiesOutsideTheImage) {
     const UprightPatch half = cutUpright(scene(), {{0, 45}, 21, 21, -kPi / 2});
     EXPECT_EQ(cv::countNonZero(half.inside), 11 * 21);
@@ -67,8 +76,30 @@ TEST(UprightPatch, MarksWhatLiesOutsideTheImage) {
     EXPECT_EQ(half.inside.at<uchar>(10, 10), 255);
     const UprightPatch outside = cutUpright(scene(), {{-500, 45}, 21, 21, 0.3});
     EXPECT_EQ(cv::countNonZero(outside.inside), 0);
-    const UprightPatch far = cutUpright(scene(), {{1e12, -1e15}, 21, 21, 0.3});
-    EXPECT_EQ(cv::countNonZero(far.inside), 0);
+    for (const cv::Point2d centre : {cv::Point2d(1e12, -1e15), {1e12, 45}, {45, -1e12}}) {
+        const UprightPatch far = cutUpright(scene(), {centre, 21, 21, 0.3});
+        EXPECT_EQ(cv::countNonZero(far.inside), 0);
+        EXPECT_EQ(cv::countNonZero(far.image), 0) << "nothing of it is shown";
+    }
+    // Taller than wide: 30 of its 41 rows lie in the picture of 90.
+    const UprightPatch tall = cutUpright(scene(), {{60, 80}, 41, 11, -kPi / 2});
+    EXPECT_EQ(cv::countNonZero(tall.inside), 30 * 11);
+    EXPECT_EQ(tall.inside.at<uchar>(29, 5), 255);
+    EXPECT_EQ(tall.inside.at<uchar>(30, 5), 0);
+    const UprightPatch wide = cutUpright(scene(), {{115, 45}, 11, 41, -kPi / 2});
+    EXPECT_EQ(cv::countNonZero(wide.inside), 25 * 11);
+}
+
+TEST(UprightPatch, PixelsReachHalfAPixelBeyondTheirCentres) {
+    const auto inside = [](double x, double y) {
+        return cv::countNonZero(insideMask({1, 0, x, 0, 1, y}, {6, 4}, {6, 4}));
+    };
+    for (const double shift : {-0.5, 0.5}) {
+        EXPECT_EQ(inside(shift, 0), 24);
+        EXPECT_EQ(inside(0, shift), 24);
+        EXPECT_EQ(inside(1.1 * shift, 0), 20);
+        EXPECT_EQ(inside(0, 1.1 * shift), 18);
+    }
 }
 
 TEST(UprightPatch, TakesDegenerateAreas) {
@@ -78,6 +109,8 @@ TEST(UprightPatch, TakesDegenerateAreas) {
     const UprightPatch patch = cutUpright(scene(), {{nan, 5}, nan, 4, 0});
     EXPECT_EQ(patch.image.size(), cv::Size(4, 1));
     EXPECT_EQ(cv::countNonZero(patch.inside), 0);
+    EXPECT_EQ(cv::countNonZero(patch.image), 0);
+    EXPECT_EQ(patch.image_from_patch, cv::Matx23d(1, 0, 0, 0, 1, 0));
     EXPECT_EQ(cutUpright(cv::Mat(1, 1, CV_8UC1, cv::Scalar(3)), {{0, 0}, 5, 3, 1}).image.size(), cv::Size(3, 5));
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <map>
 #include <set>
 
@@ -280,6 +281,70 @@ TEST(Descriptor, momentsEqualSlowSumsAndIgnoreThePolarity) {
     cv::subtract(cv::Scalar(200), window, dark);  // ground 100, vehicle 50
     const auto dark_values = valuesOf(DescriptorKind::moments, dark);
     for (std::size_t i = 0; i < 22; ++i) EXPECT_NEAR(values[i], dark_values[i], 1e-4) << i;
+}
+
+TEST(Descriptor, huInvariantsAreThoseOfComplexMoments) {
+    // c_pq = Σ (x + iy)^p (x − iy)^q f: the seven of Hu (1962) are c11, |c20|², |c30|², |c21|², Re(c30 c12³),
+    // Re(c20 c12²) and Im(c30 c12³).
+    cv::Mat window(32, 16, CV_8UC1, cv::Scalar(60));
+    for (const cv::Point p : {cv::Point(4, 10), {5, 10}, {6, 10}, {4, 11}, {4, 12}, {4, 13}, {5, 13}, {7, 14}, {9, 15}})
+        window.at<uchar>(p) = static_cast<uchar>(150 + 7 * p.x);
+    double mass = 0;
+    cv::Point2d centre(0, 0);
+    const auto each = [&](const auto& take) {
+        for (int y = 0; y < 32; ++y) {
+            for (int x = 0; x < 16; ++x) take(x, y, window.at<uchar>(y, x) - 60.0);
+        }
+    };
+    each([&](int x, int y, double f) {
+        mass += f;
+        centre += cv::Point2d(x * f, y * f);
+    });
+    centre /= mass;
+    const auto c = [&](int p, int q) {
+        std::complex<double> sum = 0;
+        each([&](int x, int y, double f) {
+            const std::complex<double> z(x - centre.x, y - centre.y);
+            sum += std::pow(z, p) * std::pow(std::conj(z), q) * f;
+        });
+        return sum / std::pow(mass, 1 + (p + q) / 2.0);
+    };
+    const std::complex<double> c12 = c(1, 2);
+    const double expected[7] = {c(1, 1).real(),
+                                std::norm(c(2, 0)),
+                                std::norm(c(3, 0)),
+                                std::norm(c(2, 1)),
+                                (c(3, 0) * c12 * c12 * c12).real(),
+                                (c(2, 0) * c12 * c12).real(),
+                                (c(3, 0) * c12 * c12 * c12).imag()};
+    const auto values = valuesOf(DescriptorKind::moments, window);
+    for (std::size_t i = 0; i < 7; ++i) {
+        const double scaled = std::copysign(std::log10(1 + 1e6 * std::abs(expected[i])), expected[i]);
+        EXPECT_NEAR(values[i], scaled, 1e-4 * (1 + std::abs(scaled))) << i;
+    }
+}
+
+TEST(Descriptor, groundIsTheMedianOfTheOutermostPixels) {
+    // Two of the four sides are 150, all others 100; the larger pair decides.
+    for (const bool sides : {true, false}) {
+        cv::Mat window(32, 16, CV_8UC1, cv::Scalar(100));
+        window.rowRange(1, 31).col(0).setTo(150);
+        window.rowRange(1, 31).col(15).setTo(150);
+        if (!sides) window.colRange(0, 16).rowRange(2, 31).setTo(100);  // one row of two pixels is left
+        // 60 of 92 pixels are 150, or 2: all others differ by 50.
+        const double different = sides ? 32 * 16 - 60 : 2;
+        EXPECT_NEAR(valuesOf(DescriptorKind::moments, window)[7], different * 50 / 512, 1e-4) << sides;
+    }
+}
+
+TEST(Descriptor, everyOutermostPixelCountsOnceForTheGround) {
+    // Half of the 92 are 100: upper and lower row and 14 of the sides. Of as many of both the brighter is the median.
+    cv::Mat window(32, 16, CV_8UC1, cv::Scalar(150));
+    window.row(0).setTo(100);
+    window.row(31).setTo(100);
+    window.rowRange(1, 8).col(0).setTo(100);
+    window.rowRange(1, 8).col(15).setTo(100);
+    EXPECT_NEAR(valuesOf(DescriptorKind::moments, window)[7], 46 * 50 / 512., 1e-4);
 }
 
 TEST(Descriptor, huInvariantsDoNotChangeWhenTheBlobIsTurnedByARightAngle) {

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "core/error.h"
 #include "evaluation/measures/roc.h"
 #include "learning/drawn_windows.h"
@@ -56,6 +59,34 @@ TEST(Trainer, countsWhatItUsedAndIsTheSameForTheSameSeed) {
     EXPECT_EQ(modelBytes(*model), modelBytes(*trainModel(samples, options, {})));
     options.seed = 2;
     EXPECT_NE(modelBytes(*model), modelBytes(*trainModel(samples, options, {})));
+}
+
+TEST(Trainer, takesAsManyOthersAsItsParametersSay) {
+    // 20 vehicles make 100 samples, four of each mirrored and one of another contrast; 800 others.
+    const SampleSet samples = test::drawnSamples(20, 800, 1);
+    TrainingOptions options = smallOptions();
+    const auto others = [&](double first, double further) {
+        options.others_per_vehicle = first;
+        options.hard_others_per_vehicle = further;
+        return trainModel(samples, options, {})->record.others;
+    };
+    EXPECT_EQ(others(2, 0.5), 250);
+    EXPECT_EQ(others(0.5, 3), 350);
+    EXPECT_EQ(others(50, 1), 800) << "there are no more";
+    options.hard_negative_rounds = 3;
+    EXPECT_EQ(others(1, 0.5), 250);
+}
+
+TEST(Trainer, copiesOfAnotherContrastFollowTheirParameter) {
+    const SampleSet samples = test::drawnSamples(20, 60, 1);
+    TrainingOptions options = smallOptions();
+    options.descriptor = DescriptorKind::moments;
+    std::set<std::string> models;
+    for (const char* change : {"0", "0.3", "0.8"}) {
+        setParameter(describeOf(options), "training.contrast_change", change);
+        models.insert(modelBytes(*trainModel(samples, options, {})));
+    }
+    EXPECT_EQ(models.size(), 3U);
 }
 
 TEST(Trainer, asksForHardNegativesAndLearnsThem) {

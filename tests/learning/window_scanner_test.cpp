@@ -117,6 +117,28 @@ TEST(WindowScanner, rejectsByTheTraceAndLeavesTheOthersAlone) {
     }
 }
 
+TEST(WindowScanner, readsTheTraceAfterEveryFourthTreeAndAtTheEnd) {
+    // Lines that no sum reaches, where the trace is read or everywhere else.
+    const auto& forest = dynamic_cast<const GentleAdaBoost&>(*boosted().classifier);
+    const std::size_t trees = forest.trees().size();
+    const cv::Mat roi = drawnRoi({75, 50}, 8);
+    const auto rejected = [&](const auto& impossible_at) {
+        std::vector<float> trace(trees, -5000);
+        for (std::size_t t = 0; t < trees; ++t) {
+            if (impossible_at(t)) trace[t] = 5000;
+        }
+        VehicleModel model = boosted();
+        model.classifier = std::make_shared<GentleAdaBoost>(forest.dimension(), forest.trees(), trace);
+        int count = 0;
+        for (const float value : scanned(WindowScanner(model), roi, 0)) count += std::isinf(value) ? 1 : 0;
+        return count;
+    };
+    EXPECT_EQ(rejected([&](std::size_t t) { return t % 4 != 3 && t + 1 != trees; }), 0);
+    EXPECT_EQ(rejected([](std::size_t t) { return t == 3; }), 60 * 19);
+    EXPECT_EQ(rejected([](std::size_t t) { return t == 67; }), 60 * 19);
+    EXPECT_EQ(rejected([&](std::size_t t) { return t + 1 == trees; }), 60 * 19);
+}
+
 TEST(WindowScanner, savesTreesByRejecting) {
     const WindowScanner scanner(boosted());
     const cv::Mat roi = drawnRoi({160, 120}, 8);

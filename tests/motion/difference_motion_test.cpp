@@ -56,9 +56,9 @@ FrameMotion trueMotion(const MovingScene& scene, int index) {
 
 DifferenceResult lastOf(const MovingScene& scene, const DifferenceOptions& options) {
     DifferenceMotion motion(options, kScale);
-    DifferenceResult result;
-    for (int i = 0; i < scene.frames; ++i) result = motion.next(frameOf(scene, i), trueMotion(scene, i));
-    return result;
+    const int last = scene.frames - 1;
+    for (int i = 0; i < last; ++i) motion.remember(frameOf(scene, i), trueMotion(scene, i));
+    return motion.next(frameOf(scene, last), trueMotion(scene, last));
 }
 
 double bestOverlap(const std::vector<MotionCluster>& clusters, const OrientedBox& vehicle) {
@@ -87,6 +87,9 @@ TEST_P(EveryDifference, FindsTheVehiclesAndNothingElse) {
     const bool ghosts = GetParam() == MotionMethod::two_frame_difference;
     EXPECT_LE(result.clusters.size(), ghosts ? 4U : 2U);
     for (const auto& cluster : result.clusters) {
+        const bool by_place =
+            GetParam() == MotionMethod::three_frame_difference || GetParam() == MotionMethod::median_background;
+        EXPECT_TRUE(!by_place || cluster.members.size() == 1U) << "each area has its vehicle's vector";
         if (cluster.members.empty()) continue;  // the place a vehicle has left
         const cv::Point2d velocity = scene.vehicles[static_cast<std::size_t>(cluster.members[0])].velocity;
         EXPECT_NEAR(cluster.velocity.x, velocity.x, 1e-6);
@@ -116,10 +119,11 @@ TEST_P(EveryDifference, HasNoAnswerAfterACutAndRepeatsItInAFrozenPicture) {
     EXPECT_EQ(difference.next(repeated, frozen).clusters.size(), before.clusters.size());
     FrameMotion failed = trueMotion(scene, 37);
     failed.registration.state = RegistrationState::failed;
-    EXPECT_TRUE(difference.next(frameOf(scene, 36), failed).clusters.empty());
-    FrameMotion cut = trueMotion(scene, 38);
+    EXPECT_TRUE(difference.next(frameOf(scene, 37), failed).clusters.empty());
+    EXPECT_FALSE(difference.next(frameOf(scene, 38), trueMotion(scene, 38)).clusters.empty()) << "it was bridged";
+    FrameMotion cut = trueMotion(scene, 39);
     cut.registration.state = RegistrationState::first;
-    EXPECT_TRUE(difference.next(frameOf(scene, 38), cut).clusters.empty());
+    EXPECT_TRUE(difference.next(frameOf(scene, 39), cut).clusters.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryDifference,
@@ -205,6 +209,104 @@ TEST(DifferenceNoise, IsThatOfThePictures) {
     EXPECT_EQ(differenceNoise({}), 0);
 }
 
+TEST(MovingPixels, AreAreasThatReachOtsusThresholdOrTheLimit) {
+    // Three areas of 12, 30 and 90 grey values and a pixel of 33, noise of 5: Otsu's threshold is 33.
+    DifferenceImage difference;
+    difference.values = cv::Mat(20, 60, CV_32FC1, cv::Scalar(5));
+    difference.overlap = cv::Mat(20, 60, CV_8UC1, cv::Scalar(255));
+    difference.values(cv::Rect(5, 5, 8, 8)).setTo(12);
+    difference.values(cv::Rect(25, 5, 8, 8)).setTo(30);
+    difference.values(cv::Rect(45, 5, 8, 8)).setTo(90);
+    difference.values.at<float>(18, 2) = 33;
+    const auto moving = [&](double strong_limit) {
+        return cv::countNonZero(movingPixels(difference, 10, strong_limit));
+    };
+    EXPECT_EQ(moving(100), 64 + 1);
+    EXPECT_EQ(moving(2), 2 * 64 + 1) << "Otsu's threshold is not followed beyond 20";
+    EXPECT_EQ(moving(1), 3 * 64 + 1);
+    EXPECT_EQ(cv::countNonZero(movingPixels(difference, 100, 1)), 0);
+    difference.values.at<float>(8, 28) = 95;
+    EXPECT_EQ(moving(100), 2 * 64 + 1) << "with the whole area of a strong pixel";
+    difference.overlap.colRange(40, 60).setTo(0);
+    EXPECT_EQ(moving(1), 2 * 64 + 1);
+}
+
+TEST(DifferenceMotion, ThresholdIsTheLargerOfNoiseAndContrast) {
+    DifferenceOptions options = optionsOf(MotionMethod::two_frame_difference);
+    options.noise_factor = 20;
+    options.min_contrast = 0;
+    const DifferenceResult by_noise = lastOf(MovingScene{}, options);
+    EXPECT_GT(by_noise.noise, 0.1);
+    EXPECT_DOUBLE_EQ(by_noise.threshold, 20 * by_noise.noise);
+    options.noise_factor = 0;
+    options.min_contrast = 9;
+    EXPECT_DOUBLE_EQ(lastOf(MovingScene{}, options).threshold, 9);
+}
+
+TEST(DifferenceMotion, EachLimitHasItsParameter) {
+    // Vehicles of 24×11 and 22×10 px, 4.8×2.2 and 4.4×2 m.
+    const MovingScene scene;
+    const struct {
+        MotionMethod method;
+        const char* parameter;
+        const char* passes;
+        const char* refuses;
+    } limits[] = {{MotionMethod::median_background, "difference.min_contrast", "10", "250"},
+                  {MotionMethod::median_background, "difference.min_area", "4", "20"},
+                  {MotionMethod::median_background, "difference.min_area_px", "100", "500"},
+                  {MotionMethod::median_background, "difference.max_length", "8", "3"},
+                  {MotionMethod::median_background, "difference.opening", "1", "4"},
+                  {MotionMethod::difference_ghosts, "difference.ghost_deviation", "0", "255"},
+                  {MotionMethod::difference_ghosts, "difference.ghost_gradient", "0", "255"}};
+    for (const auto& limit : limits) {
+        DifferenceOptions options = optionsOf(limit.method);
+        // Either property of a ghost alone decides nothing.
+        if (limit.parameter == std::string("difference.ghost_gradient")) options.ghost_deviation = 255;
+        if (limit.parameter == std::string("difference.ghost_deviation")) options.ghost_gradient = 255;
+        setParameter(describeOf(options), limit.parameter, limit.passes);
+        EXPECT_GE(lastOf(scene, options).clusters.size(), 2U) << limit.parameter;
+        setParameter(describeOf(options), limit.parameter, limit.refuses);
+        EXPECT_EQ(lastOf(scene, options).clusters.size(), 0U) << limit.parameter;
+    }
+}
+
+TEST(DifferenceMotion, ClosingJoinsAndGradientsAreSuppressed) {
+    const MovingScene scene;
+    DifferenceOptions options = optionsOf(MotionMethod::median_background);
+    const auto pixels = [&](const char* parameter, const char* value) {
+        DifferenceOptions changed = options;
+        setParameter(describeOf(changed), parameter, value);
+        return cv::countNonZero(lastOf(scene, changed).moving);
+    };
+    options.noise_factor = 0;
+    EXPECT_GT(pixels("difference.gradient_suppression", "0"), pixels("difference.gradient_suppression", "3"));
+    options.min_contrast = 80;  // leaves parts of the vehicles
+    const int parts = pixels("difference.closing", "0");
+    EXPECT_LT(parts, pixels("difference.closing", "2"));
+    EXPECT_LT(parts, pixels("difference.closing", "0.6")) << "3 px are a disc already";
+    EXPECT_EQ(parts, pixels("difference.closing", "0.2")) << "1 px is none";
+}
+
+TEST(DifferenceMotion, AllVectorsOnAnAreaBelongToIt) {
+    // At the middle of each vehicle, 8 px ahead and behind, and beside it by more than its width.
+    const MovingScene scene;
+    DifferenceMotion difference(optionsOf(MotionMethod::median_background), kScale);
+    const int last = scene.frames - 1;
+    for (int i = 0; i < last; ++i) difference.remember(frameOf(scene, i), trueMotion(scene, i));
+    FrameMotion motion = trueMotion(scene, last);
+    for (const auto& vehicle : scene.vehicles) {
+        const cv::Point2d ahead = vehicle.velocity / cv::norm(vehicle.velocity);
+        const cv::Point2d centre = scene.vehicleAt(vehicle, last);
+        for (const cv::Point2d offset : {8 * ahead, -8 * ahead, 11 * cv::Point2d(-ahead.y, ahead.x)})
+            motion.motion_vectors.push_back({99, centre + offset, vehicle.velocity, 9});
+    }
+    const DifferenceResult result = difference.next(frameOf(scene, last), motion);
+    ASSERT_EQ(result.clusters.size(), 2U);
+    std::vector<std::vector<int>> members{result.clusters[0].members, result.clusters[1].members};
+    std::sort(members.begin(), members.end());
+    EXPECT_EQ(members, (std::vector<std::vector<int>>{{0, 2, 3}, {1, 5, 6}}));
+}
+
 TEST(DifferenceMotion, WithoutVectorsTheLongerAxisGivesTheHeading) {
     const MovingScene scene;
     DifferenceMotion difference(optionsOf(MotionMethod::three_frame_difference), kScale);
@@ -219,6 +321,9 @@ TEST(DifferenceMotion, WithoutVectorsTheLongerAxisGivesTheHeading) {
         EXPECT_TRUE(cluster.members.empty());
         EXPECT_EQ(cluster.velocity, cv::Point2d(0, 0));
         EXPECT_GE(cluster.box.length, cluster.box.width);
+        // One drives along x, the other along y; either way round.
+        const bool along_x = cluster.box.centre.x < 150;
+        EXPECT_NEAR(std::abs(std::sin(cluster.box.heading)), along_x ? 0 : 1, 0.2);
     }
 }
 
@@ -243,6 +348,15 @@ TEST(DifferenceMotion, ShowsWhatItSaw) {
     EXPECT_EQ(view.size(), gray.size());
     // The camera moves right and down, so older pictures lack what lies there.
     EXPECT_EQ(view.at<cv::Vec3b>(scene.size.height - 1, scene.size.width - 1)[2], 255);
+    const uchar grey = gray.at<uchar>(scene.size.height - 1, scene.size.width - 1);
+    EXPECT_EQ(view.at<cv::Vec3b>(scene.size.height - 1, scene.size.width - 1)[0], grey / 2);
+    EXPECT_EQ(view.at<cv::Vec3b>(scene.size.height - 1, scene.size.width - 1)[1], grey / 2);
+    const cv::Vec3b inside = view.at<cv::Vec3b>(100, 20);
+    const int seen = gray.at<uchar>(100, 20);
+    EXPECT_EQ(inside[0], seen);
+    EXPECT_EQ(inside[1], seen);
+    EXPECT_NEAR(inside[2], std::min(255.F, static_cast<float>(seen) + 3 * result.difference.values.at<float>(100, 20)),
+                0.51);
     EXPECT_EQ(differenceView(gray, {}).size(), gray.size());
 }
 

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
+#include <string>
+#include <tuple>
 
 #include "core/error.h"
 #include "motion/clusters/motion_clustering.h"
@@ -95,6 +98,24 @@ TEST(IndependentMotion, FindsSlowVehiclesOverTheLongBaselineOnly) {
     }
 }
 
+TEST(IndependentMotion, SlowCornersMustBeOldEnoughAndAreMeasuredOverTheirBaseline) {
+    for (const int slow_min_age : {10, 17, 18}) {
+        IndependentMotionOptions options = plain();
+        options.find_slow = true;
+        options.slow_min_age = slow_min_age;
+        options.slow_baseline = 17;
+        MovingCorners scene({{{300, 200}, {0.11, 0}}}, 0.01);
+        IndependentMotion motion(options, kScale);
+        FrameMotion last;
+        CornerVerdicts verdicts;
+        for (int i = 0; i < 18; ++i) last = motion.next(scene.next(), flatFrame(i), &verdicts);
+        EXPECT_EQ(last.motion_vectors.size(), slow_min_age <= 17 ? 24U : 0U) << slow_min_age;
+        EXPECT_EQ(verdicts.back().baseline, slow_min_age <= 17 ? 17 : 12) << slow_min_age;
+        EXPECT_NEAR(verdicts.back().speed, 0.11, 0.01);
+        EXPECT_EQ(verdicts.back().age, 17);
+    }
+}
+
 TEST(IndependentMotion, BridgesAFrozenPicture) {
     MovingCorners scene({{{300, 200}, {1.5, 0}}}, 0);
     IndependentMotion motion(plain(), kScale);
@@ -136,6 +157,67 @@ TEST(IndependentMotion, GoesOnBehindAFrameThatFailed) {
     const FrameMotion found = motion.next(next, flatFrame(11));
     ASSERT_EQ(found.motion_vectors.size(), 24U);
     EXPECT_NEAR(cv::norm(found.motion_vectors[0].velocity), speed, 0.02) << "the lost frame took time too";
+}
+
+TEST(IndependentMotion, FasterThanAnyVehicleIsATrackingErrorWhereTheScaleIsKnown) {
+    // 70 m/s are 9.33 px/frame.
+    for (const auto& [speed, known, expected] : {std::tuple{9.0, true, 24U}, {10.0, true, 0U}, {10.0, false, 24U}}) {
+        IndependentMotion motion(plain(), {0.3, 25, known});
+        MovingCorners scene({{{100, 200}, {speed, 0}}}, 0);
+        CornerVerdicts verdicts;
+        FrameMotion last;
+        for (int i = 0; i < 8; ++i) last = motion.next(scene.next(), flatFrame(i), &verdicts);
+        EXPECT_EQ(last.motion_vectors.size(), expected) << speed;
+        EXPECT_EQ(verdicts.back().fate, expected > 0 ? CornerFate::moving : CornerFate::too_fast);
+        EXPECT_NEAR(verdicts.back().limit, expected == 0 ? 9.33 : 0.133, 0.01);
+    }
+}
+
+TEST(IndependentMotion, RoofsThatRiseAreTakenForStandingOnceHalfTheBaselineIsMeasured) {
+    // Roofs of many heights seem to move along x by up to .11 px/frame, below 1 m/s = .133; then four faster things.
+    std::vector<MovingPatch> patches;
+    for (int i = 0; i < 60; ++i) {
+        const cv::Point2d centre(40 + i % 10 * 60, 60 + i / 10 * 70);
+        patches.push_back({centre, {0.11 * (i + 1) / 60, 0}, 20, 10, 8});
+    }
+    for (const cv::Point2d velocity : {cv::Point2d(0.15, 0), {0, 0.15}, {0.5, 0}, {-0.15, 0}})
+        patches.push_back({{320, 240}, velocity, 20, 10, 1});
+    MovingCorners scene(patches, 0.005, 2);
+    IndependentMotion motion(plain(), kScale);
+    for (int t = 0; t < 10; ++t) {
+        RegisteredFrame registered = scene.next();
+        for (Corner& corner : registered.corners) corner.on_background = true;
+        CornerVerdicts verdicts;
+        motion.next(registered, flatFrame(t), &verdicts);
+        if (t < 5) continue;
+        const auto fateOf = [&](std::size_t from_end) { return verdicts[verdicts.size() - from_end].fate; };
+        EXPECT_EQ(fateOf(4), t < 6 ? CornerFate::moving : CornerFate::parallax) << t;
+        EXPECT_EQ(fateOf(3), CornerFate::moving) << "across the others, " << t;
+        EXPECT_EQ(fateOf(2), CornerFate::moving) << "far faster, " << t;
+        EXPECT_EQ(fateOf(1), CornerFate::moving) << "the other way, " << t;
+    }
+}
+
+TEST(IndependentMotion, NoiseIsThatOfTheBackgroundWhereAQuarterOfTheCornersBelongsToIt) {
+    for (const int every : {4, 5}) {
+        MovingCorners scene({}, 0.05);
+        IndependentMotion motion(plain(), kScale);
+        double sigma = 0;
+        for (int t = 0; t < 8; ++t) {
+            RegisteredFrame registered = scene.next();
+            for (std::size_t i = 0; i < registered.corners.size(); ++i) {
+                Corner& corner = registered.corners[i];
+                corner.on_background = i % static_cast<std::size_t>(every) == 0;
+                // All others drift.
+                if (!corner.on_background) corner.current.x += 3.F * static_cast<float>(t);
+            }
+            sigma = motion.next(registered, flatFrame(t)).background_speed_sigma;
+        }
+        if (every == 4)
+            EXPECT_NEAR(sigma, 0.05 * std::sqrt(2.0) / 7 * 7 / 12, 0.003) << "rare baselines: the way over 12 frames";
+        else
+            EXPECT_GT(sigma, 0.5) << "too few are left to be trusted";
+    }
 }
 
 TEST(IndependentMotion, StartsAnewAfterACut) {
@@ -183,27 +265,40 @@ TEST(IndependentMotion, LocalBackgroundTakesOutParallax) {
     // The upper left corner of the scene drifts: a roof that one homography cannot follow.
     IndependentMotionOptions options = plain();
     options.find_slow = false;
-    std::size_t found[2] = {0, 0};
-    for (const bool correct : {false, true}) {
-        options.local_background.enabled = correct;
+    std::map<std::string, std::size_t> found;
+    for (const std::string setting : {"off", "on", "coarse", "crowded"}) {
+        options.local_background = {};
+        options.local_background.enabled = setting != "off";
+        if (setting == "coarse") options.local_background.local_background_cell_m = 200;  // 667 px
+        if (setting == "crowded") options.local_background.local_background_min_corners = 1000;
         MovingPatch roof{{60, 60}, {0.3, 0}, 100, 100, 200};
         MovingCorners scene({roof}, 0.01, 1, 1500);
         IndependentMotion motion(options, kScale);
         for (int t = 0; t < 10; ++t) {
             RegisteredFrame registered = scene.next();
             for (Corner& corner : registered.corners) corner.on_background = true;
-            found[correct] = motion.next(registered, flatFrame(t)).motion_vectors.size();
+            found[setting] = motion.next(registered, flatFrame(t)).motion_vectors.size();
         }
     }
-    EXPECT_GT(found[0], 150U);
-    EXPECT_LT(found[1], 100U);
+    EXPECT_GT(found["off"], 150U);
+    EXPECT_LT(found["on"], 100U);
+    EXPECT_EQ(found["coarse"], found["off"]) << "the median of the whole picture is that of the ground";
+    EXPECT_EQ(found["crowded"], found["off"]) << "no cell holds so many corners";
 }
 
 TEST(IndependentMotionOptions, ThesisUsesOneThresholdAfterFiveFrames) {
     const IndependentMotionOptions options = IndependentMotionOptions::thesis();
     EXPECT_EQ(options.min_age, 5);
+    EXPECT_EQ(options.baseline, 5);
+    EXPECT_FALSE(options.follow_turns);
     EXPECT_FALSE(options.find_slow);
+    EXPECT_EQ(options.sigma_factor, 0);
+    EXPECT_EQ(options.max_speed_m_s, 0);
     EXPECT_FALSE(options.shadow.enabled);
+    EXPECT_FALSE(options.silhouettes.enabled);
+    EXPECT_FALSE(options.areas.enabled);
+    EXPECT_FALSE(options.parallax.enabled);
+    EXPECT_FALSE(options.local_background.enabled);
     MovingCorners scene({{{300, 200}, {0.9, 0.5}}}, 0.02);
     IndependentMotion motion(options, kScale);
     EXPECT_EQ(after(motion, scene, 12).motion_vectors.size(), 24U);

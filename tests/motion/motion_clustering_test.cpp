@@ -103,6 +103,77 @@ TEST(MotionClustering, NoiseRaisesTheVelocityFloorUpToALimit) {
     EXPECT_DOUBLE_EQ(MotionClustering({}, {2.0, 25, true}).linkageFor(0).across, 4) << "pixel floor";
 }
 
+TEST(MotionClustering, LimitsOfMembersAndNoiseAreParameters) {
+    FrameMotion motion = emptyMotion();
+    motion.corner_count = 22000;
+    MotionClusteringOptions options;
+    options.max_min_members = 30;
+    EXPECT_EQ(MotionClustering(options, {0.1, 25, true}).minMembersFor(motion), 19) << "a third of 58";
+    options.max_min_members = 15;
+    EXPECT_EQ(MotionClustering(options, {0.1, 25, true}).minMembersFor(motion), 15);
+    options.velocity_noise_limit_px = 0.2;
+    EXPECT_DOUBLE_EQ(MotionClustering(options, kScale).linkageFor(1.0).velocity_floor, 0.2);
+    EXPECT_DOUBLE_EQ(MotionClustering(options, kScale).linkageFor(0.15).velocity_floor, 0.15);
+    options.velocity_noise_factor = 2;
+    EXPECT_DOUBLE_EQ(MotionClustering(options, kScale).linkageFor(0.05).velocity_floor, 0.1);
+}
+
+TEST(MotionClustering, OnlyWhatFallsIntoVehiclesIsSplit) {
+    std::mt19937 random(7);
+    FrameMotion motion = emptyMotion();
+    // A lorry of 4.8 m, wider than clustering.split_width; 4 px link across the motion, 3 px once that is tightened.
+    addObject(motion, {{200, 100}, 20, 16, 0}, 1.5, 300, 0.002, random);
+    addObject(motion, {{200, 111.4}, 0, 0, 0}, 1.5, 1, 0, random);
+    auto clusters = MotionClustering({}, kScale).cluster(motion);
+    ASSERT_EQ(clusters.size(), 1U);
+    EXPECT_EQ(clusters[0].members.size(), 301U) << "one vehicle does not lose a vector by that";
+    // A row of single vectors and two small groups, which would hold a quarter of it.
+    motion = emptyMotion();
+    for (int i = 0; i < 18; ++i) addObject(motion, {{200, 100 + 3.5 * i}, 0, 0, 0}, 1.5, 1, 0, random);
+    for (const double y : {100.0, 103.5}) addObject(motion, {{201, y}, 0, 0, 0}, 1.5, 2, 0, random);
+    clusters = MotionClustering({}, kScale).cluster(motion);
+    ASSERT_EQ(clusters.size(), 1U);
+    EXPECT_EQ(clusters[0].members.size(), 22U);
+}
+
+TEST(MotionClustering, TellsTheGapThatHeldAClusterTogetherLast) {
+    FrameMotion motion = emptyMotion();
+    const MotionClustering clustering({}, kScale);
+    const auto gapAlong = [&](const std::vector<cv::Point2f>& places) {
+        motion.motion_vectors.clear();
+        std::vector<int> all;
+        for (const cv::Point2f& place : places) {
+            all.push_back(static_cast<int>(all.size()));
+            motion.motion_vectors.push_back({all.back() + 1, place, {2, 0}, 9});
+        }
+        return clustering.gapInside(motion, all);
+    };
+    // Neighbours 3, 7 and 5 px apart, where 11.7 are allowed along the motion and 4 across it.
+    const LinkageGap along = gapAlong({{100, 100}, {110, 100}, {103, 100}, {115, 100}});
+    EXPECT_NEAR(along.ahead, 7, 1e-6);
+    EXPECT_NEAR(along.distance, 7 * 0.3 / 3.5, 1e-6);
+    EXPECT_EQ(along.parameter, "clustering.along");
+    EXPECT_EQ(along.difference, 0);
+    const LinkageGap aside = gapAlong({{100, 100}, {102, 103}, {106, 103}});
+    EXPECT_NEAR(aside.aside, 3, 1e-6);
+    EXPECT_NEAR(aside.ahead, 2, 1e-6);
+    EXPECT_EQ(aside.parameter, "clustering.across");
+    EXPECT_EQ(gapAlong({{100, 100}, {118, 100}}).parameter, "clustering.roof_length");
+    EXPECT_EQ(gapAlong({{100, 100}}).other, -1);
+    // What moves otherwise is no link.
+    motion.motion_vectors = {{1, {100, 100}, {2, 0}, 9}, {2, {104, 100}, {2, 0}, 9}, {3, {106, 100}, {-2, 0}, 9}};
+    EXPECT_NEAR(clustering.gapInside(motion, {0, 1, 2}).ahead, 4, 1e-6);
+    motion.motion_vectors[2] = {3, {106, 100}, {2.6F, 0}, 9};
+    const LinkageGap outside = clustering.gapOutside(motion, {0, 1});
+    EXPECT_EQ(outside.other, 2);
+    EXPECT_NEAR(outside.difference, 0.6, 1e-6);
+    EXPECT_NEAR(outside.allowed, 0.12 * 2.3, 1e-6) << "a share of the mean speed";
+    EXPECT_EQ(outside.parameter, "clustering.velocity_share");
+    for (MotionVector& vector : motion.motion_vectors) vector.velocity *= 0.05F;
+    EXPECT_EQ(clustering.gapOutside(motion, {0, 1}).allowed, 0.03);
+    EXPECT_EQ(clustering.gapOutside(motion, {0, 1}).parameter, "clustering.velocity_floor");
+}
+
 TEST(MotionClustering, DropsWhatIsTooLargeForTraffic) {
     std::mt19937 random(5);
     FrameMotion motion = emptyMotion();

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/geometry/oriented_box.h"
+#include "core/values/corner_density.h"
 #include "motion/differences/area_matching.h"
 
 namespace eyrie {
@@ -78,10 +79,18 @@ FrameMotion starved(const CarScene& scene) {
     return motion;
 }
 
+void withNoise(int index, cv::Mat& gray) {
+    cv::RNG random(static_cast<std::uint64_t>(index) + 1);
+    cv::Mat drawn(gray.size(), CV_16SC1);
+    random.fill(drawn, cv::RNG::NORMAL, 0, 12);
+    cv::add(gray, drawn, gray, cv::noArray(), CV_8U);
+}
+
 /// What is inferred in the last frame. `change` alters the pictures.
 std::vector<MotionVector> inferred(const CarScene& scene, const FrameMotion& motion,
-                                   const std::function<void(int, cv::Mat&)>& change = {}) {
-    MovingAreas areas({}, kScale);
+                                   const std::function<void(int, cv::Mat&)>& change = {},
+                                   const MovingAreaOptions& options = {}) {
+    MovingAreas areas(options, kScale);
     for (int index = 0; index < kFrames; ++index) {
         cv::Mat gray = scene.draw(index);
         if (change) change(index, gray);
@@ -133,21 +142,19 @@ TEST(MovingAreas, AreLookedForOnlyWhereCornersStarve) {
     FrameMotion motion = starved(scene);
     motion.corner_count = 320 * 240 / 10;  // eight on a car
     EXPECT_THAT(inferred(scene, motion), IsEmpty());
+    // Fewer than the limit, not as many.
+    MovingAreaOptions options;
+    options.area_max_corners = cornersOnCar(starved(scene), kScale);
+    EXPECT_THAT(inferred(scene, starved(scene), {}, options), IsEmpty());
 }
 
 TEST(MovingAreas, MustBeSureWhereCornersNearlySuffice) {
     const CarScene scene = sceneWith({2, 0});
     FrameMotion motion = starved(scene);
-    const auto noise = [](int index, cv::Mat& gray) {
-        cv::RNG random(static_cast<std::uint64_t>(index) + 1);
-        cv::Mat drawn(gray.size(), CV_16SC1);
-        random.fill(drawn, cv::RNG::NORMAL, 0, 12);
-        cv::add(gray, drawn, gray, cv::noArray(), CV_8U);
-    };
-    EXPECT_THAT(inferred(scene, motion, noise), Not(IsEmpty()));
+    EXPECT_THAT(inferred(scene, motion, withNoise), Not(IsEmpty()));
     motion.corner_count = 320 * 240 / 20;  // four on a car
     EXPECT_THAT(inferred(scene, motion), Not(IsEmpty()));
-    EXPECT_THAT(inferred(scene, motion, noise), IsEmpty());
+    EXPECT_THAT(inferred(scene, motion, withNoise), IsEmpty());
 }
 
 TEST(MovingAreas, LeaveCarsAloneThatHaveVectors) {
@@ -180,6 +187,55 @@ TEST(MovingAreas, AreForgottenAtACut) {
     EXPECT_THAT(off.infer(starved(scene), 0.1), IsEmpty());
 }
 
+struct AreaLimit {
+    const char* parameter;
+    const char* passes;
+    const char* refuses;
+};
+
+class LimitsOfMovingAreas : public testing::TestWithParam<AreaLimit> {};
+
+TEST_P(LimitsOfMovingAreas, LieAboutTheCar) {
+    // 14×6 px are 4.5×1.9 m and 84 px², 21 of the halved picture; three frames apart it has moved by 6 px. With 500
+    // corners in the picture half a corner lies on it.
+    const CarScene scene = sceneWith({2, 0});
+    const auto found = [&](const char* value) {
+        MovingAreaOptions options;
+        if (GetParam().parameter == std::string("motion.area_sure_correlation")) options.area_few_corners = 0.4;
+        if (GetParam().parameter == std::string("motion.area_few_corners")) options.area_sure_correlation = 1;
+        setParameter(describeOf(options), GetParam().parameter, value);
+        if (GetParam().parameter != std::string("motion.area_noise_factor"))
+            return !inferred(scene, starved(scene), {}, options).empty();
+        options.area_min_correlation = 0.3;
+        return !inferred(scene, starved(scene), withNoise, options).empty();
+    };
+    EXPECT_TRUE(found(GetParam().passes));
+    EXPECT_FALSE(found(GetParam().refuses));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, LimitsOfMovingAreas,
+    testing::Values(AreaLimit{"motion.area_max_corners", "0.6", "0.4"},
+                    AreaLimit{"motion.area_few_corners", "0.6", "0.4"},
+                    AreaLimit{"motion.area_noise_factor", "0", "100"}, AreaLimit{"motion.area_contrast", "8", "200"},
+                    AreaLimit{"motion.area_min_size", "2", "15"}, AreaLimit{"motion.area_min_size_px", "20", "300"},
+                    AreaLimit{"motion.area_max_length", "8", "2"}, AreaLimit{"motion.area_min_shift", "5.5", "6.5"},
+                    AreaLimit{"motion.area_min_correlation", "0.5", "0.9999"},
+                    AreaLimit{"motion.area_sure_correlation", "0.5", "0.9999"}),
+    [](const auto& limit) { return std::string(limit.param.parameter).substr(12); });
+
+TEST(MovingAreas, TheGapIsATimeInFrames) {
+    MovingAreaOptions options;
+    const auto frames = [&](double gap_s, double rate_hz) {
+        options.area_gap_s = gap_s;
+        return options.gapFrames({0.32, rate_hz, true});
+    };
+    EXPECT_EQ(frames(0.12, 25), 3);
+    EXPECT_EQ(frames(0.12, 60), 7);
+    EXPECT_EQ(frames(0.01, 25), 1);
+    EXPECT_EQ(frames(10, 25), 30);
+}
+
 TEST(AreaMatching, FindsTheShiftToAFractionOfAPixel) {
     const CarScene scene = sceneWith({0, 0});
     const cv::Mat from = scene.draw(0);
@@ -198,6 +254,14 @@ TEST(AreaMatching, FindsTheShiftToAFractionOfAPixel) {
     const auto near = matchArea(pixels, from, to, {6, -5}, 2);
     ASSERT_TRUE(near);
     EXPECT_NEAR(near->shift.x, 6.3, 0.15);
+    for (const cv::Point2d truth : {cv::Point2d(7, 5), cv::Point2d(-5, -7), cv::Point2d(3, 8), cv::Point2d(-9, 11)}) {
+        cv::warpAffine(from, to, cv::Matx23d(1, 0, truth.x, 0, 1, truth.y), from.size(), cv::INTER_NEAREST,
+                       cv::BORDER_REPLICATE);
+        const auto whole = matchArea(pixels, from, to, {0, 0}, 12);
+        ASSERT_TRUE(whole);
+        EXPECT_NEAR(whole->correlation, 1, 1e-9) << "odd shifts, too, are found to the pixel";
+        EXPECT_NEAR(cv::norm(whole->shift - truth), 0, 0.1) << truth;
+    }
 }
 
 TEST(AreaMatching, HasNoAnswerForPlainAreasOrAtTheBorder) {

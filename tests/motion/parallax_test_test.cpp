@@ -14,13 +14,14 @@ constexpr double kSigma = 0.01;  // px/frame
 /// seems to move by h · 0.1 · (p − epipole) / |p − epipole|.
 class Town {
  public:
-    explicit Town(cv::Point2d epipole, double highest = 1) : epipole_(epipole) {
+    explicit Town(cv::Point2d epipole, double highest = 1, const ParallaxTestOptions& options = {}, int corners = 3000)
+        : epipole_(epipole), test_(options) {
         std::mt19937 random(5);
         std::uniform_real_distribution<double> x(0, 640);
         std::uniform_real_distribution<double> y(0, 480);
         std::uniform_real_distribution<double> height(0, highest);
         std::normal_distribution<double> noise(0, kSigma);
-        for (int i = 0; i < 3000; ++i) {
+        for (int i = 0; i < corners; ++i) {
             const cv::Point2d p(x(random), y(random));
             const cv::Point2d v = i % 5 == 0 ? parallax(p, height(random)) : cv::Point2d(0, 0);
             test_.add(p, v + cv::Point2d(noise(random), noise(random)));
@@ -35,7 +36,7 @@ class Town {
 
  private:
     cv::Point2d epipole_;
-    ParallaxTest test_{ParallaxTestOptions{}};
+    ParallaxTest test_;
 };
 
 void explainsRoofsOnly(const Town& town) {
@@ -58,6 +59,22 @@ TEST(ParallaxTest, TakesRoofsForStandingWhenTheCameraMovesTowardsAPointInThePict
     explainsRoofsOnly(Town({320, 200}));
 }
 
+TEST(ParallaxTest, OfVeryManyRoofsEveryFewthVotes) {
+    explainsRoofsOnly(Town({320, 200}, 1, {}, 12000));
+}
+
+TEST(ParallaxTest, RoofsMayStrayFromTheirLineByTwoAndAHalfDeviations) {
+    const Town town({1e7, 2e6});
+    for (const cv::Point2d p : {cv::Point2d(100, 60), cv::Point2d(500, 400)}) {
+        const cv::Point2d roof = town.parallax(p, 0.9);
+        const cv::Point2d across = cv::Point2d(-roof.y, roof.x) / cv::norm(roof);
+        for (const double side : {-1.0, 1.0}) {
+            EXPECT_TRUE(town.test().explains(p, roof + across * (side * 2.1 * kSigma)));
+            EXPECT_FALSE(town.test().explains(p, roof + across * (side * 2.9 * kSigma)));
+        }
+    }
+}
+
 TEST(ParallaxTest, ExplainsNothingOverFlatGround) {
     const Town town({1e7, 2e6}, 0);
     EXPECT_FALSE(town.test().active());
@@ -75,6 +92,25 @@ TEST(ParallaxTest, ExplainsNothingWhereResidualsAgreeOnNoEpipole) {
     }
     test.finish(kSigma);
     EXPECT_FALSE(test.active());
+}
+
+TEST(ParallaxTest, FactorIsHowMuchHigherARoofMayBe) {
+    // Nine tenths of the roofs show up to .09 px/frame.
+    ParallaxTestOptions options;
+    options.parallax_factor = 4;
+    const Town town({1e7, 2e6}, 1, options);
+    const cv::Point2d p(100, 60);
+    EXPECT_FALSE(Town({1e7, 2e6}).test().explains(p, town.parallax(p, 3)));
+    EXPECT_TRUE(town.test().explains(p, town.parallax(p, 3)));
+    EXPECT_FALSE(town.test().explains(p, town.parallax(p, 4.5)));
+}
+
+TEST(ParallaxTest, AgreementIsTheShareOfRoofsThatMustPointAlongTheLines) {
+    ParallaxTestOptions all;
+    all.parallax_agreement = 1;
+    EXPECT_FALSE(Town({1e7, 2e6}, 1, all).test().active()) << "noise takes some off their lines";
+    all.parallax_agreement = 0.9;
+    EXPECT_TRUE(Town({1e7, 2e6}, 1, all).test().active());
 }
 
 TEST(ParallaxTest, ForgetsTheFrameBefore) {

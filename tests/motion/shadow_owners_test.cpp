@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace eyrie {
 namespace {
@@ -26,8 +27,8 @@ struct Scene {
         addPatch(vectors, top_left, size, velocity);
         dark.resize(vectors.size(), is_dark ? 1 : 0);
     }
-    std::ptrdiff_t cast() const {
-        const auto found = ShadowOwners({}, kScale).castShadows(vectors, dark, 0.02);
+    std::ptrdiff_t cast(const ShadowTestOptions& options = {}) const {
+        const auto found = ShadowOwners(options, kScale).castShadows(vectors, dark, 0.02);
         return std::count(found.begin(), found.end(), 1);
     }
 };
@@ -39,6 +40,15 @@ TEST(ShadowOwners, AShadowBesideItsVehicleIsOne) {
     scene.add({100, 100}, {18, 6}, kVelocity, false);
     scene.add({102, 109}, {18, 6}, kVelocity, true);
     EXPECT_EQ(scene.cast(), 21);
+}
+
+TEST(ShadowOwners, AShadowAheadOfItsVehicleOrBehindIsOne) {
+    for (const float x : {121.F, 91.F}) {
+        Scene scene;
+        scene.add({100, 100}, {18, 6}, kVelocity, false);
+        scene.add({x, 100}, {6, 6}, kVelocity, true);
+        EXPECT_EQ(scene.cast(), 9) << x;
+    }
 }
 
 TEST(ShadowOwners, WhatLitGroundPartsFromTheVehicleStays) {
@@ -77,6 +87,16 @@ TEST(ShadowOwners, ADarkThingThatMovesOtherwiseIsNoShadow) {
     EXPECT_EQ(scene.cast(), 0);
 }
 
+TEST(ShadowOwners, AShadowMayDifferFromItsVehicleByAnEighthOfTheSpeed) {
+    // 2.5 times the 5 % that members of a vehicle may: .1875 px/frame.
+    for (const float faster : {-0.18F, 0.18F, -0.195F, 0.195F}) {
+        Scene scene;
+        scene.add({100, 100}, {18, 6}, kVelocity, false);
+        scene.add({102, 109}, {18, 6}, {1.5F + faster, 0}, true);
+        EXPECT_EQ(scene.cast(), std::abs(faster) < 0.19F ? 21 : 0) << faster;
+    }
+}
+
 TEST(ShadowOwners, AGlintOwnsNoShadow) {
     Scene scene;
     scene.add({106, 100}, {3, 3}, kVelocity, false);
@@ -89,6 +109,27 @@ TEST(ShadowOwners, DarkWindowsBelongToTheVehicle) {
     scene.add({100, 100}, {18, 6}, kVelocity, false);
     scene.add({104, 101}, {3, 3}, kVelocity, true);
     EXPECT_EQ(scene.cast(), 0);
+}
+
+TEST(ShadowOwners, OwnersHaveASizeAndShadowsAReach) {
+    // Its vectors spread over 4.5 × 1.5 m; the shadow's ends lie up to 9 px beside them, 2.25 m.
+    Scene scene;
+    scene.add({100, 100}, {18, 6}, kVelocity, false);
+    scene.add({102, 109}, {18, 6}, kVelocity, true);
+    const struct {
+        const char* parameter;
+        const char* cast;
+        const char* stays;
+    } limits[] = {{"motion.shadow_owner_length", "4.4", "4.6"},
+                  {"motion.shadow_owner_width", "1.4", "1.6"},
+                  {"motion.shadow_reach", "2.1", "1.9"}};  // a pixel more, and the corner 2 px ahead: hypot(9, 2) = 9.2
+    for (const auto& limit : limits) {
+        ShadowTestOptions options;
+        setParameter(describeOf(options), limit.parameter, limit.cast);
+        EXPECT_EQ(scene.cast(options), 21) << limit.parameter;
+        setParameter(describeOf(options), limit.parameter, limit.stays);
+        EXPECT_EQ(scene.cast(options), 0) << limit.parameter;
+    }
 }
 
 TEST(ShadowOwners, TakesNothing) {

@@ -16,8 +16,8 @@ cv::Mat road(int ground, int patch) {
     return gray;
 }
 
-bool shadowAtCorner(const cv::Mat& gray, cv::Point2f corner = {100, 100}) {
-    ShadowTest test({}, kScale);
+bool shadowAtCorner(const cv::Mat& gray, cv::Point2f corner = {100, 100}, const ShadowTestOptions& options = {}) {
+    ShadowTest test(options, kScale);
     test.prepare(gray);
     return test.isShadow(corner);
 }
@@ -36,10 +36,10 @@ TEST(ShadowTest, ABrightRoofBesideTheShadowSavesTheCorner) {
 }
 
 /// Whether lit ground parts the dark patch from a vehicle whose lower edge is `gap` px above it.
-bool litAcross(int gap, int between) {
+bool litAcross(int gap, int between, const ShadowTestOptions& options = {}) {
     cv::Mat gray = road(140, 80);
     gray(cv::Rect(100, 100 - gap, 16, gap)).setTo(between);
-    ShadowTest test({}, kScale);
+    ShadowTest test(options, kScale);
     test.prepare(gray);
     const OrientedBox vehicle{{107.5, 100.0 - gap - 4}, 16, 8, 0};
     return test.litUpTo(vehicle, {108, 107});
@@ -50,6 +50,37 @@ TEST(ShadowTest, AShadowReachesUpToItsVehicleAndADarkCarInTheNextLaneDoesNot) {
     EXPECT_FALSE(litAcross(3, 80)) << "… which is larger than the box of its corners";
     EXPECT_TRUE(litAcross(3, 140)) << "the road shines between";
     EXPECT_FALSE(litAcross(3, 220)) << "a bright edge of the vehicle is no road";
+}
+
+TEST(ShadowTest, LimitsAreSharesOfTheGround) {
+    // The patch has 80 / 140 = 0.57 of the ground's brightness.
+    const struct {
+        const char* parameter;
+        const char* shadow;
+        const char* none;
+    } limits[] = {{"motion.shadow_darkest", "0.55", "0.6"},
+                  {"motion.shadow_brightest", "0.6", "0.55"},
+                  {"motion.shadow_bright_near", "1.05", "0.95"},
+                  {"motion.shadow_min_brightness", "135", "145"},
+                  // The window must hold more road than patch: 5 m and 2.4 m long.
+                  {"motion.shadow_ground", "12", "1"}};
+    for (const auto& limit : limits) {
+        ShadowTestOptions options;
+        setParameter(describeOf(options), limit.parameter, limit.shadow);
+        EXPECT_TRUE(shadowAtCorner(road(140, 80), {104, 100}, options)) << limit.parameter;
+        setParameter(describeOf(options), limit.parameter, limit.none);
+        EXPECT_FALSE(shadowAtCorner(road(140, 80), {104, 100}, options)) << limit.parameter;
+    }
+    ShadowTestOptions wide;
+    cv::Mat roof_near = road(140, 80);
+    roof_near(cv::Rect(90, 90, 30, 6)).setTo(220);  // from 4 px beside the corner on
+    EXPECT_TRUE(shadowAtCorner(roof_near, {104, 100}, wide));
+    wide.shadow_radius_m = 1.8;  // 6 px
+    EXPECT_FALSE(shadowAtCorner(roof_near, {104, 100}, wide));
+    ShadowTestOptions never;
+    never.shadow_lit = 1.1;
+    EXPECT_TRUE(litAcross(3, 140));
+    EXPECT_FALSE(litAcross(3, 140, never));
 }
 
 TEST(ShadowTest, IsNotUsedAtNight) {

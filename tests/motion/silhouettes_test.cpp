@@ -16,6 +16,7 @@ struct LorryScene {
     int roof = 220;              ///< grey values
     double shadow = 0;           ///< share of the ground's brightness left below the lorry; 0: none
     int road_gap = 0;            ///< px of road visible behind the first 12 px
+    int flicker = 0;             ///< grey values by which the ground gets brighter and darker
     cv::Point2d camera{0.5, 0.25};
 
     cv::Rect2d lorryAt(int frame) const {
@@ -32,6 +33,7 @@ struct LorryScene {
         }();
         cv::Mat gray;
         cv::getRectSubPix(ground, {320, 240}, cv::Point2f(200, 150) + cv::Point2f(camera * index), gray);
+        gray += (index * 7 % 13 - 6) * flicker / 6;
         const cv::Rect2d box = lorryAt(index);
         const cv::Rect lorry(cvRound(box.x), cvRound(box.y), 40, 9);
         if (shadow > 0) {
@@ -55,8 +57,8 @@ struct LorryScene {
         return registration;
     }
     /// What is inferred from the corners of the front in the last frame.
-    std::vector<MotionVector> inferred(const SilhouetteOptions& options = {}) const {
-        Silhouettes silhouettes(options, kScale);
+    std::vector<MotionVector> inferred(const SilhouetteOptions& options = {}, const SceneScale& scale = kScale) const {
+        Silhouettes silhouettes(options, scale);
         for (int index = 0; index < kFrames; ++index) silhouettes.add(frame(index), registration(index));
         const cv::Rect2d box = lorryAt(kFrames - 1);
         std::vector<MotionVector> corners;
@@ -87,6 +89,15 @@ TEST(Silhouettes, APlainRoofMovesLikeTheCornersInFrontOfIt) {
         EXPECT_LT(vector.position.y, lorry.br().y + 1.5);
     }
     EXPECT_GE(vectors.size(), 20u) << "an outline, both sides";
+}
+
+TEST(Silhouettes, OutlinesAreSampledEveryTwoPixelsAtAnyScale) {
+    // Two pixels to a cell, 40 of the lorry's length: 20 cells on either side, some with a corner beside them.
+    const LorryScene scene;
+    const auto vectors = scene.inferred({}, {0.15, 25, true});
+    EXPECT_NEAR(reachBehindFront(scene, vectors), 40, 3);
+    EXPECT_GE(vectors.size(), 30u);
+    EXPECT_LE(vectors.size(), 46u);
 }
 
 TEST(Silhouettes, IdsGrowAndAreNoCorners) {
@@ -129,6 +140,34 @@ TEST(Silhouettes, TooLargeOnesAreNotUsed) {
     SilhouetteOptions options;
     options.silhouette_max_length_m = 10;  // 33 px
     EXPECT_TRUE(LorryScene{}.inferred(options).empty());
+}
+
+TEST(Silhouettes, LimitsLieAboutTheLorry) {
+    // 15 m/s, 40 × 9 px = 12 × 2.7 m, about 110 grey values brighter than the ground.
+    const struct {
+        const char* parameter;
+        const char* passes;
+        const char* refuses;
+    } limits[] = {{"motion.silhouette_contrast", "60", "180"},
+                  {"motion.silhouette_min_speed", "14", "16"},
+                  {"motion.silhouette_max_length", "14", "11"},
+                  {"motion.silhouette_max_width", "3", "1.5"}};
+    for (const auto& limit : limits) {
+        SilhouetteOptions options;
+        setParameter(describeOf(options), limit.parameter, limit.passes);
+        EXPECT_NEAR(reachBehindFront({}, LorryScene{}.inferred(options)), 40, 3) << limit.parameter;
+        setParameter(describeOf(options), limit.parameter, limit.refuses);
+        EXPECT_LT(reachBehindFront({}, LorryScene{}.inferred(options)), 30) << limit.parameter;
+    }
+    // Where the ground itself changes by some grey values, a roof that is little brighter is not told from it.
+    LorryScene pale;
+    pale.roof = 165;
+    pale.flicker = 6;
+    SilhouetteOptions options;
+    options.silhouette_noise_factor = 0;
+    const std::size_t all = pale.inferred(options).size();
+    options.silhouette_noise_factor = 50;
+    EXPECT_LT(pale.inferred(options).size(), all);
 }
 
 TEST(Silhouettes, CanBeSwitchedOffAndForget) {

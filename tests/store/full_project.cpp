@@ -29,6 +29,7 @@ void writeFullProject(const std::filesystem::path& path) {
     labels.undo();
     ReviewStore review(project, 1);
     for (int i = 0; i < kFullVerdicts; ++i) review.apply(sampleJudging(review.newVerdictId()));
+    for (int i = 0; i < kFullZones; ++i) review.apply(sampleZoning(review.newZoneId()));
     review.apply(sampleBookmarking(review.newBookmarkId()));
     review.undo();
     addSeen(project, 1, "Ada", {{0, 20}, {40, 50}});

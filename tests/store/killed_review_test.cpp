@@ -15,7 +15,7 @@
 namespace eyrie {
 namespace {
 
-/// Judges ten events a step until it is killed, and tells the pipe of each step that is on screen.
+/// Judges ten events and adds a zone a step until it is killed, and tells the pipe of each step that is on screen.
 [[noreturn]] void judgeUntilKilled(const std::filesystem::path& path, int pipe_end) {
     try {
         ProjectFile project = ProjectFile::open(path);
@@ -26,6 +26,7 @@ namespace {
             for (int i = 0; i < 10; ++i) {
                 edit.verdicts.push_back({std::nullopt, test::sampleVerdict(store.newVerdictId())});
             }
+            edit.zones.push_back({std::nullopt, test::sampleZone(store.newZoneId())});
             store.apply(edit);
             const char message = 1;
             if (write(pipe_end, &message, 1) != 1) break;
@@ -69,8 +70,10 @@ TEST(KilledReview, LosesNothingThatWasJudgedAndTearsNoStepApart) {
         ASSERT_GE(store.undoCount(), reported) << "a step is missing";
         ASSERT_LE(store.undoCount(), reported + 1);
         EXPECT_EQ(store.review().verdicts.size(), 10U * static_cast<unsigned>(store.undoCount()));
+        EXPECT_EQ(store.review().zones.size(), static_cast<unsigned>(store.undoCount()));
         while (store.undo()) {
         }
+        EXPECT_TRUE(store.review().zones.empty());
         EXPECT_TRUE(store.review().verdicts.empty());
     }
 }

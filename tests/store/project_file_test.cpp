@@ -120,7 +120,9 @@ TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
 
 TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
     test::writeSampleProject(path_, 2);
-    makeDatabase({"DROP VIEW v_verdicts",
+    makeDatabase({"DROP VIEW v_zones",
+                  "DROP TABLE zone",
+                  "DROP VIEW v_verdicts",
                   "DROP VIEW v_bookmarks",
                   "DROP VIEW v_seen",
                   "DROP TABLE verdict",

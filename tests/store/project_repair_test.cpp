@@ -91,11 +91,13 @@ TEST_F(RepairTest, OfAHealthyProjectNothingIsLost) {
     }
     EXPECT_TRUE(labels.annotations().objects.empty());
     ReviewStore review(project, 1);
-    EXPECT_EQ(review.undoCount(), test::kFullVerdicts);
+    EXPECT_EQ(review.undoCount(), test::kFullVerdicts + test::kFullZones);
+    EXPECT_EQ(review.review().zones.size(), static_cast<std::size_t>(test::kFullZones));
     EXPECT_EQ(review.redoCount(), 1);
     while (review.undo()) {
     }
     EXPECT_TRUE(review.review().verdicts.empty());
+    EXPECT_TRUE(review.review().zones.empty());
     EXPECT_EQ(seenBy(project, 1).at("Ada").size(), 2U);
 }
 

@@ -211,6 +211,33 @@ TEST_F(RunStoreTest, TracksAreSummed) {
     EXPECT_EQ(store.trackStatesUpTo(writer.runId(), 6, 100).size(), 4U);
 }
 
+TEST_F(RunStoreTest, TracksHaveTheClassThatTheRunsLimitsGiveThem) {
+    ProjectFile project = ProjectFile::create(path_);
+    const auto classOf = [&](const RunRecord& run, const std::vector<std::pair<std::string, std::string>>& limits) {
+        ResultWriter writer(path_, run, limits);
+        for (const FrameResult& frame : twoTracks()) writer.write(frame);
+        const RunStore store(project);
+        EXPECT_EQ(store.tracks(writer.runId())[1].track_class, TrackClass::unknown) << "it has no size";
+        const TrackClass told = store.tracks(writer.runId())[0].track_class;
+        for (const auto& [frame, records] : store.trackBoxes(writer.runId()))
+            EXPECT_EQ(records[0].object_class, wordOf(told)) << "frame " << frame;
+        return told;
+    };
+    RunRecord run = sampleRun();
+    run.scale = {0.15, 25, true};  // 13 × 6 px on average are 1.95 × 0.9 m
+    EXPECT_EQ(classOf(run, {}), TrackClass::unknown) << "three frames are too short for what is smaller than a car";
+    EXPECT_EQ(classOf(run, {{"classes.min_life", "0.1"}}), TrackClass::two_wheeler);
+    EXPECT_EQ(classOf(run, {{"classes.two_wheeler_length", "1.9"}}), TrackClass::vehicle);
+    EXPECT_EQ(
+        classOf(run, {{"classes.min_life", "0.1"}, {"classes.two_wheeler_length", "long"}, {"classes.no_such", "1"}}),
+        TrackClass::two_wheeler)
+        << "what this version does not take has its default";
+    run.scale = {0.345, 25, true};
+    EXPECT_EQ(classOf(run, {}), TrackClass::vehicle);
+    run.scale = SceneScale();
+    EXPECT_EQ(classOf(run, {}), TrackClass::unknown) << "nobody knows the scale";
+}
+
 TEST_F(RunStoreTest, ResultsAsBoxesHoldConfirmedTracksAndKeptDetections) {
     ProjectFile project = ProjectFile::create(path_);
     ResultWriter writer(path_, sampleRun(), {});

@@ -137,6 +137,7 @@ TEST(SweepPlan, SurvivesItsFileAndKnowsItsLike) {
     SweepPlan plan = test::sweepPlan({"gradient.quantile=0.1,0.2", "detection.method=gradient,mser"});
     plan.border = 2.5;
     plan.vehicles_only = true;
+    plan.one_class = TrackClass::vehicle;
     SweepPlan read = planFrom(textOf(plan), "here");
     EXPECT_EQ(textOf(read), textOf(plan));
     EXPECT_EQ(differenceOf(plan, read), "");
@@ -156,6 +157,16 @@ TEST(SweepPlan, SurvivesItsFileAndKnowsItsLike) {
     read = plan;
     read.overlaps.push_back(0.5);
     EXPECT_THAT(differenceOf(plan, read), HasSubstr("overlaps"));
+    read = plan;
+    read.one_class = TrackClass::person;
+    EXPECT_THAT(differenceOf(plan, read), HasSubstr("classes"));
+    std::string text = textOf(plan);
+    const std::string classes = R"("classes":"vehicles",)";
+    ASSERT_NE(text.find(classes), std::string::npos);
+    text.replace(text.find(classes), classes.size(), "");
+    EXPECT_FALSE(planFrom(text, "here").one_class) << "plans of before classes were told apart";
+    text.insert(1, R"("classes":"trams",)");
+    EXPECT_THROW(planFrom(text, "here"), Error);
     for (const char* damaged : {"", "{", "[]", "{}", R"({"eyrie_sweep":1})", R"({"eyrie_sweep":7})"})
         EXPECT_THROW(planFrom(damaged, "here"), Error) << damaged;
 }

@@ -54,6 +54,32 @@ TEST(TrackerSplitMerge, splitDetectionStaysOneTrackOfFullSize) {
     }
 }
 
+TEST(TrackerSplitMerge, theLargestPartSaysHowAVehicleInPartsMoves) {
+    for (const std::size_t wrong : {0, 1}) {
+        MovingScene scene;
+        scene.objects = {{{100, 100}, {2, 0.2}, 40, 12, 0}};
+        TrackerOptions options;
+        options.use_vectors = false;
+        Tracker tracker(options, scene.scale);
+        std::vector<TrackState> states;
+        for (int frame = 0; frame < 21; ++frame) {
+            std::vector<Detection> detections = scene.detections(frame);
+            if (frame >= 15) {
+                const OrientedBox whole = detections[0].box;
+                detections.push_back(detections[0]);
+                // In either order; the small one seems to be faster.
+                detections[wrong].box = {whole.toImage({15.5, 0}), 9, 12, whole.heading};
+                detections[wrong].velocity *= 1.3;
+                detections[1 - wrong].box = {whole.toImage({-5, 0}), 30, 12, whole.heading};
+            }
+            states = tracker.next(scene.motion(frame), detections);
+            ASSERT_EQ(states.size(), 1u) << frame;
+            EXPECT_EQ(states[0].origin, StateOrigin::detected);
+        }
+        EXPECT_NEAR(states[0].velocity.x, 2, 0.05) << wrong;
+    }
+}
+
 TEST(TrackerSplitMerge, aTrackThatBeganAsTwoMergedObjectsGivesUp) {
     const MovingScene scene = neighbours();
     Tracker tracker({}, scene.scale);

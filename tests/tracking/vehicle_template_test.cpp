@@ -41,6 +41,18 @@ TEST(VehicleTemplate, isFoundToAPartOfAPixelAfterTheCameraHasTurned) {
     EXPECT_LT(match->beside, 0.7);
 }
 
+TEST(VehicleTemplate, isFoundUpToTheEndsOfItsReachOnAllSides) {
+    const VehicleTemplate look = lookAt(kCar);
+    for (const cv::Point2d off : {cv::Point2d(4, 0), {-4, 0}, {0, 4}, {0, -4}, {4, -4}, {-4, 4}}) {
+        OrientedBox expected = kCar;
+        expected.centre += off;
+        const auto match = look.find(drawnCars({kCar}, 8), expected, 4);
+        ASSERT_TRUE(match) << off;
+        EXPECT_LT(distance(match->centre, kCar.centre), 0.4) << off;
+        EXPECT_GT(match->agreement, 0.9) << off;
+    }
+}
+
 TEST(VehicleTemplate, followsAZoomOfTheCamera) {
     const OrientedBox now{{200, 150}, 28.6, 13, 0};
     const auto match = lookAt(kCar).find(drawnCars({now}, 8), now, 2);

@@ -22,6 +22,7 @@ struct OverlayColours {
     QColor selected_track;
     QColor ground_truth;
     QColor non_vehicle;
+    QColor zone;  ///< of the first one; each may have its own
     /// Thin dark rim that keeps lines readable on any ground. Opaque: blending would cost four times as much.
     QColor edge;
 };
@@ -40,6 +41,7 @@ inline OverlayColours overlayColours(PaletteKind kind) {
                 .selected_track = QColor(255, 255, 255),
                 .ground_truth = QColor(245, 245, 245),
                 .non_vehicle = QColor(0, 114, 178),
+                .zone = QColor(120, 180, 255),
                 .edge = edge};
     return {.stationary_corner = QColor(255, 50, 50),
             .motion_vector = QColor(255, 230, 0),
@@ -52,6 +54,7 @@ inline OverlayColours overlayColours(PaletteKind kind) {
             .selected_track = QColor(210, 255, 120),
             .ground_truth = QColor(255, 255, 255),
             .non_vehicle = QColor(255, 160, 40),
+            .zone = QColor(120, 180, 255),
             .edge = edge};
 }
 

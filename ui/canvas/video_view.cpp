@@ -42,6 +42,7 @@ void VideoView::setFrame(ViewFrame frame) {
     frame_ = std::move(frame);
     adoptSize();
     update();
+    emit frameGiven(frame_.index);
 }
 
 void VideoView::clear(QSize image_size) {
@@ -68,6 +69,12 @@ void VideoView::setSelectedTrack(std::optional<TrackId> track) {
 void VideoView::setStacks(FrameIndex frame, std::vector<StackMark> stacks) {
     if (frame != frame_.index) return;
     frame_.stacks = std::move(stacks);
+    update();
+}
+
+void VideoView::setZones(FrameIndex frame, std::vector<ZoneMark> zones) {
+    if (frame != frame_.index || (zones.empty() && frame_.zones.empty())) return;
+    frame_.zones = std::move(zones);
     update();
 }
 

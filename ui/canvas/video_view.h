@@ -34,6 +34,8 @@ class VideoView : public QWidget {
     void setSelectedTrack(std::optional<TrackId> track);
     /// The image stacks of a frame, which come later than the frame itself; ignored when another one is shown.
     void setStacks(FrameIndex frame, std::vector<StackMark> stacks);
+    /// What is watched, as it lies in a frame; ignored when another one is shown.
+    void setZones(FrameIndex frame, std::vector<ZoneMark> zones);
     /// What the evaluation says of a frame, which comes apart from it; ignored when another one is shown.
     void setVerdicts(FrameIndex frame, bool evaluated, std::vector<VerdictMark> verdicts,
                      std::vector<BoxRecord> ground_truth);
@@ -69,6 +71,8 @@ class VideoView : public QWidget {
     /// Sub-pixel position under the cursor, image coordinates; nothing when it left the image.
     void cursorMoved(std::optional<QPointF> image_point);
     void transformChanged();
+    /// A frame was given; what belongs to it and comes apart from it may be given now.
+    void frameGiven(FrameIndex frame);
     void trackClicked(std::optional<TrackId> track);
     /// The user pointed at a place, image coordinates; `margin`: px of the image within which something is meant. Comes
     /// after trackClicked().

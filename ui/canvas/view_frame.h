@@ -6,6 +6,7 @@
 
 #include "canvas/marks/stack_mark.h"
 #include "canvas/marks/verdict_mark.h"
+#include "canvas/marks/zone_mark.h"
 #include "canvas/trail.h"
 #include "core/labels/box_record.h"
 #include "core/values/frame_result.h"
@@ -26,6 +27,7 @@ struct ViewFrame {
     bool evaluated = false;             ///< the frame was compared with ground truth
     std::vector<VerdictMark> verdicts;  ///< what came of it
     std::vector<StackMark> stacks;      ///< empty until somebody asked for them: they are not stored
+    std::vector<ZoneMark> zones;        ///< what is watched; belongs to the video, so that it comes apart
 };
 
 }  // namespace eyrie::ui

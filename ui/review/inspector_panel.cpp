@@ -34,6 +34,13 @@ QString registrationText(const Registration& registration) {
         .arg(registration.current_from_previous.inliers);
 }
 
+TrackClass classOfTrack(const ProjectSession& session, TrackId track) {
+    if (!session.runData()) return TrackClass::unknown;
+    const auto& tracks = session.runData()->tracks;
+    const auto found = std::find_if(tracks.begin(), tracks.end(), [track](const auto& one) { return one.id == track; });
+    return found == tracks.end() ? TrackClass::unknown : found->track_class;
+}
+
 }  // namespace
 
 void ChipView::show(const QImage& image, const OrientedBox& box) {
@@ -93,7 +100,7 @@ InspectorPanel::InspectorPanel(ProjectSession& session, QWidget* parent) : QWidg
                                      {SessionChange::selection, [this] { showSelection(); }}});
     connect(&session_, &ProjectSession::trackStatesRead, this,
             [this](TrackId track, const std::vector<TrackFrame>& states) {
-                track_->showTrack(track, states, session_.scale());
+                track_->showTrack(track, states, session_.scale(), classOfTrack(session_, track));
                 track_->setCurrentFrame(session_.currentFrame());
             });
     connect(track_, &TrackInspector::frameActivated, &session_, &ProjectSession::goToFrame);

@@ -63,6 +63,7 @@ TrackInspector::TrackInspector(QWidget* parent)
     stack_->addWidget(empty_);
     stack_->addWidget(page);
 
+    class_ = addLine(tr("Class"));
     life_ = addLine(tr("Life"));
     speed_ = addLine(tr("Mean speed"));
     size_ = addLine(tr("Mean size"));
@@ -90,8 +91,10 @@ void TrackInspector::activate(bool last) {
     if (!states_.empty()) emit frameActivated(last ? states_.back().frame : states_.front().frame);
 }
 
-void TrackInspector::showTrack(TrackId track, std::vector<TrackFrame> states, const SceneScale& scale) {
+void TrackInspector::showTrack(TrackId track, std::vector<TrackFrame> states, const SceneScale& scale,
+                               TrackClass track_class) {
     track_ = track;
+    track_class_ = track_class;
     states_ = std::move(states);
     scale_ = scale;
     origins_->setStates(states_);
@@ -135,6 +138,7 @@ void TrackInspector::showWhole() {
     const int first = states_.front().frame;
     const int last = states_.back().frame;
     title_->setText(confirmed ? tr("Track %1").arg(track_) : tr("Track %1 (tentative)").arg(track_));
+    class_->setText(shownName(track_class_));
     life_->setText(tr("frames %1 to %2, %3")
                        .arg(first)
                        .arg(last)

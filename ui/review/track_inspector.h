@@ -23,7 +23,7 @@ class TrackInspector : public QWidget {
     explicit TrackInspector(QWidget* parent = nullptr);
 
     /// `states` ascend by frame. A track without states shows as nothing.
-    void showTrack(TrackId track, std::vector<TrackFrame> states, const SceneScale& scale);
+    void showTrack(TrackId track, std::vector<TrackFrame> states, const SceneScale& scale, TrackClass track_class);
     void setCurrentFrame(FrameIndex frame);
     void clear();
     TrackId track() const { return track_; }
@@ -43,12 +43,14 @@ class TrackInspector : public QWidget {
     TrackId track_ = 0;
     std::vector<TrackFrame> states_;
     SceneScale scale_;
+    TrackClass track_class_ = TrackClass::unknown;
     FrameIndex frame_ = 0;
     QStackedLayout* stack_;
     EmptyState* empty_;
     QFormLayout* form_;
     OriginBar* origins_;
     QLabel* title_;
+    QLabel* class_;
     QLabel* life_;
     QLabel* speed_;
     QLabel* size_;

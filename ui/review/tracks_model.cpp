@@ -30,7 +30,8 @@ QVariant TracksModel::data(const QModelIndex& index, int role) const {
                 .arg(track->last_frame)
                 .arg(track->frames);
         case Qt::TextAlignmentRole:
-            return index.column() == status_column ? QVariant() : QVariant(Qt::AlignRight | Qt::AlignVCenter);
+            if (index.column() == status_column || index.column() == class_column) return {};
+            return QVariant(Qt::AlignRight | Qt::AlignVCenter);
         case sort_role:
             return sortValueOf(*track, index.column());
         case id_role:
@@ -60,6 +61,8 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
             return track.confirmed ? tr("confirmed") : tr("tentative");
         case score_column:
             return numberText(track.score, 2);
+        case class_column:
+            return shownName(track.track_class);
         default:
             return {};
     }
@@ -108,6 +111,10 @@ QString TracksModel::helpOf(int column) const {
             return tr("Confirmed: relied on. Tentative: too new to be relied on, and not part of the result");
         case score_column:
             return tr("Probability that the track is a moving vehicle, from 0 to 1");
+        case class_column:
+            return tr(
+                "What the track is, by its mean size and speed over the ground (classes.*); a dash where they do not "
+                "tell");
         default:
             return {};
     }
@@ -137,6 +144,8 @@ QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int r
             return tr("Status");
         case score_column:
             return tr("Score");
+        case class_column:
+            return tr("Class");
         default:
             return {};
     }

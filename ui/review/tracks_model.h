@@ -22,12 +22,14 @@ class TracksModel : public RecordModel<TrackSummary> {
         width_column,
         status_column,
         score_column,
+        class_column,
         column_count
     };
 
     explicit TracksModel(QObject* parent = nullptr) : RecordModel(parent) {}
 
     void setTracks(std::vector<TrackSummary> tracks, const SceneScale& scale);
+    const SceneScale& scale() const { return scale_; }
 
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }
     QVariant data(const QModelIndex& index, int role) const override;

@@ -6,7 +6,9 @@
 #include <QSlider>
 #include <QTableView>
 #include <QToolButton>
+#include <QVBoxLayout>
 
+#include "review/tracks/filter_chips.h"
 #include "widgets/empty_state.h"
 #include "widgets/wiring.h"
 
@@ -17,7 +19,8 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
       tracks_(model),
       tentative_(new QToolButton(this)),
       sensitivity_(new QSlider(Qt::Horizontal, this)),
-      count_(new QLabel(this)) {
+      count_(new QLabel(this)),
+      chips_(new FilterChips(this)) {
     table()->setAccessibleName(tr("Tracks"));
     emptyState()->setTexts(
         tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size."));
@@ -33,9 +36,16 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     sensitivity_->setToolTip(
         tr("Sensitivity: on the left, only tracks that are surely moving vehicles are listed and drawn; on the far "
            "right, all tracks."));
-    count_->setToolTip(tr("Tracks shown at this sensitivity, of all tracks"));
+    count_->setToolTip(tr("Tracks listed, of all tracks"));
     toolRow()->addWidget(sensitivity_);
-    toolRow()->addWidget(count_);
+    auto* narrowing = new QHBoxLayout;
+    narrowing->setContentsMargins(2, 0, 4, 0);
+    narrowing->addWidget(chips_, 1);
+    count_->setFixedHeight(chips_->minimumSizeHint().height());  // beside the first row of chips
+    narrowing->addWidget(count_, 0, Qt::AlignTop);
+    static_cast<QVBoxLayout*>(layout())->insertLayout(1, narrowing);
+    connect(chips_, &FilterChips::edited, this, &TracksPanel::filterTracks);
+    connect(chips_, &FilterChips::doingsWanted, this, [this] { commands_.want_doings(); });
     onEdited(
         this,
         [this] {
@@ -43,8 +53,12 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
             commands_.use_min_score(minScore());
         },
         sensitivity_);
-    whenAny(model, this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
-            &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::dataChanged);
+    whenAny(
+        model, this, [this] { chips_->setScale(tracks_->scale()); }, &QAbstractItemModel::modelReset,
+        &QAbstractItemModel::rowsInserted, &QAbstractItemModel::headerDataChanged);
+    whenAny(model, this, &TracksPanel::showCount, &QAbstractItemModel::dataChanged, &QAbstractItemModel::rowsRemoved);
+    whenAny(&proxy(), this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
+            &QAbstractItemModel::rowsRemoved);
     onEdited(this, &TracksPanel::filterTracks, tentative_);
     setTentativeShown(false);
 }
@@ -54,7 +68,8 @@ double TracksPanel::minScore() const {
 }
 
 bool TracksPanel::isListed(const TrackSummary& track) const {
-    return (tentative_->isChecked() || track.confirmed) && track.score >= minScore();
+    return (tentative_->isChecked() || track.confirmed) && track.score >= minScore() &&
+           chips_->filter().holds(track, tracks_->scale(), doings_.get());
 }
 
 void TracksPanel::filterTracks() {
@@ -67,17 +82,30 @@ void TracksPanel::filterTracks() {
 
 QString TracksPanel::countText() const {
     int all = 0;
-    int listed = 0;
-    for (int row = 0; row < tracks_->rowCount(); ++row) {
-        const TrackSummary& track = *tracks_->recordAt(row);
-        all += tentative_->isChecked() || track.confirmed ? 1 : 0;
-        listed += isListed(track) ? 1 : 0;
-    }
-    return tr("%1 of %2").arg(listed).arg(all);
+    for (int row = 0; row < tracks_->rowCount(); ++row)
+        all += tentative_->isChecked() || tracks_->recordAt(row)->confirmed ? 1 : 0;
+    const int listed = table()->model()->rowCount();
+    return all == 1 ? tr("%1 of 1 track").arg(listed) : tr("%1 of %2 tracks").arg(listed).arg(all);
 }
 
 void TracksPanel::showCount() {
     count_->setText(countText());
+}
+
+void TracksPanel::setDoings(const std::shared_ptr<const DoingsByTrack>& doings) {
+    if (doings_ == doings) return;
+    doings_ = doings;
+    chips_->setDoings(doings);
+    if (chips_->filter().any()) filterTracks();
+}
+
+QString TracksPanel::hiddenText() const {
+    return tr("None of the %1 tracks is as these filters want it.").arg(tracks_->rowCount());
+}
+
+void TracksPanel::showHidden() {
+    chips_->clear();
+    sensitivity_->setValue(sensitivity_->maximum());
 }
 
 void TracksPanel::setTentativeShown(bool shown) {

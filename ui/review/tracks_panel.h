@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <utility>
 
+#include "review/tracks/track_doings.h"
 #include "review/tracks_model.h"
 #include "widgets/tables/table_panel.h"
 
@@ -12,6 +14,8 @@ class QToolButton;
 
 namespace eyrie::ui {
 
+class FilterChips;
+
 /// What the list of tracks leads to.
 struct TrackListCommands {
     std::function<void(int track)> select = [](int) {};
@@ -19,6 +23,8 @@ struct TrackListCommands {
     std::function<void(int track, int frame)> go_to = [](int, int) {};
     /// Tracks with a lower score are not to be shown anywhere.
     std::function<void(double score)> use_min_score = [](double) {};
+    /// What the tracks did is asked for: setDoings().
+    std::function<void()> want_doings = [] {};
 };
 
 /// The tracks of the shown run: clicking one goes to it.
@@ -32,7 +38,11 @@ class TracksPanel : public TablePanel {
     void setTentativeShown(bool shown);
     /// How unsure tracks may be that are listed, 0 … 100 %: at 100 all are, at 40 those with a score of 0.6 or more.
     QSlider* sensitivity() const { return sensitivity_; }
-    /// How many of the tracks are listed, "12 of 40".
+    /// What narrows the list further, by speed, life, length, score, direction, events and zones.
+    FilterChips& chips() { return *chips_; }
+    /// What the tracks did, for the chips; null while nobody knows.
+    void setDoings(const std::shared_ptr<const DoingsByTrack>& doings);
+    /// How many of the tracks are listed, "12 of 40 tracks".
     QString countText() const;
 
  protected:
@@ -40,6 +50,9 @@ class TracksPanel : public TablePanel {
     void rowClicked(int track, int column) override { activate(track, column); }
     void rowDoubleClicked(int track) override { activate(track, TracksModel::first_column); }
     void fillMenu(QMenu& menu, int track) override;
+    QString hiddenText() const override;
+    bool canShowHidden() const override { return true; }
+    void showHidden() override;
 
  private:
     void activate(int track, int column);
@@ -52,6 +65,8 @@ class TracksPanel : public TablePanel {
     QToolButton* tentative_;
     QSlider* sensitivity_;
     QLabel* count_;
+    FilterChips* chips_;
+    std::shared_ptr<const DoingsByTrack> doings_;
 };
 
 }  // namespace eyrie::ui

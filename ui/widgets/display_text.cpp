@@ -57,6 +57,20 @@ QString durationText(double seconds) {
     return QStringLiteral("%1:%2:%3").arg(whole / 3600).arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
 }
 
+QString shownName(TrackClass track_class) {
+    switch (track_class) {
+        case TrackClass::unknown:
+            break;
+        case TrackClass::vehicle:
+            return QObject::tr("vehicle");
+        case TrackClass::two_wheeler:
+            return QObject::tr("two-wheeler");
+        case TrackClass::person:
+            return QObject::tr("person");
+    }
+    return QStringLiteral("–");
+}
+
 QString localTimeText(const std::string& utc) {
     const QString text = QString::fromStdString(utc);
     const QDateTime time = QDateTime::fromString(text, Qt::ISODate);

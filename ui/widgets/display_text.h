@@ -3,6 +3,7 @@
 #include <QString>
 #include <string>
 
+#include "core/labels/track_class.h"
 #include "core/values/scene_scale.h"
 
 /// Numbers as people read them: with units, in metres and km/h when the GSD is known, in pixels otherwise.
@@ -27,6 +28,8 @@ QString shortSpeedText(double px_per_frame, const SceneScale& scale);
 QString lengthText(double px, const SceneScale& scale);
 /// "4.9 s", "2:04.9", "1:02:04".
 QString durationText(double seconds);
+/// "vehicle", "two-wheeler", "person"; a dash for unknown.
+QString shownName(TrackClass track_class);
 /// "2026-11-21T08:00:00Z" as a short local date and time, today as the time alone; the text itself if it is no
 /// time.
 QString localTimeText(const std::string& utc);

@@ -19,7 +19,9 @@
 #include "canvas/video_view.h"
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
+#include "review/events/event_review.h"
 #include "review/events/events_dock.h"
+#include "review/tracks_panel.h"
 #include "tune/compare/live_preview.h"
 #include "tune/inspect/inspection.h"
 #include "tune/inspect/stacks_panel.h"
@@ -71,6 +73,11 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     docks_ = new DockRegistry(*this);
     review_ = new ReviewDocks({session_, *inspection_, *docks_, *actions_, overlays_, *guard_, *messages_});
     events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
+    review_->setDoingsWanted([this] { events_->review().setWanted(); });
+    connect(events_, &EventsDock::eventsShown, this, [this] {
+        const auto& found = events_->review().found();
+        review_->tracks().setDoings(found ? found->doings : nullptr);
+    });
     event_report_ = new EventReport({session_, *events_, *messages_, *this});
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
@@ -187,6 +194,8 @@ void MainWindow::buildWorkspaces() {
             docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
         labelling_->setActive(kind == WorkspaceKind::label);
         events_->setActive(kind != WorkspaceKind::label);
+        // Zones are drawn and tracks narrowed by what they did, whichever list is in front.
+        if (kind == WorkspaceKind::review) events_->review().setWanted();
         evaluation_->enterWorkspace(kind);
     });
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());

@@ -165,8 +165,18 @@ void WindowActions::addEvents() {
     note = add(tr("&Write a note"), {nullptr, {QKeySequence(tr("Ctrl+E"))}});
     undo_verdict = add(tr("U&ndo"), {"edit-undo",
                                      {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
-                                     QT_TR_NOOP("Take the last verdict, star or note back")});
+                                     QT_TR_NOOP("Take back the last verdict, star, note or change of a zone")});
     redo_verdict = add(tr("Re&do"), {"edit-redo", {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))}});
+    draw_zone = addToggle(tr("Draw a &zone"),
+                          {nullptr,
+                           {QKeySequence(tr("Ctrl+Shift+A"))},
+                           QT_TR_NOOP("Click the corners of an area that is watched: who enters it, and who leaves")},
+                          false);
+    draw_line = addToggle(tr("Draw a &line"),
+                          {nullptr,
+                           {QKeySequence(tr("Ctrl+Shift+L"))},
+                           QT_TR_NOOP("Click the points of a line that is watched: who crosses it, and to which side")},
+                          false);
 }
 
 void WindowActions::addOverlays(OverlaySettings& overlays) {

@@ -32,7 +32,7 @@ class WindowActions : public QObject {
     QAction *fit, *one_to_one, *zoom_in, *zoom_out, *full_screen, *deselect;
     QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
     QAction *next_event, *previous_event, *next_open_event, *relevant, *not_relevant, *unsure, *take_back, *star, *note,
-        *undo_verdict, *redo_verdict;
+        *undo_verdict, *redo_verdict, *draw_zone, *draw_line;
     QAction *why, *live_preview, *compare, *train;
     std::array<QAction*, kWorkspaceCount> workspace;
     std::map<OverlayKind, QAction*> overlay;

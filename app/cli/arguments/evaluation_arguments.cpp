@@ -23,8 +23,17 @@ void EvaluationArguments::addTo(CLI::App& command) {
 }
 
 void EvaluationArguments::addRuleTo(CLI::App& command) {
-    command.add_flag("--vehicles", options.vehicles_only,
-                     "Only vehicles count; other objects of the ground truth count neither way");
+    CLI::Option* vehicles =
+        command.add_flag("--vehicles", options.vehicles_only,
+                         "Only vehicles count; other objects of the ground truth count neither way, and results count "
+                         "whatever class they name");
+    command
+        .add_option_function<std::string>(
+            "--classes", [this](const std::string& word) { options.one_class = scoredClass(word); },
+            "Only objects of this class count, others count neither way; results that name another class are left out")
+        ->check(CLI::IsMember(scoredClassWords()))
+        ->default_str("all")
+        ->excludes(vehicles);
     command.add_flag("--upright", options.upright,
                      "Compare enclosing upright boxes, for ground truth without headings");
     command.add_option("--border", options.border, "Leave out results that come this close to the image's edge, px");

@@ -1,6 +1,7 @@
 #include "cli/arguments/event_arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/preset_arguments.h"
@@ -15,7 +16,8 @@ void EventArguments::addRunTo(CLI::App& command) {
 }
 
 void EventArguments::addSearchTo(CLI::App& command) {
-    command.add_option("--zone", zones, "JSON file of zones and lines to be watched")->type_name("FILE");
+    command.add_option("--zone", zones, "JSON file of zones and lines to be watched (default: those of the project)")
+        ->type_name("FILE");
     command
         .add_option("--set", settings,
                     "Set one threshold, e.g. --set events.over=80 (eyrie-cli params lists them); may be repeated")
@@ -54,6 +56,15 @@ ReviewedRun EventArguments::read(const EventChoice& wanted) const {
     ProjectFile file = openForReading(project);
     const RunRecord record = chosenRun(RunStore(file), project, run);
     return readReviewedRun(file, record, wanted);
+}
+
+void EventArguments::tellZones(const ReviewedRun& found) const {
+    if (!zones.empty() || found.zones.empty()) return;
+    std::string names;
+    for (const Zone& zone : found.zones) names += (names.empty() ? "" : ", ") + zone.name;
+    const bool one = found.zones.size() == 1;
+    std::fprintf(stderr, "eyrie-cli: watching the %s of the project: %s (--zone takes %s)\n", one ? "zone" : "zones",
+                 names.c_str(), one ? "another" : "others");
 }
 
 }  // namespace eyrie::cli

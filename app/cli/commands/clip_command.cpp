@@ -126,7 +126,11 @@ int makeClip(const ClipArguments& arguments) {
     arguments.outputs.check({{arguments.out, FileKind::video}},
                             {arguments.events.project, arguments.events.zones, run.sequence.path});
     std::optional<FrameRange> range;
-    if (arguments.event) range = framesOfEvent(arguments, readReviewedRun(project, run, choice));
+    if (arguments.event) {
+        const ReviewedRun reviewed = readReviewedRun(project, run, choice);
+        arguments.events.tellZones(reviewed);
+        range = framesOfEvent(arguments, reviewed);
+    }
     const auto source = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
     if (!range) range = framesAsked(arguments, source->info().frame_count);
     // The video may have become shorter since the run.

@@ -55,7 +55,9 @@ void tellEvents(const ListArguments& arguments) {
     arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.events.project, arguments.events.zones});
     const ReviewedRun reviewed = arguments.events.read(choice);
     const StoredTracks& stored = reviewed.tracks;
-    tellRemarks(stored, remarksOn(choice.zones, stored.footage));
+    arguments.events.tellZones(reviewed);
+    if (choice.zones) checkReach(*choice.zones, stored.footage);
+    tellRemarks(stored, remarksOn(reviewed.zones, stored.footage));
     const JudgedEvents wanted = wantedOf(reviewed, choice);
     if (!arguments.csv.empty()) {
         writeEventCsv(

@@ -72,6 +72,7 @@ int makeEventReport(const ReportArguments& arguments) {
     arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, events.zones, run.sequence.path});
     const std::unique_ptr<FrameSource> pixels = pixelsOf(run, "pictures", interrupt.token());
     ReviewReportInput input = gatherReviewReport(project, run, choice, pixels.get(), start, interrupt.token());
+    events.tellZones(input.reviewed);
     if (pixels && pixels->info().container != "scene")
         input.video_digest = digestOf(run.sequence.path, interrupt.token());
     input.made_utc = nowUtc();

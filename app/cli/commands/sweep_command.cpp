@@ -156,6 +156,7 @@ int sweep(const SweepArguments& arguments) {
     const EvaluationArguments& evaluation = arguments.sources.evaluation;
     plan.overlaps = evaluation.overlaps;
     plan.vehicles_only = evaluation.options.vehicles_only;
+    plan.one_class = evaluation.options.one_class;
     plan.border = evaluation.options.border;
     chosenPositions(plan, arguments.shard);  // shows a wrong shard before anything is opened
 

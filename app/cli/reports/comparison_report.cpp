@@ -138,7 +138,7 @@ std::string tableText(const ComparisonReport& report) {
     text += "Ground truth  " + report.ground_truth + "\n";
     text +=
         std::string("Compared      ") + (report.options.upright ? "enclosing upright boxes" : "oriented boxes") +
-        (report.options.vehicles_only ? ", vehicles only" : "") +
+        countedText(report.options) +
         (report.options.border ? ", without results within " + number("%g", *report.options.border) + " px of the edge"
                                : "") +
         "\n";
@@ -183,7 +183,8 @@ std::string jsonText(const ComparisonReport& report) {
               {"ground_truth", report.ground_truth},
               {"frames", report.frames},
               {"upright", report.options.upright},
-              {"vehicles_only", report.options.vehicles_only}};
+              {"vehicles_only", report.options.vehicles_only},
+              {"classes", wordOfScored(report.options.one_class)}};
     json["border_px"] = report.options.border ? Json(*report.options.border) : Json();
     json["results"] = Json::array();
     for (const auto& rows : report.blocks) {

@@ -46,7 +46,7 @@ std::string conventionText(Convention convention) {
 
 std::string comparedText(const EvaluationOptions& options) {
     std::string text = options.upright ? "enclosing upright boxes" : "oriented boxes";
-    if (options.vehicles_only) text += ", vehicles only";
+    text += countedText(options);
     if (options.border) {
         text += ", without results within " + shortest(*options.border) + " px of the edge of " +
                 std::to_string(options.image_size.width) + "x" + std::to_string(options.image_size.height);
@@ -116,7 +116,8 @@ std::string jsonText(const EvaluationReport& report) {
               {"ground_truth", report.ground_truth},
               {"result", report.result},
               {"upright", report.options.upright},
-              {"vehicles_only", report.options.vehicles_only}};
+              {"vehicles_only", report.options.vehicles_only},
+              {"classes", wordOfScored(report.options.one_class)}};
     json["border_px"] = report.options.border ? Json(*report.options.border) : Json();
     if (report.options.border) {
         json["image_size"] = {report.options.image_size.width, report.options.image_size.height};

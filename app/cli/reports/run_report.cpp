@@ -98,14 +98,20 @@ std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunS
                       summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0);
     text += "\n" + unregisteredText(facts.counts);
     int confirmed = 0;
+    int two_wheelers = 0;
+    int persons = 0;
     double speed = 0;
     for (const auto& track : tracks) {
         if (!track.confirmed) continue;
         ++confirmed;
+        two_wheelers += track.track_class == TrackClass::two_wheeler;
+        persons += track.track_class == TrackClass::person;
         speed += track.mean_speed_px;
     }
     text += formatted("Vehicles followed: %d", confirmed);
     if (confirmed > 0) text += formatted(", mean speed %s", speedText(run.scale, speed / confirmed).c_str());
+    if (two_wheelers + persons > 0)
+        text += formatted(" (by their size two-wheelers %d, persons %d)", two_wheelers, persons);
     if (facts.nothing != NothingFollowed::has_tracks) text += formatted(": %s", whyNothing(facts.nothing));
     text += "\nMedian per frame:";
     for (int i = 0; i < kStageCount; ++i) {

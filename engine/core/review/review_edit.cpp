@@ -59,23 +59,42 @@ void carryOut(std::map<int, Value>& present, const std::vector<Change<Value>>& c
     }
 }
 
+/// Events name their zone, so no two may have one name.
+void checkZoneNames(const std::map<int, StoredZone>& present, const std::vector<Change<StoredZone>>& changes) {
+    std::set<int> changed;
+    for (const auto& change : changes) changed.insert(change.before ? change.before->id : change.after->id);
+    std::set<std::string> names;
+    for (const auto& [id, zone] : present) {
+        if (!changed.contains(id)) names.insert(zone.zone.name);
+    }
+    for (const auto& change : changes) {
+        if (!change.after || names.insert(change.after->zone.name).second) continue;
+        throw Error(ErrorKind::parameter,
+                    "there is a zone \"" + change.after->zone.name + "\" already; give this one another name");
+    }
+}
+
 }  // namespace
 
 ReviewEdit inverseOf(ReviewEdit edit) {
     for (auto& change : edit.verdicts) std::swap(change.before, change.after);
     for (auto& change : edit.bookmarks) std::swap(change.before, change.after);
+    for (auto& change : edit.zones) std::swap(change.before, change.after);
     return edit;
 }
 
 void checkEdit(const ReviewSet& set, const ReviewEdit& edit) {
     checkSteps(set.verdicts, edit.verdicts, "verdict", checkVerdict);
     checkSteps(set.bookmarks, edit.bookmarks, "bookmark", checkBookmark);
+    checkSteps(set.zones, edit.zones, "zone", checkZone);
+    if (!edit.zones.empty()) checkZoneNames(set.zones, edit.zones);
 }
 
 void applyEdit(ReviewSet& set, const ReviewEdit& edit) {
     checkEdit(set, edit);
     carryOut(set.verdicts, edit.verdicts);
     carryOut(set.bookmarks, edit.bookmarks);
+    carryOut(set.zones, edit.zones);
 }
 
 void checkVerdict(const Verdict& verdict) {
@@ -99,6 +118,25 @@ void checkVerdict(const Verdict& verdict) {
     if (tagsOf(tags) != verdict.tags) {
         throw Error(ErrorKind::parameter, "tags are told once each, and have no comma and no blank at their ends");
     }
+}
+
+void checkZone(const StoredZone& zone) {
+    const std::string who = "zone " + std::to_string(zone.id);
+    if (zone.id < 1) refuseStep(who + " has no number above 0");
+    if (zone.zone.frame < 0) refuseStep(who + " has a frame that is none");
+    if (zone.colour < StoredZone::kColourByNumber || zone.colour > 0xffffff)
+        refuseStep(who + " has a colour that is none");
+    if (zone.zone.name.empty()) throw Error(ErrorKind::parameter, "a zone needs a name");
+    checkText(zone.zone.name, "a name of a zone");
+    checkText(zone.person, "a name");
+    checkText(zone.when_utc, "a date");
+    if (zone.zone.points.size() > kMostZonePoints) {
+        throw Error(ErrorKind::parameter, "zone \"" + zone.zone.name + "\" has " +
+                                              std::to_string(zone.zone.points.size()) + " points; up to " +
+                                              std::to_string(kMostZonePoints) + " are kept");
+    }
+    const std::string fault = faultOf(zone.zone);
+    if (!fault.empty()) throw Error(ErrorKind::parameter, "zone \"" + zone.zone.name + "\": " + fault);
 }
 
 void checkBookmark(const Bookmark& bookmark) {

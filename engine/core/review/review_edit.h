@@ -13,15 +13,17 @@ struct ReviewEdit {
     std::string name;  ///< for the menu: "Judge 12 events not relevant"
     std::vector<Change<Verdict>> verdicts;
     std::vector<Change<Bookmark>> bookmarks;
+    std::vector<Change<StoredZone>> zones = {};
 
-    bool empty() const { return verdicts.empty() && bookmarks.empty(); }
+    bool empty() const { return verdicts.empty() && bookmarks.empty() && zones.empty(); }
 };
 
 /// The edit that takes the edit back.
 ReviewEdit inverseOf(ReviewEdit edit);
 
 /// Carries an edit out. Throws, changing nothing, Error(internal) when `set` is not what the edit starts from: what is
-/// to be changed is not there or is another by now, what is to be added is there already; or as checkVerdict().
+/// to be changed is not there or is another by now, what is to be added is there already; Error(parameter) when two
+/// zones would have one name; or as checkVerdict().
 void applyEdit(ReviewSet& set, const ReviewEdit& edit);
 /// Throws what applyEdit() would, and changes nothing.
 void checkEdit(const ReviewSet& set, const ReviewEdit& edit);
@@ -30,8 +32,10 @@ void checkEdit(const ReviewSet& set, const ReviewEdit& edit);
 /// and frames that cannot be.
 void checkVerdict(const Verdict& verdict);
 void checkBookmark(const Bookmark& bookmark);
+/// Throws Error(parameter), too, for a zone without a name or with a fault (faultOf()).
+void checkZone(const StoredZone& zone);
 
-/// Characters (bytes) that a note, all tags or a name of a person may have.
+/// Characters (bytes) that a note, all tags, a name of a zone or of a person may have.
 inline constexpr std::size_t kLongestReviewText = 60'000;
 
 }  // namespace eyrie

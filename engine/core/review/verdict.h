@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/review/event_kind.h"
+#include "core/review/zone.h"
 #include "core/values/ids.h"
 
 /// What a person says about what happened in a video. It belongs to the video, not to a run: nothing here names a
@@ -68,6 +69,7 @@ struct Bookmark {
 struct ReviewSet {
     std::map<int, Verdict> verdicts;    ///< by id
     std::map<int, Bookmark> bookmarks;  ///< by id
+    std::map<int, StoredZone> zones;    ///< by id; each name once
 };
 
 /// Tags from "gate 3, lorry": without blanks around them, empty ones and doubles; and back.

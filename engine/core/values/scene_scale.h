@@ -18,4 +18,10 @@ struct SceneScale {
     double metresPerSecond(double px_per_frame) const { return px_per_frame * gsd_m_per_px * frame_rate_hz; }
 };
 
+/// Whether lengths in metres mean something: the GSD is given, or was estimated from the traffic. Not where it is the
+/// assumption that a scale starts with.
+inline bool hasMetricLimits(const SceneScale& scale) {
+    return scale.gsd_known || scale.gsd_m_per_px != SceneScale().gsd_m_per_px;
+}
+
 }  // namespace eyrie

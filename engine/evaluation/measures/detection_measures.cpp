@@ -10,7 +10,8 @@ DetectionMeasures detectionMeasures(const EvaluationInput& input, const std::vec
         m.true_positives += static_cast<int>(match.pairs.size());
         m.false_negatives += static_cast<int>(match.missed.size());
         m.false_positives += static_cast<int>(match.false_results.size());
-        m.ignored_results += static_cast<int>(match.ignored_results.size() + match.border_results.size());
+        m.ignored_results += static_cast<int>(match.ignored_results.size() + match.border_results.size() +
+                                              match.other_class_results.size());
         for (const MatchedPair& pair : match.pairs) m.overlap_sum += pair.overlap;
     }
     m.ground_truth = m.true_positives + m.false_negatives;

@@ -2,11 +2,11 @@
 
 #include <vector>
 
+#include "core/review/zone.h"
 #include "events/event.h"
 #include "events/event_options.h"
 #include "events/ground/ground_path.h"
 #include "events/ground/ground_stretches.h"
-#include "events/zones/zone.h"
 
 /// What the searches for the kinds of events share; inside of this room only.
 namespace eyrie {

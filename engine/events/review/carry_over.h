@@ -3,8 +3,8 @@
 #include <map>
 #include <vector>
 
+#include "core/review/zone.h"
 #include "events/review/review_subject.h"
-#include "events/zones/zone.h"
 
 namespace eyrie {
 

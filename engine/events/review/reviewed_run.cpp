@@ -37,10 +37,11 @@ ReviewedRun readReviewedRun(ProjectFile& project, const RunRecord& run, const Ev
     found.run = run;
     found.tracks = readTracks(RunStore(project), run);
     found.review = readReview(project, run.sequence.id);
-    found.events = findEvents(found.tracks.tracks, found.tracks.footage, choice.options, choice.zones);
+    found.zones = choice.zones ? *choice.zones : zonesOf(found.review.zones);
+    found.events = findEvents(found.tracks.tracks, found.tracks.footage, choice.options, found.zones);
     found.unsearched = unsearchedStretches(found.tracks.footage, choice.review);
     found.carried =
-        carryOver(found.review.verdicts, found.events, found.unsearched, found.tracks, choice.zones, choice.review);
+        carryOver(found.review.verdicts, found.events, found.unsearched, found.tracks, found.zones, choice.review);
     return found;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "events/event_search.h"
@@ -15,6 +16,7 @@ struct ReviewedRun {
     StoredTracks tracks;
     std::vector<Event> events;  ///< all of them; the number of an event is its place here, from 1
     std::vector<FrameSpan> unsearched;
+    std::vector<Zone> zones;  ///< that were watched
     ReviewSet review;
     CarriedVerdicts carried;
 
@@ -27,9 +29,9 @@ struct ReviewedRun {
 struct EventChoice {
     EventOptions options;
     ReviewOptions review;
-    std::vector<Zone> zones;
-    std::vector<EventKind> kinds;       ///< none: all
-    std::vector<Judgement> judgements;  ///< none: all
+    std::optional<std::vector<Zone>> zones;  ///< nothing: those that the project keeps for the video
+    std::vector<EventKind> kinds;            ///< none: all
+    std::vector<Judgement> judgements;       ///< none: all
 
     /// Whether an event of this kind (nothing: a stretch that could not be searched) with this verdict, null for none,
     /// is wanted.

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "formats/json_xml/json_place.h"
+#include "io/atomic_file.h"
 
 namespace eyrie {
 namespace {
@@ -81,6 +82,22 @@ std::vector<Zone> readZones(const std::filesystem::path& path) {
             place.fail("is the second zone with the name \"" + zones.back().name + "\"");
     }
     return zones;
+}
+
+void writeZones(const std::filesystem::path& path, const std::vector<Zone>& zones) {
+    constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+    std::string text = "{\"eyrie_zones\": " + std::to_string(kZoneFormat) + ", \"zones\": [";
+    for (std::size_t i = 0; i < zones.size(); ++i) {
+        const Zone& zone = zones[i];
+        nlohmann::ordered_json json;
+        json["name"] = zone.name;
+        json["shape"] = zone.shape == ZoneShape::line ? "line" : "area";
+        json["fixed_to"] = zone.anchor == ZoneAnchor::image ? "image" : "ground";
+        if (zone.anchor == ZoneAnchor::ground) json["frame"] = zone.frame;
+        for (const cv::Point2d& point : zone.points) json["points"].push_back({point.x, point.y});
+        text += (i == 0 ? "\n  " : ",\n  ") + json.dump(-1, ' ', false, kReplace);
+    }
+    writeFileAtomically(path, text + "]}\n");
 }
 
 }  // namespace eyrie

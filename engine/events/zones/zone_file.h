@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "events/zones/zone.h"
+#include "core/review/zone.h"
 
 namespace eyrie {
 
@@ -11,5 +11,8 @@ namespace eyrie {
 /// "frame": 0, "points": [[x, y], …]}]}. "shape" is area (the default) or line, "fixed_to" ground (the default) or
 /// image. Throws Error(input) naming the file and the place for all that is missing, misspelt, or no zone.
 std::vector<Zone> readZones(const std::filesystem::path& path);
+
+/// Writes what readZones() reads, in place of a file that is there. Throws Error(output).
+void writeZones(const std::filesystem::path& path, const std::vector<Zone>& zones);
 
 }  // namespace eyrie

@@ -1,6 +1,6 @@
 #include "formats/mot/mot_classes.h"
 
-#include "core/labels/box_record.h"
+#include "core/labels/track_class.h"
 
 namespace eyrie {
 namespace {
@@ -44,6 +44,7 @@ MotClass motFromClass(const std::string& object_class) {
     if (object_class == "motorcycle") return {kMotorbike, true};
     if (object_class == "vehicle") return {kOtherVehicle, true};
     if (isVehicleClass(object_class)) return {kOtherVehicle, false};
+    if (trackClassOf(object_class) == TrackClass::two_wheeler) return {kMotorbike, false};
     return {kDistractor, object_class == "other"};
 }
 

@@ -8,7 +8,8 @@ namespace eyrie {
 /// and empty for numbers below 1, which mean none.
 std::string classFromMot(int number);
 
-/// The number to write for one of our classes, and whether reading it back gives the same class.
+/// The number to write for one of our classes, the nearest where it has none of its own, and whether reading it back
+/// gives the same class.
 struct MotClass {
     int number = -1;
     bool exact = false;

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "core/labels/track_class.h"
 #include "formats/format_functions.h"
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"
@@ -37,7 +38,7 @@ int typeOf(const std::string& object_class, bool& exact) {
     }
     exact = false;
     if (isVehicleClass(object_class)) return 3;
-    return object_class == "motorcycle" ? 5 : 4;
+    return trackClassOf(object_class) == TrackClass::two_wheeler ? 5 : 4;
 }
 
 void writeVirat(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions&,

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/labels/track_class.h"
 #include "formats/format_functions.h"
 #include "io/atomic_file.h"
 
@@ -12,17 +13,29 @@ namespace eyrie {
 namespace {
 
 constexpr int kIgnoredRegion = 0;
+constexpr int kCarCategory = 4;
+constexpr int kMotorCategory = 10;
 constexpr int kOthers = 11;
 constexpr std::array<const char*, 12> kVisDroneCategories{"",           "person", "person",   "bicycle",         "car",
                                                           "van",        "truck",  "tricycle", "awning-tricycle", "bus",
                                                           "motorcycle", "other"};
 
+/// `exact` tells whether the number stands for that class; otherwise it is the nearest, or "others".
 int categoryOf(const std::string& object_class, bool& exact) {
     exact = true;
     for (std::size_t i = 1; i < kVisDroneCategories.size(); ++i) {
         if (object_class == kVisDroneCategories[i]) return static_cast<int>(i);
     }
     exact = false;
+    switch (trackClassOf(object_class)) {
+        case TrackClass::vehicle:
+            return kCarCategory;
+        case TrackClass::two_wheeler:
+            return kMotorCategory;
+        case TrackClass::unknown:
+        case TrackClass::person:
+            break;
+    }
     return kOthers;
 }
 
@@ -70,7 +83,7 @@ LabelFile readVisDrone(const std::filesystem::path& path, const ImportOptions&) 
 void writeVisDrone(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions&,
                    ExportReport& report) {
     AtomicFileWriter file(path);
-    int rounded = 0, strange = 0, areas = 0;
+    int rounded = 0, strange = 0, near = 0, areas = 0;
     labels.frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
         for (const LabelBox& record : records) {
             const BoxEdges e = edgesOf(record.box, 0);
@@ -82,7 +95,8 @@ void writeVisDrone(const LabelStream& labels, const std::filesystem::path& path,
             bool exact = true;
             const int category = record.ignore ? kIgnoredRegion : categoryOf(record.object_class, exact);
             areas += record.ignore && !record.object_class.empty();
-            strange += !exact;
+            strange += !exact && category == kOthers;
+            near += !exact && category != kOthers;
             file.write(std::to_string(frame + 1) + ',' + std::to_string(*record.id) + ',' + std::to_string(left) + ',' +
                        std::to_string(top) + ',' + std::to_string(right - left) + ',' + std::to_string(bottom - top) +
                        (record.ignore ? ",0," : ",1,") + std::to_string(category) + ",0," +
@@ -93,6 +107,7 @@ void writeVisDrone(const LabelStream& labels, const std::filesystem::path& path,
     report.files.push_back(path);
     report.add(LossKind::rounded, rounded, "were rounded to whole pixels");
     report.add(LossKind::class_name, areas, "are ignored and became ignored areas, without class and id");
+    report.add(LossKind::class_name, near, "have a class that VisDrone does not know and became cars or motors");
     report.add(LossKind::class_name, strange,
                "have a class that VisDrone does not know and became \"others\", which its toolkit leaves out like "
                "ignored areas");

@@ -150,7 +150,7 @@ void tellReviewedVideo(ReportPage& page, const ReviewScene& scene) {
         for (const auto& [name, value] : limits) page.row({markupEscaped(name), markupEscaped(value)});
         page.endTable();
     }
-    for (const Zone& zone : input.choice.zones)
+    for (const Zone& zone : input.reviewed.zones)
         page.paragraph("Watched: " + markupEscaped(zone.name) +
                        (zone.shape == ZoneShape::line ? ", a line." : ", an area."));
 }

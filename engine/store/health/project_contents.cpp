@@ -81,6 +81,13 @@ void readReviewContents(SQLite::Database& database, ProjectContents& contents) {
              const int id = row.integer();
              contents.bookmarks[id] = row.longText();
          });
+    each(database, "zone",
+         "SELECT id, quote(sequence_id) || quote(name) || quote(shape) || quote(anchor) || quote(frame) || "
+         "quote(points) || quote(colour) || quote(shown) FROM zone",
+         [&](RowReader& row) {
+             const int id = row.integer();
+             contents.zones[id] = row.longText();
+         });
     each(database, "seen", "SELECT coalesce(sum(last_frame - first_frame + 1), 0) FROM seen",
          [&](RowReader& row) { contents.seen = row.wide(); });
     each(database, "review_step", "SELECT count(*) FROM review_step WHERE undone = 0",
@@ -182,6 +189,7 @@ void compareMany(const std::map<int, std::string>& present, const std::map<int, 
 void compareReview(const ProjectContents& present, const ProjectContents& earlier, std::vector<std::string>& lines) {
     compareMany(present.verdicts, earlier.verdicts, "verdict", lines);
     compareMany(present.bookmarks, earlier.bookmarks, "bookmark", lines);
+    compareMany(present.zones, earlier.zones, "zone", lines);
     compareCounts(present.seen, earlier.seen, "watched frame", lines);
     compareCounts(present.review_steps, earlier.review_steps, "step of the review to undo", lines,
                   "steps of the review to undo");

@@ -58,6 +58,21 @@ void answerReadable(sqlite3_context* context, int, sqlite3_value** values) {
     sqlite3_result_int(context, unpack(ByteView(data, size)).has_value() ? 1 : 0);
 }
 
+/// SQL function of shape and points: whether they make a zone.
+void answerZone(sqlite3_context* context, int, sqlite3_value** values) {
+    const auto* shape = reinterpret_cast<const char*>(sqlite3_value_text(values[0]));
+    const auto* data = static_cast<const std::byte*>(sqlite3_value_blob(values[1]));
+    const auto points = unpackPolygon(ByteView(data, static_cast<std::size_t>(sqlite3_value_bytes(values[1]))));
+    bool good = points && points->size() <= kMostZonePoints && shape != nullptr;
+    if (good) {
+        Zone zone;
+        zone.shape = std::string_view(shape) == "line" ? ZoneShape::line : ZoneShape::area;
+        zone.points = *points;
+        good = faultOf(zone).empty();
+    }
+    sqlite3_result_int(context, good ? 1 : 0);
+}
+
 }  // namespace
 
 void addRowFunctions(SQLite::Database& database) {
@@ -72,6 +87,8 @@ void addRowFunctions(SQLite::Database& database) {
     add("are_keyframes", answerReadable<unpackKeyframes>);
     add("are_corners", answerReadable<unpackPolygon>);
     add("is_review_step", answerReadable<unpackReview>);
+    sqlite3_create_function(database.getHandle(), "is_zone", 2, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr, answerZone,
+                            nullptr, nullptr);
 }
 
 std::string fittingScaleOrigin() {
@@ -149,6 +166,15 @@ std::vector<RowRule> rowRules() {
          "id BETWEEN 1 AND 2147483647 AND " + frame + " AND " + areNumbers("seconds") +
              " AND (x IS NULL) = (y IS NULL) AND " + areShort("note, person, when_utc"),
          "a bookmark cannot be read", 11},
+        {"zone",
+         "id BETWEEN 1 AND 2147483647 AND " + frame + " AND name <> '' AND colour BETWEEN -1 AND 16777215 AND " +
+             "is_zone(shape, points) AND " + isOneOf("shape", stored::kZoneShapes) + " AND " +
+             isOneOf("anchor", stored::kZoneAnchors) + " AND " + areShort("name, person, when_utc"),
+         "a zone cannot be read"},
+        {"zone",
+         "(SELECT count(*) FROM zone AS other WHERE other.sequence_id = zone.sequence_id AND other.name = zone.name "
+         "AND other.id < zone.id) = 0",
+         "a zone has the name of another"},
         {"review_step", "undone IN (0, 1) AND is_review_step(data) AND " + areShort("name, made_utc"),
          "a step of the review cannot be read", 11},
         {"seen", range + " AND last_frame >= first_frame AND " + areShort("person"), "what was watched is impossible",

@@ -233,4 +233,29 @@ FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE run.removed_utc = 
     tellScaleOrigins(database);
 }
 
+// Zones and lines that a person watches: of a video, like verdicts, whose steps they share. Points as of regions:
+// packed_labels.h.
+void addZones(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE zone (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    name TEXT NOT NULL,
+    shape TEXT NOT NULL,
+    anchor TEXT NOT NULL,
+    frame INTEGER NOT NULL,
+    points BLOB NOT NULL,
+    colour INTEGER NOT NULL,
+    shown INTEGER NOT NULL,
+    person TEXT NOT NULL,
+    when_utc TEXT NOT NULL
+);
+CREATE INDEX zone_of_sequence ON zone (sequence_id);
+CREATE VIEW v_zones AS
+SELECT zone.id AS zone, sequence.path AS video, zone.name, zone.shape, zone.anchor, zone.frame, zone.shown, zone.person,
+    zone.when_utc
+FROM zone JOIN sequence ON sequence.id = zone.sequence_id;
+)sql");
+}
+
 }  // namespace eyrie::schema

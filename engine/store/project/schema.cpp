@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::array kMigrations{
     addRuns,          addLabels,    addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
-    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview,  addScaleOrigins};
+    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview,  addScaleOrigins,
+    addZones};
 
 }  // namespace
 

@@ -20,5 +20,6 @@ void addRegistrationFaults(SQLite::Database& database);
 void addViews(SQLite::Database& database);
 void addReview(SQLite::Database& database);
 void addScaleOrigins(SQLite::Database& database);
+void addZones(SQLite::Database& database);
 
 }  // namespace eyrie::schema

@@ -8,9 +8,12 @@ namespace eyrie {
 namespace {
 
 constexpr std::uint8_t kReviewFormat = 1;
-// Bytes that the smallest verdict and bookmark take.
+constexpr std::uint8_t kReviewFormatWithZones = 2;
+// Bytes that the smallest verdict, bookmark and zone take.
 constexpr std::size_t kLeastVerdict = 97;
 constexpr std::size_t kLeastBookmark = 29;
+constexpr std::size_t kLeastZone = 41;
+constexpr std::size_t kPointBytes = 2 * sizeof(double);
 
 template <class Value, std::size_t count>
 void putWord(LabelBytesOut& out, const std::array<stored::Word<Value>, count>& words, const Value& value) {
@@ -107,6 +110,35 @@ void take(LabelBytesIn& in, Bookmark& bookmark) {
     if (!in.broken()) checkBookmark(bookmark);
 }
 
+void put(LabelBytesOut& out, const StoredZone& zone) {
+    out.number<std::int32_t>(zone.id);
+    out.text(zone.zone.name);
+    putWord(out, stored::kZoneShapes, zone.zone.shape);
+    putWord(out, stored::kZoneAnchors, zone.zone.anchor);
+    out.number<std::int32_t>(zone.zone.frame);
+    out.count(zone.zone.points.size());
+    for (const cv::Point2d& point : zone.zone.points) putPoint(out, point);
+    out.number<std::int32_t>(zone.colour);
+    out.number(static_cast<std::uint8_t>(zone.shown));
+    out.text(zone.person);
+    out.text(zone.when_utc);
+}
+
+void take(LabelBytesIn& in, StoredZone& zone) {
+    zone.id = in.number<std::int32_t>();
+    zone.zone.name = in.text();
+    zone.zone.shape = takeWord(in, stored::kZoneShapes);
+    zone.zone.anchor = takeWord(in, stored::kZoneAnchors);
+    zone.zone.frame = in.number<std::int32_t>();
+    for (std::size_t left = in.count(kPointBytes); left > 0 && !in.broken(); --left)
+        zone.zone.points.push_back(takePoint(in));
+    zone.colour = in.number<std::int32_t>();
+    zone.shown = in.number<std::uint8_t>() != 0;
+    zone.person = in.text();
+    zone.when_utc = in.text();
+    if (!in.broken()) checkZone(zone);
+}
+
 /// One byte tells which of the two sides follow: 1 before, 2 after.
 template <class Value>
 void putChanges(LabelBytesOut& out, const std::vector<Change<Value>>& changes) {
@@ -137,19 +169,22 @@ std::vector<Change<Value>> takeChanges(LabelBytesIn& in, std::size_t least) {
 
 Bytes packReview(const ReviewEdit& edit) {
     LabelBytesOut out;
-    out.number(kReviewFormat);
+    out.number(edit.zones.empty() ? kReviewFormat : kReviewFormatWithZones);
     putChanges(out, edit.verdicts);
     putChanges(out, edit.bookmarks);
+    if (!edit.zones.empty()) putChanges(out, edit.zones);
     return out.take();
 }
 
 std::optional<ReviewEdit> unpackReview(ByteView bytes) {
     LabelBytesIn in(bytes);
-    if (in.number<std::uint8_t>() != kReviewFormat) return std::nullopt;
+    const auto format = in.number<std::uint8_t>();
+    if (format != kReviewFormat && format != kReviewFormatWithZones) return std::nullopt;
     ReviewEdit edit;
     try {
         edit.verdicts = takeChanges<Verdict>(in, kLeastVerdict);
         edit.bookmarks = takeChanges<Bookmark>(in, kLeastBookmark);
+        if (format == kReviewFormatWithZones) edit.zones = takeChanges<StoredZone>(in, kLeastZone);
     } catch (const Error&) {
         return std::nullopt;
     }

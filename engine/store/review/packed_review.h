@@ -7,7 +7,8 @@
 
 namespace eyrie {
 
-/// A step of reviewing as bytes, little-endian: format 1, then verdicts and bookmarks as they were and as they became.
+/// A step of reviewing as bytes, little-endian: format 1, then verdicts and bookmarks as they were and as they became;
+/// a step that changes zones: format 2, with zones behind them.
 /// The name is not part of the bytes. As with packed_arrays.h, a layout never changes once released.
 Bytes packReview(const ReviewEdit& edit);
 /// Nothing for bytes that no packing yields.

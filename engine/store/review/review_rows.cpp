@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "store/database/rows.h"
+#include "store/labels/packed_labels.h"
 #include "store/project/sequence_rows.h"
 #include "store/review/review_words.h"
 
@@ -63,6 +65,77 @@ Bookmark readBookmark(RowReader& row) {
     return bookmark;
 }
 
+StoredZone readZone(RowReader& row) {
+    StoredZone zone;
+    zone.id = row.integer();
+    try {
+        zone.zone.name = row.text();
+        zone.zone.shape = row.word(stored::kZoneShapes);
+        zone.zone.anchor = row.word(stored::kZoneAnchors);
+        zone.zone.frame = readFrameNumber(row);
+        zone.zone.points = RowReader::unpacked(unpackPolygon(row.bytes()), "points");
+        zone.colour = row.integer();
+        zone.shown = row.integer() != 0;
+        zone.person = row.text();
+        zone.when_utc = row.text();
+        checkZone(zone);
+    } catch (const MalformedRow& malformed) {
+        throw MalformedRow{"zone " + std::to_string(zone.id) + ": " + malformed.what};
+    } catch (const Error& error) {
+        throw MalformedRow{error.what()};
+    }
+    return zone;
+}
+
+void readZones(SQLite::Database& database, int sequence_id, std::map<int, StoredZone>& zones) {
+    if (!database.tableExists("zone")) return;
+    SQLite::Statement rows(database,
+                           "SELECT id, name, shape, anchor, frame, points, colour, shown, person, when_utc FROM zone "
+                           "WHERE sequence_id = ? ORDER BY id");
+    rows.bind(1, sequence_id);
+    std::set<std::string> names;
+    while (rows.executeStep()) {
+        RowReader row(rows);
+        StoredZone zone = readZone(row);
+        if (!names.insert(zone.zone.name).second) {
+            throw MalformedRow{"zone " + std::to_string(zone.id) + " has the name of another, \"" + zone.zone.name +
+                               "\""};
+        }
+        zones.emplace_hint(zones.end(), zone.id, std::move(zone));
+    }
+}
+
+void writeZones(SQLite::Database& database, int sequence_id, const std::vector<Change<StoredZone>>& changes) {
+    if (changes.empty()) return;
+    const std::string values =
+        "INTO zone (id, sequence_id, name, shape, anchor, frame, points, colour, shown, person, when_utc) VALUES (?, "
+        "?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+    SQLite::Statement add(database, "INSERT " + values);
+    SQLite::Statement replace(database, "INSERT OR REPLACE " + values);
+    SQLite::Statement remove(database, "DELETE FROM zone WHERE sequence_id = ? AND id = ?");
+    for (const auto& change : changes) {
+        if (!change.after) {
+            RowWriter(remove).integer(sequence_id).integer(change.before->id).run();
+            continue;
+        }
+        const StoredZone& zone = *change.after;
+        const Bytes points = packPolygon(zone.zone.points);
+        RowWriter(change.before ? replace : add)
+            .integer(zone.id)
+            .integer(sequence_id)
+            .text(zone.zone.name)
+            .word(stored::kZoneShapes, zone.zone.shape)
+            .word(stored::kZoneAnchors, zone.zone.anchor)
+            .integer(zone.zone.frame)
+            .bytes(points)
+            .integer(zone.colour)
+            .integer(zone.shown)
+            .text(zone.person)
+            .text(zone.when_utc)
+            .run();
+    }
+}
+
 void bind(RowWriter& row, const Verdict& verdict, const std::string& tags) {
     const ReviewSubject& subject = verdict.subject;
     row.word(stored::kSubjectKinds, subject.kind)
@@ -117,6 +190,7 @@ ReviewSet readReviewRows(SQLite::Database& database, int sequence_id) {
         Bookmark bookmark = readBookmark(row);
         set.bookmarks.emplace_hint(set.bookmarks.end(), bookmark.id, std::move(bookmark));
     }
+    readZones(database, sequence_id, set.zones);
     return set;
 }
 
@@ -156,6 +230,7 @@ void writeReviewRows(SQLite::Database& database, int sequence_id, const ReviewEd
         bind(row, *change.after);
         row.run();
     }
+    writeZones(database, sequence_id, edit.zones);
 }
 
 }  // namespace eyrie

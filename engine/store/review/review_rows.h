@@ -6,11 +6,11 @@ namespace SQLite {
 class Database;
 }
 
-/// Verdicts and bookmarks in the tables of a project. All throw SQLite::Exception or MalformedRow; the caller guards
-/// and, when writing, owns the transaction.
+/// Verdicts, bookmarks and zones in the tables of a project. All throw SQLite::Exception or MalformedRow; the caller
+/// guards and, when writing, owns the transaction.
 namespace eyrie {
 
-/// All that was said about a video.
+/// All that was said about a video, and its zones; a project of an older schema has none.
 ReviewSet readReviewRows(SQLite::Database& database, int sequence_id);
 
 /// Writes what an edit makes of it.

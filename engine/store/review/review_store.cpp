@@ -41,10 +41,11 @@ std::optional<ReviewEdit> ReviewContent::unpack(ByteView bytes, const ReviewSet&
 void ReviewContent::ground(ReviewEdit& edit, const ReviewSet& set) {
     groundChanges(edit.verdicts, set.verdicts);
     groundChanges(edit.bookmarks, set.bookmarks);
+    groundChanges(edit.zones, set.zones);
 }
 
-std::array<std::vector<int>, 2> ReviewContent::ids(const ReviewEdit& edit) {
-    return {idsAfter(edit.verdicts), idsAfter(edit.bookmarks)};
+std::array<std::vector<int>, 3> ReviewContent::ids(const ReviewEdit& edit) {
+    return {idsAfter(edit.verdicts), idsAfter(edit.bookmarks), idsAfter(edit.zones)};
 }
 
 template class JournalledStore<ReviewContent>;

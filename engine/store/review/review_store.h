@@ -9,27 +9,29 @@
 
 namespace eyrie {
 
-/// What was said about a video, read once, by anybody (command line, reports). Throws Error(project) for damaged rows.
+/// What was said about a video and watched in it, read once, by anybody (command line, reports). Throws Error(project)
+/// for damaged rows.
 ReviewSet readReview(ProjectFile& project, int sequence_id);
 
-/// Verdicts and bookmarks as JournalledStore keeps them.
+/// Verdicts, bookmarks and zones as JournalledStore keeps them.
 struct ReviewContent {
     using Set = ReviewSet;
     using Edit = ReviewEdit;
     static constexpr WriterLock::Work kWork = WriterLock::Work::review;
     static constexpr const char* kReading = "reading the verdicts";
     static constexpr StepTable kSteps{"review_step", "the review"};
-    static constexpr std::array<NumberedTable, 2> kNumbers{{{"verdict", "verdict"}, {"bookmark", "bookmark"}}};
+    static constexpr std::array<NumberedTable, 3> kNumbers{
+        {{"verdict", "verdict"}, {"bookmark", "bookmark"}, {"zone", "zone"}}};
     static constexpr const char* kChanges = "review";
     static ReviewSet read(SQLite::Database& database, int sequence_id);
     static void write(SQLite::Database& database, int sequence_id, const ReviewEdit& edit, const ReviewSet& after);
     static Bytes pack(const ReviewEdit& edit);
     static std::optional<ReviewEdit> unpack(ByteView bytes, const ReviewSet& set, bool done);
     static void ground(ReviewEdit& edit, const ReviewSet& set);
-    static std::array<std::vector<int>, 2> ids(const ReviewEdit& edit);
+    static std::array<std::vector<int>, 3> ids(const ReviewEdit& edit);
 };
 
-/// Verdicts and bookmarks of one video, and the right to judge it.
+/// Verdicts, bookmarks and zones of one video, and the right to judge it.
 class ReviewStore : public JournalledStore<ReviewContent> {
  public:
     using JournalledStore::JournalledStore;
@@ -37,6 +39,7 @@ class ReviewStore : public JournalledStore<ReviewContent> {
     const ReviewSet& review() const { return content(); }
     int newVerdictId() { return newId(0, review().verdicts); }
     int newBookmarkId() { return newId(1, review().bookmarks); }
+    int newZoneId() { return newId(2, review().zones); }
 };
 
 extern template class JournalledStore<ReviewContent>;

@@ -27,6 +27,9 @@ inline constexpr std::array<Word<std::optional<EventKind>>, kEventKinds + 1> kSu
      {std::nullopt, "not searched"}}};
 inline constexpr std::array<Word<CrossingSense>, 3> kCrossingSenses{
     {{CrossingSense::none, ""}, {CrossingSense::to_right, "to the right"}, {CrossingSense::to_left, "to the left"}}};
+inline constexpr std::array<Word<ZoneShape>, 2> kZoneShapes{{{ZoneShape::area, "area"}, {ZoneShape::line, "line"}}};
+inline constexpr std::array<Word<ZoneAnchor>, 2> kZoneAnchors{
+    {{ZoneAnchor::image, "image"}, {ZoneAnchor::ground, "ground"}}};
 inline constexpr std::array<Word<Judgement>, 4> kJudgements{{{Judgement::open, "open"},
                                                              {Judgement::relevant, "relevant"},
                                                              {Judgement::not_relevant, "not relevant"},

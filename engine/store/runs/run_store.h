@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/labels/box_record.h"
+#include "core/labels/track_class.h"
 #include "core/values/frame_result.h"
 #include "core/values/scale_basis.h"
 #include "core/values/scene_scale.h"
@@ -78,6 +79,7 @@ struct TrackSummary {
     double mean_length_px = 0;
     double mean_width_px = 0;
     double score = 0;  ///< of its first state; in a result the same in all: the probability of a vehicle that moves
+    TrackClass track_class = TrackClass::unknown;  ///< by its size and speed so far and the run's limits
 };
 
 /// One state of a track in a frame.
@@ -115,7 +117,8 @@ class RunStore {
                                             int trail) const;  ///< states of frames (frame − trail, frame], for trails
     /// Every state of every track, one by one, ordered by frame, then track.
     void visitTrackStates(int run_id, const std::function<void(FrameIndex, const TrackState&)>& visitor) const;
-    /// The run's result as boxes: every state of the confirmed tracks, or the kept detections (id empty).
+    /// The run's result as boxes: every state of the confirmed tracks with the word of the track's class, or the kept
+    /// detections (id and class empty).
     BoxesByFrame trackBoxes(int run_id) const;
     BoxesByFrame detectionBoxes(int run_id) const;
     /// The same one by one, ordered by frame.

@@ -1,6 +1,10 @@
 // The part of RunStore that reads tracks and whole results.
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <map>
+
+#include "core/error.h"
+#include "core/parameter.h"
 #include "store/database/rows.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/of_run.h"
@@ -23,9 +27,36 @@ std::vector<TrackFrame> readStates(SQLite::Statement& statement) {
     return states;
 }
 
+/// How a run tells classes: its scale and its limits. A run of before there were any has the defaults.
+struct ClassRule {
+    SceneScale scale;
+    TrackClassOptions limits;
+
+    TrackClass of(const TrackSummary& track) const {
+        return classOf({track.frames, track.mean_length_px, track.mean_width_px, track.mean_speed_px}, scale, limits);
+    }
+};
+
+ClassRule classRuleOf(const RunStore& store, int run_id) {
+    ClassRule rule;
+    const std::optional<RunRecord> run = store.run(run_id);
+    if (!run) return rule;
+    rule.scale = run->scale;
+    for (const auto& [name, value] : store.parameters(run_id)) {
+        if (!name.starts_with("classes.")) continue;
+        try {
+            setParameter(describeOf(rule.limits), name, value);
+        } catch (const Error&) {
+            // Another version wrote it; the default holds, as for all parameters of a run.
+        }
+    }
+    return rule;
+}
+
 }  // namespace
 
 std::vector<TrackSummary> RunStore::tracks(int run_id) const {
+    const ClassRule rule = classRuleOf(*this, run_id);
     return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(),
                                     "SELECT id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
@@ -47,6 +78,7 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
             track.mean_length_px = row.real() / track.frames;
             track.mean_width_px = row.real() / track.frames;
             track.score = row.real();
+            track.track_class = rule.of(track);
             tracks.push_back(track);
         }
         return tracks;
@@ -87,6 +119,8 @@ void RunStore::visitTrackStates(int run_id, const StateVisitor& visitor) const {
 }
 
 void RunStore::visitTrackBoxes(int run_id, const BoxVisitor& visitor) const {
+    std::map<TrackId, const char*> classes;
+    for (const TrackSummary& track : tracks(run_id)) classes[track.id] = wordOf(track.track_class);
     guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(), std::string("SELECT frame, ") + kTrackStateColumns +
                                                              " FROM track_state WHERE run_id = ?1 AND track_id IN "
@@ -98,6 +132,7 @@ void RunStore::visitTrackBoxes(int run_id, const BoxVisitor& visitor) const {
             record.frame = frame;
             record.id = state.id;
             record.box = state.box;
+            if (const auto known = classes.find(state.id); known != classes.end()) record.object_class = known->second;
             record.score = state.score;
             record.velocity = state.velocity;
             record.origin = nameOf(state.origin);

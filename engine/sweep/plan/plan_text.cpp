@@ -48,6 +48,7 @@ Json jsonOf(const SweepPlan& plan) {
     for (const SweepClip& clip : plan.clips) json["sequences"].push_back(jsonOf(clip));
     json["overlaps"] = plan.overlaps;
     json["vehicles_only"] = plan.vehicles_only;
+    json["classes"] = wordOfScored(plan.one_class);
     json["border"] = plan.border ? Json(*plan.border) : Json();
     return json;
 }
@@ -73,6 +74,15 @@ class Digest {
     std::uint64_t state_ = 14695981039346656037ULL;
 };
 
+/// Plans of before classes were told apart name none.
+std::optional<TrackClass> oneClassOf(const Json& json, const std::string& where) {
+    try {
+        return scoredClass(json.value("classes", "all"));
+    } catch (const Error& error) {
+        throw Error(ErrorKind::project, where + ": the plan of a sweep is damaged: " + error.what());
+    }
+}
+
 }  // namespace
 
 std::string textOf(const SweepPlan& plan) {
@@ -94,6 +104,7 @@ SweepPlan planFrom(const std::string& text, const std::string& where) {
         for (const Json& clip : json.at("sequences")) plan.clips.push_back(clipOf(clip));
         plan.overlaps = json.at("overlaps").get<std::vector<double>>();
         plan.vehicles_only = json.at("vehicles_only").get<bool>();
+        plan.one_class = oneClassOf(json, where);
         if (!json.at("border").is_null()) plan.border = json.at("border").get<double>();
         for (const SweepAxis& axis : plan.axes) {
             if (axis.values.empty()) throw Error(ErrorKind::project, where + ": " + axis.name + " has no values");
@@ -130,8 +141,9 @@ std::string differenceOf(const SweepPlan& a, const SweepPlan& b) {
         if (jsonOf(here) != jsonOf(there))
             return "sequence " + std::to_string(i + 1) + " (" + a.clips[i].sequence + ") or its ground truth differs";
     }
-    if (a.overlaps != b.overlaps || a.vehicles_only != b.vehicles_only || a.border != b.border)
-        return "they are measured in different ways (overlaps, vehicles, border)";
+    if (a.overlaps != b.overlaps || a.vehicles_only != b.vehicles_only || a.one_class != b.one_class ||
+        a.border != b.border)
+        return "they are measured in different ways (overlaps, vehicles, classes, border)";
     return "";
 }
 

@@ -92,6 +92,7 @@ ChainOptions SweepPlan::optionsOf(int position) const {
 EvaluationOptions SweepPlan::evaluationOf(const SweepClip& clip) const {
     EvaluationOptions options;
     options.vehicles_only = vehicles_only;
+    options.one_class = one_class;
     options.upright = clip.upright;
     options.border = border;
     options.image_size = clip.size;

@@ -40,7 +40,8 @@ struct SweepPlan {
     std::vector<SweepClip> clips;
     std::vector<double> overlaps{0.1, 0.2, 0.3};  ///< T_ov
     bool vehicles_only = false;
-    std::optional<double> border;  ///< px, see EvaluationOptions
+    std::optional<TrackClass> one_class;  ///< see EvaluationOptions
+    std::optional<double> border;         ///< px, see EvaluationOptions
 
     int pointCount() const;
     /// Position of the values of a point on their axes; positions count from 0.

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "core/geometry/homography.h"
-#include "tracking/finishing/metric_limits.h"
 #include "tracking/finishing/track_occupancy.h"
 
 namespace eyrie {

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "tracking/finishing/frames_of.h"
-#include "tracking/finishing/metric_limits.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/ground_motion.h"
 

@@ -43,7 +43,7 @@ void steadySize(TrackPath& path, const GroundMotion& ground, int half_window);
 void smoothPath(TrackPath& path, const GroundMotion& ground, int half_window);
 
 /// Drops tracks whose boxes stayed smaller than any vehicle. Nothing is dropped where lengths in metres mean nothing
-/// (metric_limits.h); limits are lower where the GSD was estimated.
+/// (hasMetricLimits()); limits are lower where the GSD was estimated.
 void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale,
                   DropList& dropped);
 
@@ -77,7 +77,7 @@ void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const 
 
 /// Carries tracks that begin slowly and gather speed back to where they stood, as uniformly accelerated, and lets them
 /// stand there, in all by at most `frames`: nothing moves yet, but the vehicle is there. While the box stays in the
-/// image and off other tracks. Not where lengths in metres mean nothing; see metric_limits.h.
+/// image and off other tracks. Not where lengths in metres mean nothing; see hasMetricLimits().
 void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, const SceneScale& scale);
 
 /// Extends paths back over frames in which the motion vectors were too young, by constant velocity over the ground,

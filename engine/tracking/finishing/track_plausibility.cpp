@@ -2,7 +2,6 @@
 #include <cmath>
 #include <map>
 
-#include "tracking/finishing/metric_limits.h"
 #include "tracking/finishing/shared_frames.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/robust_statistics.h"

@@ -89,6 +89,65 @@ TEST_F(ReviewStoreTest, StepsAreTakenBackAndDoneAgainOverRestarts) {
     EXPECT_EQ(store.newVerdictId(), 2) << "numbers are never used again";
 }
 
+TEST_F(ReviewStoreTest, ZonesAreThereAfterARestartToTheBitAndGoBackStepByStep) {
+    StoredZone renamed = test::sampleZone(2);
+    renamed.zone.name = "gate";
+    renamed.shown = true;
+    {
+        ReviewStore store(project_, 1);
+        for (int i = 0; i < 6; ++i) store.apply(test::sampleZoning(store.newZoneId()));
+        ReviewEdit rename = test::sampleJudging(store.newVerdictId());
+        rename.name = "Rename zone";
+        rename.zones = {{test::sampleZone(2), renamed}};
+        store.apply(rename);
+        store.apply({"Delete zone", {}, {}, {{test::sampleZone(6), std::nullopt}}});
+    }
+    EXPECT_TRUE(checkProject(path_).healthy());
+    const ReviewSet read = readReview(project_, 1);
+    ASSERT_EQ(read.zones.size(), 5U);
+    EXPECT_EQ(read.zones.at(1), test::sampleZone(1));
+    EXPECT_EQ(read.zones.at(2), renamed);
+    EXPECT_EQ(read.zones.at(3), test::sampleZone(3));
+    ReviewStore store(project_, 1);
+    EXPECT_EQ(store.newZoneId(), 7) << "numbers are never used again";
+    store.undo();
+    EXPECT_EQ(store.review().zones.at(6), test::sampleZone(6));
+    store.undo();
+    EXPECT_EQ(store.review().zones.at(2), test::sampleZone(2));
+    EXPECT_TRUE(store.review().verdicts.empty()) << "what changed in one step goes back in one";
+    for (int i = 0; i < 6; ++i) store.undo();
+    EXPECT_TRUE(readReview(project_, 1).zones.empty());
+    while (store.redo()) {
+    }
+    EXPECT_EQ(store.review().zones, read.zones);
+}
+
+TEST_F(ReviewStoreTest, ZonesThatCannotBeAreRefusedInWords) {
+    ReviewStore store(project_, 1);
+    store.apply(test::sampleZoning(1));
+    const auto refusal = [&](const std::function<void(StoredZone&)>& change) {
+        StoredZone zone = test::sampleZone(2);
+        change(zone);
+        return errorOf([&] { store.apply({"x", {}, {}, {{std::nullopt, zone}}}); }, ErrorKind::parameter);
+    };
+    EXPECT_THAT(refusal([](StoredZone& z) { z.zone.name = "yard 1"; }), HasSubstr("a zone \"yard 1\" already"));
+    EXPECT_THAT(refusal([](StoredZone& z) { z.zone.name.clear(); }), HasSubstr("needs a name"));
+    EXPECT_THAT(refusal([](StoredZone& z) { z.zone.points.resize(2); }), HasSubstr("three points or more"));
+    EXPECT_THAT(refusal([](StoredZone& z) { z.zone.points = {{0, 0}, {5, 5}, {10, 10}}; }), HasSubstr("no area"));
+    EXPECT_THAT(refusal([](StoredZone& z) { z.zone.points[1].y = std::nan(""); }), HasSubstr("no place"));
+    EXPECT_THAT(refusal([](StoredZone& z) { z.zone.points.resize(5000, {1, 2}); }), HasSubstr("up to 1000"));
+    EXPECT_EQ(readReview(project_, 1).zones.size(), 1U);
+    ReviewEdit swapped{"Swap names", {}, {}, {}};
+    store.apply(test::sampleZoning(2));
+    for (const int id : {1, 2}) {
+        StoredZone zone = test::sampleZone(id);
+        zone.zone.name = test::sampleZone(3 - id).zone.name;
+        swapped.zones.push_back({test::sampleZone(id), zone});
+    }
+    store.apply(swapped);
+    EXPECT_EQ(readReview(project_, 1).zones.at(2).zone.name, "yard 1");
+}
+
 TEST_F(ReviewStoreTest, ThousandsAtOnceAreOneStep) {
     ReviewEdit bulk{"Judge 5000 events not relevant", {}, {}};
     for (int id = 1; id <= 5000; ++id) bulk.verdicts.push_back({std::nullopt, test::sampleVerdict(id)});
@@ -180,6 +239,7 @@ TEST_F(ReviewStoreTest, VideosOfAProjectAreReviewedApart) {
 TEST_F(ReviewStoreTest, RowsThatNobodyWroteAreRefusedAndFoundByACheck) {
     ReviewStore(project_, 1).apply(test::sampleJudging(1));
     ReviewStore(project_, 1).apply(test::sampleBookmarking(1));
+    for (const int id : {1, 2, 3}) ReviewStore(project_, 1).apply(test::sampleZoning(id));
     const std::pair<const char*, const char*> cases[] = {
         {"UPDATE verdict SET kind = 'flies'", "unknown word"},
         {"UPDATE verdict SET judgement = ''", "unknown word"},
@@ -189,16 +249,23 @@ TEST_F(ReviewStoreTest, RowsThatNobodyWroteAreRefusedAndFoundByACheck) {
         {"UPDATE verdict SET x = 9e999", "place"},
         {"UPDATE verdict SET note = hex(zeroblob(50000))", "a text of 100000"},
         {"UPDATE bookmark SET frame = -4", "that no video has"},
-        {"UPDATE bookmark SET y = NULL", "place"}};
+        {"UPDATE bookmark SET y = NULL", "place"},
+        {"UPDATE zone SET shape = 'ring'", "unknown word"},
+        {"UPDATE zone SET name = 'yard'", "the name of another"},
+        {"UPDATE zone SET name = ''", "needs a name"},
+        {"UPDATE zone SET points = substr(points, 1, 33)", "three points"},
+        {"UPDATE zone SET points = x'02'", "broken points"},
+        {"UPDATE zone SET colour = 99999999", "colour"}};
     for (const auto& [command, words] : cases) {
         SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
         database.exec("CREATE TEMP TABLE v AS SELECT * FROM verdict; CREATE TEMP TABLE b AS SELECT * FROM bookmark");
+        database.exec("CREATE TEMP TABLE z AS SELECT * FROM zone");
         database.exec(command);
         EXPECT_THAT(errorOf([&] { readReview(project_, 1); }, ErrorKind::project), HasSubstr(words)) << command;
         EXPECT_FALSE(checkProject(path_).healthy()) << command;
         database.exec(
             "DELETE FROM verdict; INSERT INTO verdict SELECT * FROM v; DELETE FROM bookmark; INSERT INTO "
-            "bookmark SELECT * FROM b");
+            "bookmark SELECT * FROM b; DELETE FROM zone; INSERT INTO zone SELECT * FROM z");
         EXPECT_TRUE(checkProject(path_).healthy()) << command;
     }
 }
@@ -218,6 +285,9 @@ TEST_F(ReviewStoreTest, BytesOfStepsThatWereCutOrChangedAreNoSteps) {
     edit.verdicts.push_back({test::sampleVerdict(4), std::nullopt});
     edit.verdicts.push_back({test::sampleVerdict(9), test::sampleVerdict(9)});
     edit.bookmarks.push_back({std::nullopt, test::sampleBookmark(5)});
+    EXPECT_EQ(packReview(edit).front(), std::byte{1}) << "what has no zones is as it always was";
+    edit.zones.push_back({test::sampleZone(6), test::sampleZone(6)});
+    edit.zones.push_back({std::nullopt, test::sampleZone(7)});
     const Bytes bytes = packReview(edit);
     const auto whole = unpackReview(bytes);
     ASSERT_TRUE(whole.has_value());
@@ -225,6 +295,9 @@ TEST_F(ReviewStoreTest, BytesOfStepsThatWereCutOrChangedAreNoSteps) {
     EXPECT_EQ(whole->verdicts[0].after, edit.verdicts[0].after);
     EXPECT_EQ(whole->verdicts[1].before, edit.verdicts[1].before);
     EXPECT_EQ(whole->bookmarks[0].after, edit.bookmarks[0].after);
+    ASSERT_EQ(whole->zones.size(), 2U);
+    EXPECT_EQ(whole->zones[0].before, edit.zones[0].before);
+    EXPECT_EQ(whole->zones[1].after, edit.zones[1].after);
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         EXPECT_FALSE(unpackReview(ByteView(bytes).first(length)).has_value()) << length;
     }

@@ -9,6 +9,7 @@
 #include "canvas/layers/stages/image_stack_layer.h"
 #include "canvas/layers/stages/vector_layer.h"
 #include "canvas/layers/track_layer.h"
+#include "canvas/layers/zone_layer.h"
 #include "canvas/video_view.h"
 
 namespace eyrie::ui {
@@ -88,6 +89,27 @@ class OverlaysTest : public QObject {
         showOnly(std::nullopt);
         QCOMPARE(count(view_->picture(), first), 0);
         for (int id = 1; id < 60; ++id) QVERIFY(stackColour(id) != stackColour(id + 1));
+    }
+
+    void zonesAppearInTheirOwnColoursWithTheirNames() {
+        ViewFrame frame = frameWith(empty());
+        frame.index = 7;
+        view_->setFrame(frame);
+        const QColor area(255, 0, 255), line(0, 255, 255);
+        const std::vector<ZoneMark> zones{{QStringLiteral("yard"), {{50, 50}, {150, 50}, {150, 150}}, true, area},
+                                          {QStringLiteral("gate"), {{200, 50}, {200, 250}}, false, line}};
+        showOnly(ZoneLayer::kKind);
+        view_->setZones(6, zones);  // of another frame: too late
+        QCOMPARE(count(view_->picture(), area), 0);
+        view_->setZones(7, zones);
+        QVERIFY(count(view_->picture(), line) > 200);
+        settings_.setLabels(false);
+        const int without_name = count(view_->picture(), area);
+        QVERIFY(without_name > 200);
+        settings_.setLabels(true);
+        QVERIFY(count(view_->picture(), area) > without_name);
+        showOnly(std::nullopt);
+        QCOMPARE(count(view_->picture(), area), 0);
     }
 
     void theInspectedAreaIsOutlinedWhateverIsSwitchedOn() {

@@ -161,6 +161,29 @@ class ModelsTest : public QObject {
                  QStringLiteral("Length (px)"));
     }
 
+    void tracksSayTheirClassAndSortByIt() {
+        std::vector<TrackSummary> tracks = several(4, sampleTrack);
+        tracks[0].track_class = TrackClass::vehicle;
+        tracks[1].track_class = TrackClass::person;
+        tracks[2].track_class = TrackClass::two_wheeler;
+        TracksModel model;
+        TableSortProxy proxy;
+        proxy.setSourceModel(&model);
+        model.setTracks(tracks, {0.25, 25, true});
+        QCOMPARE(cell(model, 1, TracksModel::class_column), QStringLiteral("person"));
+        QCOMPARE(cell(model, 3, TracksModel::class_column), QStringLiteral("–"));
+        QCOMPARE(model.headerData(TracksModel::class_column, Qt::Horizontal, Qt::DisplayRole).toString(),
+                 QStringLiteral("Class"));
+        proxy.sort(TracksModel::class_column);
+        QStringList sorted;
+        for (int row = 0; row < 4; ++row) sorted << cell(proxy, row, TracksModel::class_column);
+        sorted.removeOne(QStringLiteral("–"));  // its place is that of the user's language
+        QCOMPARE(sorted,
+                 QStringList({QStringLiteral("person"), QStringLiteral("two-wheeler"), QStringLiteral("vehicle")}));
+        proxy.setFilterText(QStringLiteral("two-wheeler"));
+        QCOMPARE(proxy.rowCount(), 1);
+    }
+
     void numbersSortAsNumbers() {
         TracksModel model;
         TableSortProxy proxy;

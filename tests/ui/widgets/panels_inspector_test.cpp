@@ -41,13 +41,13 @@ class InspectorTest : public QObject {
     void showsTheWholeAndTheMoment() {
         TrackInspector inspector;
         QVERIFY(inspector.text().isEmpty());
-        inspector.showTrack(4, life(), {0.25, 25, true});
+        inspector.showTrack(4, life(), {0.25, 25, true}, TrackClass::two_wheeler);
         inspector.setCurrentFrame(12);
         const QString text = inspector.text();
         // 5 px a frame at 0.25 m/px and 25 Hz are 112.5 km/h.
         for (const char* part :
              {"Track 4", "frames 10 to 19, 0.4 s", "112.5 km/h", "4.5 × 2.0 m", "5 detected", "2 reconstructed",
-              "2 predicted", "1 standing", "106.0, 58.0 px", "53°", "confirmed, detected"}) {
+              "2 predicted", "1 standing", "106.0, 58.0 px", "53°", "confirmed, detected", "Class\ttwo-wheeler"}) {
             QVERIFY2(text.contains(QString::fromUtf8(part)), qPrintable(text));
         }
         inspector.setCurrentFrame(30);
@@ -56,15 +56,15 @@ class InspectorTest : public QObject {
 
     void showsPixelsWithoutGsd() {
         TrackInspector inspector;
-        inspector.showTrack(4, life(), {0.25, 25, false});
+        inspector.showTrack(4, life(), {0.25, 25, false}, TrackClass::unknown);
         QVERIFY(inspector.text().contains(QStringLiteral("5.00 px/frame")));
         QVERIFY(inspector.text().contains(QStringLiteral("18.0 × 8.0 px")));
     }
 
     void nothingIsExplained() {
         TrackInspector inspector;
-        inspector.showTrack(4, life(), {});
-        inspector.showTrack(5, {}, {});
+        inspector.showTrack(4, life(), {}, TrackClass::unknown);
+        inspector.showTrack(5, {}, {}, TrackClass::unknown);
         QCOMPARE(inspector.track(), 0);
         QVERIFY(inspector.text().isEmpty());
         inspector.setCurrentFrame(3);
@@ -72,7 +72,7 @@ class InspectorTest : public QObject {
 
     void goesToItsEndsAndWhereTheBarIsClicked() {
         TrackInspector inspector;
-        inspector.showTrack(4, life(), {});
+        inspector.showTrack(4, life(), {}, TrackClass::unknown);
         inspector.resize(300, 400);
         inspector.show();
         QSignalSpy frames(&inspector, &TrackInspector::frameActivated);
@@ -104,7 +104,7 @@ class InspectorTest : public QObject {
         for (const bool dark : {false, true}) {
             TrackInspector inspector;
             if (dark) inspector.setPalette(ui::test::darkPalette());
-            inspector.showTrack(4, life(), {0.25, 25, true});
+            inspector.showTrack(4, life(), {0.25, 25, true}, TrackClass::two_wheeler);
             inspector.setCurrentFrame(16);
             inspector.resize(320, 380);
             inspector.show();

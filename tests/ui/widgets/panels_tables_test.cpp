@@ -109,13 +109,13 @@ class TablesTest : public QObject {
         }
         model.setTracks(tracks, {});
         panel.show();
-        QCOMPARE(panel.countText(), QStringLiteral("3 of 3"));
+        QCOMPARE(panel.countText(), QStringLiteral("3 of 3 tracks"));
         QCOMPARE(model.index(1, TracksModel::score_column).data().toString(), QStringLiteral("0.62"));
         double min_score = -1;
         panel.setCommands({.use_min_score = [&](double score) { min_score = score; }});
         panel.sensitivity()->setValue(40);
         QCOMPARE(panel.table()->model()->rowCount(), 2);
-        QCOMPARE(panel.countText(), QStringLiteral("2 of 3"));
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 3 tracks"));
         QCOMPARE(min_score, 0.6);
         panel.sensitivity()->setFocus();
         QTest::keyClick(panel.sensitivity(), Qt::Key_Home);
@@ -127,7 +127,7 @@ class TablesTest : public QObject {
         panel.sensitivity()->setValue(10);
         tracks[0].score = 0.95;
         model.setTracks(tracks, {});
-        QCOMPARE(panel.countText(), QStringLiteral("2 of 3"));
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 3 tracks"));
     }
 
     void theSelectionSurvivesNewContentsWithoutBeingTold() {

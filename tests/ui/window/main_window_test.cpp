@@ -19,6 +19,7 @@
 #include "canvas/layers/stages/vector_layer.h"
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/truth_layer.h"
+#include "canvas/layers/zone_layer.h"
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "tune/inspect/inspection.h"
@@ -112,7 +113,8 @@ class MainWindowTest : public QObject {
         const std::pair<Qt::Key, OverlayKind> keys[] = {
             {Qt::Key_C, CornerLayer::kKind}, {Qt::Key_V, VectorLayer::kKind},     {Qt::Key_M, ClusterLayer::kKind},
             {Qt::Key_R, RoiLayer::kKind},    {Qt::Key_D, DetectionLayer::kKind},  {Qt::Key_T, TrackLayer::kKind},
-            {Qt::Key_U, TruthLayer::kKind},  {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_6, SpeedLayer::kKind}};
+            {Qt::Key_U, TruthLayer::kKind},  {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_6, SpeedLayer::kKind},
+            {Qt::Key_Z, ZoneLayer::kKind}};
         for (const auto& [key, kind] : keys) {
             const bool before = window.overlays().isVisible(kind);
             QTest::keyClick(&window, key, Qt::AltModifier);

@@ -15,6 +15,7 @@
 #include "canvas/layers/stages/detection_layer.h"
 #include "canvas/layers/stages/vector_layer.h"
 #include "canvas/layers/track_layer.h"
+#include "canvas/layers/zone_layer.h"
 #include "canvas/video_view.h"
 #include "label/label_actions.h"
 #include "label/label_workspace.h"
@@ -73,7 +74,8 @@ class WorkspacesTest : public QObject {
         QVERIFY(window);
         QCOMPARE(window->workspaces().current(), WorkspaceKind::review);
         for (const OverlayRow& row : overlayTable())
-            QCOMPARE(window->overlays().isVisible(row.kind), row.kind == TrackLayer::kKind);
+            QCOMPARE(window->overlays().isVisible(row.kind),
+                     row.kind == TrackLayer::kKind || row.kind == ZoneLayer::kKind);
         QVERIFY(shown(*window, DockId::tracks) && shown(*window, DockId::inspector));
         QVERIFY(!shown(*window, DockId::parameters) && !shown(*window, DockId::stages));
     }

@@ -12,6 +12,7 @@
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/truth_layer.h"
 #include "canvas/layers/verdict_layer.h"
+#include "canvas/layers/zone_layer.h"
 
 namespace eyrie::ui {
 
@@ -39,6 +40,8 @@ const std::vector<OverlayRow>& overlayTable() {
     using Colours = OverlayColours;
     static const std::vector<OverlayRow> table{
         // name, key with Alt, shown at first in review, label, tune, colour
+        row<ZoneLayer>(QT_TRANSLATE_NOOP("Overlay", "&Zones and lines"), Qt::Key_Z, true, false, false,
+                       paletteColour<&Colours::zone>),
         row<RoiLayer>(QT_TRANSLATE_NOOP("Overlay", "Motion &ROIs"), Qt::Key_R, false, false, false,
                       paletteColour<&Colours::roi>),
         row<CornerLayer>(QT_TRANSLATE_NOOP("Overlay", "Stationary &corners"), Qt::Key_C, false, false, false,

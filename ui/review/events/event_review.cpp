@@ -96,6 +96,7 @@ void EventReview::close() {
     found_.reset();
     store_.reset();
     project_.reset();
+    answers_.show_zones();
     setState(State::nothing);
 }
 
@@ -127,6 +128,7 @@ void EventReview::openStore(int sequence_id) {
         task.tell([this, opened] {
             project_ = std::move(opened->project);
             store_ = std::move(opened->store);
+            answers_.show_zones();
             if (store_->readOnly()) reread_.start();
             search();
         });
@@ -138,15 +140,18 @@ void EventReview::search() {
     search_due_.stop();
     if (!key_ || !store_) return;
     const auto work = [this, key = *key_, data = data_, tracks = tracks_, options = options_,
-                       verdicts = store_->review().verdicts,
+                       verdicts = store_->review().verdicts, zones = zonesOf(store_->review().zones),
                        version = store_->version()](const BackgroundTask& task) mutable {
         if (!tracks) {
             ProjectFile project = ProjectFile::open(key.project, ProjectFile::Mode::read_only);
             tracks = std::make_shared<const StoredTracks>(readTracks(RunStore(project), data->record));
-            task.tell([this, tracks] { tracks_ = tracks; });
+            task.tell([this, tracks] {
+                tracks_ = tracks;
+                answers_.show_zones();
+            });
         }
         if (task.stop().stop_requested()) return;
-        const auto found = findAndOrder(tracks, options, verdicts);
+        const auto found = findAndOrder(tracks, options, verdicts, zones);
         task.tell([this, found, version] { adopt(found, version); });
     };
     search_query_.ask(
@@ -172,11 +177,44 @@ void EventReview::refreshReadOnly() {
     }
     try {
         // Events of verdicts that another window made are found; when it is closed, the right to judge is ours.
-        if (store_->tryToWrite() || store_->refresh()) search();
+        if (!store_->tryToWrite() && !store_->refresh()) return;
+        answers_.show_zones();
+        search();
     } catch (const std::exception& error) {
         reread_.stop();
         answers_.tell_problem(QString::fromUtf8(error.what()));
     }
+}
+
+// ---- zones ----------------------------------------------------------------------------------------------------------
+
+const std::map<int, StoredZone>& EventReview::zones() const {
+    static const std::map<int, StoredZone> none;
+    return store_ ? store_->review().zones : none;
+}
+
+bool EventReview::changeZones(const std::function<ReviewEdit(const ReviewSet&, const Judge&, const NewId&)>& step) {
+    if (!store_) return false;
+    if (store_->readOnly()) {
+        answers_.tell_notice(QString::fromStdString(store_->readOnlyReason()));
+        return false;
+    }
+    const std::vector<Zone> before = zonesOf(zones());
+    try {
+        const ReviewEdit edit = step(store_->review(), whoJudges(), [this] { return store_->newZoneId(); });
+        if (edit.empty()) return false;
+        store_->apply(edit);
+    } catch (const Error& error) {
+        const QString text = QString::fromUtf8(error.what());
+        error.kind() == ErrorKind::parameter ? answers_.tell_notice(text) : answers_.tell_problem(text);
+        return false;
+    } catch (const std::exception& error) {
+        answers_.tell_problem(QString::fromUtf8(error.what()));
+        return false;
+    }
+    answers_.show_zones();
+    if (zonesOf(zones()) != before) search();
+    return true;
 }
 
 // ---- verdicts -------------------------------------------------------------------------------------------------------
@@ -284,6 +322,7 @@ void EventReview::redo() {
 
 void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step) {
     if (!mayJudge()) return;
+    const std::vector<Zone> zones_before = zonesOf(zones());
     std::optional<ReviewEdit> edit;
     try {
         edit = step();
@@ -306,7 +345,8 @@ void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step)
             lost = lost || store_->review().verdicts.contains(id);
     }
     std::sort(positions.begin(), positions.end());
-    if (lost) search();
+    if (!edit->zones.empty()) answers_.show_zones();
+    if (lost || zonesOf(zones()) != zones_before) search();
     answers_.show_verdicts(positions);
     answers_.go_back_to(positions);
 }

@@ -23,6 +23,8 @@ struct EventReviewAnswers {
     /// Another state, or other events.
     std::function<void()> show_events;
     std::function<void(const Positions& positions)> show_verdicts;
+    /// The zones of the video are others, or were read.
+    std::function<void()> show_zones;
     /// Verdicts on these events were undone or done again.
     std::function<void(const Positions& positions)> go_back_to;
     /// The text names what went wrong, the place and the remedy.
@@ -67,6 +69,15 @@ class EventReview : public QObject {
     std::size_t judgedCount() const;
     /// Verdicts on this video for which this run has no event.
     std::size_t leftCount() const { return found_ ? found_->carried.left.size() : 0; }
+
+    /// The zones that are watched; none until the verdicts were read.
+    const std::map<int, StoredZone>& zones() const;
+    /// Whether there is a place for zones: a run that is done, whose verdicts were read.
+    bool canHaveZones() const { return store_ != nullptr; }
+    /// Changes zones by a step made from what was said and watched so far; searches anew where it makes a difference.
+    bool changeZones(const std::function<ReviewEdit(const ReviewSet&, const Judge&, const NewId&)>& step);
+    /// How the camera moved over the ground; null until the run was read.
+    const std::shared_ptr<const StoredTracks>& tracks() const { return tracks_; }
 
     /// Each is one step that can be undone. What goes wrong is told as a problem, or as a notice where another window
     /// judges; they answer whether anything was changed.

@@ -58,6 +58,20 @@ QString listedKindText(int listed_kind) {
     return text;
 }
 
+QString eventKindText(const FoundEvents& found, std::size_t position) {
+    QString text = listedKindText(listedKindAt(found, position));
+    const Event* event = found.eventAt(position);
+    if (event != nullptr && !event->zone.empty()) text += QLatin1Char(' ') + QString::fromStdString(event->zone);
+    if (event != nullptr && event->sense != CrossingSense::none)
+        text += QLatin1Char(' ') + QString::fromLatin1(nameOf(event->sense));
+    return text;
+}
+
+QString eventNumberText(const FoundEvents& found, std::size_t position) {
+    const auto number = found.numberAt(position);
+    return number ? QString::number(*number) : QString();
+}
+
 QString eventClockText(const FoundEvents& found, std::size_t position) {
     const double seconds = found.run->secondsOf(found.framesAt(position).first);
     return QString::fromStdString(timeText(std::llround(seconds * 1e6), 1));
@@ -82,10 +96,8 @@ QString eventFigureText(const FoundEvents& found, std::size_t position) {
 QString eventTipText(const FoundEvents& found, std::size_t position) {
     const FrameSpan frames = found.framesAt(position);
     const Event* event = found.eventAt(position);
-    QString text = listedKindText(listedKindAt(found, position));
-    if (event != nullptr && !event->zone.empty()) text += QLatin1Char(' ') + QString::fromStdString(event->zone);
-    if (event != nullptr && event->sense != CrossingSense::none)
-        text += QLatin1Char(' ') + QString::fromLatin1(nameOf(event->sense));
+    QString text = eventKindText(found, position);
+    if (const auto number = found.numberAt(position)) text = QStringLiteral("%1. ").arg(*number) + text;
     text += frames.first == frames.last
                 ? eventWord(QT_TRANSLATE_NOOP("Events", ": frame %1")).arg(frames.first)
                 : eventWord(QT_TRANSLATE_NOOP("Events", ": frames %1 to %2")).arg(frames.first).arg(frames.last);

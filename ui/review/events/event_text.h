@@ -11,13 +11,17 @@ namespace eyrie::ui {
 
 /// "Stops"; of a kind as it is listed, the last being what could not be searched.
 QString listedKindText(int listed_kind);
+/// "Enters yard", "Crosses gate to the left".
+QString eventKindText(const FoundEvents& found, std::size_t position);
+/// "12", the number that eyrie-cli has it under; empty for a stretch that could not be searched.
+QString eventNumberText(const FoundEvents& found, std::size_t position);
 /// When the event begins: "1:02.4".
 QString eventClockText(const FoundEvents& found, std::size_t position);
 /// "12, 15"; empty for a stretch that could not be searched.
 QString eventTracksText(const FoundEvents& found, std::size_t position);
 /// "43 km/h"; of what has no figure, how long it lasts.
 QString eventFigureText(const FoundEvents& found, std::size_t position);
-/// Kind, zone and sense, frames and place in the queue, for tooltips.
+/// Kind, zone and sense, number, frames and place in the queue, for tooltips.
 QString eventTipText(const FoundEvents& found, std::size_t position);
 
 /// "Relevant"; empty while it is not judged.

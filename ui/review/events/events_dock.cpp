@@ -10,6 +10,8 @@
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
 #include "review/run_text.h"
+#include "review/zones/zone_review.h"
+#include "review/zones/zones_panel.h"
 #include "widgets/empty_state.h"
 #include "widgets/message_bar.h"
 #include "widgets/theme_colours.h"
@@ -45,6 +47,12 @@ EventsDock::EventsDock(const EventsParts& parts)
     review_ = new EventReview(parts_.session, reviewAnswers(), this);
     model_ = new EventsModel(this);
     panel_ = new EventsPanel(model_, parts_.actions);
+    zones_ = new ZoneReview({parts_.session, parts_.canvas, parts_.actions, parts_.messages, *review_}, this);
+    panel_->setZones(&zones_->panel());
+    connect(zones_, &ZoneReview::listWanted, this, [this] {
+        parts_.docks.raise(DockId::events);
+        panel_->showZones(true);
+    });
     parts_.docks.add(DockId::events, tr("Events"), panel_);
     parts_.docks.watch(DockId::events, panel_, [this](bool visible) {
         if (visible) review_->setWanted();
@@ -59,6 +67,12 @@ EventReviewAnswers EventsDock::reviewAnswers() {
     return {
         .show_events = [this] { showEvents(); },
         .show_verdicts = [this](const std::vector<std::size_t>& places) { showVerdicts(places); },
+        .show_zones =
+            [this] {
+                if (zones_ == nullptr) return;
+                zones_->showZones();
+                enableActions();
+            },
         .go_back_to =
             [this](const std::vector<std::size_t>& places) {
                 if (!places.empty() && model_->recordAt(static_cast<int>(places.front())) != nullptr)
@@ -110,6 +124,7 @@ void EventsDock::bindCommands() {
 
 void EventsDock::setActive(bool active) {
     active_ = active;
+    zones_->setActive(active);
     enableActions();
     showMarks();
 }
@@ -124,8 +139,10 @@ void EventsDock::showEvents() {
     if (review_->state() != EventReview::State::failed) parts_.messages.dismissTopic(kEventsTopic);
     model_->setEvents(found, [this](std::size_t place) { return review_->verdictAt(place); });
     panel_->showCounts(review_->leftCount());
+    zones_->showZones();
     showMarks();
     enableActions();
+    emit eventsShown();
 }
 
 void EventsDock::explainNothing() {

@@ -25,6 +25,7 @@ class ProjectSession;
 class TimelineView;
 class VideoView;
 class WindowActions;
+class ZoneReview;
 
 /// What the dock of events works on. All must outlive it.
 struct EventsParts {
@@ -46,11 +47,16 @@ class EventsDock : public QObject {
     EventReview& review() { return *review_; }
     EventsPanel& panel() { return *panel_; }
     EventsModel& model() { return *model_; }
+    ZoneReview& zones() { return *zones_; }
 
     /// Whether keys and marks are wanted: labelling has others.
     void setActive(bool active);
     /// Shows an event: its frame, its track, its place.
     void show(int id);
+
+ signals:
+    /// Other events are listed, or none.
+    void eventsShown();
 
  private:
     void bindCommands();
@@ -74,6 +80,7 @@ class EventsDock : public QObject {
     EventReview* review_;
     EventsModel* model_;
     EventsPanel* panel_;
+    ZoneReview* zones_ = nullptr;
     DelayedCall marks_due_;
     std::shared_ptr<const StoredTracks> listed_run_;  ///< whose events have their ids
     bool active_ = true;

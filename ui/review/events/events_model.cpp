@@ -85,12 +85,12 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
 
 QString EventsModel::textOf(const EventEntry& entry, int column) const {
     switch (column) {
-        case place_column:
-            return (entry.starred ? QStringLiteral("★ ") : QString()) + QString::number(entry.position + 1);
+        case number_column:
+            return (entry.starred ? QStringLiteral("★ ") : QString()) + eventNumberText(*found_, entry.position);
         case time_column:
             return eventClockText(*found_, entry.position);
         case kind_column:
-            return listedKindText(listedKindAt(*found_, entry.position));
+            return eventKindText(*found_, entry.position);
         case tracks_column:
             return eventTracksText(*found_, entry.position);
         case figure_column:
@@ -107,8 +107,8 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
 QVariant EventsModel::sortValueOf(const EventEntry& entry, int column) const {
     const Event* event = found_->eventAt(entry.position);
     switch (column) {
-        case place_column:
-            return static_cast<int>(entry.position);
+        case number_column:
+            return found_->numberAt(entry.position).value_or(0);
         case time_column:
             return found_->framesAt(entry.position).first;
         case tracks_column:
@@ -128,9 +128,9 @@ QVariant EventsModel::headerData(int section, Qt::Orientation orientation, int r
         return RecordModel::headerData(section, orientation, role);
     const bool tip = role == Qt::ToolTipRole;
     switch (section) {
-        case place_column:
-            return tip ? tr("Place in the queue: what could not be searched, lost in mid-picture, rare, unsure, the "
-                            "rest. ★: starred")
+        case number_column:
+            return tip ? tr("Number of the event, as eyrie-cli has it with the same limits. ★: starred. The list "
+                            "stands in the order in which to look; a third click on a heading brings that back")
                        : tr("#");
         case time_column:
             return tip ? tr("When it begins") : tr("Time");

@@ -26,7 +26,7 @@ class EventsModel : public RecordModel<EventEntry> {
 
  public:
     enum Column {
-        place_column,
+        number_column,
         time_column,
         kind_column,
         tracks_column,

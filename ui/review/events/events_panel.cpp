@@ -37,7 +37,8 @@ QToolButton* buttonOf(QAction* action, const QString& text) {
 }  // namespace
 
 EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidget* parent)
-    : TablePanel(model, QStringLiteral("events"), parent),
+    :  // Not "events": there the first column once was the place in the queue, and lists were sorted by it.
+      TablePanel(model, QStringLiteral("numbered_events"), parent, std::nullopt),
       events_(model),
       actions_(actions),
       header_(new QLabel(this)),
@@ -83,11 +84,17 @@ void EventsPanel::buildButtons() {
     buttons->addWidget(buttonOf(actions_.star, QStringLiteral("★")));
     buttons->addWidget(buttonOf(actions_.undo_verdict, tr("Undo")));
     buttons->addStretch(1);
-    auto* limits = new QToolButton;
-    limits->setText(tr("Limits"));
-    limits->setToolTip(tr("What counts as an event"));
-    limits->setCheckable(true);
-    buttons->addWidget(limits);
+    const auto addSwitch = [](QHBoxLayout& row, const QString& text, const QString& tip) {
+        auto* button = new QToolButton;
+        button->setText(text);
+        button->setToolTip(tip);
+        button->setCheckable(true);
+        row.addWidget(button);
+        return button;
+    };
+    limits_button_ = addSwitch(*buttons, tr("Limits"), tr("What counts as an event"));
+    // Up there: the row of buttons decides how narrow the column can be.
+    zones_button_ = addSwitch(*toolRow(), tr("Zones"), tr("Areas and lines that are watched: draw, name, delete them"));
     auto* report = new QToolButton;
     report->setText(tr("Report…"));
     report->setToolTip(tr("Write events with pictures and verdicts as one HTML or PDF file"));
@@ -98,8 +105,27 @@ void EventsPanel::buildButtons() {
     connect(choices->addAction(tr("All events…")), &QAction::triggered, this, [this] { emit reportWanted(true); });
     report->setMenu(choices);
     buttons->insertWidget(buttons->count() - 1, report);
-    bindSwitches(this, {{limits, [this](bool on) { thresholds_->setVisible(on); }}});
+    bindSwitches(this, {{limits_button_, [this](bool on) { showThresholds(on); }},
+                        {zones_button_, [this](bool on) { showZones(on); }}});
     layout()->addWidget(line);
+}
+
+void EventsPanel::setZones(QWidget* zones) {
+    zones_ = zones;
+    layout()->addWidget(zones);
+    zones_->hide();
+}
+
+void EventsPanel::showThresholds(bool shown) {
+    limits_button_->setChecked(shown);
+    thresholds_->setVisible(shown);
+    if (shown) showZones(false);
+}
+
+void EventsPanel::showZones(bool shown) {
+    zones_button_->setChecked(shown);
+    if (zones_ != nullptr) zones_->setVisible(shown);
+    if (shown) showThresholds(false);
 }
 
 // ---- filtering ------------------------------------------------------------------------------------------------------

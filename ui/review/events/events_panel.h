@@ -9,6 +9,7 @@
 
 class QComboBox;
 class QLabel;
+class QToolButton;
 
 namespace eyrie::ui {
 
@@ -34,6 +35,11 @@ class EventsPanel : public TablePanel {
     void setCommands(EventsPanelCommands commands) { commands_ = std::move(commands); }
     EventKindsButton& kinds() { return *kinds_; }
     EventThresholds& thresholds() { return *thresholds_; }
+    /// Takes the list of zones into the panel, below the events, hidden until it is wanted.
+    void setZones(QWidget* zones);
+    /// Shows the thresholds, or the zones, below the events; one of the two has room.
+    void showThresholds(bool shown);
+    void showZones(bool shown);
     /// Which verdicts are listed: all, to judge, relevant, not relevant, unsure, starred, with a note.
     QComboBox& verdicts() { return *verdicts_; }
 
@@ -83,6 +89,9 @@ class EventsPanel : public TablePanel {
     EventKindsButton* kinds_;
     QComboBox* verdicts_;
     EventThresholds* thresholds_;
+    QWidget* zones_ = nullptr;
+    QToolButton* limits_button_ = nullptr;
+    QToolButton* zones_button_ = nullptr;
     std::size_t left_ = 0;
 };
 

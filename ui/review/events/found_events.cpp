@@ -5,18 +5,21 @@
 namespace eyrie::ui {
 
 std::shared_ptr<const FoundEvents> findAndOrder(const std::shared_ptr<const StoredTracks>& run,
-                                                const EventOptions& options, const std::map<int, Verdict>& verdicts) {
-    return inOrder(run, findEvents(run->tracks, run->footage, options), verdicts);
+                                                const EventOptions& options, const std::map<int, Verdict>& verdicts,
+                                                const std::vector<Zone>& zones) {
+    return inOrder(run, findEvents(run->tracks, run->footage, options, zones), verdicts, zones);
 }
 
 std::shared_ptr<const FoundEvents> inOrder(const std::shared_ptr<const StoredTracks>& run, std::vector<Event> events,
-                                           const std::map<int, Verdict>& verdicts) {
+                                           const std::map<int, Verdict>& verdicts, const std::vector<Zone>& zones) {
     auto found = std::make_shared<FoundEvents>();
     found->run = run;
     found->events = std::move(events);
+    found->zones = zones;
     found->unsearched = unsearchedStretches(run->footage);
-    found->carried = carryOver(verdicts, found->events, found->unsearched, *run);
+    found->carried = carryOver(verdicts, found->events, found->unsearched, *run, zones);
     const std::vector<bool> unsure = unsureEvents(found->events, *run, found->carried, verdicts);
+    found->doings = std::make_shared<const DoingsByTrack>(doingsOf(*run, found->events));
     found->queue = reviewQueue(found->events, found->unsearched, unsure);
     return found;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "events/event_search.h"
 #include "events/review/review_queue.h"
 #include "events/stored_events.h"
+#include "review/tracks/track_doings.h"
 
 namespace eyrie::ui {
 
@@ -15,13 +17,21 @@ struct FoundEvents {
     std::shared_ptr<const StoredTracks> run;
     std::vector<Event> events;
     std::vector<FrameSpan> unsearched;
+    std::vector<Zone> zones;  ///< that were watched
     std::vector<QueueItem> queue;
     CarriedVerdicts carried;  ///< verdicts when it was made
+    std::shared_ptr<const DoingsByTrack> doings;
 
     /// The event at a place of the queue; null for a stretch that could not be searched.
     const Event* eventAt(std::size_t position) const {
         const QueueItem& item = queue.at(position);
         return item.is_event ? &events.at(item.index) : nullptr;
+    }
+    /// The event's number among all of the run, from 1: the same in the window, on the command line and in reports.
+    /// Stretches that could not be searched have none.
+    std::optional<int> numberAt(std::size_t position) const {
+        const QueueItem& item = queue.at(position);
+        return item.is_event ? std::optional(static_cast<int>(item.index) + 1) : std::nullopt;
     }
     FrameSpan framesAt(std::size_t position) const {
         const Event* event = eventAt(position);
@@ -41,10 +51,11 @@ struct FoundEvents {
 
 /// Searches stored tracks for events and gives them the verdicts they have.
 std::shared_ptr<const FoundEvents> findAndOrder(const std::shared_ptr<const StoredTracks>& run,
-                                                const EventOptions& options, const std::map<int, Verdict>& verdicts);
+                                                const EventOptions& options, const std::map<int, Verdict>& verdicts,
+                                                const std::vector<Zone>& zones = {});
 /// The same with events that are known.
 std::shared_ptr<const FoundEvents> inOrder(const std::shared_ptr<const StoredTracks>& run, std::vector<Event> events,
-                                           const std::map<int, Verdict>& verdicts);
+                                           const std::map<int, Verdict>& verdicts, const std::vector<Zone>& zones = {});
 
 /// Kinds as they are listed: those of events by their numbers, and behind them what could not be searched.
 inline constexpr int kListedKinds = kEventKinds + 1;

@@ -20,7 +20,21 @@ namespace eyrie::ui {
 
 namespace {
 enum TruthEntry { labels_entry, file_entry, choose_entry };
+
+QString shownClasses(const std::optional<TrackClass>& one_class) {
+    switch (one_class.value_or(TrackClass::unknown)) {
+        case TrackClass::unknown:
+            break;
+        case TrackClass::vehicle:
+            return EvaluationChoices::tr("vehicles alone");
+        case TrackClass::two_wheeler:
+            return EvaluationChoices::tr("two-wheelers alone");
+        case TrackClass::person:
+            return EvaluationChoices::tr("persons alone");
+    }
+    return EvaluationChoices::tr("all together");
 }
+}  // namespace
 
 EvaluationChoices::EvaluationChoices(ProjectSession& session, EvaluationSession& evaluation, QWidget* parent)
     : QWidget(parent), session_(session), evaluation_(evaluation) {
@@ -34,7 +48,8 @@ EvaluationChoices::EvaluationChoices(ProjectSession& session, EvaluationSession&
                                  applySettings();
                          }},
                         {measured_, [this] { applySettings(); }},
-                        {other_, [this] { applySettings(); }}});
+                        {other_, [this] { applySettings(); }},
+                        {class_, [this] { applySettings(); }}});
     onEdited(this, &EvaluationChoices::applySettings, overlap_, border_, vehicles_, upright_);
     connect(&evaluation_, &EvaluationSession::settingsChanged, this, &EvaluationChoices::showSettings);
     connect(&session_, &ProjectSession::changed, this,
@@ -64,6 +79,11 @@ void EvaluationChoices::buildFields() {
     more_ = new QToolButton;
     more_->setText(tr("Options"));
     more_->setCheckable(true);
+    class_ = new QComboBox;
+    class_->setAccessibleName(tr("Class"));
+    for (const std::string& word : scoredClassWords()) class_->addItem(shownClasses(scoredClass(word)));
+    class_->setToolTip(tr(
+        "Only objects of this class count; the others are ignored, and results that name another class are left out"));
     vehicles_ = new QCheckBox(tr("Vehicles only: other objects are ignored"));
     upright_ = new QCheckBox(tr("Compare upright boxes (truth without headings)"));
     border_ = new QDoubleSpinBox;
@@ -75,13 +95,14 @@ void EvaluationChoices::buildFields() {
     border_->setToolTip(
         tr("Results that come this close to the image's edge are left out, for ground truth that leaves "
            "cut objects out"));
-    for (QWidget* field : std::initializer_list<QWidget*>{truth_, measured_, other_, overlap_, border_}) {
+    for (QWidget* field : std::initializer_list<QWidget*>{truth_, measured_, other_, overlap_, border_, class_}) {
         field->installEventFilter(this);
         field->setFocusPolicy(Qt::StrongFocus);
     }
     details_ = new QWidget;
     auto* form = new QFormLayout(details_);
     form->setContentsMargins(0, 0, 0, 0);
+    form->addRow(tr("Class"), class_);
     form->addRow(vehicles_);
     form->addRow(upright_);
     form->addRow(tr("Border left out"), border_);
@@ -115,7 +136,8 @@ bool EvaluationChoices::eventFilter(QObject* watched, QEvent* event) {
 void EvaluationChoices::showSettings() {
     const EvaluationSettings& settings = evaluation_.settings();
     const QSignalBlocker blockers[] = {QSignalBlocker(truth_),    QSignalBlocker(measured_), QSignalBlocker(overlap_),
-                                       QSignalBlocker(vehicles_), QSignalBlocker(upright_),  QSignalBlocker(border_)};
+                                       QSignalBlocker(vehicles_), QSignalBlocker(upright_),  QSignalBlocker(border_),
+                                       QSignalBlocker(class_)};
     const QString path = QString::fromStdString(settings.truth_file.string());
     truth_->setItemText(file_entry, path.isEmpty() ? tr("No file chosen") : QFileInfo(path).fileName());
     truth_->setItemData(file_entry, path, Qt::UserRole);
@@ -124,7 +146,10 @@ void EvaluationChoices::showSettings() {
     measured_->setCurrentIndex(settings.detections ? 1 : 0);
     overlap_->setValue(settings.wishes.overlap);
     border_->setValue(settings.wishes.border.value_or(0));
+    const std::optional<TrackClass>& one_class = settings.wishes.one_class;
+    class_->setCurrentIndex(static_cast<int>(one_class.value_or(TrackClass::unknown)));
     vehicles_->setChecked(settings.wishes.vehicles_only);
+    vehicles_->setEnabled(!one_class);
     upright_->setChecked(settings.wishes.upright);
     showRuns();
 }
@@ -153,7 +178,8 @@ void EvaluationChoices::applySettings() {
     settings.detections = measured_->currentIndex() == 1;
     settings.wishes.overlap = overlap_->value();
     settings.wishes.border = border_->value() > 0 ? std::optional(border_->value()) : std::nullopt;
-    settings.wishes.vehicles_only = vehicles_->isChecked();
+    settings.wishes.one_class = scoredClass(scoredClassWords()[static_cast<std::size_t>(class_->currentIndex())]);
+    settings.wishes.vehicles_only = vehicles_->isChecked() && !settings.wishes.one_class;
     settings.wishes.upright = upright_->isChecked();
     const int other = other_->currentData().toInt();
     settings.other_run = other > 0 ? std::optional(other) : std::nullopt;

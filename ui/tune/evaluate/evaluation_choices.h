@@ -39,6 +39,7 @@ class EvaluationChoices : public QWidget {
     QComboBox* other_;
     QDoubleSpinBox* overlap_;
     QDoubleSpinBox* border_;
+    QComboBox* class_;
     QCheckBox* vehicles_;
     QCheckBox* upright_;
     QToolButton* more_;

@@ -29,6 +29,13 @@ EvaluationOptions storedWishes() {
     EvaluationOptions wishes;
     wishes.overlap = std::clamp(stored.value(QStringLiteral("evaluation/overlap"), 0.1).toDouble(), 0.01, 1.0);
     wishes.vehicles_only = stored.value(QStringLiteral("evaluation/vehicles_only")).toBool();
+    try {
+        wishes.one_class =
+            scoredClass(stored.value(QStringLiteral("evaluation/classes"), "all").toString().toStdString());
+    } catch (const Error&) {
+        // Another version wrote the settings.
+    }
+    if (wishes.one_class) wishes.vehicles_only = false;
     wishes.upright = stored.value(QStringLiteral("evaluation/upright")).toBool();
     const double border_px = stored.value(QStringLiteral("evaluation/border")).toDouble();
     if (border_px > 0) wishes.border = border_px;
@@ -80,6 +87,7 @@ void EvaluationSession::setSettings(const EvaluationSettings& settings) {
     QSettings stored;
     stored.setValue(QStringLiteral("evaluation/overlap"), wishes.overlap);
     stored.setValue(QStringLiteral("evaluation/vehicles_only"), wishes.vehicles_only);
+    stored.setValue(QStringLiteral("evaluation/classes"), QString::fromStdString(wordOfScored(wishes.one_class)));
     stored.setValue(QStringLiteral("evaluation/upright"), wishes.upright);
     stored.setValue(QStringLiteral("evaluation/border"), wishes.border.value_or(0));
     if (settings_.truth_file.empty())
@@ -234,6 +242,7 @@ std::vector<VerdictMark> EvaluationSession::marksAt(FrameIndex frame) const {
     };
     for (const int index : match.ignored_results) mark(VerdictKind::ignored, at_index(results, index), {});
     for (const int index : match.border_results) mark(VerdictKind::ignored, at_index(results, index), {});
+    for (const int index : match.other_class_results) mark(VerdictKind::ignored, at_index(results, index), {});
     for (const MatchedPair& pair : match.pairs) {
         const auto switched = switches.find(pair.truth);
         if (switched == switches.end()) {

@@ -183,6 +183,7 @@ void SweepSession::work(const Job& job, const BackgroundTask& task) {
             plan.clips = opened.clips;
             plan.overlaps = job.request.overlaps;
             plan.vehicles_only = job.request.wishes.vehicles_only;
+            plan.one_class = job.request.wishes.one_class;
             plan.border = job.request.wishes.border;
             check(plan);
         }

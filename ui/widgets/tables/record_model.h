@@ -53,6 +53,11 @@ class RecordModel : public QAbstractTableModel {
         records_[static_cast<std::size_t>(row)] = std::move(record);
         emit dataChanged(index(row, 0), index(row, columnCount() - 1));
     }
+    /// Where only one column is another: what is being written in others stays.
+    void changeRecord(int row, Record record, int column) {
+        records_[static_cast<std::size_t>(row)] = std::move(record);
+        emit dataChanged(index(row, column), index(row, column));
+    }
 
  private:
     /// More rows than that are quicker shown anew.

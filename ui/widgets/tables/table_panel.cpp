@@ -32,7 +32,8 @@ constexpr int kWidening_ms = 1000;
 
 }  // namespace
 
-TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, QWidget* parent)
+TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, QWidget* parent,
+                       std::optional<int> sort_column)
     : QWidget(parent),
       model_(model),
       settings_key_(QStringLiteral("columns/") + settings_key),
@@ -66,7 +67,7 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
     layout->addLayout(tool_row_);
     layout->addLayout(stack_, 1);
 
-    buildTable();
+    buildTable(sort_column);
     whenAny(proxy_, this, &TablePanel::keepSelection, &QAbstractItemModel::rowsInserted,
             &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::modelReset);
     // The proxy lets go of rows before the model does.
@@ -79,7 +80,7 @@ TablePanel::~TablePanel() {
     saveColumns();
 }
 
-void TablePanel::buildTable() {
+void TablePanel::buildTable(std::optional<int> sort_column) {
     // When rows go, the view moves the current row on; that must not count as the user's choice. Connected before the
     // view connects itself.
     const auto pause = [this] { telling_ = false; };
@@ -90,7 +91,8 @@ void TablePanel::buildTable() {
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     table_->setSortingEnabled(true);
-    table_->sortByColumn(0, Qt::AscendingOrder);
+    table_->sortByColumn(sort_column.value_or(-1), Qt::AscendingOrder);
+    table_->horizontalHeader()->setSortIndicatorClearable(!sort_column);
     table_->setAlternatingRowColors(true);
     table_->setShowGrid(false);
     table_->setWordWrap(false);

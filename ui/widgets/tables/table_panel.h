@@ -2,6 +2,7 @@
 
 #include <QList>
 #include <QWidget>
+#include <optional>
 
 #include "widgets/delayed_call.h"
 #include "widgets/tables/table_sort_proxy.h"
@@ -21,8 +22,10 @@ class EmptyState;
 class TablePanel : public QWidget {
     Q_OBJECT
  public:
-    /// `model` must outlive the panel. `settings_key` names the columns' memory in QSettings.
-    TablePanel(QAbstractItemModel* model, const QString& settings_key, QWidget* parent = nullptr);
+    /// `model` must outlive the panel. `settings_key` names the columns' memory in QSettings. `sort_column` is the one
+    /// that it is sorted by at first; none: rows stand as in the model, and a third click on a header brings that back.
+    TablePanel(QAbstractItemModel* model, const QString& settings_key, QWidget* parent = nullptr,
+               std::optional<int> sort_column = 0);
     ~TablePanel() override;
 
     /// Id of the selected row, 0 when there is none.
@@ -58,7 +61,7 @@ class TablePanel : public QWidget {
     bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-    void buildTable();
+    void buildTable(std::optional<int> sort_column);
     void restoreColumns();
     void saveColumns() const;
     void showHeaderMenu(const QPoint& place);

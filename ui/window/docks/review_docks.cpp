@@ -115,6 +115,7 @@ void ReviewDocks::wireTracks() {
                 session_.goToFrame(frame);
             },
         .use_min_score = [this](double score) { parts_.overlays.setMinScore(score); },
+        .want_doings = [this] { want_doings_(); },
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include <QList>
 #include <QObject>
+#include <functional>
 
 #include "review/runs_model.h"
 #include "review/tracks_model.h"
@@ -51,6 +52,9 @@ class ReviewDocks : public QObject {
     StacksPanel& stacks() { return *stacks_; }
     MotionStatisticsPanel& statistics() { return *statistics_; }
     SweepPanel& sweeps() { return *sweeps_; }
+    TracksPanel& tracks() { return *tracks_; }
+    /// What is done when somebody asks for what the tracks did: TracksPanel::setDoings().
+    void setDoingsWanted(std::function<void()> want) { want_doings_ = std::move(want); }
 
     /// Brings the list of tracks to the front.
     void showTrackList();
@@ -79,6 +83,7 @@ class ReviewDocks : public QObject {
     StacksPanel* stacks_;
     MotionStatisticsPanel* statistics_;
     SweepPanel* sweeps_;
+    std::function<void()> want_doings_ = [] {};
     std::optional<int> parameters_wanted_of_;  ///< run whose parameters are taken over once they are read
 };
 

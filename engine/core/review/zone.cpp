@@ -1,4 +1,4 @@
-#include "events/zones/zone.h"
+#include "core/review/zone.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +41,8 @@ bool crossesItself(const std::vector<cv::Point2d>& outline) {
 
 std::string faultOf(const Zone& zone) {
     const std::vector<cv::Point2d>& p = zone.points;
+    if (std::any_of(p.begin(), p.end(), [](cv::Point2d at) { return !std::isfinite(at.x) || !std::isfinite(at.y); }))
+        return "a point has no place";
     if (zone.shape == ZoneShape::line) {
         double length = 0;
         for (std::size_t i = 1; i < p.size(); ++i) length += std::hypot(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
@@ -52,6 +54,13 @@ std::string faultOf(const Zone& zone) {
     double area = 0;
     for (std::size_t i = 1; i + 1 < p.size(); ++i) area += side(p[0], p[i], p[i + 1]) / 2;
     return std::abs(area) < kSmallestArea ? "the zone has no area" : "";
+}
+
+std::vector<Zone> zonesOf(const std::map<int, StoredZone>& stored) {
+    std::vector<Zone> zones;
+    zones.reserve(stored.size());
+    for (const auto& [id, zone] : stored) zones.push_back(zone.zone);
+    return zones;
 }
 
 double distanceTo(const std::vector<cv::Point2d>& points, bool closed, cv::Point2d place) {

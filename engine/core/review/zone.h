@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <opencv2/core/types.hpp>
 #include <string>
 #include <vector>
@@ -18,7 +19,29 @@ struct Zone {
     ZoneAnchor anchor = ZoneAnchor::ground;
     FrameIndex frame = 0;             ///< in which the points are meant, if fixed to the ground
     std::vector<cv::Point2d> points;  ///< px; corners of an area, or the line from its first to its last point
+
+    bool operator==(const Zone&) const = default;
 };
+
+/// A zone that a project keeps: of a video, not of a run.
+struct StoredZone {
+    static constexpr int kColourByNumber = -1;
+
+    int id = 0;  ///< within a project, from 1; never used again
+    Zone zone;
+    int colour = kColourByNumber;  ///< 0xRRGGBB
+    bool shown = true;             ///< drawn over the video; it is searched for events all the same
+    std::string person;            ///< who changed it last
+    std::string when_utc;          ///< and when, ISO 8601
+
+    bool operator==(const StoredZone&) const = default;
+};
+
+/// The zones by themselves, in the order of their numbers: what events are searched with.
+std::vector<Zone> zonesOf(const std::map<int, StoredZone>& stored);
+
+/// Points that a zone of a project may have.
+inline constexpr std::size_t kMostZonePoints = 1000;
 
 /// What makes a zone useless, for people ("has no area"); empty for a good one.
 std::string faultOf(const Zone& zone);

@@ -1,0 +1,233 @@
+#include <QCheckBox>
+#include <QFrame>
+#include <QJsonObject>
+#include <QLineEdit>
+#include <QTableView>
+#include <QTest>
+#include <QToolButton>
+#include <numbers>
+
+#include "review/events/found_events.h"
+#include "review/tracks/filter_chips.h"
+#include "review/tracks_panel.h"
+#include "ui/support/ui_support.h"
+#include "widgets/tables/table_roles.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const SceneScale kMetres{0.1, 25, true};
+
+/// Track n is n frames long and drives n px a frame: at 0.1 m/px and 25 Hz 9·n km/h.
+TrackSummary trackOf(int n) {
+    TrackSummary track;
+    track.id = n;
+    track.first_frame = 100;
+    track.last_frame = 100 + 25 * n - 1;
+    track.frames = 25 * n;
+    track.confirmed = true;
+    track.mean_speed_px = n;
+    track.mean_length_px = 40;
+    track.score = n / 10.0;
+    return track;
+}
+
+std::vector<TrackSummary> tenTracks() {
+    std::vector<TrackSummary> tracks;
+    for (int n = 1; n <= 10; ++n) tracks.push_back(trackOf(n));
+    return tracks;
+}
+
+/// Track 1 drives right and enters the yard; track 2 drives down and is lost; track 3 stands.
+std::shared_ptr<StoredTracks> threeDriven() {
+    auto run = std::make_shared<StoredTracks>();
+    run->footage.image_size = {640, 400};
+    run->footage.last_frame = 99;
+    run->footage.scale = kMetres;
+    std::vector<Homography> steps;  // the picture drifts to the left by a pixel a frame
+    for (int frame = 1; frame < 100; ++frame) {
+        Homography step;
+        step.from_frame = frame - 1;
+        step.to_frame = frame;
+        step.matrix = {1, 0, -1, 0, 1, 0, 0, 0, 1};
+        steps.push_back(step);
+    }
+    run->footage.camera = CameraMotion(steps);
+    const auto drive = [&](TrackId id, cv::Point2d speed) {
+        EventTrack track;
+        track.id = id;
+        for (int frame = 0; frame < 100; ++frame)
+            track.boxes.push_back({frame, {cv::Point2d(200 - frame, 200) + speed * frame, 20, 8, 0}});
+        run->tracks.push_back(track);
+    };
+    drive(1, {2, 0});
+    drive(2, {0.1, 1});
+    drive(3, {0, 0});
+    return run;
+}
+
+Event happening(EventKind kind, TrackId track, const std::string& zone = "") {
+    Event event;
+    event.kind = kind;
+    event.tracks = {track};
+    event.zone = zone;
+    return event;
+}
+
+}  // namespace
+
+/// What narrows the list of tracks.
+class TrackFilterTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+
+    static std::vector<int> listed(const TracksPanel& panel) {
+        std::vector<int> ids;
+        const auto* shown = panel.table()->model();
+        for (int row = 0; row < shown->rowCount(); ++row) ids.push_back(shown->index(row, 0).data(id_role).toInt());
+        return ids;
+    }
+
+ private slots:
+    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void cleanup() { home_.reset(); }
+
+    void limitsAreInTheUnitsShownAndIncludeTheirEnds() {
+        TrackFilter filter;
+        QVERIFY(!filter.any());
+        QVERIFY(filter.holds(trackOf(3), kMetres, nullptr));
+        filter.range(TrackQuality::speed) = {27.0, 45.0};
+        QVERIFY(!filter.holds(trackOf(2), kMetres, nullptr));
+        QVERIFY(filter.holds(trackOf(3), kMetres, nullptr));
+        QVERIFY(filter.holds(trackOf(5), kMetres, nullptr));
+        QVERIFY(!filter.holds(trackOf(6), kMetres, nullptr));
+        QVERIFY2(!filter.holds(trackOf(3), {0.1, 25, false}, nullptr), "3 px/frame");
+        QCOMPARE(chipText(filter, TrackQuality::speed, kMetres), QStringLiteral("Speed 27–45 km/h"));
+        filter.clear(TrackQuality::speed);
+        filter.range(TrackQuality::life) = {std::nullopt, 4.0};
+        QVERIFY(filter.holds(trackOf(4), kMetres, nullptr));
+        QVERIFY(!filter.holds(trackOf(5), kMetres, nullptr));
+        QCOMPARE(chipText(filter, TrackQuality::life, kMetres), QStringLiteral("Life ≤ 4 s"));
+    }
+
+    void directionsEventsAndZonesComeFromTheGroundAndTheEvents() {
+        QCOMPARE(eighthOf(0), 0);
+        QCOMPARE(eighthOf(kPi / 2), 2);
+        QCOMPARE(eighthOf(-kPi / 2), 6);
+        QCOMPARE(eighthOf(-kPi), 4);
+        QCOMPARE(eighthOf(kPi / 8 - 0.01), 0);
+        const DoingsByTrack doings =
+            doingsOf(*threeDriven(), {happening(EventKind::enters, 1, "yard"), happening(EventKind::lost, 2)});
+        QCOMPARE(doings.at(1).eighth, std::optional(0));
+        QCOMPARE(doings.at(2).eighth, std::optional(2));
+        QVERIFY2(!doings.contains(3), "what drifts with the picture only stands");
+        TrackFilter filter;
+        filter.eighths = {0, 1};
+        QVERIFY(filter.holds(trackOf(1), kMetres, &doings));
+        QVERIFY(!filter.holds(trackOf(2), kMetres, &doings));
+        QVERIFY(!filter.holds(trackOf(3), kMetres, &doings));
+        QVERIFY2(filter.holds(trackOf(2), kMetres, nullptr), "nobody knows yet");
+        filter = {};
+        filter.events = {EventKind::lost, EventKind::stands};
+        QVERIFY(filter.holds(trackOf(2), kMetres, &doings));
+        QVERIFY(!filter.holds(trackOf(1), kMetres, &doings));
+        filter = {};
+        filter.zones = {"yard"};
+        QVERIFY(filter.holds(trackOf(1), kMetres, &doings));
+        QVERIFY(!filter.holds(trackOf(2), kMetres, &doings));
+        QCOMPARE(chipText(filter, TrackQuality::zone, kMetres), QStringLiteral("Zone yard"));
+    }
+
+    void aFilterIsKeptAsItIs() {
+        TrackFilter filter;
+        filter.range(TrackQuality::speed) = {12.5, std::nullopt};
+        filter.range(TrackQuality::score) = {0.25, 0.75};
+        filter.eighths = {0, 7};
+        filter.events = {EventKind::lost, EventKind::turns_back};
+        filter.zones = {"Höfe", "gate"};
+        QCOMPARE(TrackFilter::fromJson(filter.json()), filter);
+        QCOMPARE(TrackFilter::fromJson({}), TrackFilter());
+        QCOMPARE(TrackFilter::fromJson({{QStringLiteral("direction"), QStringLiteral("up")}}), TrackFilter());
+    }
+
+    void chipsNarrowTheListAndCountWhatIsHidden() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.resize(340, 400);
+        panel.show();
+        model.setTracks(tenTracks(), kMetres);
+        QCOMPARE(panel.countText(), QStringLiteral("10 of 10 tracks"));
+        QFrame* limits = panel.chips().openLimits(TrackQuality::speed);
+        const auto fields = limits->findChildren<QLineEdit*>();
+        QCOMPARE(fields.size(), 2);
+        fields[0]->setText(QStringLiteral("27"));
+        fields[1]->setText(QStringLiteral("45,5"));
+        limits->close();
+        QCOMPARE(listed(panel), (std::vector<int>{3, 4, 5}));
+        QCOMPARE(panel.countText(), QStringLiteral("3 of 10 tracks"));
+        QVERIFY(test::press(panel, QStringLiteral("×")));
+        QCOMPARE(panel.countText(), QStringLiteral("10 of 10 tracks"));
+
+        // Words of the line above count as hidden, too.
+        panel.setFilterText(QStringLiteral("nothing has this"));
+        QCOMPARE(panel.countText(), QStringLiteral("0 of 10 tracks"));
+        panel.setFilterText({});
+
+        TrackFilter none;
+        none.range(TrackQuality::speed) = {900, std::nullopt};
+        panel.chips().setFilter(none);
+        QCOMPARE(panel.countText(), QStringLiteral("0 of 10 tracks"));
+        QVERIFY(test::says(panel, QStringLiteral("None of the 10 tracks")));
+        QVERIFY(test::press(panel, QStringLiteral("Show all")));
+        QCOMPARE(panel.countText(), QStringLiteral("10 of 10 tracks"));
+    }
+
+    void whatTracksDidIsAskedForAndThenNarrows() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        int asked = 0;
+        panel.setCommands({.want_doings = [&] { ++asked; }});
+        panel.show();
+        model.setTracks(tenTracks(), kMetres);
+        TrackFilter in_yard;
+        in_yard.zones = {"yard"};
+        panel.chips().setFilter(in_yard);
+        QCOMPARE(listed(panel).size(), std::size_t(10));
+        panel.chips().openLimits(TrackQuality::zone)->close();
+        QCOMPARE(asked, 1);
+        panel.setDoings(std::make_shared<const DoingsByTrack>(doingsOf(
+            *threeDriven(), {happening(EventKind::enters, 1, "yard"), happening(EventKind::exits, 2, "yard")})));
+        QCOMPARE(listed(panel), (std::vector<int>{1, 2}));
+        QFrame* limits = panel.chips().openLimits(TrackQuality::event);
+        for (QCheckBox* box : limits->findChildren<QCheckBox*>())
+            if (box->text().startsWith(QStringLiteral("exits"))) box->click();
+        limits->close();
+        QCOMPARE(listed(panel), std::vector<int>{2});
+    }
+
+    void filtersAreKeptByName() {
+        TrackFilter fast;
+        fast.range(TrackQuality::speed) = {50.0, std::nullopt};
+        {
+            FilterChips chips;
+            chips.setFilter(fast);
+            chips.keepAs(QStringLiteral("fast ones"));
+        }
+        FilterChips chips;
+        QCOMPARE(chips.keptNames(), QStringList(QStringLiteral("fast ones")));
+        chips.useKept(QStringLiteral("fast ones"));
+        QCOMPARE(chips.filter(), fast);
+        chips.forgetKept(QStringLiteral("fast ones"));
+        QVERIFY(chips.keptNames().isEmpty());
+        chips.useKept(QStringLiteral("never kept"));
+        QCOMPARE(chips.filter(), TrackFilter());
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::TrackFilterTest)
+#include "track_filter_test.moc"

@@ -1,0 +1,280 @@
+#include <QApplication>
+#include <QLineEdit>
+#include <QTableView>
+#include <QTest>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "canvas/layers/zone_layer.h"
+#include "canvas/video_view.h"
+#include "label/label_workspace.h"
+#include "review/events/event_review.h"
+#include "review/events/events_dock.h"
+#include "review/events/events_panel.h"
+#include "review/zones/zone_review.h"
+#include "review/zones/zone_tool.h"
+#include "review/zones/zones_model.h"
+#include "review/zones/zones_panel.h"
+#include "ui/session/session_support.h"
+#include "widgets/message_bar.h"
+#include "window/main_window.h"
+#include "workspace/dock_registry.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+using test::kPatience_ms;
+
+namespace {
+
+/// Around the way of the upper vehicle of the scene, as frame 30 shows it: it drives in after that frame, and out.
+const std::vector<QPointF> kOnTheWay{{130, 40}, {175, 40}, {175, 75}, {130, 75}};
+constexpr FrameIndex kDrawnIn = 30;
+
+}  // namespace
+
+/// Zones in the window: drawn with the mouse, kept in the project, watched.
+class ZonesWindowTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+
+    /// The run is made where there is none yet.
+    static std::unique_ptr<MainWindow> windowWithRun() {
+        auto window = std::make_unique<MainWindow>();
+        window->resize(1280, 720);
+        window->show();
+        if (!QTest::qWaitForWindowActive(window.get())) return nullptr;
+        if (!test::openAndWait(window->session(), test::sceneUnderTest(60))) return nullptr;
+        if (window->session().runs().empty() && !test::runAndWait(window->session())) return nullptr;
+        window->docks().raise(DockId::events);
+        const auto ready = [&] { return window->events().review().state() == EventReview::State::found; };
+        if (!QTest::qWaitFor(ready, kPatience_ms)) return nullptr;
+        window->session().goToFrame(kDrawnIn);
+        if (!test::shows(window->session(), kDrawnIn)) return nullptr;
+        window->canvas().setFocus();
+        return window;
+    }
+    static void click(MainWindow& window, QPointF image_point, bool twice = false) {
+        const QPoint place = window.canvas().transform().viewFromImage(image_point).toPoint();
+        QTest::mouseClick(&window.canvas(), Qt::LeftButton, {}, place);
+        if (twice) QTest::mouseDClick(&window.canvas(), Qt::LeftButton, {}, place);
+    }
+    static void draw(MainWindow& window, const std::vector<QPointF>& points, QAction* action) {
+        action->trigger();
+        for (std::size_t i = 0; i < points.size(); ++i) click(window, points[i], i + 1 == points.size());
+    }
+    static void drawZone(MainWindow& window) { draw(window, kOnTheWay, window.actions().draw_zone); }
+    static bool waitForEvents(MainWindow& window, EventKind kind, int count) {
+        return QTest::qWaitFor(
+            [&] {
+                const auto& found = window.events().model().found();
+                return found && std::count_if(found->events.begin(), found->events.end(),
+                                              [&](const Event& event) { return event.kind == kind; }) == count;
+            },
+            kPatience_ms);
+    }
+    static const std::map<int, StoredZone>& zones(MainWindow& window) { return window.events().review().zones(); }
+    static bool tells(MainWindow& window, const QString& words) {
+        const QStringList texts = window.messages().texts();
+        return std::any_of(texts.begin(), texts.end(), [&](const QString& text) { return text.contains(words); });
+    }
+
+ private slots:
+    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void cleanup() { home_.reset(); }
+
+    void aZoneIsDrawnWatchedUndoneAndThereTheNextDay() {
+        {
+            const auto window = windowWithRun();
+            QVERIFY(window);
+            QTest::keyClick(&window->canvas(), Qt::Key_A, Qt::ControlModifier | Qt::ShiftModifier);
+            QVERIFY(window->events().zones().tool().drawing());
+            QVERIFY(window->actions().draw_zone->isChecked());
+            click(*window, kOnTheWay[0]);
+            click(*window, kOnTheWay[1]);
+            click(*window, {20, 20});
+            QTest::keyClick(&window->canvas(), Qt::Key_Backspace);
+            QCOMPARE(window->events().zones().tool().points().size(), std::size_t(2));
+            click(*window, kOnTheWay[2]);
+            click(*window, kOnTheWay[3]);
+            QTest::keyClick(&window->canvas(), Qt::Key_Return);
+            QVERIFY(!window->events().zones().tool().drawing());
+            QVERIFY(!window->actions().draw_zone->isChecked());
+            QCOMPARE(zones(*window).size(), std::size_t(1));
+            const Zone& zone = zones(*window).begin()->second.zone;
+            QCOMPARE(zone.frame, kDrawnIn);
+            for (std::size_t i = 0; i < kOnTheWay.size(); ++i)
+                QVERIFY(std::hypot(zone.points[i].x - kOnTheWay[i].x(), zone.points[i].y - kOnTheWay[i].y()) < 1);
+            // The name is being written.
+            auto* editor = window->events().zones().panel().table()->findChild<QLineEdit*>();
+            QVERIFY(editor != nullptr && editor->isVisible());
+            editor->setText(QStringLiteral("yard"));
+            // Events that are found meanwhile do not take it away.
+            QVERIFY(waitForEvents(*window, EventKind::enters, 1));
+            QCOMPARE(editor->text(), QStringLiteral("yard"));
+            QTest::keyClick(editor, Qt::Key_Return);
+            QTRY_COMPARE(zones(*window).begin()->second.zone.name, std::string("yard"));
+            QVERIFY(waitForEvents(*window, EventKind::enters, 1));
+            QVERIFY(waitForEvents(*window, EventKind::exits, 1));
+            const auto& model = window->events().model();
+            const auto lists = [&](const QString& kind) {
+                for (int row = 0; row < model.rowCount(); ++row)
+                    if (model.index(row, EventsModel::kind_column).data().toString() == kind) return true;
+                return false;
+            };
+            QTRY_VERIFY_WITH_TIMEOUT(lists(QStringLiteral("Enters yard")), kPatience_ms);
+            const auto* list = window->events().zones().panel().table()->model();
+            QVERIFY(QTest::qWaitFor([&] { return list->index(0, ZonesModel::events_column).data().toInt() == 2; },
+                                    kPatience_ms));
+
+            window->canvas().setFocus();
+            QTest::keyClick(&window->canvas(), Qt::Key_Z);
+            QCOMPARE(zones(*window).begin()->second.zone.name, std::string("zone 1"));
+            QTest::keyClick(&window->canvas(), Qt::Key_Z, Qt::ControlModifier);
+            QVERIFY(zones(*window).empty());
+            QVERIFY(waitForEvents(*window, EventKind::enters, 0));
+            QTest::keyClick(&window->canvas(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+            QTest::keyClick(&window->canvas(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+            QVERIFY(waitForEvents(*window, EventKind::enters, 1));
+            window->close();
+        }
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        QCOMPARE(zones(*window).size(), std::size_t(1));
+        QCOMPARE(zones(*window).begin()->second.zone.name, std::string("yard"));
+        QVERIFY(waitForEvents(*window, EventKind::enters, 1));
+        QTest::keyClick(&window->canvas(), Qt::Key_Z);  // undo survives closing
+        QCOMPARE(zones(*window).begin()->second.zone.name, std::string("zone 1"));
+    }
+
+    void itIsShownWhereTheGroundHasCarriedIt() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        drawZone(*window);
+        window->events().zones().panel().setAnchor(ZoneAnchor::image);
+        draw(*window, {{100, 20}, {100, 90}}, window->actions().draw_line);
+        QCOMPARE(window->canvas().frame().zones.size(), std::size_t(2));
+        QVERIFY(window->overlays().isVisible(ZoneLayer::kKind));
+        window->session().goToFrame(kDrawnIn + 20);
+        QVERIFY(test::shows(window->session(), kDrawnIn + 20));
+        const std::vector<ZoneMark>& marks = window->canvas().frame().zones;
+        QCOMPARE(marks.size(), std::size_t(2));
+        for (std::size_t i = 0; i < kOnTheWay.size(); ++i) {
+            const QPointF there = kOnTheWay[i] - QPointF(20, 0);  // the ground drifts by a pixel a frame
+            QVERIFY2(QLineF(marks[0].points[i], there).length() < 1.5, qPrintable(QString::number(i)));
+        }
+        QVERIFY(QLineF(marks[1].points[0], {100, 20}).length() < 1);
+        QVERIFY(!marks[1].closed);
+        QVERIFY(waitForEvents(*window, EventKind::crosses, 1));
+
+        auto& model = window->events().zones().model();
+        const QModelIndex name = model.index(0, ZonesModel::name_column);
+        QVERIFY(model.setData(name, Qt::Unchecked, Qt::CheckStateRole));
+        QCOMPARE(window->canvas().frame().zones.size(), std::size_t(1));
+        QVERIFY(waitForEvents(*window, EventKind::enters, 1));  // hidden, yet watched
+        window->events().zones().panel().selectId(model.recordAt(0)->id);
+        QTest::keyClick(window->events().zones().panel().table(), Qt::Key_Delete);
+        QCOMPARE(zones(*window).size(), std::size_t(1));
+        QVERIFY(waitForEvents(*window, EventKind::enters, 0));
+    }
+
+    void whatIsNoZoneIsToldAndDrawingGoesOn() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        window->actions().draw_zone->trigger();
+        click(*window, kOnTheWay[0]);
+        click(*window, kOnTheWay[1]);
+        QTest::keyClick(&window->canvas(), Qt::Key_Return);
+        QVERIFY(tells(*window, QStringLiteral("An area needs three points or more")));
+        QVERIFY(window->events().zones().tool().drawing());
+        QTest::keyClick(&window->canvas(), Qt::Key_Escape);
+        QVERIFY(!window->events().zones().tool().drawing());
+        QVERIFY(zones(*window).empty());
+        QVERIFY(!tells(*window, QStringLiteral("three points")));
+        // Its keys are the window's own again.
+        QVERIFY(window->canvas().tool() == nullptr);
+
+        drawZone(*window);
+        drawZone(*window);
+        QCOMPARE(zones(*window).size(), std::size_t(2));
+        auto& model = window->events().zones().model();
+        model.setData(model.index(1, ZonesModel::name_column), QStringLiteral("zone 1"), Qt::EditRole);
+        QVERIFY(tells(*window, QStringLiteral("There is a zone \"zone 1\" already")));
+        QCOMPARE(zones(*window).rbegin()->second.zone.name, std::string("zone 2"));
+        model.setData(model.index(1, ZonesModel::name_column), QStringLiteral("  "), Qt::EditRole);
+        QVERIFY(tells(*window, QStringLiteral("needs a name")));
+    }
+
+    void filesGoInAndOut() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        drawZone(*window);
+        ZoneReview& review = window->events().zones();
+        const auto at = [this](const char* name) { return QString::fromStdString((*home_ / name).string()); };
+        review.writeFile(at("zones.json"));
+        QVERIFY(tells(*window, QStringLiteral("--zone")));
+        review.readFile(at("zones.json"));
+        QVERIFY(tells(*window, QStringLiteral("are here already")));
+        QCOMPARE(zones(*window).size(), std::size_t(1));
+        const StoredZone before = zones(*window).begin()->second;
+        review.panel().selectId(before.id);
+        QTest::keyClick(review.panel().table(), Qt::Key_Delete);
+        review.readFile(at("zones.json"));
+        QCOMPARE(zones(*window).size(), std::size_t(1));
+        QCOMPARE(zones(*window).begin()->second.zone, before.zone);
+        std::ofstream(*home_ / "broken.json") << "{\"eyrie_zones\": 1, \"zones\": [{\"name\": \"a\",";
+        review.readFile(at("broken.json"));
+        QVERIFY(tells(*window, QStringLiteral("broken.json")));
+        std::ofstream(*home_ / "equal.json")
+            << R"({"eyrie_zones": 1, "zones": [{"name": "zone 1", "points": [[0, 0], [9, 0], [9, 9]]}]})";
+        review.readFile(at("equal.json"));
+        QVERIFY(tells(*window, QStringLiteral("There is a zone \"zone 1\" already")));
+        review.writeFile(at("no/where.json"));
+        QVERIFY(tells(*window, QStringLiteral("no/where.json")));
+        QCOMPARE(zones(*window).size(), std::size_t(1));
+    }
+
+    void aRenamedZoneKeepsItsVerdicts() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        drawZone(*window);
+        QVERIFY(waitForEvents(*window, EventKind::enters, 1));
+        EventReview& review = window->events().review();
+        std::vector<std::size_t> places;
+        for (std::size_t i = 0; i < review.count(); ++i)
+            if (listedKindAt(*review.found(), i) == static_cast<int>(EventKind::enters)) places.push_back(i);
+        QVERIFY(review.judge(places, Judgement::relevant));
+        auto& model = window->events().zones().model();
+        QVERIFY(model.setData(model.index(0, ZonesModel::name_column), QStringLiteral("yard"), Qt::EditRole));
+        const auto judged_in_yard = [&] {
+            for (std::size_t i = 0; i < review.count(); ++i) {
+                const Event* event = review.found()->eventAt(i);
+                if (event != nullptr && event->zone == "yard" && review.isJudged(i)) return true;
+            }
+            return false;
+        };
+        QVERIFY(QTest::qWaitFor(judged_in_yard, kPatience_ms));
+        QCOMPARE(review.leftCount(), std::size_t(0));
+    }
+
+    void labellingTakesTheCanvas() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        window->actions().draw_zone->trigger();
+        click(*window, kOnTheWay[0]);
+        QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
+        QVERIFY(!window->events().zones().tool().drawing());
+        QVERIFY(!window->actions().draw_zone->isEnabled());
+        QVERIFY(window->canvas().tool() != nullptr);
+        QTest::keyClick(window.get(), Qt::Key_1, Qt::ControlModifier);
+        QVERIFY(window->actions().draw_zone->isEnabled());
+        QVERIFY(window->canvas().tool() == nullptr);
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::ZonesWindowTest)
+#include "zones_window_test.moc"

@@ -1,0 +1,301 @@
+#include "review/tracks/filter_chips.h"
+
+#include <QCheckBox>
+#include <QFrame>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QInputDialog>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QScreen>
+#include <QSettings>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "widgets/flow_layout.h"
+#include "widgets/wiring.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+const QString kKeptFilters = QStringLiteral("review/track_filters");
+
+std::array<TrackQuality, kTrackQualities> allQualities() {
+    std::array<TrackQuality, kTrackQualities> all{};
+    for (int i = 0; i < kTrackQualities; ++i) all[static_cast<std::size_t>(i)] = static_cast<TrackQuality>(i);
+    return all;
+}
+
+/// How many tracks something holds for.
+template <class Condition>
+int countOfTracks(const DoingsByTrack& doings, const Condition& holds) {
+    return static_cast<int>(
+        std::count_if(doings.begin(), doings.end(), [&](const auto& each) { return holds(each.second); }));
+}
+
+template <class Value>
+void put(std::set<Value>& values, const Value& value, bool in) {
+    if (in)
+        values.insert(value);
+    else
+        values.erase(value);
+}
+
+}  // namespace
+
+FilterChips::FilterChips(QWidget* parent) : QWidget(parent), add_(new QToolButton(this)) {
+    auto* row = new FlowLayout(this);
+    add_->setText(tr("+ Filter"));
+    add_->setToolTip(tr("Narrow the list: speed, life, length, score, direction, events, zones"));
+    add_->setPopupMode(QToolButton::InstantPopup);
+    auto* menu = new QMenu(add_);
+    connect(menu, &QMenu::aboutToShow, this, [this, menu] {
+        menu->clear();
+        fillAddMenu(*menu);
+    });
+    add_->setMenu(menu);
+    row->addWidget(add_);
+    for (const TrackQuality quality : allQualities()) makeChip(quality);
+    // As high as its rows.
+    QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    policy.setHeightForWidth(true);
+    setSizePolicy(policy);
+    refresh();
+}
+
+void FilterChips::makeChip(TrackQuality quality) {
+    Chip& chip = chips_.at(static_cast<std::size_t>(quality));
+    chip.whole = new QWidget(this);
+    auto* parts = new QHBoxLayout(chip.whole);
+    parts->setContentsMargins(0, 0, 0, 0);
+    parts->setSpacing(0);
+    chip.button = new QToolButton(chip.whole);
+    chip.button->setToolTip(tr("Change the limits"));
+    auto* remove = new QToolButton(chip.whole);
+    remove->setText(QStringLiteral("×"));
+    remove->setToolTip(tr("Remove this filter"));
+    remove->setAccessibleName(tr("Remove the filter %1").arg(nameOf(quality)));
+    parts->addWidget(chip.button);
+    parts->addWidget(remove);
+    bindCommands(this, {{chip.button, [this, quality] { openLimits(quality); }},
+                        {remove, [this, quality] { change([&](TrackFilter& filter) { filter.clear(quality); }); }}});
+    layout()->addWidget(chip.whole);
+}
+
+void FilterChips::setFilter(const TrackFilter& filter) {
+    change([&](TrackFilter& mine) { mine = filter; });
+}
+
+void FilterChips::change(const std::function<void(TrackFilter&)>& what) {
+    const TrackFilter before = filter_;
+    what(filter_);
+    if (filter_ == before) return;
+    refresh();
+    emit edited();
+}
+
+void FilterChips::setScale(const SceneScale& scale) {
+    scale_ = scale;
+    refresh();
+}
+
+void FilterChips::setDoings(std::shared_ptr<const DoingsByTrack> doings) {
+    doings_ = std::move(doings);
+}
+
+void FilterChips::refresh() {
+    for (const TrackQuality quality : allQualities()) {
+        const Chip& chip = chips_.at(static_cast<std::size_t>(quality));
+        chip.button->setText(chipText(filter_, quality, scale_));
+        chip.whole->setVisible(filter_.has(quality));
+    }
+    updateGeometry();
+}
+
+void FilterChips::fillAddMenu(QMenu& menu) {
+    for (const TrackQuality quality : allQualities()) {
+        QAction* action =
+            menu.addAction(tr("%1…").arg(nameOf(quality)), this, [this, quality] { openLimits(quality); });
+        action->setEnabled(!filter_.has(quality));
+    }
+    menu.addSeparator();
+    const QStringList names = keptNames();
+    for (const QString& name : names) menu.addAction(name, this, [this, name] { useKept(name); });
+    menu.addAction(tr("Keep this filter as…"), this, [this] { askForName(); })->setEnabled(filter_.any());
+    if (!names.isEmpty()) {
+        QMenu* forget = menu.addMenu(tr("Forget"));
+        for (const QString& name : names) forget->addAction(name, this, [this, name] { forgetKept(name); });
+    }
+    menu.addAction(tr("Remove all"), this, [this] { clear(); })->setEnabled(filter_.any());
+}
+
+// ---- limits ---------------------------------------------------------------------------------------------------------
+
+QFrame* FilterChips::openLimits(TrackQuality quality) {
+    if (popup_ != nullptr) popup_->close();
+    popup_ = new QFrame(this, Qt::Popup);
+    popup_->setAttribute(Qt::WA_DeleteOnClose);
+    popup_->setFrameShape(QFrame::StyledPanel);
+    auto* rows = new QVBoxLayout(popup_);
+    rows->setContentsMargins(8, 8, 8, 8);
+    rows->setSpacing(4);
+    switch (quality) {
+        case TrackQuality::direction:
+            fillDirections(*rows);
+            break;
+        case TrackQuality::event:
+            fillEvents(*rows);
+            break;
+        case TrackQuality::zone:
+            fillZones(*rows);
+            break;
+        default:
+            fillRange(*rows, quality);
+    }
+    if (static_cast<int>(quality) >= kRangedQualities) emit doingsWanted();
+    const Chip& chip = chips_.at(static_cast<std::size_t>(quality));
+    const QWidget* below = chip.whole->isVisible() ? static_cast<QWidget*>(chip.button) : add_;
+    popup_->adjustSize();
+    QPoint place = below->mapToGlobal(QPoint(0, below->height()));
+    const QRect seen = screen()->availableGeometry();
+    place.setX(std::clamp(place.x(), seen.left(), std::max(seen.left(), seen.right() - popup_->width())));
+    place.setY(std::min(place.y(), std::max(seen.top(), seen.bottom() - popup_->height())));
+    popup_->move(place);
+    popup_->show();
+    if (auto* first = popup_->findChild<QLineEdit*>()) first->setFocus();
+    return popup_;
+}
+
+void FilterChips::fillRange(QVBoxLayout& rows, TrackQuality quality) {
+    const TrackRange range = filter_.range(quality);
+    auto* line = new QHBoxLayout;
+    const auto field = [&](const QString& words, const std::optional<double>& value,
+                           std::optional<double> TrackRange::*limit) {
+        auto* edit = new QLineEdit;
+        edit->setPlaceholderText(tr("any"));
+        edit->setAccessibleName(QStringLiteral("%1 %2").arg(nameOf(quality), words));
+        edit->setFixedWidth(70);
+        if (value) edit->setText(QString::number(*value, 'g', 6));
+        onEdited(
+            this,
+            [this, edit, limit, quality] {
+                const QString text = edit->text().trimmed().replace(QLatin1Char(','), QLatin1Char('.'));
+                bool is_number = false;
+                const double number = text.toDouble(&is_number);
+                const bool good = text.isEmpty() || (is_number && number >= 0);
+                edit->setStyleSheet(good ? QString() : QStringLiteral("color: #d04040"));
+                if (!good) return;
+                change([&](TrackFilter& filter) {
+                    filter.range(quality).*limit = text.isEmpty() ? std::nullopt : std::optional(number);
+                });
+            },
+            edit);
+        line->addWidget(new QLabel(words));
+        line->addWidget(edit);
+    };
+    rows.addWidget(new QLabel(QStringLiteral("<b>%1</b>").arg(nameOf(quality))));
+    field(tr("from"), range.from, &TrackRange::from);
+    field(tr("to"), range.to, &TrackRange::to);
+    line->addWidget(new QLabel(unitOf(quality, scale_)));
+    rows.addLayout(line);
+}
+
+void FilterChips::fillDirections(QVBoxLayout& rows) {
+    rows.addWidget(new QLabel(QStringLiteral("<b>%1</b>").arg(nameOf(TrackQuality::direction))));
+    auto* rose = new QGridLayout;
+    rose->setSpacing(2);
+    // Row and column of each eighth, from right over down.
+    constexpr std::array<std::pair<int, int>, kEighths> kPlaces{
+        {{1, 2}, {2, 2}, {2, 1}, {2, 0}, {1, 0}, {0, 0}, {0, 1}, {0, 2}}};
+    for (int eighth = 0; eighth < kEighths; ++eighth) {
+        auto* button = new QToolButton;
+        button->setText(arrowOf(eighth));
+        button->setCheckable(true);
+        button->setChecked(filter_.eighths.contains(eighth));
+        bindCommands(this, {{button, [this, eighth](bool on) {
+                                 change([&](TrackFilter& filter) { put(filter.eighths, eighth, on); });
+                             }}});
+        const auto [at, column] = kPlaces.at(static_cast<std::size_t>(eighth));
+        rose->addWidget(button, at, column);
+    }
+    rows.addLayout(rose);
+    auto* note = new QLabel(tr("Over the ground, as the track's first frame shows it"));
+    note->setWordWrap(true);
+    rows.addWidget(note);
+}
+
+void FilterChips::fillEvents(QVBoxLayout& rows) {
+    rows.addWidget(new QLabel(QStringLiteral("<b>%1</b>").arg(tr("Tracks that had one of these"))));
+    for (const EventKind kind : allEventKinds()) {
+        const int count =
+            doings_ ? countOfTracks(*doings_, [&](const TrackDoings& did) { return did.events.contains(kind); }) : 0;
+        if (doings_ && count == 0 && !filter_.events.contains(kind)) continue;  // the list would be long
+        auto* box = new QCheckBox(QStringLiteral("%1   %2").arg(QLatin1String(eyrie::nameOf(kind))).arg(count));
+        box->setChecked(filter_.events.contains(kind));
+        bindCommands(
+            this,
+            {{box, [this, kind](bool on) { change([&](TrackFilter& filter) { put(filter.events, kind, on); }); }}});
+        rows.addWidget(box);
+    }
+}
+
+void FilterChips::fillZones(QVBoxLayout& rows) {
+    rows.addWidget(new QLabel(QStringLiteral("<b>%1</b>").arg(tr("Tracks that met one of these"))));
+    std::set<std::string> names = filter_.zones;
+    if (doings_)
+        for (const auto& [track, did] : *doings_) names.insert(did.zones.begin(), did.zones.end());
+    if (names.empty()) {
+        auto* none =
+            new QLabel(tr("No track enters, leaves or crosses a zone. Zones are drawn in the list of events."));
+        none->setWordWrap(true);
+        none->setFixedWidth(220);
+        rows.addWidget(none);
+    }
+    for (const std::string& name : names) {
+        const int count =
+            doings_ ? countOfTracks(*doings_, [&](const TrackDoings& did) { return did.zones.contains(name); }) : 0;
+        auto* box = new QCheckBox(QStringLiteral("%1   %2").arg(QString::fromStdString(name)).arg(count));
+        box->setChecked(filter_.zones.contains(name));
+        bindCommands(
+            this,
+            {{box, [this, name](bool on) { change([&](TrackFilter& filter) { put(filter.zones, name, on); }); }}});
+        rows.addWidget(box);
+    }
+}
+
+// ---- kept filters ---------------------------------------------------------------------------------------------------
+
+QStringList FilterChips::keptNames() const {
+    return QSettings().value(kKeptFilters).toMap().keys();
+}
+
+void FilterChips::keepAs(const QString& name) {
+    QVariantMap kept = QSettings().value(kKeptFilters).toMap();
+    kept[name] = QString::fromUtf8(QJsonDocument(filter_.json()).toJson(QJsonDocument::Compact));
+    QSettings().setValue(kKeptFilters, kept);
+}
+
+void FilterChips::useKept(const QString& name) {
+    const QString text = QSettings().value(kKeptFilters).toMap().value(name).toString();
+    setFilter(TrackFilter::fromJson(QJsonDocument::fromJson(text.toUtf8()).object()));
+    for (int i = kRangedQualities; i < kTrackQualities; ++i)
+        if (filter_.has(static_cast<TrackQuality>(i))) return emit doingsWanted();
+}
+
+void FilterChips::forgetKept(const QString& name) {
+    QVariantMap kept = QSettings().value(kKeptFilters).toMap();
+    kept.remove(name);
+    QSettings().setValue(kKeptFilters, kept);
+}
+
+void FilterChips::askForName() {
+    const QString name = QInputDialog::getText(this, tr("Keep this filter"), tr("Name")).simplified();
+    if (!name.isEmpty()) keepAs(name);
+}
+
+}  // namespace eyrie::ui

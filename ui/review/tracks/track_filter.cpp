@@ -1,0 +1,195 @@
+#include "review/tracks/track_filter.h"
+
+#include <QCoreApplication>
+#include <QJsonArray>
+#include <QJsonObject>
+#include <algorithm>
+#include <string>
+
+#include "widgets/display_text.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+// Words in settings: they must not change.
+constexpr std::array<const char*, kRangedQualities> kRangeWords{"speed", "life", "size", "score"};
+const QString kEighthsWord = QStringLiteral("direction");
+const QString kEventsWord = QStringLiteral("events");
+const QString kZonesWord = QStringLiteral("zones");
+
+QString trackFilterText(const char* text) {
+    return QCoreApplication::translate("TrackFilter", text);
+}
+
+template <class Value>
+bool meet(const std::set<Value>& wanted, const std::set<Value>& there) {
+    return wanted.empty() ||
+           std::any_of(wanted.begin(), wanted.end(), [&](const Value& value) { return there.contains(value); });
+}
+
+QString limitText(double value) {
+    return QString::number(value, 'g', 6);
+}
+
+/// "a, b, c" of up to two, then "a, b +2".
+QString shortList(const QStringList& words) {
+    constexpr int kMost = 2;
+    const QString first = words.mid(0, kMost).join(QStringLiteral(", "));
+    return words.size() <= kMost ? first : QStringLiteral("%1 +%2").arg(first).arg(words.size() - kMost);
+}
+
+}  // namespace
+
+bool TrackFilter::has(TrackQuality quality) const {
+    switch (quality) {
+        case TrackQuality::direction:
+            return !eighths.empty();
+        case TrackQuality::event:
+            return !events.empty();
+        case TrackQuality::zone:
+            return !zones.empty();
+        default:
+            return range(quality).any();
+    }
+}
+
+bool TrackFilter::any() const {
+    return *this != TrackFilter{};
+}
+
+void TrackFilter::clear(TrackQuality quality) {
+    switch (quality) {
+        case TrackQuality::direction:
+            return eighths.clear();
+        case TrackQuality::event:
+            return events.clear();
+        case TrackQuality::zone:
+            return zones.clear();
+        default:
+            range(quality) = {};
+    }
+}
+
+bool TrackFilter::holds(const TrackSummary& track, const SceneScale& scale, const DoingsByTrack* doings) const {
+    for (int i = 0; i < kRangedQualities; ++i) {
+        const auto quality = static_cast<TrackQuality>(i);
+        if (range(quality).any() && !range(quality).holds(valueOf(track, quality, scale))) return false;
+    }
+    if (doings == nullptr || (eighths.empty() && events.empty() && zones.empty())) return true;
+    static const TrackDoings nothing;
+    const auto found = doings->find(track.id);
+    const TrackDoings& did = found == doings->end() ? nothing : found->second;
+    return (eighths.empty() || (did.eighth && eighths.contains(*did.eighth))) && meet(events, did.events) &&
+           meet(zones, did.zones);
+}
+
+QJsonObject TrackFilter::json() const {
+    QJsonObject json;
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        if (!ranges[i].any()) continue;
+        QJsonObject limits;
+        if (ranges[i].from) limits[QStringLiteral("from")] = *ranges[i].from;
+        if (ranges[i].to) limits[QStringLiteral("to")] = *ranges[i].to;
+        json[QLatin1String(kRangeWords[i])] = limits;
+    }
+    QJsonArray directions, kinds, names;
+    for (const int eighth : eighths) directions.append(eighth);
+    for (const EventKind kind : events) kinds.append(QLatin1String(eyrie::nameOf(kind)));
+    for (const std::string& zone : zones) names.append(QString::fromStdString(zone));
+    if (!eighths.empty()) json[kEighthsWord] = directions;
+    if (!events.empty()) json[kEventsWord] = kinds;
+    if (!zones.empty()) json[kZonesWord] = names;
+    return json;
+}
+
+TrackFilter TrackFilter::fromJson(const QJsonObject& json) {
+    TrackFilter filter;
+    const auto limit = [](const QJsonValue& value) {
+        return value.isDouble() ? std::optional(value.toDouble()) : std::nullopt;
+    };
+    for (std::size_t i = 0; i < filter.ranges.size(); ++i) {
+        const QJsonObject limits = json[QLatin1String(kRangeWords[i])].toObject();
+        filter.ranges[i] = {limit(limits[QStringLiteral("from")]), limit(limits[QStringLiteral("to")])};
+    }
+    for (const auto& value : json[kEighthsWord].toArray()) {
+        const int eighth = value.toInt(-1);
+        if (eighth >= 0 && eighth < kEighths) filter.eighths.insert(eighth);
+    }
+    for (const auto& value : json[kEventsWord].toArray())
+        for (const EventKind kind : allEventKinds())
+            if (value.toString() == QLatin1String(eyrie::nameOf(kind))) filter.events.insert(kind);
+    for (const auto& value : json[kZonesWord].toArray())
+        if (!value.toString().isEmpty()) filter.zones.insert(value.toString().toStdString());
+    return filter;
+}
+
+double valueOf(const TrackSummary& track, TrackQuality quality, const SceneScale& scale) {
+    switch (quality) {
+        case TrackQuality::speed:
+            return shownSpeed(track.mean_speed_px, scale);
+        case TrackQuality::life:
+            return scale.frame_rate_hz > 0 ? (track.last_frame - track.first_frame + 1) / scale.frame_rate_hz : 0;
+        case TrackQuality::size:
+            return shownLength(track.mean_length_px, scale);
+        case TrackQuality::score:
+            return track.score;
+        default:
+            return 0;
+    }
+}
+
+QString nameOf(TrackQuality quality) {
+    static constexpr std::array<const char*, kTrackQualities> names{
+        QT_TRANSLATE_NOOP("TrackFilter", "Speed"),     QT_TRANSLATE_NOOP("TrackFilter", "Life"),
+        QT_TRANSLATE_NOOP("TrackFilter", "Length"),    QT_TRANSLATE_NOOP("TrackFilter", "Score"),
+        QT_TRANSLATE_NOOP("TrackFilter", "Direction"), QT_TRANSLATE_NOOP("TrackFilter", "Events"),
+        QT_TRANSLATE_NOOP("TrackFilter", "Zone")};
+    return trackFilterText(names.at(static_cast<std::size_t>(quality)));
+}
+
+QString unitOf(TrackQuality quality, const SceneScale& scale) {
+    switch (quality) {
+        case TrackQuality::speed:
+            return speedUnit(scale);
+        case TrackQuality::life:
+            return QStringLiteral("s");
+        case TrackQuality::size:
+            return lengthUnit(scale);
+        default:
+            return {};
+    }
+}
+
+QString arrowOf(int eighth) {
+    static const QString arrows = QStringLiteral("→↘↓↙←↖↑↗");
+    return arrows.mid(eighth, 1);
+}
+
+QString chipText(const TrackFilter& filter, TrackQuality quality, const SceneScale& scale) {
+    QString text = nameOf(quality);
+    if (!filter.has(quality)) return text;
+    text += QLatin1Char(' ');
+    QStringList words;
+    switch (quality) {
+        case TrackQuality::direction:
+            for (const int eighth : filter.eighths) words << arrowOf(eighth);
+            return text + words.join(QLatin1Char(' '));
+        case TrackQuality::event:
+            for (const EventKind kind : filter.events) words << QLatin1String(eyrie::nameOf(kind));
+            return text + shortList(words);
+        case TrackQuality::zone:
+            for (const std::string& zone : filter.zones) words << QString::fromStdString(zone);
+            return text + shortList(words);
+        default:
+            break;
+    }
+    const TrackRange& range = filter.range(quality);
+    text += range.from && range.to ? QStringLiteral("%1–%2").arg(limitText(*range.from), limitText(*range.to))
+            : range.from           ? QStringLiteral("≥ %1").arg(limitText(*range.from))
+                                   : QStringLiteral("≤ %1").arg(limitText(*range.to));
+    const QString unit = unitOf(quality, scale);
+    return unit.isEmpty() ? text : text + QLatin1Char(' ') + unit;
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,172 @@
+#include "review/zones/zone_tool.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPolygonF>
+#include <cmath>
+
+#include "canvas/drawing/edged_painter.h"
+#include "canvas/video_view.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+const QColor kZoneDraft(255, 200, 40);
+const QColor kZoneEdge(12, 12, 14);
+constexpr double kSamePoint = 4;  ///< logical px: the second click of a double one is no point
+
+}  // namespace
+
+ZoneTool::ZoneTool(VideoView& canvas, QObject* parent) : QObject(parent), canvas_(canvas) {
+    canvas_.installEventFilter(this);
+}
+
+ZoneTool::~ZoneTool() = default;
+
+void ZoneTool::start(ZoneShape shape) {
+    shape_ = shape;
+    points_.clear();
+    mouse_.reset();
+    canvas_.setTool(this);
+    canvas_.setFocus();
+    emit drawingChanged();
+}
+
+void ZoneTool::movePoints(std::vector<cv::Point2d> points) {
+    points_ = std::move(points);
+    canvas_.update();
+}
+
+void ZoneTool::cancel() {
+    if (!shape_) return;
+    shape_.reset();
+    points_.clear();
+    if (canvas_.tool() == this) canvas_.setTool(nullptr);
+    emit drawingChanged();
+}
+
+void ZoneTool::finish() {
+    if (!shape_) return;
+    Zone zone;
+    zone.shape = *shape_;
+    zone.points = points_;
+    const std::string fault = faultOf(zone);
+    if (!fault.empty()) {  // drawing goes on: what is there can be mended
+        refused_(QString::fromStdString(fault));
+        return;
+    }
+    cancel();
+    finished_(zone.shape, zone.points);
+}
+
+void ZoneTool::takeBack() {
+    if (points_.empty()) return;
+    points_.pop_back();
+    canvas_.update();
+}
+
+bool ZoneTool::eventFilter(QObject* watched, QEvent* event) {
+    const bool override = event->type() == QEvent::ShortcutOverride;
+    if (!shape_ || watched != &canvas_ || (!override && event->type() != QEvent::KeyPress))
+        return QObject::eventFilter(watched, event);
+    const auto* key = static_cast<QKeyEvent*>(event);
+    const int code = key->key();
+    const bool ends = code == Qt::Key_Return || code == Qt::Key_Enter;
+    if (key->modifiers() & ~Qt::KeypadModifier || !(ends || code == Qt::Key_Backspace || code == Qt::Key_Escape))
+        return QObject::eventFilter(watched, event);
+    event->accept();  // whatever these keys do otherwise, they belong to the drawing now
+    if (override) return true;
+    if (ends) finish();
+    if (code == Qt::Key_Backspace) takeBack();
+    if (code == Qt::Key_Escape) cancel();
+    return true;
+}
+
+// ---- mouse ----------------------------------------------------------------------------------------------------------
+
+bool ZoneTool::press(const QMouseEvent& event, const CanvasPlace& place) {
+    if (event.button() == Qt::RightButton) return true;  // ends it when released: until then no menu opens
+    if (event.button() != Qt::LeftButton) return false;
+    mouse_ = event.position();
+    const QPointF point = place.transform.imageFromView(event.position());
+    if (!points_.empty()) {
+        const QPointF last = place.transform.viewFromImage({points_.back().x, points_.back().y});
+        if (std::hypot(last.x() - event.position().x(), last.y() - event.position().y()) < kSamePoint) return true;
+    }
+    points_.emplace_back(point.x(), point.y());
+    canvas_.update();
+    return true;
+}
+
+bool ZoneTool::move(const QMouseEvent& event, const CanvasPlace&) {
+    mouse_ = event.position();
+    canvas_.update();
+    return (event.buttons() & Qt::MiddleButton) == 0;
+}
+
+bool ZoneTool::release(const QMouseEvent& event, const CanvasPlace&) {
+    if (event.button() == Qt::RightButton) finish();
+    return event.button() != Qt::MiddleButton;
+}
+
+bool ZoneTool::doubleClick(const QMouseEvent& event, const CanvasPlace& place) {
+    press(event, place);
+    finish();
+    return true;
+}
+
+void ZoneTool::leave() {
+    mouse_.reset();
+    canvas_.update();
+}
+
+const QCursor* ZoneTool::cursor() const {
+    static const QCursor cross(Qt::CrossCursor);
+    return shape_ ? &cross : nullptr;
+}
+
+// ---- painting -------------------------------------------------------------------------------------------------------
+
+void ZoneTool::paint(QPainter& painter, const CanvasPlace& place) const {
+    if (!shape_) return;
+    QPolygonF corners;
+    for (const cv::Point2d& point : points_) corners << place.transform.viewFromImage({point.x, point.y});
+    const QPolygonF set = corners;
+    if (mouse_) corners << *mouse_;
+    if (*shape_ == ZoneShape::area && corners.size() > 2) {
+        QColor ground = kZoneDraft;
+        ground.setAlpha(50);
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(ground);
+        painter.drawPolygon(corners);
+        painter.setBrush(Qt::NoBrush);
+    }
+    QVector<QLineF> lines;
+    for (int i = 1; i < corners.size(); ++i) lines.append({corners[i - 1], corners[i]});
+    drawEdgedLines(painter, lines, {kZoneDraft, kZoneEdge, 1.8});
+    if (*shape_ == ZoneShape::area && corners.size() > 2)
+        drawEdgedLines(painter, {QLineF(corners.back(), corners.front())}, {kZoneDraft, kZoneEdge, 1.2, Qt::DashLine});
+    QVector<QPointF> dots;
+    for (const QPointF& corner : set) dots << corner;
+    drawEdgedDots(painter, dots, 7, kZoneDraft, kZoneEdge);
+    paintHint(painter, place.view);
+}
+
+void ZoneTool::paintHint(QPainter& painter, const QRectF& view) const {
+    const QString text =
+        *shape_ == ZoneShape::area
+            ? tr("Click the corners. Double-click or Enter: done · Backspace: take one back · Esc: give up")
+            : tr("Click along the line. Double-click or Enter: done · Backspace: take one back · Esc: give up");
+    const QRectF room(view.left() + 10, view.top(), view.width() - 20, view.height() - 10);
+    const int flags = Qt::AlignHCenter | Qt::AlignBottom | Qt::TextWordWrap;
+    QRectF plate = painter.fontMetrics().boundingRect(room.adjusted(10, 0, -10, -5).toRect(), flags, text);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(12, 12, 14, 200));
+    painter.drawRoundedRect(plate.adjusted(-10, -5, 10, 5), 4, 4);
+    painter.setPen(Qt::white);
+    painter.drawText(plate, flags, text);
+}
+
+}  // namespace eyrie::ui
