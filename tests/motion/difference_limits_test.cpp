@@ -52,11 +52,11 @@ TEST(DifferenceLimits, BlurTakesAwaySpecks) {
 }
 
 TEST(DifferenceLimits, StrongLimitIsUpToWhichOtsusThresholdIsFollowed) {
-    // Otsu's threshold lies between 25 and 120; the lowest difference is 10.
-    const std::vector<LeapingSquare> dull_and_bright = {{8, 25}, {8, 120}};
-    EXPECT_EQ(movingWith("difference.strong_limit", "2", dull_and_bright), 4 * 64);
-    EXPECT_EQ(movingWith("difference.strong_limit", "2.4", dull_and_bright), 4 * 64);
-    EXPECT_EQ(movingWith("difference.strong_limit", "2.6", dull_and_bright), 2 * 64);
+    // Otsu's threshold lies between 40 and 120; the lowest difference is 10.
+    const std::vector<LeapingSquare> squares = {{8, 25}, {8, 40}, {8, 120}};
+    EXPECT_EQ(movingWith("difference.strong_limit", "2.4", squares), 6 * 64);
+    EXPECT_EQ(movingWith("difference.strong_limit", "2.6", squares), 4 * 64);
+    EXPECT_EQ(movingWith("difference.strong_limit", "3.9", squares), 4 * 64);
 }
 
 }  // namespace eyrie
