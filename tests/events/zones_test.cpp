@@ -134,6 +134,10 @@ TEST_F(ZoneSteps, WhatIsThereAlreadyIsNotAddedAgain) {
     EXPECT_EQ(set_.zones.at(1).person, "Ada");
     EXPECT_EQ(zonesOf(set_.zones), (std::vector<Zone>{square(), line()}));
     EXPECT_TRUE(added({square(), line()}).empty());
+    Zone late = square();
+    late.name = "late";
+    late.frame = 20'000'001;  // no project could be read that held it
+    EXPECT_THROW(applyEdit(set_, added({late})), Error);
     Zone other = square();
     other.points[0].x += 5;
     const ReviewEdit second = added({other});
@@ -188,12 +192,13 @@ class ZoneFiles : public testing::Test {
 
 TEST_F(ZoneFiles, AreRead) {
     std::ofstream(folder_ / "zones.json") << withZone(
-        R"({"name": "gate", "shape": "line", "fixed_to": "image", "points": [[1, 2], [3.5, 40]]},
+        R"({"name": "gate", "shape": "line", "fixed_to": "image", "frame": 5, "points": [[1, 2], [3.5, 40]]},
            {"name": "yard", "frame": 7, "points": [[0, 0], [10, 0], [10, 10]]})");
     const auto zones = readZones(folder_ / "zones.json");
     ASSERT_EQ(zones.size(), 2U);
     EXPECT_EQ(zones[0].shape, ZoneShape::line);
     EXPECT_EQ(zones[0].anchor, ZoneAnchor::image);
+    EXPECT_EQ(zones[0].frame, 0) << "it holds in all";
     EXPECT_THAT(zones[0].points, ElementsAre(cv::Point2d(1, 2), cv::Point2d(3.5, 40)));
     EXPECT_EQ(zones[1].shape, ZoneShape::area);
     EXPECT_EQ(zones[1].anchor, ZoneAnchor::ground);
@@ -215,6 +220,8 @@ TEST_F(ZoneFiles, WhatIsWrongIsToldWithItsPlace) {
     EXPECT_THAT(messageOf(withZone(R"({"name": "a", "points": [[0, 0], [9, "x"], [9, 9]]})")),
                 HasSubstr("zones[0].points[1][1]: is not a number"));
     EXPECT_THAT(messageOf(withZone(R"({"name": "a", "frame": -1, "points": [[0, 0], [9, 0], [9, 9]]})")),
+                HasSubstr("zones[0].frame"));
+    EXPECT_THAT(messageOf(withZone(R"({"name": "a", "frame": 30000000, "points": [[0, 0], [9, 0], [9, 9]]})")),
                 HasSubstr("zones[0].frame"));
     const std::string good = R"({"name": "a", "points": [[0, 0], [9, 0], [9, 9]]})";
     EXPECT_THAT(messageOf(withZone(good + "," + good)), HasSubstr("second zone with the name \"a\""));

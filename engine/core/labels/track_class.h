@@ -42,7 +42,7 @@ struct TrackExtent {
 
 /// What a track of that extent is. Unknown where lengths in metres mean nothing, for what is smaller than a vehicle and
 /// was followed too shortly, and for what is too small for a two-wheeler and too fast for a person: parts of vehicles
-/// look like that. Limits are a fifth lower where the GSD was estimated.
+/// look like that. Limits of size are a fifth lower where the GSD was estimated.
 TrackClass classOf(const TrackExtent& extent, const SceneScale& scale, const TrackClassOptions& options);
 
 /// Writes the class of every track, by all of its boxes, into its boxes. Boxes without id keep theirs.

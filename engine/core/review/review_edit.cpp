@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/values/last_frame.h"
 
 namespace eyrie {
 namespace {
@@ -123,7 +124,10 @@ void checkVerdict(const Verdict& verdict) {
 void checkZone(const StoredZone& zone) {
     const std::string who = "zone " + std::to_string(zone.id);
     if (zone.id < 1) refuseStep(who + " has no number above 0");
-    if (zone.zone.frame < 0) refuseStep(who + " has a frame that is none");
+    if (zone.zone.frame < 0 || zone.zone.frame > kLastFrame) {
+        throw Error(ErrorKind::parameter, "zone \"" + zone.zone.name + "\" belongs to frame " +
+                                              std::to_string(zone.zone.frame) + ", which no video has");
+    }
     if (zone.colour < StoredZone::kColourByNumber || zone.colour > 0xffffff)
         refuseStep(who + " has a colour that is none");
     if (zone.zone.name.empty()) throw Error(ErrorKind::parameter, "a zone needs a name");
@@ -142,7 +146,7 @@ void checkZone(const StoredZone& zone) {
 void checkBookmark(const Bookmark& bookmark) {
     const std::string who = "bookmark " + std::to_string(bookmark.id);
     if (bookmark.id < 1) refuseStep(who + " has no number above 0");
-    if (bookmark.frame < 0) refuseStep(who + " has a frame that is none");
+    if (bookmark.frame < 0 || bookmark.frame > kLastFrame) refuseStep(who + " has a frame that is none");
     checkTime(bookmark.seconds, who);
     if (bookmark.place) checkPoint(*bookmark.place, who);
     checkText(bookmark.note, "a note");

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/values/last_frame.h"
 #include "formats/json_xml/json_place.h"
 #include "io/atomic_file.h"
 
@@ -46,8 +47,9 @@ Zone zoneAt(const JsonPlace& place) {
     zone.anchor = choiceOf(place, "fixed_to", "ground", "image") == 0 ? ZoneAnchor::ground : ZoneAnchor::image;
     if (place.has("frame")) {
         zone.frame = place.at("frame").whole();
-        if (zone.frame < 0) place.at("frame").fail("is not the number of a frame");
+        if (zone.frame < 0 || zone.frame > kLastFrame) place.at("frame").fail("is not the number of a frame");
     }
+    if (zone.anchor == ZoneAnchor::image) zone.frame = 0;  // it holds in all of them
     const JsonPlace points = place.at("points");
     if (points.size() > kMostPoints) points.fail("has more than " + std::to_string(kMostPoints) + " points");
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <optional>
+#include <set>
 
 #include "store/database/database_error.h"
 #include "store/database/new_place.h"
@@ -65,6 +66,17 @@ constexpr char kTables[] =
     "SELECT name FROM main.sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite_%' ORDER BY name NOT IN "
     "('sequence', 'run', 'sweep', 'preset'), name";
 
+/// Tables that a project had before the step that added the others: what it never had is not lost. All for a number
+/// that cannot be.
+std::set<std::string> tablesOfSchema(int number) {
+    SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    const auto steps = schema::migrations();
+    const bool known = number >= 1 && number <= schema::currentNumber();
+    schema::migrate(empty, known ? steps.first(static_cast<std::size_t>(number)) : steps);
+    const auto names = textsOf(empty, kTables);
+    return {names.begin(), names.end()};
+}
+
 void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
     lines.insert(lines.end(), more.begin(), more.end());
 }
@@ -114,11 +126,13 @@ bool fill(SQLite::Database& database, const DamagedCopy& copy, const CopyWatch& 
     const StopHandler handler(database, watch.stop);
     try {
         const auto tables = textsOf(database, kTables);
+        const auto had = tablesOfSchema(database.execAndGet("PRAGMA damaged.user_version").getInt());
         bool frames_whole = true;
         for (std::size_t i = 0; i < tables.size(); ++i) {
             const TableRescue rescue = rescueTable(database, tables[i]);
             if (tables[i] == "frame") frames_whole = rescue.whole;
-            if (!rescue.whole) report.lost.push_back("part of the rows of " + tables[i] + " (" + rescue.fault + ")");
+            if (!rescue.whole && had.contains(tables[i]))
+                report.lost.push_back("part of the rows of " + tables[i] + " (" + rescue.fault + ")");
             if (watch.progress) watch.progress(static_cast<double>(i + 1) / static_cast<double>(tables.size()));
         }
         // Rows of a schema before these columns.

@@ -102,6 +102,7 @@ std::string fittingScaleOrigin() {
 std::vector<RowRule> rowRules() {
     const std::string frames = " BETWEEN 0 AND " + std::to_string(kLastFrame + 1);
     const std::string frame = "frame" + frames;
+    const std::string in_video = "frame BETWEEN 0 AND " + std::to_string(kLastFrame);
     const std::string range = "first_frame" + frames + " AND last_frame" + frames;
     // Labels may end where nothing ends: there the video's length was unknown.
     static_assert(kFinestGsd == 1e-4 && kCoarsestGsd == 1e4);  // written out below: no locale may turn their points
@@ -163,11 +164,11 @@ std::vector<RowRule> rowRules() {
              isOneOf("judgement", stored::kJudgements) + " AND " + areShort("zone, note, tags, person, when_utc"),
          "a verdict cannot be read", 11},
         {"bookmark",
-         "id BETWEEN 1 AND 2147483647 AND " + frame + " AND " + areNumbers("seconds") +
+         "id BETWEEN 1 AND 2147483647 AND " + in_video + " AND " + areNumbers("seconds") +
              " AND (x IS NULL) = (y IS NULL) AND " + areShort("note, person, when_utc"),
          "a bookmark cannot be read", 11},
         {"zone",
-         "id BETWEEN 1 AND 2147483647 AND " + frame + " AND name <> '' AND colour BETWEEN -1 AND 16777215 AND " +
+         "id BETWEEN 1 AND 2147483647 AND " + in_video + " AND name <> '' AND colour BETWEEN -1 AND 16777215 AND " +
              "is_zone(shape, points) AND " + isOneOf("shape", stored::kZoneShapes) + " AND " +
              isOneOf("anchor", stored::kZoneAnchors) + " AND " + areShort("name, person, when_utc"),
          "a zone cannot be read"},

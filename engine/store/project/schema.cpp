@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/values/scene_scale.h"
 #include "store/database/database_error.h"
 #include "store/project/schema_steps.h"
 
@@ -40,6 +41,7 @@ WHERE reason <> '';
 }
 
 void tellScaleOrigins(SQLite::Database& database, const std::string& condition) {
+    static_assert(SceneScale().gsd_m_per_px == 0.25);
     database.exec(R"sql(
 UPDATE run SET
     scale_origin = CASE WHEN gsd_known THEN 'given' WHEN gsd_m_per_px = 0.25 THEN 'assumed' ELSE 'estimated' END,

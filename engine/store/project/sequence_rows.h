@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/values/last_frame.h"
 #include "store/runs/run_store.h"
 
 namespace SQLite {
@@ -9,9 +10,6 @@ class Database;
 }
 
 namespace eyrie {
-
-/// No video is longer: a day at 230 frames a second.
-inline constexpr FrameIndex kLastFrame = 20'000'000;
 
 /// Metres per pixel of a stored run; beyond them a vehicle has no size in whole pixels.
 inline constexpr double kFinestGsd = 1e-4;
