@@ -166,4 +166,58 @@ TEST(CornerDetector, doesNotDependOnThreads) {
     EXPECT_EQ(one, detect(gray));
 }
 
+TEST(CornerDetector, thoseFoundAtOnceKeepTheirDistance) {
+    for (const double gsd : {0.1, 0.03}) {
+        const double apart = 0.8 * CornerDetector({}, scaleOf(gsd)).spacing();
+        const auto corners = detect(ground(1, 2), {}, gsd);
+        EXPECT_GT(corners.size(), 40U);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) EXPECT_GT(cv::norm(corners[i] - corners[j]), apart - 2.5);
+        }
+    }
+}
+
+TEST(CornerDetector, theCapIsUsedUp) {
+    // Without movers all but 15 % of it, which are kept for them.
+    for (const int most : {200, 333, 400}) {
+        CornerOptions options;
+        options.max_corners = most;
+        EXPECT_EQ(detect(ground(1, 2), options).size(), std::size_t(0.85 * most));
+        options.favour_movers = false;
+        EXPECT_EQ(detect(ground(1, 2), options).size(), std::size_t(most));
+    }
+    CornerOptions options;
+    options.max_corners = 400;
+    const PaddedPicture picture = padded(ground(1, 2));
+    CornerSurroundings surroundings;
+    surroundings.noise = 2;
+    const CornerDetector detector(options, scaleOf(0.3));
+    const auto first = detector.detect(picture, surroundings);
+    // A vehicle's worth fewer is found again.
+    surroundings.living.assign(first.begin() + 40, first.end());
+    EXPECT_EQ(detector.detect(picture, surroundings).size(), 40U);
+    surroundings.living = first;
+    EXPECT_TRUE(detector.detect(picture, surroundings).empty());
+}
+
+TEST(CornerDetector, underTheCapTheStrongestOfAPartStay) {
+    // Half the picture has a third of the contrast; in each half those kept are stronger than most.
+    CornerOptions options;
+    options.favour_movers = false;
+    const auto all = detect(ground(1, 2), options);
+    options.max_corners = int(all.size()) / 4;
+    const auto kept = detect(ground(1, 2), options);
+    const PaddedPicture picture = padded(ground(1, 2));
+    const auto contrast = [&](const std::vector<cv::Point2f>& corners) {
+        double sum = 0;
+        for (const cv::Point2f& p : corners) {
+            const int x = cvRound(p.x), y = cvRound(p.y);
+            sum += std::abs(picture.row(y)[x + 2] - picture.row(y)[x - 2]) +
+                   std::abs(picture.row(y + 2)[x] - picture.row(y - 2)[x]);
+        }
+        return sum / double(corners.size());
+    };
+    EXPECT_GT(contrast(kept), 1.15 * contrast(all));
+}
+
 }  // namespace eyrie

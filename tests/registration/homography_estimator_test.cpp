@@ -195,4 +195,57 @@ TEST(HomographyEstimator, manyThatAgreeAreTrustedHoweverManyDoNot) {
     EXPECT_FALSE(trusted(1138, 0.05));
 }
 
+TEST(HomographyEstimator, aPictureFiveTimesLargerIsNoMotion) {
+    const HomographyEstimator estimator({}, kSize);
+    for (const double zoom : {5.0, 0.2}) {
+        const cv::Matx33d m = test::cameraMotion(kSize, 0, 0, 0, zoom);
+        EXPECT_FALSE(estimator.search(points(m, kAll, 100, 0, 0, 1), MotionModel::similarity, 1)) << zoom;
+    }
+    for (const double zoom : {3.5, 0.3}) {
+        const cv::Matx33d m = test::cameraMotion(kSize, 0, 0, 0, zoom);
+        const auto found = estimator.search(points(m, kAll, 100, 0, 0, 1), MotionModel::similarity, 1);
+        ASSERT_TRUE(found) << zoom;
+        EXPECT_LT(test::gridError(*found, m, kSize), 0.01);
+    }
+}
+
+TEST(HomographyEstimator, aPlaneThatRecedesShrinksWithTheCubeOfItsDepth) {
+    // At the right border the depth is three times that of the left: areas shrink by 27, more than 16.
+    const auto receding = [](double depth) {
+        return plausibleMotion({1, 0, 0, 0, 1, 0, (depth - 1) / 639, 0, 1}, kSize);
+    };
+    EXPECT_FALSE(receding(3));
+    EXPECT_FALSE(receding(2.6));
+    EXPECT_TRUE(receding(2.4));
+    EXPECT_FALSE(plausibleMotion({3.9, 0, -2.9 * 319.5, 0, 3.9, -2.9 * 239.5, 0, 0, 1}, kSize))
+        << "its border leaves the picture by more than its size";
+    EXPECT_TRUE(plausibleMotion({2.9, 0, -1.9 * 319.5, 0, 2.9, -1.9 * 239.5, 0, 0, 1}, kSize));
+    EXPECT_TRUE(plausibleMotion({0.26, 0, 0.74 * 319.5, 0, 0.26, 0.74 * 239.5, 0, 0, 1}, kSize));
+    EXPECT_FALSE(plausibleMotion({0.24, 0, 0.76 * 319.5, 0, 0.24, 0.76 * 239.5, 0, 0, 1}, kSize));
+    EXPECT_TRUE(plausibleMotion({1, 0, 639, 0, 1, -479, 0, 0, 1}, kSize));
+    EXPECT_FALSE(plausibleMotion({1, 0, 641, 0, 1, 0, 0, 0, 1}, kSize));
+    EXPECT_FALSE(plausibleMotion({1, 0, 0, 0, 1, -481, 0, 0, 1}, kSize));
+}
+
+TEST(HomographyEstimator, pointsWithoutAWeightSayNothing) {
+    Correspondences p = points(someMotion(), kAll, 400, 0.02, 0, 6);
+    for (std::size_t i = 0; i < 250; ++i) {
+        p.to_x[i] += 30;
+        p.weight[i] = 0;
+    }
+    const HomographyEstimator estimator({}, kSize);
+    for (const MotionModel model : {MotionModel::similarity, MotionModel::homography}) {
+        const auto start = estimator.search(p, model, 1);
+        ASSERT_TRUE(start);
+        const auto fit = estimator.refine(p, *start);
+        ASSERT_TRUE(fit);
+        EXPECT_LT(test::gridError(fit->matrix, someMotion(), kSize), 0.02);
+        EXPECT_EQ(fit->inliers, 150);
+        EXPECT_DOUBLE_EQ(fit->inlier_share, 1);
+        EXPECT_NEAR(fit->sigma_px, 0.02, 0.004);
+        EXPECT_NEAR(fit->rms_px, 0.02 * std::sqrt(2), 0.004);
+        EXPECT_DOUBLE_EQ(fit->inlier_distance_px, 0.5) << "no less than that, however well points agree";
+    }
+}
+
 }  // namespace eyrie

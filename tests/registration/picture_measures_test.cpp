@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "registration/pictures/image_pyramid.h"
 #include "registration/pictures/noise_level.h"
 #include "registration/pictures/picture_difference.h"
@@ -89,6 +91,57 @@ TEST(ImagePyramid, smoothsWithTheBinomialMask) {
     EXPECT_EQ(at(5, 5), 10);
     EXPECT_EQ(at(0, 0), 90);  // the border repeats outwards: 9 of 16
     EXPECT_EQ(at(6, 4), 0);
+}
+
+TEST(NoiseLevel, slopesOfLightAreNoNoise) {
+    // The mask sees neither slopes nor what changes along one axis only.
+    cv::Mat slope(90, 100, CV_8UC1);
+    for (int y = 0; y < slope.rows; ++y) {
+        for (int x = 0; x < slope.cols; ++x) slope.at<std::uint8_t>(y, x) = std::uint8_t(5 + x + y);
+    }
+    EXPECT_EQ(noiseLevel(padded(slope)), kQuietest);
+    cv::Mat stripes(90, 100, CV_8UC1);
+    for (int x = 0; x < stripes.cols; ++x) stripes.col(x) = x * 37 % 200;
+    EXPECT_EQ(noiseLevel(padded(stripes)), kQuietest);
+    cv::Mat lines(100, 90, CV_8UC1);
+    for (int y = 0; y < lines.rows; ++y) lines.row(y) = y * 37 % 200;
+    EXPECT_EQ(noiseLevel(padded(lines)), kQuietest);
+}
+
+TEST(NoiseLevel, isTheNoiseInLargePicturesToo) {
+    for (const cv::Size size : {cv::Size(330, 200), cv::Size(320, 640), cv::Size(1000, 500)}) {
+        cv::Mat gray(size, CV_8UC1);
+        std::mt19937 random(3);
+        std::normal_distribution<double> normal(100, 5);
+        for (std::uint8_t& value : cv::Mat_<std::uint8_t>(gray))
+            value = cv::saturate_cast<std::uint8_t>(normal(random));
+        EXPECT_NEAR(noiseLevel(padded(gray)), 5, 0.15) << size;
+    }
+}
+
+TEST(PictureDifference, sliversAtTheBorderHaveNoWorstTile) {
+    // 35 columns: two tiles and three columns, of which 48 pixels are less than a quarter of a tile.
+    cv::Mat a(32, 35, CV_8UC1, cv::Scalar(10));
+    cv::Mat b = a.clone();
+    b.colRange(32, 35) = 0;
+    EXPECT_EQ(difference(padded(a), padded(b)).worst_tile, 0);
+    EXPECT_DOUBLE_EQ(difference(padded(a), padded(b)).mean, 10.0 * 3 / 35);
+    cv::Mat wider(32, 36, CV_8UC1, cv::Scalar(10));
+    b = wider.clone();
+    b(cv::Rect(32, 16, 4, 16)) = 16;
+    EXPECT_DOUBLE_EQ(difference(padded(wider), padded(b)).worst_tile, 6);
+}
+
+TEST(ImagePyramid, endsWhereTheShorterSideWouldBeTooShort) {
+    const auto levels = [](cv::Size size) {
+        ImagePyramid pyramid;
+        pyramid.build(cv::Mat(size, CV_8UC1, cv::Scalar(3)));
+        return pyramid.levels();
+    };
+    EXPECT_EQ(levels({320, 47}), 1);
+    EXPECT_EQ(levels({320, 48}), 2);
+    EXPECT_EQ(levels({48, 320}), 2);
+    EXPECT_EQ(levels({4000, 4000}), ImagePyramid::kMaxLevels);
 }
 
 }  // namespace eyrie

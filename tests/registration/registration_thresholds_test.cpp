@@ -41,7 +41,7 @@ struct TrackedGround {
     }
     /// All were found, at their places moved by `shift(corner)`.
     template <class Shift>
-    void advance(const Shift& shift, const cv::Matx33d& motion = cv::Matx33d::eye()) {
+    void advance(const Shift& shift, const cv::Matx33d& motion = cv::Matx33d::eye(), double sigma_px = 0) {
         std::vector<TrackedPosition> found;
         for (const TrackedCorner& corner : set.corners) {
             TrackedPosition position;
@@ -55,6 +55,7 @@ struct TrackedGround {
         HomographyFit fit;
         fit.matrix = motion;
         fit.inlier_distance_px = 1;
+        fit.sigma_px = sigma_px;
         tracker.advance(set, found, fit, picture.smooth(), 1, 1);
     }
 
@@ -215,6 +216,75 @@ TEST(RegistrationThresholds, RecoveryFramesIsHowLongTheLastGoodFrameIsTriedAgain
         EXPECT_EQ(watch.see(flight).registration.state,
                   blank == 3 ? RegistrationState::registered : RegistrationState::failed);
     }
+}
+
+TEST(RegistrationThresholds, WhereTheGroundScattersACornerMayJumpFourDeviations) {
+    const auto survive = [](float change) {
+        TrackedGround scene(with("registration.max_jerk", "0.5"));
+        scene.advance(nowhere);
+        const int before = scene.set.size();
+        scene.advance([&](const TrackedCorner&) { return cv::Point2f(change, 0); }, cv::Matx33d::eye(), 0.2);
+        return scene.set.size() > before / 2;
+    };
+    EXPECT_TRUE(survive(0.75F));
+    EXPECT_FALSE(survive(0.85F));
+}
+
+TEST(RegistrationThresholds, ACornerThatGoesItsOwnWayMovesFromItsFourthFrameOn) {
+    TrackedGround scene({});
+    const auto alone = [&](const TrackedCorner& corner) {
+        return corner.id == 30 ? cv::Point2f(0, 0.6F) : cv::Point2f();
+    };
+    for (int frame = 1; frame <= 6; ++frame) {
+        scene.advance(alone);
+        int others = 0;
+        bool seen = false;
+        for (const TrackedCorner& corner : scene.set.corners) {
+            if (corner.id != 30) {
+                others += corner.moves;
+                EXPECT_TRUE(corner.on_background);
+                EXPECT_EQ(corner.drift, cv::Point2f());
+                continue;
+            }
+            seen = true;
+            EXPECT_EQ(corner.moves, frame >= 5) << frame;  // told from what was known a frame before
+            EXPECT_NEAR(corner.drift.y, 0.6, 1e-4);
+            EXPECT_NEAR(corner.velocity.y, 0.6, 1e-4);
+        }
+        EXPECT_TRUE(seen);
+        EXPECT_EQ(others, 0);
+    }
+}
+
+TEST(RegistrationThresholds, VelocitiesFollowTheNewestAndDriftsTheMean) {
+    TrackedGround scene({});
+    float step = 0;
+    const auto faster = [&](const TrackedCorner&) { return cv::Point2f(step, -step); };
+    double velocity = 0, drift = 0;
+    for (int age = 0; age < 12; ++age) {
+        step = 0.05F * float(age % 5);
+        scene.advance(faster);
+        velocity = age == 0 ? double(step) : velocity + 0.6 * (double(step) - velocity);
+        drift += std::max(0.12, 1.0 / (age + 1)) * (double(step) - drift);
+        ASSERT_GT(scene.set.size(), 50);
+        EXPECT_NEAR(scene.set.corners[0].velocity.x, velocity, 1e-4) << age;
+        EXPECT_NEAR(scene.set.corners[0].velocity.y, -velocity, 1e-4) << age;
+        EXPECT_NEAR(scene.set.corners[0].drift.x, drift, 1e-4) << age;
+    }
+}
+
+TEST(RegistrationThresholds, OfTwoThatRunTogetherTheOlderStays) {
+    TrackedGround scene({});
+    scene.advance(nowhere);  // some may stand too near from the start
+    const cv::Point2f place = scene.set.corners[3].position;
+    const int before = scene.set.size();
+    ASSERT_GT(before, 50);
+    scene.advance(
+        [&](const TrackedCorner& corner) { return corner.id == 40 ? place - corner.position : cv::Point2f(); });
+    EXPECT_EQ(scene.set.size(), before - 1);
+    EXPECT_TRUE(
+        std::none_of(scene.set.corners.begin(), scene.set.corners.end(), [](const auto& c) { return c.id == 40; }));
+    EXPECT_EQ(scene.set.corners[3].position, place);
 }
 
 }  // namespace eyrie
