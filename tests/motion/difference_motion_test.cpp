@@ -340,6 +340,30 @@ TEST(DifferenceMotion, ThesisComparesPicturesThreeFramesApart) {
     }
 }
 
+TEST(DifferenceMotion, TheBackgroundNeedsThreePictures) {
+    DifferenceOptions options = optionsOf(MotionMethod::median_background);
+    options.background_frames = 3;
+    options.background_step = 2;
+    const MovingScene scene;
+    DifferenceMotion difference(options, kScale);
+    for (int i = 0; i < 10; ++i) {
+        const DifferenceResult result = difference.next(frameOf(scene, i), trueMotion(scene, i));
+        EXPECT_EQ(result.difference.values.empty(), i < 6) << i << ": t-2, t-4 and t-6";
+    }
+}
+
+TEST(DifferenceMotion, AreasComeInReadingOrder) {
+    for (const MotionMethod method : {MotionMethod::median_background, MotionMethod::three_frame_difference}) {
+        const DifferenceResult result = lastOf(MovingScene{}, optionsOf(method));
+        ASSERT_EQ(result.clusters.size(), 2U);
+        const auto top = [](const MotionCluster& cluster) {
+            const OrientedBox upright = cluster.box.upright();
+            return upright.centre.y - upright.width / 2;
+        };
+        EXPECT_LT(top(result.clusters[0]), top(result.clusters[1]));
+    }
+}
+
 TEST(DifferenceMotion, ShowsWhatItSaw) {
     const MovingScene scene;
     const DifferenceResult result = lastOf(scene, optionsOf(MotionMethod::two_frame_difference));

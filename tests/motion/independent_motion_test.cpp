@@ -249,6 +249,46 @@ TEST(IndependentMotion, ForgetsOnReset) {
     EXPECT_TRUE(after(motion, scene, 1).motion_vectors.empty());
 }
 
+TEST(IndependentMotion, LeavesOutShadowsAndNothingThatComesAfterThem) {
+    // A vehicle with its shadow beside it, and another vehicle whose corners have higher numbers.
+    const MovingPatch vehicle{{300, 200}, {1.5, 0}, 18, 6, 20};
+    const MovingPatch shadow{{302, 209}, {1.5, 0}, 18, 6, 20};
+    const MovingPatch other{{150, 300}, {1.5, 0}, 18, 6, 20};
+    for (const bool asked : {false, true}) {
+        MovingCorners scene({vehicle, shadow, other}, 0);
+        const CornerId first = scene.backgroundCount() + 1;
+        IndependentMotion motion(IndependentMotionOptions{}, kScale);
+        FrameMotion found;
+        CornerVerdicts verdicts;
+        for (int i = 0; i < 12; ++i) {
+            const RegisteredFrame registered = scene.next();
+            Frame frame = flatFrame(registered.frame);
+            frame.gray.setTo(140);
+            for (const auto& [from, value, margin] : {std::tuple{20, 80, 2.0F}, {0, 200, 1.0F}}) {
+                std::vector<cv::Point2f> places;
+                for (const Corner& corner : registered.corners) {
+                    if (corner.id >= first + from && corner.id < first + from + 20) places.push_back(corner.current);
+                }
+                cv::Rect2f area = cv::boundingRect(places);
+                area -= cv::Point2f(margin, margin);
+                area += cv::Size2f(2 * margin, 2 * margin);
+                frame.gray(cv::Rect(area) & cv::Rect({0, 0}, frame.gray.size())).setTo(value);
+            }
+            found = motion.next(registered, frame, asked ? &verdicts : nullptr);
+        }
+        int on[3] = {};
+        for (const MotionVector& vector : found.motion_vectors) {
+            if (!vector.isInferred() && vector.id >= first) ++on[(vector.id - first) / 20];
+        }
+        EXPECT_GE(on[0], 18) << asked;
+        EXPECT_LE(on[1], 10) << asked;
+        EXPECT_EQ(on[2], 20) << asked;
+        const auto told = std::count_if(verdicts.begin(), verdicts.end(),
+                                        [](const CornerVerdict& v) { return v.fate == CornerFate::shadow; });
+        EXPECT_EQ(told, asked ? 20 - on[1] : 0);
+    }
+}
+
 TEST(IndependentMotion, TakesFramesWithoutAnything) {
     IndependentMotion motion({}, kScale);
     RegisteredFrame nothing;

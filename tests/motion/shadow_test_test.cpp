@@ -83,6 +83,20 @@ TEST(ShadowTest, LimitsAreSharesOfTheGround) {
     EXPECT_FALSE(litAcross(3, 140, never));
 }
 
+TEST(ShadowTest, FourPixelsDecideAndASingleOneDoesNot) {
+    for (const auto& [size, decides] :
+         {std::pair{cv::Size(1, 1), false}, {cv::Size(2, 1), false}, {cv::Size(1, 2), false}, {cv::Size(2, 2), true}}) {
+        cv::Mat gray(240, 320, CV_8UC1, cv::Scalar(140));
+        gray(cv::Rect({100, 100}, size)).setTo(63);  // 0.45 of the road; with a pixel of it 0.59
+        ShadowTestOptions options;
+        options.shadow_brightest = 0.5;
+        EXPECT_EQ(shadowAtCorner(gray, {100, 100}, options), decides) << size;
+        gray = road(140, 80);
+        gray(cv::Rect({100, 100}, size)).setTo(185);  // half of it and half road are 1.16 of the road
+        EXPECT_EQ(shadowAtCorner(gray, {101, 101}), !decides) << size;
+    }
+}
+
 TEST(ShadowTest, IsNotUsedAtNight) {
     EXPECT_FALSE(shadowAtCorner(road(40, 22)));
 }

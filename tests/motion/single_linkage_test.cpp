@@ -89,6 +89,26 @@ TEST(SingleLinkage, ReachesFartherAlongTheMotion) {
     EXPECT_FALSE(linkage.joins(vector(0, 0, 1, 0), vector(8, 3, 1, 0)));  // 0.64 + 0.5625 > 1
 }
 
+TEST(SingleLinkage, TheEllipseTurnsWithTheMotion) {
+    const Linkage linkage{10, 4, 0.03, 0.05};
+    for (const double heading : {0.5, 0.785, 2.2, -0.9, -2.7}) {
+        const auto joins = [&](double ahead, double aside) {
+            const double c = std::cos(heading), s = std::sin(heading);
+            return linkage.joins(
+                vector(5, 7, float(2 * c), float(2 * s)),
+                vector(float(5 + c * ahead - s * aside), float(7 + s * ahead + c * aside), float(2 * c), float(2 * s)));
+        };
+        for (const double side : {-1.0, 1.0}) {
+            EXPECT_TRUE(joins(side * 9.9, 0)) << heading;
+            EXPECT_FALSE(joins(side * 10.1, 0)) << heading;
+            EXPECT_TRUE(joins(0, side * 3.9)) << heading;
+            EXPECT_FALSE(joins(0, side * 4.1)) << heading;
+            EXPECT_TRUE(joins(6, side * 3.1)) << heading;  // 0.36 + 0.60
+            EXPECT_FALSE(joins(6, side * 3.3)) << heading;
+        }
+    }
+}
+
 TEST(SingleLinkage, AllowsAShareOfTheSpeedOrTheFloor) {
     const Linkage linkage{10, 4, 0.03, 0.05};
     EXPECT_TRUE(linkage.joins(vector(0, 0, 2, 0), vector(1, 0, 2.09F, 0)));

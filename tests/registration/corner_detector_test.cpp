@@ -167,10 +167,12 @@ TEST(CornerDetector, doesNotDependOnThreads) {
 }
 
 TEST(CornerDetector, thoseFoundAtOnceKeepTheirDistance) {
-    for (const double gsd : {0.1, 0.03}) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        const double gsd = seed % 2 == 0 ? 0.1 : 0.03;
         const double apart = 0.8 * CornerDetector({}, scaleOf(gsd)).spacing();
-        const auto corners = detect(ground(1, 2), {}, gsd);
-        EXPECT_GT(corners.size(), 40U);
+        const cv::Mat gray = test::TexturedGround(seed).picture({160, 120}, cv::Matx33d::eye(), 2, seed);
+        const auto corners = detect(gray, {}, gsd);
+        EXPECT_GT(corners.size(), 10U);
         for (std::size_t i = 0; i < corners.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j) EXPECT_GT(cv::norm(corners[i] - corners[j]), apart - 2.5);
         }
