@@ -357,4 +357,60 @@ TEST(VectorAssociation, aVectorLeavesItsListWithMoreThanAQuarterOfTheShorterSide
     }
 }
 
+TEST(FrameVectors, insideIsWhatASlantedBoxHolds) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> place(0, 60);
+    std::vector<MotionVector> vectors;
+    for (int i = 0; i < 400; ++i)
+        vectors.push_back({static_cast<CornerId>(3 * i), {place(random), place(random)}, {1, 0}, 9});
+    vectors[17].position.x = std::numeric_limits<float>::quiet_NaN();
+    const FrameVectors frame(vectors);
+    for (const double heading : {0.0, 0.4, 1.2, -0.8, 2.9}) {
+        const OrientedBox box{{31.3, 28.2}, 33, 12, heading};
+        std::vector<int> expected;
+        for (int i = 0; i < 400; ++i) {
+            const cv::Point2d in_box = box.toBox(vectors[std::size_t(i)].position);
+            if (std::abs(in_box.x) <= 16.5 && std::abs(in_box.y) <= 6) expected.push_back(i);
+        }
+        EXPECT_GT(expected.size(), 20U);
+        EXPECT_EQ(frame.inside(box), expected) << heading;
+    }
+    EXPECT_EQ(frame.find(30), 10);
+    EXPECT_EQ(frame.find(31), -1);
+    EXPECT_EQ(frame.find(3 * 400), -1);
+}
+
+TEST(SplitMerge, partsSideBySideAreThoseOfNeighbours) {
+    const std::vector<MovingBox> tracks{at(0, 0, 24, 16)};
+    const auto abreast = [&](const MovingBox& a, const MovingBox& b) {
+        const auto result = associated({a, b}, tracks, SplitMergeRule::containment);
+        EXPECT_TRUE(result.tracks[0].in_parts);
+        return result.tracks[0].abreast;
+    };
+    EXPECT_TRUE(abreast(at(-1, -5, 20, 6), at(1, 5, 20, 6))) << "two cars";
+    EXPECT_FALSE(abreast(at(-6.5, 0, 11, 14), at(6.5, 0, 11, 14))) << "front and rear";
+    EXPECT_FALSE(abreast(at(-6.5, -5, 11, 6), at(6.5, 5, 11, 6))) << "too short to be cars, and not beside";
+    EXPECT_FALSE(abreast(at(0, -5, 11, 6), at(0, 5, 20, 6))) << "a mirror beside its vehicle";
+}
+
+TEST(OverlapMatrix, whatStandsTakesOnlyWhatIsNearAndSlow) {
+    MovingBox track = at(100, 100, 40, 40, {0, 0});
+    track.farthest = 5;
+    track.fastest = 0.5;
+    const auto taken = [&](double dx, double dy, cv::Point2d velocity) {
+        const OverlapMatrix matrix({at(100 + dx, 100 + dy, 40, 40, velocity)}, {track}, {});
+        return !matrix.relations().empty();
+    };
+    for (const double side : {-1.0, 1.0}) {
+        EXPECT_TRUE(taken(4.9 * side, 0, {0, 0}));
+        EXPECT_FALSE(taken(5.1 * side, 0, {0, 0}));
+        EXPECT_TRUE(taken(0, 4.9 * side, {0, 0}));
+        EXPECT_FALSE(taken(0, 5.1 * side, {0, 0}));
+        EXPECT_FALSE(taken(4 * side, 4, {0, 0}));
+        EXPECT_TRUE(taken(0, 0, {0.49 * side, 0}));
+        EXPECT_FALSE(taken(0, 0, {0, 0.51 * side}));
+        EXPECT_FALSE(taken(0, 0, {0.4, 0.4 * side}));
+    }
+}
+
 }  // namespace eyrie

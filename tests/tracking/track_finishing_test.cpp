@@ -374,4 +374,45 @@ TEST(FinishingOptions, areAllNamedAfterFinishing) {
     for (const Parameter& parameter : parameters) EXPECT_EQ(parameter.name.rfind("finishing.", 0), 0u);
 }
 
+TEST(FinishTracks, statesComeByFrameWhicheverTrackBeganFirst) {
+    MovingScene scene;
+    scene.objects = {
+        {{150, 80}, {1.5, 0}, 20, 10, 0}, {{150, 180}, {1.5, 0}, 20, 10, 0}, {{150, 280}, {1.5, 0}, 20, 10, 0}};
+    const int first[] = {30, 0, 12};
+    FinishingOptions options;
+    options.extend_back = false;
+    std::vector<TimedState> states;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (int frame = first[i]; frame < 60; ++frame)
+            states.emplace_back(frame, trueState(scene, i, frame, int(i) + 1));
+    }
+    const auto finished = finishTracks(states, summariesOf(scene, 60), options, scene.scale);
+    EXPECT_EQ(finished.size(), 30U + 60U + 48U);
+    expectOrdered(finished);
+}
+
+TEST(FinishTracks, aVehicleThatDrivesPointsAlongItsPath) {
+    // Measured askew by a tenth of a turn to the same side, over many of its lengths.
+    const MovingScene scene = oneCar();
+    std::vector<TimedState> states;
+    for (int frame = 0; frame < 60; ++frame) {
+        TrackState state = trueState(scene, 0, frame, 3);
+        state.box.heading += 0.3;
+        states.emplace_back(frame, state);
+    }
+    FinishingOptions options;
+    options.smooth_window_s = 2;
+    const auto askew = [&] {
+        double worst = 0;
+        for (const auto& [frame, state] : finishTracks(states, summariesOf(scene, 60), options, scene.scale)) {
+            if (frame > 20 && frame < 40)
+                worst = std::max(worst, std::abs(axisTurnBetween(scene.box(0, frame).heading, state.box.heading)));
+        }
+        return worst;
+    };
+    EXPECT_LT(askew(), 0.03);
+    options.smooth_path = false;
+    EXPECT_GT(askew(), 0.25);
+}
+
 }  // namespace eyrie

@@ -126,4 +126,36 @@ TEST(TrackJoining, areasMayDifferByLittleMoreThanTheDouble) {
     }
 }
 
+TEST(TrackJoining, ofTwoThatMightContinueItTheOneThatMovesAlikeDoes) {
+    // Both come back 5 px beside the place where they would be, one of them faster.
+    FinishingOptions options;
+    options.join_distance_m = 3;
+    for (const double side : {-1.0, 1.0}) {
+        std::vector<TimedState> states;
+        std::vector<FrameMotionSummary> motion;
+        for (int frame = 0; frame < 60; ++frame) {
+            motion.push_back(testing::summaryOfFrame(frame));
+            for (const TrackId id : {1, 2, 3}) {
+                if ((id == 1) != (frame < 25) || (frame >= 25 && frame < 33)) continue;
+                TrackState state;
+                state.id = id;
+                state.velocity = {id == 3 ? 2.5 : 2.0, 0};
+                state.box = {{200.0 + 2 * std::min(frame, 33), 180}, 20, 8, 0};
+                if (id != 1)
+                    state.box.centre += cv::Point2d((frame - 33) * state.velocity.x, id == 2 ? 5 * side : -5 * side);
+                state.status = TrackStatus::confirmed;
+                state.origin = StateOrigin::detected;
+                states.emplace_back(frame, state);
+            }
+        }
+        int later = 0;
+        for (const auto& [frame, state] : finishTracks(states, motion, options, kJoiningScale)) {
+            if (state.id != 1 || frame < 36) continue;
+            ++later;
+            EXPECT_GT((state.box.centre.y - 180) * side, 0) << frame;
+        }
+        EXPECT_EQ(later, 24);
+    }
+}
+
 }  // namespace eyrie

@@ -184,4 +184,14 @@ TEST(TrackerThresholds, DuplicateContainmentTellsWhichTracksAreOne) {
     }
 }
 
+TEST(TrackerThresholds, MaxMissingTentativeIsForHowManyFramesATrackSeenOnceIsHeld) {
+    const MovingScene scene = lorry();
+    for (const int most : {0, 2, 5}) {
+        Tracker tracker = trackerAfter(1, scene, with("tracking.max_missing_tentative", std::to_string(most)));
+        int held = 0;
+        for (int frame = 1; frame < 20; ++frame) held += !tracker.next(scene.motion(frame), {}).empty();
+        EXPECT_EQ(held, most);
+    }
+}
+
 }  // namespace eyrie
