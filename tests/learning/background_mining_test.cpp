@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/geometry/angle.h"
 #include "learning/drawn_windows.h"
 #include "learning/training/trainer.h"
 
@@ -74,6 +75,16 @@ TEST(BackgroundMining, LeavesVehiclesAndUnclearAreasAlone) {
     image.unclear.clear();
     image.vehicles.push_back({{240, 180}, 21.5, 10, 0.4});
     EXPECT_EQ(whole(), 0);
+}
+
+TEST(BackgroundMining, TakesNothingFromBeyondThePicture) {
+    // A bar of which half is outside: its window would be half made up.
+    for (const cv::Point2d place :
+         {cv::Point2d(0, 180), cv::Point2d(339, 60), cv::Point2d(200, 0), cv::Point2d(200, 259)}) {
+        const LabelledImage image = barsAt({{170, 130}, place}, place.x == 200 ? kPi / 2 : 0, 1);
+        for (const Sample& sample : mineBackground(barModel(), {image}, {}, 100, 1))
+            EXPECT_LT(brightShare(sample.window(cv::Rect(5, 8, 6, 16))), 0.9) << place;
+    }
 }
 
 TEST(BackgroundMining, TakesTheTypicalVehicleWhereNoneIsLabelled) {

@@ -9,6 +9,7 @@
 #include "core/parameter.h"
 #include "learning/classifiers/classifier.h"
 #include "learning/classifiers/random_forest.h"
+#include "learning/classifiers/random_naive_bayes.h"
 #include "learning/classifiers/seeded_random.h"
 #include "learning/classifiers/standardisation.h"
 
@@ -104,6 +105,27 @@ TEST(Standardisation, TakesOffTheMeanAndDividesByTheDeviation) {
     EXPECT_FLOAT_EQ(standard.mean[0], 4);
     EXPECT_NEAR(standard.scale[0], 1 / std::sqrt(5.0), 1e-6) << "squares 9, 1, 1 and 9";
     EXPECT_EQ(standard.scale[1], 0) << "a feature that never varies";
+}
+
+TEST(Standardisation, WhatIsAlwaysZeroStaysZero) {
+    const Standardisation standard = standardisationOf((cv::Mat1f(3, 2) << 0, -1, 0, 0, 0, 1));
+    EXPECT_EQ(standard.mean[0], 0);
+    EXPECT_EQ(standard.scale[0], 0);
+    EXPECT_NEAR(standard.scale[1], std::sqrt(1.5), 1e-6);
+}
+
+TEST(LikelihoodHistogram, FallsByOneForEachHalfRangeBeyondItsEndsButByNoMoreThanTen) {
+    LikelihoodHistogram histogram;
+    histogram.low = 2;
+    histogram.high = 6;
+    for (std::size_t bin = 0; bin < LikelihoodHistogram::kBins; ++bin) histogram.log_density[bin] = -float(bin);
+    EXPECT_NEAR(histogram.logDensityOf(2.01), 0, 1e-6);
+    EXPECT_NEAR(histogram.logDensityOf(4.01), -12, 1e-6);
+    EXPECT_NEAR(histogram.logDensityOf(5.99), -23, 1e-6);
+    EXPECT_NEAR(histogram.logDensityOf(9), -23 - 1.5, 1e-6);
+    EXPECT_NEAR(histogram.logDensityOf(-1), -1.5, 1e-6);
+    EXPECT_NEAR(histogram.logDensityOf(1e6), -23 - 10, 1e-6);
+    EXPECT_NEAR(histogram.logDensityOf(-1e6), -10, 1e-6);
 }
 
 TEST(Svm, NeedsASampleOfEachClassInEveryFold) {

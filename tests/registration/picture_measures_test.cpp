@@ -4,6 +4,7 @@
 
 #include "registration/pictures/image_pyramid.h"
 #include "registration/pictures/noise_level.h"
+#include "registration/pictures/padding_mask.h"
 #include "registration/pictures/picture_difference.h"
 #include "registration/textured_ground.h"
 
@@ -62,6 +63,26 @@ TEST(RepetitionDetector, aVehicleThatMovesInAStillPictureIsNoRepetition) {
     before(cv::Rect(300, 200, 10, 5)) = 220;
     after(cv::Rect(301, 200, 10, 5)) = 220;
     EXPECT_FALSE(detector.repeats(difference(padded(before), padded(after))));
+}
+
+TEST(PaddingMask, ReachesEightPixelsBeyondTheBarsOfEachSide) {
+    for (int side = 0; side < 4; ++side) {
+        cv::Mat gray = test::TexturedGround(31).picture(kSize, cv::Matx33d::eye(), 3, 1);
+        const cv::Rect bars[] = {{0, 0, 24, 150}, {160, 0, 40, 150}, {0, 0, 200, 16}, {0, 118, 200, 32}};
+        gray(bars[side]) = 0;
+        const PaddingMask mask(padded(gray));
+        const cv::Rect within = bars[side] + cv::Size(16, 16) - cv::Point(8, 8);
+        int wrong = 0;
+        for (int y = 0; y < kSize.height; ++y) {
+            for (int x = 0; x < kSize.width; ++x) wrong += mask.contains(x, y) != within.contains({x, y});
+        }
+        EXPECT_EQ(wrong, 0) << side;
+    }
+    const PaddingMask none(padded(test::TexturedGround(31).picture(kSize, cv::Matx33d::eye(), 3, 1)));
+    EXPECT_FALSE(none.contains(0, 0));
+    cv::Mat gray = test::TexturedGround(31).picture(kSize, cv::Matx33d::eye(), 3, 1);
+    gray(cv::Rect(80, 60, 40, 40)) = 0;
+    EXPECT_FALSE(PaddingMask(padded(gray)).contains(100, 80)) << "a black roof in the middle";
 }
 
 TEST(ImagePyramid, halvesToASensibleSizeAndKeepsPlaces) {
