@@ -289,6 +289,31 @@ TEST(IndependentMotion, LeavesOutShadowsAndNothingThatComesAfterThem) {
     }
 }
 
+TEST(IndependentMotion, NamesTheParameterThatASlowCornerFellShortOf) {
+    for (const auto& [noise, min_speed_px, parameter] : {std::tuple{0.01, 0.0, "motion.min_speed"},
+                                                         {1.0, 0.0, "motion.sigma_factor"},
+                                                         {0.01, 0.3, "motion.min_speed_px"}}) {
+        MovingCorners scene({{{300, 200}, {0.03, 0}}}, noise);
+        IndependentMotionOptions options = plain();
+        options.find_slow = false;
+        options.min_speed_px = min_speed_px;
+        IndependentMotion motion(options, kScale);
+        CornerVerdicts verdicts;
+        for (int i = 0; i < 12; ++i) {
+            const RegisteredFrame registered = scene.next();
+            motion.next(registered, flatFrame(registered.frame), &verdicts);
+        }
+        int slow = 0;
+        for (const CornerVerdict& verdict : verdicts) {
+            if (verdict.id <= scene.backgroundCount() || verdict.fate != CornerFate::slow) continue;
+            ++slow;
+            EXPECT_EQ(verdict.parameter, parameter);
+            EXPECT_LT(verdict.speed, verdict.limit);
+        }
+        EXPECT_GE(slow, 12) << parameter;
+    }
+}
+
 TEST(IndependentMotion, TakesFramesWithoutAnything) {
     IndependentMotion motion({}, kScale);
     RegisteredFrame nothing;

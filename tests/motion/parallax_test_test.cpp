@@ -81,6 +81,27 @@ TEST(ParallaxTest, ExplainsNothingOverFlatGround) {
     EXPECT_FALSE(town.test().explains({100, 100}, {0.05, 0.01}));
 }
 
+TEST(ParallaxTest, AThirdOfTheRoofsMayBeVehicles) {
+    // Whatever is drawn first: of few roofs one is soon drawn twice, which tells no epipole.
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> place(0, 480);
+        std::uniform_real_distribution<double> angle(-3.1416, 3.1416);
+        ParallaxTest test{ParallaxTestOptions{}};
+        const cv::Point2d epipole(300, 220);
+        for (int i = 0; i < 45; ++i) {
+            const cv::Point2d p(place(random), place(random));
+            const cv::Point2d away = (p - epipole) / cv::norm(p - epipole);
+            const double a = angle(random);
+            test.add(p, random() % 3 > 0 || i % 3 > 0 ? 0.1 * away : 0.1 * cv::Point2d(std::cos(a), std::sin(a)));
+        }
+        test.finish(kSigma);
+        EXPECT_TRUE(test.explains({100, 60},
+                                  0.09 * (cv::Point2d(100, 60) - epipole) / cv::norm(cv::Point2d(100, 60) - epipole)))
+            << seed;
+    }
+}
+
 TEST(ParallaxTest, ExplainsNothingWhereResidualsAgreeOnNoEpipole) {
     std::mt19937 random(6);
     std::uniform_real_distribution<double> place(0, 480);

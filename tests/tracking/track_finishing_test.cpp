@@ -324,6 +324,18 @@ TEST(FinishTracks, partsThatDriveAsIfFixedAreOneLorry) {
     EXPECT_NEAR(finished[2].second.box.length, 27.5, 0.6);
 }
 
+TEST(FinishTracks, aLorryIsAtMostTwentyMetresLong) {
+    // 80 px. The rear is 13 px long and joins on.
+    for (const auto& [length, expected] : {std::pair(66.0, 60U), {69.0, 115U}}) {
+        MovingScene scene;
+        scene.objects = {{{250, 180}, {1.5, 0}, length, 9, 0}, {{250 - (length + 13) / 2, 180}, {1.5, 0}, 13, 9, 0}};
+        FinishingOptions options;
+        options.extend_back = false;
+        EXPECT_EQ(finishTracks(lorryInParts(scene, 60), summariesOf(scene, 60), options, scene.scale).size(), expected)
+            << length;
+    }
+}
+
 TEST(FinishTracks, carsThatFollowEachOtherStayTwo) {
     MovingScene close;  // as close, but the distance changes by half a metre and more
     close.objects = {{{250, 180}, {1.5, 0}, 14, 9, 0}, {{233, 180}, {1.62, 0}, 13, 9, 0}};

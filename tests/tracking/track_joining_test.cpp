@@ -158,4 +158,31 @@ TEST(TrackJoining, ofTwoThatMightContinueItTheOneThatMovesAlikeDoes) {
     }
 }
 
+TEST(TrackJoining, aFrameThatCouldNotBeRegisteredIsBridgedByItsGuess) {
+    std::vector<TimedState> states;
+    std::vector<FrameMotionSummary> motion;
+    for (int frame = 0; frame < 60; ++frame) {
+        motion.push_back(testing::summaryOfFrame(frame));
+        if (frame >= 25 && frame < 33) continue;
+        TrackState state;
+        state.id = frame < 25 ? 1 : 2;
+        state.velocity = {2, 0};
+        state.box = {{200.0 + 2 * frame, 180}, 20, 8, 0};
+        state.status = TrackStatus::confirmed;
+        state.origin = StateOrigin::detected;
+        states.emplace_back(frame, state);
+    }
+    motion[28].registration.state = RegistrationState::failed;
+    std::set<TrackId> ids;
+    int between = 0;
+    for (const auto& [frame, state] : finishTracks(states, motion, {}, kJoiningScale)) {
+        ids.insert(state.id);
+        if (frame < 25 || frame >= 33) continue;
+        ++between;
+        EXPECT_NEAR(state.box.centre.x, 200 + 2 * frame, 1) << frame;
+    }
+    EXPECT_EQ(ids, std::set<TrackId>{1});
+    EXPECT_EQ(between, 8);
+}
+
 }  // namespace eyrie

@@ -103,6 +103,19 @@ TEST(TrackScore, DoubtsWhatSticksToTheImageUnlessItLookedLikeAVehicle) {
         << "a camera that hovers tells nothing";
 }
 
+TEST(TrackScore, BeyondALimitFasterTellsNoMore) {
+    const auto flow = [](double value) { return probabilityOf(with(&TrackEvidence::flow_px, value)); };
+    EXPECT_EQ(flow(4.1), flow(9));
+    EXPECT_NE(flow(3.9), flow(4));
+    const auto ratio = [](double value) { return probabilityOf(with(&TrackEvidence::flow_ratio, value)); };
+    EXPECT_EQ(ratio(1.51), ratio(3));
+    EXPECT_LT(ratio(1.45), ratio(1.5));
+    TrackEvidence against = with(&TrackEvidence::alignment, -1);
+    EXPECT_LT(probabilityOf(with(&TrackEvidence::flow_ratio, 1.14, against)),
+              probabilityOf(with(&TrackEvidence::flow_ratio, 1.16, against)) - 0.015)
+        << "faster than the ground sticks to nothing";
+}
+
 TEST(TrackScore, DoesNotDependOnHowLongTheVehicleStands) {
     CarAndCloud scene;
     TrackPath drives{1, {}};
