@@ -82,8 +82,7 @@ TEST(ParallaxTest, ExplainsNothingOverFlatGround) {
 }
 
 TEST(ParallaxTest, AThirdOfTheRoofsMayBeVehicles) {
-    // Whatever is drawn first: of few roofs one is soon drawn twice, which tells no epipole.
-    for (unsigned seed = 1; seed <= 200; ++seed) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
         std::mt19937 random(seed);
         std::uniform_real_distribution<double> place(0, 480);
         std::uniform_real_distribution<double> angle(-3.1416, 3.1416);

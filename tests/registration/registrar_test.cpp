@@ -289,6 +289,7 @@ TEST(Registrar, fillsTheTimesItIsAskedFor) {
     Flight flight;
     StageTimes times{};
     times[std::size_t(Stage::motion)] = 7;
+    times[std::size_t(Stage::corners)] = times[std::size_t(Stage::homography)] = 1e9;  // of a frame before
     registrar.next(test::frameOf(0, flight.picture()), &times);
     flight.move(drift());
     registrar.next(test::frameOf(1, flight.picture()), &times);
@@ -296,6 +297,8 @@ TEST(Registrar, fillsTheTimesItIsAskedFor) {
     EXPECT_GT(times[std::size_t(Stage::tracking_corners)], 0);
     EXPECT_GT(times[std::size_t(Stage::homography)], 0);
     EXPECT_EQ(times[std::size_t(Stage::motion)], 7);
+    EXPECT_LT(times[std::size_t(Stage::corners)], 1e8);
+    EXPECT_LT(times[std::size_t(Stage::homography)], 1e8);
 }
 
 TEST(RegistrationOptions, everyParameterIsNamedAfterTheRoomAndReadsBack) {
