@@ -16,7 +16,7 @@
 #include <QTextDocument>
 #include <QThread>
 #include <QUrl>
-#include <exception>
+#include <future>
 
 #include "core/error.h"
 #include "core/utc_time.h"
@@ -151,17 +151,12 @@ void writePdf(const std::filesystem::path& path, const ReportFile& report) {
 
 void writePdfReport(const std::filesystem::path& path, const ReportFile& report) {
     // Text documents lay themselves out with timers, which only threads of Qt have.
-    std::exception_ptr failure;
-    const std::unique_ptr<QThread> thread(QThread::create([&] {
-        try {
-            writePdf(path, report);
-        } catch (...) {
-            failure = std::current_exception();
-        }
-    }));
+    std::packaged_task<void()> work([&] { writePdf(path, report); });
+    std::future<void> written = work.get_future();
+    const std::unique_ptr<QThread> thread(QThread::create([&] { work(); }));
     thread->start();
     thread->wait();
-    if (failure) std::rethrow_exception(failure);
+    written.get();
 }
 
 QString askForReportFile(QWidget& window, const QString& name) {
