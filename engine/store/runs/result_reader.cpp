@@ -1,4 +1,4 @@
-// The part of RunStore that reads tracks and whole results.
+// The part of RunStore that reads what a run found: whole frames, tracks and boxes.
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <map>
@@ -51,6 +51,119 @@ ClassRule classRuleOf(const RunStore& store, int run_id) {
         }
     }
     return rule;
+}
+
+/// Reads every row of `query`, whose first two parameters are the run and the frame.
+template <class Item, class ReadRow>
+std::vector<Item> readItems(SQLite::Database& database, const std::string& query, int run_id, FrameIndex frame,
+                            ReadRow&& read_row) {
+    SQLite::Statement statement(database, query);
+    statement.bind(1, run_id);
+    statement.bind(2, frame);
+    std::vector<Item> items;
+    while (statement.executeStep()) {
+        RowReader row(statement);
+        items.push_back(read_row(row));
+    }
+    return items;
+}
+
+std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, FrameIndex frame) {
+    std::string query =
+        "SELECT time_us, width, height, registration_state, reason, picture, reason_count, reason_of, from_frame, "
+        "to_frame, "
+        "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, background_speed_sigma";
+    for (const char* stage : stored::kStageColumns) query += std::string(", ") + stage;
+    SQLite::Statement statement(database, query + " FROM frame WHERE run_id = ? AND frame = ?");
+    statement.bind(1, run_id);
+    statement.bind(2, frame);
+    if (!statement.executeStep()) return std::nullopt;
+
+    RowReader row(statement);
+    FrameResult result;
+    FrameMotion& motion = result.motion;
+    Homography& homography = motion.registration.current_from_previous;
+    motion.frame = frame;
+    motion.time_us = row.wide();
+    motion.image_size.width = row.integer();
+    motion.image_size.height = row.integer();
+    motion.registration.state = row.word(stored::kRegistrationStates);
+    motion.registration.failure = row.failure();
+    homography.from_frame = row.integer();
+    homography.to_frame = row.integer();
+    for (double& element : homography.matrix.val) element = row.real();
+    homography.inliers = row.integer();
+    homography.rms_px = row.real();
+    motion.corner_count = row.integer();
+    motion.background_speed_sigma = row.real();
+    for (float& ms : result.stage_ms) ms = static_cast<float>(row.real());
+    return result;
+}
+
+/// The packed array of a frame in one of the tables that hold them; exactly one row.
+template <class Unpack>
+auto readPacked(SQLite::Database& database, const std::string& table, int run_id, FrameIndex frame, Unpack&& unpack) {
+    SQLite::Statement statement(database, "SELECT data FROM " + table + " WHERE run_id = ? AND frame = ?");
+    statement.bind(1, run_id);
+    statement.bind(2, frame);
+    if (!statement.executeStep()) throw MalformedRow{"no " + table};
+    return RowReader::unpacked(unpack(RowReader(statement).bytes()), table.c_str());
+}
+
+/// Indices into the frame's motion vectors must stay inside: who draws them trusts them.
+std::vector<int> readIndices(RowReader& row, std::size_t vectors) {
+    std::vector<int> indices = RowReader::unpacked(unpackIndices(row.bytes()), "indices of motion vectors");
+    for (const int index : indices) {
+        if (index < 0 || static_cast<std::size_t>(index) >= vectors) {
+            throw MalformedRow{"index " + std::to_string(index) + " of " + std::to_string(vectors) + " motion vectors"};
+        }
+    }
+    return indices;
+}
+
+std::vector<MotionCluster> readClusters(SQLite::Database& database, int run_id, FrameIndex frame, std::size_t vectors) {
+    return readItems<MotionCluster>(database,
+                                    "SELECT x, y, length, width, heading_rad, vx, vy, members FROM motion_cluster "
+                                    "WHERE run_id = ? AND frame = ? ORDER BY number",
+                                    run_id, frame, [&](RowReader& row) {
+                                        MotionCluster cluster;
+                                        cluster.box = row.box();
+                                        cluster.velocity = row.point();
+                                        cluster.members = readIndices(row, vectors);
+                                        return cluster;
+                                    });
+}
+
+std::vector<Detection> readDetections(SQLite::Database& database, int run_id, FrameIndex frame, std::size_t vectors) {
+    return readItems<Detection>(
+        database,
+        "SELECT x, y, length, width, heading_rad, vx, vy, score, cluster, rejection, vectors, complete "
+        "FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
+        run_id, frame, [&](RowReader& row) {
+            Detection detection;
+            detection.box = row.box();
+            detection.velocity = row.point();
+            detection.score = row.real();
+            detection.cluster = row.integer();
+            detection.rejection = row.word(stored::kRejections);
+            detection.vectors = readIndices(row, vectors);
+            detection.complete = row.integer() != 0;
+            return detection;
+        });
+}
+
+std::vector<DroppedState> readDropped(SQLite::Database& database, int run_id, FrameIndex frame) {
+    return readItems<DroppedState>(database,
+                                   "SELECT track_id, x, y, length, width, heading_rad, reason, beside FROM "
+                                   "dropped_state WHERE run_id = ? AND frame = ? ORDER BY track_id",
+                                   run_id, frame, [](RowReader& row) {
+                                       DroppedState dropped;
+                                       dropped.id = row.integer();
+                                       dropped.box = row.box();
+                                       dropped.why = row.word(stored::kTrackDrops);
+                                       dropped.beside = row.integer();
+                                       return dropped;
+                                   });
 }
 
 }  // namespace
@@ -183,6 +296,40 @@ BoxesByFrame RunStore::detectionBoxes(int run_id) const {
     BoxesByFrame boxes;
     visitDetectionBoxes(run_id, [&](FrameIndex frame, const BoxRecord& record) { boxes[frame].push_back(record); });
     return boxes;
+}
+
+std::optional<FrameResult> RunStore::frameResult(int run_id, FrameIndex frame) const {
+    const std::string doing = "reading frame " + std::to_string(frame) + " of run " + std::to_string(run_id);
+    return guarded(project_.path(), doing, [&]() -> std::optional<FrameResult> {
+        SQLite::Database& database = project_.database();
+        // One view of the file for all tables, whatever a writer does meanwhile.
+        SQLite::Transaction view(database, SQLite::TransactionBehavior::DEFERRED);
+        std::optional<FrameResult> result = readFrameRow(database, run_id, frame);
+        if (!result) return std::nullopt;
+        FrameMotion& motion = result->motion;
+        motion.motion_vectors = readPacked(database, "motion_vectors", run_id, frame, unpackMotionVectors);
+        motion.stationary_corners = readPacked(database, "stationary_corners", run_id, frame, unpackPoints);
+        result->clusters = readClusters(database, run_id, frame, motion.motion_vectors.size());
+        result->rois = readItems<OrientedBox>(database,
+                                              "SELECT x, y, length, width, heading_rad FROM roi WHERE run_id = ? AND "
+                                              "frame = ? ORDER BY number",
+                                              run_id, frame, [](RowReader& row) { return row.box(); });
+        result->detections = readDetections(database, run_id, frame, motion.motion_vectors.size());
+        result->tracks = readItems<TrackState>(database,
+                                               std::string("SELECT ") + kTrackStateColumns +
+                                                   " FROM track_state WHERE run_id = ? AND frame = ? ORDER BY track_id",
+                                               run_id, frame, readTrackState);
+        result->dropped = readDropped(database, run_id, frame);
+        return result;
+    });
+}
+
+std::vector<MotionVector> RunStore::motionVectors(int run_id, FrameIndex frame) const {
+    const std::string doing =
+        "reading the motion vectors of frame " + std::to_string(frame) + " of run " + std::to_string(run_id);
+    return guarded(project_.path(), doing, [&] {
+        return readPacked(project_.database(), "motion_vectors", run_id, frame, unpackMotionVectors);
+    });
 }
 
 }  // namespace eyrie
