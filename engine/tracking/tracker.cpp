@@ -71,7 +71,7 @@ std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vect
             break;
         case RegistrationState::first:
         case RegistrationState::registered:
-            follow(motion, detections, trace, Picture(picture));
+            follow(motion, detections, trace, picture);
             break;
     }
     std::vector<TrackState> states;
@@ -131,7 +131,7 @@ void Tracker::predict(const FrameMotion& motion) {
 }
 
 void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
-                     Picture picture) {
+                     const PictureOfFrame& picture) {
     failed_frames_ = 0;
     predict(motion);
     std::vector<const Detection*> found;
@@ -146,20 +146,23 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
         positions.push_back(static_cast<int>(i));
     }
     ++frames_;
-    lookAtStanding(detected, picture);
+    PictureWhenNeeded seen(picture);
+    const StandingVehicles standing(options_, manager_, model_, gate_, classified_);
+    standing.lookAtPlaces(tracks_, detected, frames_, seen);
     const std::vector<MovingBox> predicted = predictedBoxes();
     const OverlapMatrix matrix = overlapMatrix(detected, predicted, motion.image_size);
     const FrameAssociation association = associate(matrix, detected, predicted);
     if (trace != nullptr) traceAssociation(matrix, association, predicted, positions, *trace);
 
     const FrameVectors vectors(motion.motion_vectors);
+    const TrackVectors carried(options_, manager_, model_, vectors);
     for (Track& track : tracks_) keepSeenVectors(track.vectors, vectors);
     std::vector<std::vector<AssociatedVector>> first_vectors(found.size());
     const bool vectors_first = options_.use_vectors && options_.vectors_first;
-    if (vectors_first) first_vectors = associateByPrediction(detected, association.used, vectors);
+    if (vectors_first) first_vectors = carried.associateByPrediction(tracks_, detected, association.used);
     for (std::size_t j = 0; j < tracks_.size(); ++j) {
-        updateTrack(tracks_[j], association.tracks[j], found, vectors);
-        lookAround(tracks_[j], picture);
+        updateTrack(tracks_[j], association.tracks[j], found, carried);
+        standing.lookAround(tracks_[j], seen);
         manager_.count(tracks_[j], model_.slowSpeed());
     }
     if (trace != nullptr) traceEnds(motion.image_size, *trace);
@@ -174,9 +177,9 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     }
     startTracks(found, association.used, std::move(first_vectors), positions, trace);
     if (vectors_first) {
-        storeVectorPlaces(vectors);
+        carried.storePlacesOf(tracks_);
     } else if (options_.use_vectors) {
-        associateByUpdate(vectors);
+        carried.associateByUpdate(tracks_);
     }
 }
 
@@ -253,7 +256,7 @@ void Tracker::traceEnds(cv::Size image, TrackingTrace& trace) const {
 }
 
 void Tracker::updateTrack(Track& track, const TrackAssociation& association,
-                          const std::vector<const Detection*>& detections, const FrameVectors& vectors) {
+                          const std::vector<const Detection*>& detections, const TrackVectors& carried) {
     const auto detectionAt = [&](int index) -> const Detection& {
         return *detections[static_cast<std::size_t>(index)];
     };
@@ -295,7 +298,7 @@ void Tracker::updateTrack(Track& track, const TrackAssociation& association,
         track.origin = StateOrigin::detected;
         track.whole_boxes +=
             association.kind == AssociationKind::matched && detectionAt(association.detection).complete;
-    } else if (options_.use_vectors && updateByVectors(track, vectors)) {
+    } else if (options_.use_vectors && carried.update(track)) {
         track.origin = StateOrigin::reconstructed;
     }
     track.filter.pointForward(model_.slowSpeed());

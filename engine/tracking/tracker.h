@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "core/values/detection.h"
@@ -8,16 +7,14 @@
 #include "core/values/scene_scale.h"
 #include "core/values/track_state.h"
 #include "tracking/measurement_model.h"
+#include "tracking/standing_vehicles.h"
 #include "tracking/track.h"
 #include "tracking/track_manager.h"
+#include "tracking/track_vectors.h"
 #include "tracking/tracker_options.h"
 #include "tracking/tracking_trace.h"
 
 namespace eyrie {
-
-/// The grey picture of the frame, CV_8UC1. Asked for only where a vehicle stops or stands, so that detections can be
-/// tracked anew without reading the whole video.
-using PictureOfFrame = std::function<cv::Mat()>;
 
 /// Follows objects from frame to frame by their detections and motion vectors (Teutsch ch. 6, fig. 6.6).
 class Tracker {
@@ -43,29 +40,8 @@ class Tracker {
  private:
     void coastThroughFrozen();
     void coastThroughFailed(const FrameMotion& motion);
-    /// Asks for the picture when it is first needed.
-    class Picture {
-     public:
-        explicit Picture(const PictureOfFrame& source) : source_(source) {}
-        const cv::Mat& gray() {
-            if (!asked_ && source_) gray_ = source_();
-            asked_ = true;
-            return gray_;
-        }
-
-     private:
-        const PictureOfFrame& source_;
-        cv::Mat gray_;
-        bool asked_ = false;
-    };
-
     void follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
-                Picture picture);
-    void lookAtStanding(const std::vector<MovingBox>& detected, Picture& picture);
-    void lookAround(Track& track, Picture& picture);
-    void keepStanding(Track& track);
-    std::optional<OrientedBox> found(const Track& track, Picture& picture, const OrientedBox& expected,
-                                     double reach) const;
+                const PictureOfFrame& picture);
     void predict(const FrameMotion& motion);
     std::vector<MovingBox> predictedBoxes() const;
     OverlapMatrix overlapMatrix(const std::vector<MovingBox>& detected, const std::vector<MovingBox>& predicted,
@@ -77,20 +53,11 @@ class Tracker {
                           TrackingTrace& trace) const;
     void traceEnds(cv::Size image, TrackingTrace& trace) const;
     void updateTrack(Track& track, const TrackAssociation& association, const std::vector<const Detection*>& detections,
-                     const FrameVectors& vectors);
+                     const TrackVectors& carried);
     bool updateByDetection(Track& track, const OrientedBox& box, const Detection& detection);
-    bool updateByVectors(Track& track, const FrameVectors& vectors);
     void startTracks(const std::vector<const Detection*>& detections, const std::vector<char>& used,
                      std::vector<std::vector<AssociatedVector>> first_vectors, const std::vector<int>& positions,
                      TrackingTrace* trace);
-    VectorLimits vectorLimits() const;
-    /// Before the update, by predicted boxes. Returns the vectors of each detection that is free to start a track.
-    std::vector<std::vector<AssociatedVector>> associateByPrediction(const std::vector<MovingBox>& detected,
-                                                                     const std::vector<char>& used,
-                                                                     const FrameVectors& vectors);
-    void storeVectorPlaces(const FrameVectors& vectors);
-    /// After the update, by updated boxes.
-    void associateByUpdate(const FrameVectors& vectors);
 
     TrackerOptions options_;
     MeasurementModel model_;

@@ -1,8 +1,7 @@
-// How the tracker keeps vehicles that stop: by what they looked like when they were last detected.
+#include "tracking/standing_vehicles.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "tracking/tracker.h"
 
 namespace eyrie {
 namespace {
@@ -19,8 +18,8 @@ bool isNear(const OrientedBox& a, const OrientedBox& b) {
 
 }  // namespace
 
-std::optional<OrientedBox> Tracker::found(const Track& track, Picture& picture, const OrientedBox& expected,
-                                          double reach) const {
+std::optional<OrientedBox> StandingVehicles::found(const Track& track, PictureWhenNeeded& picture,
+                                                   const OrientedBox& expected, double reach) const {
     if (!track.look) return std::nullopt;
     const auto match = track.look->find(picture.gray(), expected, reach);
     if (!match || match->agreement < options_.appearance_agreement ||
@@ -31,12 +30,13 @@ std::optional<OrientedBox> Tracker::found(const Track& track, Picture& picture, 
     return box;
 }
 
-void Tracker::lookAtStanding(const std::vector<MovingBox>& detected, Picture& picture) {
-    for (Track& track : tracks_) {
+void StandingVehicles::lookAtPlaces(std::vector<Track>& tracks, const std::vector<MovingBox>& detected, int frames,
+                                    PictureWhenNeeded& picture) const {
+    for (Track& track : tracks) {
         Standstill& stands = track.standstill;
         if (!stands.certain) continue;
         const OrientedBox place = stands.place;
-        const bool due = (frames_ + static_cast<int>(track.id)) % manager_.lookInterval() == 0 || !stands.agrees;
+        const bool due = (frames + static_cast<int>(track.id)) % manager_.lookInterval() == 0 || !stands.agrees;
         const bool touched = std::any_of(detected.begin(), detected.end(),
                                          [&](const MovingBox& other) { return isNear(other.box, place); });
         if (!due && !touched) continue;
@@ -46,7 +46,7 @@ void Tracker::lookAtStanding(const std::vector<MovingBox>& detected, Picture& pi
     }
 }
 
-void Tracker::lookAround(Track& track, Picture& picture) {
+void StandingVehicles::lookAround(Track& track, PictureWhenNeeded& picture) const {
     track.recognised = false;
     if (options_.appearance == AppearanceUse::none) return;
     if (track.origin == StateOrigin::detected || track.origin == StateOrigin::reconstructed) {
@@ -60,18 +60,18 @@ void Tracker::lookAround(Track& track, Picture& picture) {
         return;
     }
     if (track.standstill.certain) {
-        keepStanding(track);
+        keep(track);
         return;
     }
     if (!manager_.mayBeRecognised(track, model_.slowSpeed(), classified_)) return;
-    const auto seen = found(track, picture, track.filter.box(), std::max(kLeastReach, gate_));
+    const auto seen = found(track, picture, track.filter.box(), std::max(kLeastReach, reach_));
     const double away = seen ? between(seen->centre, track.standstill.place.centre) : 0;
     manager_.countStandstill(track, seen ? std::optional(away) : std::nullopt, seen.value_or(track.filter.box()));
     track.recognised = seen && track.filter.update(model_.placed(*seen));
-    if (track.standstill.certain) keepStanding(track);
+    if (track.standstill.certain) keep(track);
 }
 
-void Tracker::keepStanding(Track& track) {
+void StandingVehicles::keep(Track& track) const {
     Standstill& stands = track.standstill;
     ++stands.frames;
     track.filter.update(model_.placed(stands.place));
