@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/values/stopwatch.h"
-#include "detection/detector_factory.h"
+#include "detection/detector_table.h"
 #include "detection/roi_cutter.h"
 
 namespace eyrie {
@@ -12,8 +12,8 @@ namespace eyrie {
 DuplicateRemovalOptions duplicatesFor(const ChainOptions& options) {
     DuplicateRemovalOptions duplicates = options.duplicates;
     if (duplicates.strategy == DuplicateStrategy::by_detector) {
-        const bool classifier = options.detection.method == DetectionMethod::sliding_window;
-        duplicates.strategy = classifier ? DuplicateStrategy::suppress : DuplicateStrategy::fuse;
+        const bool whole = drawsWholeVehicles(options.detection.method);
+        duplicates.strategy = whole ? DuplicateStrategy::suppress : DuplicateStrategy::fuse;
     }
     return duplicates;
 }

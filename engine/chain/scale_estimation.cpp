@@ -9,7 +9,7 @@
 
 #include "chain/chain.h"
 #include "core/error.h"
-#include "detection/detector_factory.h"
+#include "detection/detector_table.h"
 
 namespace eyrie {
 namespace {
