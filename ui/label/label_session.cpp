@@ -22,9 +22,9 @@ struct LabelSession::Opened {
 
 LabelSession::LabelSession(ProjectSession& session, QObject* parent)
     : QObject(parent), session_(session), reread_(kReread_ms, [this] { refreshReadOnly(); }) {
-    connect(
-        &session_, &ProjectSession::changed, this,
-        Reactions<SessionChange>{
+    whenChanged(
+        session_, this,
+        {
             {SessionChange::video, [this] { close(); }},
             {{SessionChange::project, SessionChange::opened}, [this] { refreshOpen(); }},
             {{SessionChange::run_data, SessionChange::current_run, SessionChange::run_ended}, [this] { readCamera(); }},

@@ -130,11 +130,12 @@ void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::notice, this, [this](const QString& text) { parts().tell(text); });
     connect(labels_, &LabelSession::opened, this, &LabelWorkspace::labelsOpened);
     connect(labels_, &LabelSession::selectionChanged, this, &LabelWorkspace::selectionChanged);
-    connect(&around_.session, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::picture, [this] { pictureChanged(); }},
-                                     {SessionChange::frame, [this] {
-                                          if (active_) objects_->setFrame(around_.session.currentFrame());
-                                      }}});
+    whenChanged(around_.session, this,
+                {{SessionChange::picture, [this] { pictureChanged(); }}, {SessionChange::frame, [this] {
+                                                                              if (active_)
+                                                                                  objects_->setFrame(
+                                                                                      around_.session.currentFrame());
+                                                                          }}});
     for (QAction* action : {actions_->follow, actions_->follow_upright})
         bindSwitches(this, {{action, [this] { followObject(); }}});
 }

@@ -24,10 +24,9 @@ ObjectPictures::ObjectPictures(const LabelParts& parts, QObject* parent)
     parts_.around.docks.add(DockId::object_chips, tr("Over time"), grid_);
     wireChips();
     wireStacks();
-    connect(&parts_.around.session, &ProjectSession::changed, this,
-            Reactions<SessionChange>{
-                {SessionChange::frame, [this] { grid_->setMarkedCard(parts_.around.session.currentFrame()); }},
-                {SessionChange::picture, [this] { showStack(); }}});
+    whenChanged(parts_.around.session, this,
+                {{SessionChange::frame, [this] { grid_->setMarkedCard(parts_.around.session.currentFrame()); }},
+                 {SessionChange::picture, [this] { showStack(); }}});
 }
 
 // ---- chips ----------------------------------------------------------------------------------------------------------

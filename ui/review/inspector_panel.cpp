@@ -94,10 +94,10 @@ InspectorPanel::InspectorPanel(ProjectSession& session, QWidget* parent) : QWidg
     layout->addWidget(facts_);
     layout->addWidget(track_page_);
 
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::picture, [this] { showFrame(session_.viewFrame()); }},
-                                     {SessionChange::video, [this] { showFrame({}); }},
-                                     {SessionChange::selection, [this] { showSelection(); }}});
+    whenChanged(session_, this,
+                {{SessionChange::picture, [this] { showFrame(session_.viewFrame()); }},
+                 {SessionChange::video, [this] { showFrame({}); }},
+                 {SessionChange::selection, [this] { showSelection(); }}});
     connect(&session_, &ProjectSession::trackStatesRead, this,
             [this](TrackId track, const std::vector<TrackFrame>& states) {
                 track_->showTrack(track, states, session_.scale(), classOfTrack(session_, track));

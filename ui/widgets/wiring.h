@@ -63,9 +63,9 @@ void whenAny(Sender* sender, Receiver* receiver, React react, Signals... told) {
     (QObject::connect(sender, told, receiver, follow), ...);
 }
 
-/// What to do when something is another than it was, for every kind of change that one signal tells of: what
-/// connect() is given for a signal with a `Change`. A list of changes and what they ask for; several may ask for the
-/// same, and one for several things, which are done in this order.
+/// What to do when something is another than it was, for every kind of change that one signal tells of. A list of
+/// changes and what they ask for; several may ask for the same, and one for several things, which are done in this
+/// order.
 template <typename Change>
 class Reactions {
  public:
@@ -86,6 +86,18 @@ class Reactions {
  private:
     std::vector<Reaction> reactions_;
 };
+
+/// What the signal `changed` of a class tells.
+template <class Sender, class Change>
+Change changeTold(void (Sender::*)(Change));
+template <class Sender>
+using ChangeOf = decltype(changeTold(&Sender::changed));
+
+/// Lets the reactions follow the changes that `sender` tells of, as long as `receiver` lives.
+template <class Sender>
+void whenChanged(const Sender& sender, QObject* receiver, Reactions<ChangeOf<Sender>> reactions) {
+    QObject::connect(&sender, &Sender::changed, receiver, std::move(reactions));
+}
 
 /// What a field sends when its value becomes another, by a person or by the program.
 inline auto editedSignal(const QComboBox*) {

@@ -218,10 +218,9 @@ void MainWindow::wireInspection() {
         const ReplayView& view = *inspection_->view();
         canvas_->setStacks(view.wish.frame, stackMarks(view));
     };
-    connect(inspection_, &Inspection::changed, canvas_,
-            Reactions<InspectionChange>{
-                {InspectionChange::choice, [this] { canvas_->setInspectedArea(inspection_->area()); }},
-                {InspectionChange::view, show_stacks}});
+    whenChanged(*inspection_, canvas_,
+                {{InspectionChange::choice, [this] { canvas_->setInspectedArea(inspection_->area()); }},
+                 {InspectionChange::view, show_stacks}});
     connect(&overlays_, &OverlaySettings::changed, inspection_,
             [this] { inspection_->wantStackOverlay(overlays_.isVisible(ImageStackLayer::kKind)); });
     review_->stacks().setCommands({
@@ -248,17 +247,17 @@ void MainWindow::wireCanvas() {
 }
 
 void MainWindow::wireSession() {
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{
-                {SessionChange::video, [this] { showVideo(); }},
-                {SessionChange::picture, [this] { showPicture(); }},
-                {SessionChange::selection, [this] { canvas_->setSelectedTrack(session_.selectedTrack()); }},
-                {SessionChange::following, [this] { actions_->follow->setChecked(session_.following()); }},
-                {{SessionChange::video, SessionChange::project, SessionChange::runs, SessionChange::current_run,
-                  SessionChange::run_started, SessionChange::run_ended, SessionChange::following},
-                 [this] { enableActions(); }},
-                {{SessionChange::video, SessionChange::project}, [this] { updateTitle(); }},
-            });
+    whenChanged(session_, this,
+                {
+                    {SessionChange::video, [this] { showVideo(); }},
+                    {SessionChange::picture, [this] { showPicture(); }},
+                    {SessionChange::selection, [this] { canvas_->setSelectedTrack(session_.selectedTrack()); }},
+                    {SessionChange::following, [this] { actions_->follow->setChecked(session_.following()); }},
+                    {{SessionChange::video, SessionChange::project, SessionChange::runs, SessionChange::current_run,
+                      SessionChange::run_started, SessionChange::run_ended, SessionChange::following},
+                     [this] { enableActions(); }},
+                    {{SessionChange::video, SessionChange::project}, [this] { updateTitle(); }},
+                });
 }
 
 void MainWindow::showVideo() {

@@ -54,8 +54,7 @@ void OpenedFiles::bindActions() {
 void OpenedFiles::wireSession() {
     connect(&session_, &ProjectSession::ready, this, &OpenedFiles::becameReady);
     connect(&session_, &ProjectSession::runFinished, this, &OpenedFiles::runEnded);
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::project, [this] { followProject(); }}});
+    whenChanged(session_, this, {{SessionChange::project, [this] { followProject(); }}});
 }
 
 void OpenedFiles::followProject() {

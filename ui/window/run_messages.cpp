@@ -35,14 +35,14 @@ RunMessages::RunMessages(ProjectSession& session, MessageBar& messages, DockRegi
 
 void RunMessages::wireRuns() {
     // A run of the former video may have been summarised meanwhile.
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::opened, [this] { messages_.dismissTopic(kRunTopic); }},
-                                     {SessionChange::run_preparing, [this] {
-                                          // What was wrong with the former run, or kept this one from starting, is of
-                                          // no use any more.
-                                          messages_.dismiss(MessageKind::error);
-                                          messages_.dismissTopic(kRunTopic);
-                                      }}});
+    whenChanged(session_, this,
+                {{SessionChange::opened, [this] { messages_.dismissTopic(kRunTopic); }},
+                 {SessionChange::run_preparing, [this] {
+                      // What was wrong with the former run, or kept this one from starting, is of
+                      // no use any more.
+                      messages_.dismiss(MessageKind::error);
+                      messages_.dismissTopic(kRunTopic);
+                  }}});
     connect(&session_, &ProjectSession::runSummarised, this, [this](const RunRecord& run, const RunFacts& facts) {
         const bool doubtful = facts.counts.tracks == 0 || facts.state == RunState::failed;
         messages_.showTopic(kRunTopic, doubtful ? MessageKind::warning : MessageKind::info, runSummaryText(run, facts),

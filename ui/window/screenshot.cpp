@@ -19,12 +19,12 @@ class Photographer : public QObject {
     Photographer(MainWindow& window, std::filesystem::path file, int after_frames)
         : QObject(&window), window_(window), file_(std::move(file)), left_(after_frames) {
         ProjectSession& session = window_.session();
-        connect(&session, &ProjectSession::changed, this,
-                Reactions<SessionChange>{{SessionChange::picture,
-                                          [this] {
-                                              if (window_.session().viewFrame().result && --left_ <= 0) shootSoon();
-                                          }},
-                                         {SessionChange::run_ended, [this] { shootSoon(); }}});
+        whenChanged(session, this,
+                    {{SessionChange::picture,
+                      [this] {
+                          if (window_.session().viewFrame().result && --left_ <= 0) shootSoon();
+                      }},
+                     {SessionChange::run_ended, [this] { shootSoon(); }}});
         connect(&session, &ProjectSession::problem, this, &Photographer::shootSoon);
         if (left_ <= 0) shootSoon();
     }

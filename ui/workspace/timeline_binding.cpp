@@ -30,25 +30,25 @@ TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline
         timeline_.setCurrentFrame(frame);
         chart_.setCurrentFrame(frame);
     };
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{
-                {SessionChange::video, [this] { showVideo(); }},
-                {SessionChange::current_run, [this] { forgetRun(); }},
-                {SessionChange::run_data, [this] { showRun(); }},
-                {SessionChange::selection, [this] { showTrackLife(); }},
-                // While it plays, the mark keeps to the picture, which may be late; whoever steps or drags sees at once
-                // where to.
-                {SessionChange::frame,
-                 [this, mark] {
-                     if (!session_.playback().playing()) mark(session_.currentFrame());
-                 }},
-                {SessionChange::picture,
-                 [this, mark] {
-                     if (session_.playback().playing()) mark(session_.shownFrame());
-                 }},
-                {SessionChange::run_started, [this] { beginLive(); }},
-                {SessionChange::run_ended, [this] { endLive(); }},
-            });
+    whenChanged(session_, this,
+                {
+                    {SessionChange::video, [this] { showVideo(); }},
+                    {SessionChange::current_run, [this] { forgetRun(); }},
+                    {SessionChange::run_data, [this] { showRun(); }},
+                    {SessionChange::selection, [this] { showTrackLife(); }},
+                    // While it plays, the mark keeps to the picture, which may be late; whoever steps or drags sees at
+                    // once where to.
+                    {SessionChange::frame,
+                     [this, mark] {
+                         if (!session_.playback().playing()) mark(session_.currentFrame());
+                     }},
+                    {SessionChange::picture,
+                     [this, mark] {
+                         if (session_.playback().playing()) mark(session_.shownFrame());
+                     }},
+                    {SessionChange::run_started, [this] { beginLive(); }},
+                    {SessionChange::run_ended, [this] { endLive(); }},
+                });
     connect(&session_, &ProjectSession::liveFrames, this, &TimelineBinding::addLive);
     connect(&timeline_, &TimelineView::frameRequested, &session_,
             [this](FrameIndex frame, bool) { session_.goToFrame(frame); });

@@ -48,8 +48,7 @@ LabelProposals::LabelProposals(ProjectSession& session, LabelSession& labels, QO
         emit changed();
         if (shown_) read();
     };
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{{SessionChange::current_run, SessionChange::run_ended}, forget}});
+    whenChanged(session_, this, {{{SessionChange::current_run, SessionChange::run_ended}, forget}});
     whenAny(&labels_, this, forget, &LabelSession::opened, &LabelSession::closed);
 }
 

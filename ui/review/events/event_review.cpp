@@ -29,9 +29,9 @@ EventReview::EventReview(ProjectSession& session, EventReviewAnswers answers, QO
       answers_(std::move(answers)),
       search_due_(kSearchDelay_ms, [this] { search(); }),
       reread_(kRereadVerdicts_ms, [this] { refreshReadOnly(); }) {
-    connect(
-        &session_, &ProjectSession::changed, this,
-        Reactions<SessionChange>{
+    whenChanged(
+        session_, this,
+        {
             {SessionChange::video, [this] { close(); }},
             {{SessionChange::project, SessionChange::current_run, SessionChange::run_data, SessionChange::run_ended},
              [this] { refresh(); }},

@@ -102,8 +102,7 @@ ComparisonHeader::ComparisonHeader(ProjectSession& session, PresetLibrary& prese
         };
         onEdited(this, follow, box);
     }
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::runs, [this] { fill(); }}});
+    whenChanged(session_, this, {{SessionChange::runs, [this] { fill(); }}});
     connect(&presets_, &PresetLibrary::changed, this, &ComparisonHeader::fill);
     fill();
 }

@@ -98,8 +98,7 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
         shown_ = 0;
         since_.restart();
     });
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::video, [this] { close(); }}});
+    whenChanged(session_, this, {{SessionChange::video, [this] { close(); }}});
     frame_ = session_.currentFrame();
     usePair();
 }

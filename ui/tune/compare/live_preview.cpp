@@ -31,12 +31,12 @@ LivePreview::LivePreview(ProjectSession& session, QObject* parent)
         else
             loader_.useRun(std::nullopt);
     };
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::current_run, use_run},
-                                     {SessionChange::run_preparing, [this] { end(); }},
-                                     {SessionChange::picture, [this] {
-                                          if (active_ && (!view_ || view_->frame != session_.shownFrame())) request();
-                                      }}});
+    whenChanged(session_, this,
+                {{SessionChange::current_run, use_run},
+                 {SessionChange::run_preparing, [this] { end(); }},
+                 {SessionChange::picture, [this] {
+                      if (active_ && (!view_ || view_->frame != session_.shownFrame())) request();
+                  }}});
     use_run();
 }
 

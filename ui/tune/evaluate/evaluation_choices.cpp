@@ -52,8 +52,7 @@ EvaluationChoices::EvaluationChoices(ProjectSession& session, EvaluationSession&
                         {class_, [this] { applySettings(); }}});
     onEdited(this, &EvaluationChoices::applySettings, overlap_, border_, vehicles_, upright_);
     connect(&evaluation_, &EvaluationSession::settingsChanged, this, &EvaluationChoices::showSettings);
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{{SessionChange::runs, SessionChange::current_run}, [this] { showRuns(); }}});
+    whenChanged(session_, this, {{{SessionChange::runs, SessionChange::current_run}, [this] { showRuns(); }}});
     showSettings();
 }
 

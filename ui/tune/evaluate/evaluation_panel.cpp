@@ -52,11 +52,10 @@ EvaluationPanel::EvaluationPanel(ProjectSession& session, EvaluationSession& eva
                  {{empty_->button(), [this] { commands_.label(); }}, {report_, [this] { commands_.write_report(); }}});
     whenAny(&evaluation_, this, &EvaluationPanel::refresh, &EvaluationSession::changed,
             &EvaluationSession::workingChanged);
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::frame, [this] {
-                                          counts_->setMarker(session_.currentFrame());
-                                          ratios_->setMarker(session_.currentFrame());
-                                      }}});
+    whenChanged(session_, this, {{SessionChange::frame, [this] {
+                                      counts_->setMarker(session_.currentFrame());
+                                      ratios_->setMarker(session_.currentFrame());
+                                  }}});
     for (LineChart* chart : {counts_, ratios_})
         connect(chart, &LineChart::placeActivated, &session_,
                 [this](double place) { session_.goToFrame(static_cast<FrameIndex>(std::lround(place))); });

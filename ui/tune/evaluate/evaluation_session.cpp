@@ -48,14 +48,14 @@ EvaluationSession::EvaluationSession(ProjectSession& session, QObject* parent)
       soon_(kSettle_ms, [this] { refresh(); }),
       evaluator_(std::make_unique<RunEvaluator>()) {
     settings_.wishes = storedWishes();
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::current_run, [this] { forgetRun(); }},
-                                     {SessionChange::project, [this] { readTruthOfProject(); }},
-                                     {SessionChange::run_ended, [this] { refreshLater(); }},
-                                     {SessionChange::run_data, [this] {
-                                          // A run at work grows every other second; its evaluation waits for the end.
-                                          if (!session_.running() && !evaluation_) refreshLater();
-                                      }}});
+    whenChanged(session_, this,
+                {{SessionChange::current_run, [this] { forgetRun(); }},
+                 {SessionChange::project, [this] { readTruthOfProject(); }},
+                 {SessionChange::run_ended, [this] { refreshLater(); }},
+                 {SessionChange::run_data, [this] {
+                      // A run at work grows every other second; its evaluation waits for the end.
+                      if (!session_.running() && !evaluation_) refreshLater();
+                  }}});
 }
 
 EvaluationSession::~EvaluationSession() = default;

@@ -15,18 +15,18 @@ Inspection::Inspection(ProjectSession& session, QObject* parent)
           .show = std::bind_front(&Inspection::showView, this),
           .fail = std::bind_front(&Inspection::showProblem, this),
       }) {
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::current_run, [this] { runChanged(); }},
-                                     {SessionChange::picture, [this] { frameShown(); }},
-                                     {SessionChange::selection,
-                                      [this] {
-                                          if (session_.selectedTrack()) chosen_ = false;  // one selection: the track's
-                                          frameShown();
-                                      }},
-                                     {SessionChange::following, [this] {
-                                          request();
-                                          emit changed(InspectionChange::choice);
-                                      }}});
+    whenChanged(session_, this,
+                {{SessionChange::current_run, [this] { runChanged(); }},
+                 {SessionChange::picture, [this] { frameShown(); }},
+                 {SessionChange::selection,
+                  [this] {
+                      if (session_.selectedTrack()) chosen_ = false;  // one selection: the track's
+                      frameShown();
+                  }},
+                 {SessionChange::following, [this] {
+                      request();
+                      emit changed(InspectionChange::choice);
+                  }}});
     runChanged();
 }
 

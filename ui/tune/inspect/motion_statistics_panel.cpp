@@ -97,14 +97,14 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
     pages_->addWidget(charts);
 
     onEdited(this, &MotionStatisticsPanel::showFrame, scope_);
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::picture, [this] { showFrame(); }},
-                                     {SessionChange::run_data, [this] { readLives(); }},
-                                     {SessionChange::current_run, [this] {
-                                          read_of_.reset();
-                                          counted_.reset();
-                                          showFrame();
-                                      }}});
+    whenChanged(session_, this,
+                {{SessionChange::picture, [this] { showFrame(); }},
+                 {SessionChange::run_data, [this] { readLives(); }},
+                 {SessionChange::current_run, [this] {
+                      read_of_.reset();
+                      counted_.reset();
+                      showFrame();
+                  }}});
     connect(&reader_, &VectorLifetimesReader::readDone, this,
             [this](int run_id, const std::shared_ptr<const VectorLifeCounter>& lives) {
                 if (session_.currentRun() != run_id) return;

@@ -35,10 +35,10 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
     layout->addLayout(options);
     layout->addLayout(pages_, 1);
 
-    connect(&inspection_, &Inspection::changed, this,
-            Reactions<InspectionChange>{{InspectionChange::choice, [this] { refresh(); }},
-                                        {InspectionChange::progress, [this] { showProgress(); }},
-                                        {InspectionChange::view, [this] { showView(inspection_.view()); }}});
+    whenChanged(inspection_, this,
+                {{InspectionChange::choice, [this] { refresh(); }},
+                 {InspectionChange::progress, [this] { showProgress(); }},
+                 {InspectionChange::view, [this] { showView(inspection_.view()); }}});
     bindSwitches(this, {{whole_area_, [this] {
                              summary_->setText(tr("The stacks are being cut again …"));
                              want();

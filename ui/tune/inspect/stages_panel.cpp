@@ -46,10 +46,10 @@ StagesPanel::StagesPanel(ProjectSession& session, Inspection& inspection, QWidge
     layout->addLayout(pages_, 1);
 
     bindCommands(this, {{empty_->button(), [this] { inspection_.step(1); }}});
-    connect(&inspection_, &Inspection::changed, this,
-            Reactions<InspectionChange>{{InspectionChange::choice, [this] { refresh(); }},
-                                        {InspectionChange::progress, [this] { showProgress(); }},
-                                        {InspectionChange::view, [this] { showView(inspection_.view()); }}});
+    whenChanged(inspection_, this,
+                {{InspectionChange::choice, [this] { refresh(); }},
+                 {InspectionChange::progress, [this] { showProgress(); }},
+                 {InspectionChange::view, [this] { showView(inspection_.view()); }}});
     refresh();
 }
 

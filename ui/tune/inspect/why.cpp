@@ -37,10 +37,10 @@ Why::Why(ProjectSession& session, QObject* parent)
           .show = [this](const auto& view) { adopt(view, {}); },
           .fail = [this](const QString& message) { adopt(nullptr, message); },
       }) {
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::current_run, [this] { runChanged(); }},
-                                     {SessionChange::picture, [this] { frameShown(); }},
-                                     {SessionChange::following, [this] { emit changed(); }}});
+    whenChanged(session_, this,
+                {{SessionChange::current_run, [this] { runChanged(); }},
+                 {SessionChange::picture, [this] { frameShown(); }},
+                 {SessionChange::following, [this] { emit changed(); }}});
     runChanged();
 }
 

@@ -61,8 +61,7 @@ WhyPanel::WhyPanel(ProjectSession& session, Why& why, QWidget* parent) : QWidget
         if (target.startsWith(kScheme)) emit parameterChosen(target.mid(kScheme.size()));
     });
     connect(&why_, &Why::changed, this, &WhyPanel::refresh);
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::picture, [this] { refresh(); }}});
+    whenChanged(session_, this, {{SessionChange::picture, [this] { refresh(); }}});
     refresh();
 }
 

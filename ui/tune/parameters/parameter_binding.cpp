@@ -23,8 +23,7 @@ ParameterBinding::ParameterBinding(ProjectSession& session, ParameterForm& form,
     });
     connect(&form_, &ParameterForm::presetChosen, this, &ParameterBinding::choosePreset);
     form_.setCommands({.save_preset = [this] { savePreset(); }, .show_presets = [this] { comparePresets(); }});
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::project, [this] { presets_.useProject(session_.project()); }}});
+    whenChanged(session_, this, {{SessionChange::project, [this] { presets_.useProject(session_.project()); }}});
     connect(&presets_, &PresetLibrary::changed, this, [this] {
         const PresetLibrary::Preset* awaited = presets_.find(defaults_awaited_);
         if (awaited != nullptr && awaited->options) {

@@ -80,9 +80,8 @@ SweepPanel::SweepPanel(ProjectSession& session, ParameterBinding& parameters, Me
     pages_->addWidget(buildResult());
     rows->addWidget(below, 1);
     connect(form_, &SweepForm::startRequested, &sweeps_, &SweepSession::start);
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{
-                {{SessionChange::current_run, SessionChange::run_data, SessionChange::runs}, [this] { showRun(); }}});
+    whenChanged(session_, this,
+                {{{SessionChange::current_run, SessionChange::run_data, SessionChange::runs}, [this] { showRun(); }}});
     wireSweeps();
     showRun();
     showList();
@@ -149,10 +148,10 @@ QWidget* SweepPanel::buildResult() {
 }
 
 void SweepPanel::wireSweeps() {
-    connect(&sweeps_, &SweepSession::changed, this,
-            Reactions<SweepChange>{{SweepChange::sweeps, [this] { showList(); }},
-                                   {SweepChange::table, [this] { showTable(); }},
-                                   {SweepChange::running, [this] { showRunning(); }}});
+    whenChanged(sweeps_, this,
+                {{SweepChange::sweeps, [this] { showList(); }},
+                 {SweepChange::table, [this] { showTable(); }},
+                 {SweepChange::running, [this] { showRunning(); }}});
     connect(&sweeps_, &SweepSession::progressed, this, &SweepPanel::showProgress);
     connect(&sweeps_, &SweepSession::failed, this, &SweepPanel::tellProblem);
     connect(&sweeps_, &SweepSession::consentNeeded, this, &SweepPanel::ask);

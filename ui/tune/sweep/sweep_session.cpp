@@ -32,8 +32,7 @@ struct SweepSession::Job {
 
 SweepSession::SweepSession(ProjectSession& session, QObject* parent)
     : QObject(parent), session_(session), pulse_(kPulse_ms, [this] { take(); }) {
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::project, [this] { projectChanged(); }}});
+    whenChanged(session_, this, {{SessionChange::project, [this] { projectChanged(); }}});
 }
 
 SweepSession::~SweepSession() = default;

@@ -98,9 +98,9 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
     layout->addWidget(last_frame_);
     layout->addStretch(1);
 
-    connect(
-        &session_, &ProjectSession::changed, this,
-        Reactions<SessionChange>{
+    whenChanged(
+        session_, this,
+        {
             {{SessionChange::video, SessionChange::opened, SessionChange::scale}, [this] { refresh(); }},
             {{SessionChange::runs, SessionChange::current_run}, [this] { showOrigin(); }},
             {{SessionChange::following, SessionChange::run_started, SessionChange::run_ended}, [this] { enable(); }},

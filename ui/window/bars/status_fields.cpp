@@ -47,18 +47,18 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     bar.addPermanentWidget(stop_);
     hideProgress();
 
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{
-                // The number names the picture it stands under, which may come later than it was asked for.
-                {{SessionChange::picture, SessionChange::video}, [this] { showFrame(); }},
-                {SessionChange::run_preparing, [this] { showPreparing(); }},
-                {SessionChange::run_started,
-                 [this] {
-                     if (const RunRecord* run = session_.ownRun())
-                         showRun({0, run->last_frame - run->first_frame + 1, 0, 0});
-                 }},
-                {SessionChange::run_ended, [this] { hideProgress(); }},
-            });
+    whenChanged(session_, this,
+                {
+                    // The number names the picture it stands under, which may come later than it was asked for.
+                    {{SessionChange::picture, SessionChange::video}, [this] { showFrame(); }},
+                    {SessionChange::run_preparing, [this] { showPreparing(); }},
+                    {SessionChange::run_started,
+                     [this] {
+                         if (const RunRecord* run = session_.ownRun())
+                             showRun({0, run->last_frame - run->first_frame + 1, 0, 0});
+                     }},
+                    {SessionChange::run_ended, [this] { hideProgress(); }},
+                });
     connect(&session_, &ProjectSession::openingEnded, this, &StatusFields::hideProgress);
     connect(&session_, &ProjectSession::openingProgress, this, &StatusFields::showOpening);
     connect(&session_, &ProjectSession::runProgress, this, &StatusFields::showRun);

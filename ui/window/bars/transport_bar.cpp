@@ -58,11 +58,11 @@ TransportBar::TransportBar(ProjectSession& session, const WindowActions& actions
                          }}});
     connect(&session_.playback(), &Playback::speedChanged, this, &TransportBar::showSpeed);
     showSpeed(session_.playback().speed());
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::video, [this] { frame_->setRange(0, session_.lastFrame()); }},
-                                     {{SessionChange::video, SessionChange::picture}, [this] {
-                                          if (!frame_->hasFocus()) frame_->setValue(session_.shownFrame());
-                                      }}});
+    whenChanged(session_, this,
+                {{SessionChange::video, [this] { frame_->setRange(0, session_.lastFrame()); }},
+                 {{SessionChange::video, SessionChange::picture}, [this] {
+                      if (!frame_->hasFocus()) frame_->setValue(session_.shownFrame());
+                  }}});
     onFinished(this, &TransportBar::frameEdited, frame_);
 }
 

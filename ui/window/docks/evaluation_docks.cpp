@@ -167,8 +167,7 @@ void EvaluationDocks::wireList() {
         .write_report = [this] { askForReport(); },
     });
     connect(chips_, &ErrorChips::ready, model_, &ErrorsModel::setChip);
-    connect(&session_, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::video, [this] { chips_->setMedia(session_.media()); }}});
+    whenChanged(session_, this, {{SessionChange::video, [this] { chips_->setMedia(session_.media()); }}});
 }
 
 void EvaluationDocks::goToObject(int object) {

@@ -86,8 +86,7 @@ void Tuning::buildPreview() {
     });
     connect(preview_, &LivePreview::changed, this, &Tuning::showPreview);
     // Queued: after the canvas got the stored frame, before it is painted.
-    connect(&parts_.session, &ProjectSession::changed, this,
-            Reactions<SessionChange>{{SessionChange::picture, [this] { showPreview(); }}}, Qt::QueuedConnection);
+    whenChanged(parts_.session, this, {{SessionChange::picture, [this] { showPreview(); }}}, Qt::QueuedConnection);
 }
 
 void Tuning::discardPreview() {
