@@ -135,13 +135,13 @@ void tellTracks(Story& story, const std::vector<int>& detections) {
     story.pass("tracks", "track " + std::to_string(state->id) + " of the tracker: " + nameOf(state->status) + ", " +
                              nameOf(state->origin));
     if (state->origin == StateOrigin::predicted) {
-        story.fail("tracks", "taken away when the run's tracks were finished", "finishing.trim_predicted");
+        story.fail("tracks", "removed when the run's tracks were finished", "finishing.trim_predicted");
         story.decide("The track here was only predicted and was cut off when the run's tracks were finished",
                      "finishing.trim_predicted");
         return;
     }
-    story.fail("tracks", "taken away when the run's tracks were finished", "finishing.max_sharing");
-    story.decide("The tracker had a track here; it was taken away or moved when the run's tracks were finished",
+    story.fail("tracks", "removed when the run's tracks were finished", "finishing.max_sharing");
+    story.decide("The tracker had a track here; it was removed or moved when the run's tracks were finished",
                  "finishing.max_sharing");
 }
 

@@ -35,7 +35,7 @@ bool PlaceExplainer::gather(FrameIndex frame, const std::stop_token& stop) {
     if (gathered_ == frame) return true;
     gathered_.reset();
     const auto stored = source_.result_of(frame);
-    if (!stored) throw Error(ErrorKind::project, "the run has not done frame " + std::to_string(frame));
+    if (!stored) throw Error(ErrorKind::project, "the run has not processed frame " + std::to_string(frame));
     const ReplayedFrame* replayed = replay_.at(frame, stop);
     if (replayed == nullptr) return false;
     evidence_ = {};

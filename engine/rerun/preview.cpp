@@ -172,7 +172,8 @@ void Preview::adoptIds(std::vector<TrackState>& tracks, const std::vector<TrackS
 
 std::optional<PreviewedFrame> Preview::now(FrameIndex frame, const ChainOptions& options, int range,
                                            const std::stop_token& stop) {
-    if (known(frame) == nullptr) throw Error(ErrorKind::project, "the run has not done frame " + std::to_string(frame));
+    if (known(frame) == nullptr)
+        throw Error(ErrorKind::project, "the run has not processed frame " + std::to_string(frame));
     if (!prepareMotion(frame, options, 0, stop) || stop.stop_requested()) return std::nullopt;
     PreviewedFrame previewed;
     if (reachesBack(options)) {

@@ -227,7 +227,7 @@ void LabelSession::tryToWrite() {
         const bool may = store_->tryToWrite();
         wasChanged();
         emit opened();
-        emit notice(may ? tr("This window labels now.") : QString::fromStdString(store_->readOnlyReason()));
+        emit notice(may ? tr("You can label in this window now.") : QString::fromStdString(store_->readOnlyReason()));
     } catch (const std::exception& error) {
         emit problem(QString::fromUtf8(error.what()));
     }

@@ -163,7 +163,7 @@ void TrackInspector::showNow() {
     const bool lives = at != states_.end() && at->frame == frame_;
     for (QLabel* label : {position_, heading_, speed_now_, size_now_}) label->setText(QStringLiteral("–"));
     if (!lives) {
-        now_->setText(tr("not there"));
+        now_->setText(tr("absent"));
         return;
     }
     const TrackState& state = at->state;

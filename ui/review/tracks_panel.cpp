@@ -100,7 +100,7 @@ void TracksPanel::setDoings(const std::shared_ptr<const DoingsByTrack>& doings) 
 }
 
 QString TracksPanel::hiddenText() const {
-    return tr("None of the %1 tracks is as these filters want it.").arg(tracks_->rowCount());
+    return tr("None of the %1 tracks passes these filters.").arg(tracks_->rowCount());
 }
 
 void TracksPanel::showHidden() {

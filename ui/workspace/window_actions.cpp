@@ -40,11 +40,13 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     run = add(tr("&Run"), {"media-record",
                            {QKeySequence(tr("Ctrl+R"))},
                            QT_TR_NOOP("Find and follow the moving vehicles, with the parameters shown")});
-    stop = add(tr("S&top the run"),
-               {"media-playback-stop", {QKeySequence(tr("Ctrl+."))}, QT_TR_NOOP("Stop; what is done is kept")});
-    continue_run = add(tr("&Continue the run"), {"media-playback-start",
-                                                 {QKeySequence(tr("Ctrl+Shift+."))},
-                                                 QT_TR_NOOP("Go on with the run that is shown, where it was stopped")});
+    stop = add(tr("S&top the run"), {"media-playback-stop",
+                                     {QKeySequence(tr("Ctrl+."))},
+                                     QT_TR_NOOP("Stop the run; the frames done so far are kept")});
+    continue_run =
+        add(tr("&Continue the run"), {"media-playback-start",
+                                      {QKeySequence(tr("Ctrl+Shift+."))},
+                                      QT_TR_NOOP("Continue the run that is shown from where it was stopped")});
     follow = addToggle(tr("&Follow the run"),
                        {"go-last", {QKeySequence(tr("Ctrl+L"))}, QT_TR_NOOP("Show each frame as the run finishes it")},
                        false);
@@ -92,9 +94,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
     deselect = add(tr("Clear the selection"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
-    why = add(tr("&Why here?"), {"help-contextual",
-                                 {QKeySequence(tr("Shift+W"))},
-                                 QT_TR_NOOP("What decided about the place under the cursor")});
+    why = add(tr("&Why?"), {"help-contextual",
+                            {QKeySequence(tr("Shift+W"))},
+                            QT_TR_NOOP("What decided about the place under the cursor")});
     live_preview = addToggle(tr("Live &preview of parameters"),
                              {nullptr,
                               {QKeySequence(tr("Ctrl+Shift+P"))},
@@ -107,7 +109,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
     const QString workspace_names[] = {tr("&Review"), tr("&Label"), tr("&Tune")};
-    const char* workspace_tips[] = {QT_TR_NOOP("Look through what moved"), QT_TR_NOOP("Draw and check ground truth"),
+    const char* workspace_tips[] = {QT_TR_NOOP("Review what moved"), QT_TR_NOOP("Draw and check ground truth"),
                                     QT_TR_NOOP("Look into every stage of the chain and set its parameters")};
     auto* workspaces = new QActionGroup(this);
     for (std::size_t i = 0; i < workspace.size(); ++i) {
@@ -165,7 +167,7 @@ void WindowActions::addEvents() {
     note = add(tr("&Write a note"), {nullptr, {QKeySequence(tr("Ctrl+E"))}});
     undo_verdict = add(tr("U&ndo"), {"edit-undo",
                                      {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
-                                     QT_TR_NOOP("Take back the last verdict, star, note or change of a zone")});
+                                     QT_TR_NOOP("Undo the last verdict, star, note or change of a zone")});
     redo_verdict = add(tr("Re&do"), {"edit-redo", {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))}});
     draw_zone = addToggle(tr("Draw a &zone"),
                           {nullptr,

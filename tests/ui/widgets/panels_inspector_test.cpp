@@ -51,7 +51,7 @@ class InspectorTest : public QObject {
             QVERIFY2(text.contains(QString::fromUtf8(part)), qPrintable(text));
         }
         inspector.setCurrentFrame(30);
-        QVERIFY(inspector.text().contains(QStringLiteral("not there")));
+        QVERIFY(inspector.text().contains(QStringLiteral("absent")));
     }
 
     void showsPixelsWithoutGsd() {

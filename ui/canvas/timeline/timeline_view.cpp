@@ -113,7 +113,7 @@ void TimelineView::showAll() {
 }
 
 void TimelineView::layoutAxis() {
-    const double gutter = fontMetrics().horizontalAdvance(tr("vectors ≤ 20000")) + 18.0;
+    const double gutter = fontMetrics().horizontalAdvance(tr("vectors (max 20000)")) + 18.0;
     axis_.setSpan(gutter, width() - gutter - kRightMargin);
 }
 
@@ -159,9 +159,9 @@ void TimelineView::paintEvent(QPaintEvent*) {
         const TimelineActivity curves = activity();
         const double half = row.activity.height() / 2;
         painter.setPen(curves.trackColour());
-        name(row.activity.adjusted(0, 0, 0, -half), tr("tracks ≤ %1").arg(curves.mostTracks()));
+        name(row.activity.adjusted(0, 0, 0, -half), tr("tracks (max %1)").arg(curves.mostTracks()));
         painter.setPen(curves.vectorColour());
-        name(row.activity.adjusted(0, half, 0, 0), tr("vectors ≤ %1").arg(curves.mostVectors()));
+        name(row.activity.adjusted(0, half, 0, 0), tr("vectors (max %1)").arg(curves.mostVectors()));
         painter.setPen(palette().color(QPalette::PlaceholderText));
     }
     name(row.track, track_life_ ? track_name_ : tr("Selected"));

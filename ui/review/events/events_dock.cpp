@@ -165,7 +165,7 @@ void EventsDock::explainNothing() {
         case EventReview::State::found:
             text = review_->found()->run->tracks.empty() && parts_.session.runData()
                        ? whyNoTracks(parts_.session.runData()->facts)
-                       : tr("Nothing happened that these limits call an event.");
+                       : tr("Nothing that happened is an event by these limits.");
             break;
     }
     panel_->emptyState()->setTexts(text);

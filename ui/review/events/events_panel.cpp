@@ -164,8 +164,8 @@ void EventsPanel::filterEvents() {
 
 QString EventsPanel::hiddenText() const {
     return events_->rowCount() == 1
-               ? tr("The only event is not of the kinds and verdicts that are listed.")
-               : tr("None of the %1 events is of the kinds and verdicts that are listed.").arg(events_->rowCount());
+               ? tr("The only event is hidden by the kinds and verdicts chosen above.")
+               : tr("All %1 events are hidden by the kinds and verdicts chosen above.").arg(events_->rowCount());
 }
 
 void EventsPanel::showHidden() {

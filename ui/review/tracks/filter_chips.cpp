@@ -126,9 +126,9 @@ void FilterChips::fillAddMenu(QMenu& menu) {
     menu.addSeparator();
     const QStringList names = keptNames();
     for (const QString& name : names) menu.addAction(name, this, [this, name] { useKept(name); });
-    menu.addAction(tr("Keep this filter as…"), this, [this] { askForName(); })->setEnabled(filter_.any());
+    menu.addAction(tr("Save this filter as…"), this, [this] { askForName(); })->setEnabled(filter_.any());
     if (!names.isEmpty()) {
-        QMenu* forget = menu.addMenu(tr("Forget"));
+        QMenu* forget = menu.addMenu(tr("Delete"));
         for (const QString& name : names) forget->addAction(name, this, [this, name] { forgetKept(name); });
     }
     menu.addAction(tr("Remove all"), this, [this] { clear(); })->setEnabled(filter_.any());
@@ -294,7 +294,7 @@ void FilterChips::forgetKept(const QString& name) {
 }
 
 void FilterChips::askForName() {
-    const QString name = QInputDialog::getText(this, tr("Keep this filter"), tr("Name")).simplified();
+    const QString name = QInputDialog::getText(this, tr("Save this filter"), tr("Name")).simplified();
     if (!name.isEmpty()) keepAs(name);
 }
 

@@ -28,7 +28,7 @@ PreviewBar::PreviewBar(LivePreview& preview, PreviewCommands commands, QWidget* 
     range_->setKeyboardTracking(false);
     range_->setToolTip(
         tr("Earlier frames that are processed with the new parameters, too, so that tracks follow from them; 0: none"));
-    run_ = new QPushButton(QIcon::fromTheme(QStringLiteral("media-record")), tr("Run with these"), this);
+    run_ = new QPushButton(QIcon::fromTheme(QStringLiteral("media-record")), tr("Run with these values"), this);
     discard_ = new QPushButton(tr("Discard"), this);
     discard_->setToolTip(tr("Back to the parameters and the results of the run"));
     auto* layout = new QHBoxLayout(this);

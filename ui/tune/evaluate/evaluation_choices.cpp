@@ -26,13 +26,13 @@ QString shownClasses(const std::optional<TrackClass>& one_class) {
         case TrackClass::unknown:
             break;
         case TrackClass::vehicle:
-            return EvaluationChoices::tr("vehicles alone");
+            return EvaluationChoices::tr("vehicles only");
         case TrackClass::two_wheeler:
-            return EvaluationChoices::tr("two-wheelers alone");
+            return EvaluationChoices::tr("two-wheelers only");
         case TrackClass::person:
-            return EvaluationChoices::tr("persons alone");
+            return EvaluationChoices::tr("persons only");
     }
-    return EvaluationChoices::tr("all together");
+    return EvaluationChoices::tr("all classes");
 }
 }  // namespace
 
@@ -84,7 +84,7 @@ void EvaluationChoices::buildFields() {
     class_->setToolTip(tr(
         "Only objects of this class count; the others are ignored, and results that name another class are left out"));
     vehicles_ = new QCheckBox(tr("Vehicles only: other objects are ignored"));
-    upright_ = new QCheckBox(tr("Compare upright boxes (truth without headings)"));
+    upright_ = new QCheckBox(tr("Compare upright boxes (ground truth without headings)"));
     border_ = new QDoubleSpinBox;
     border_->setRange(0, 200);
     border_->setDecimals(1);
@@ -104,7 +104,7 @@ void EvaluationChoices::buildFields() {
     form->addRow(tr("Class"), class_);
     form->addRow(vehicles_);
     form->addRow(upright_);
-    form->addRow(tr("Border left out"), border_);
+    form->addRow(tr("Ignored border"), border_);
     details_->hide();
 
     auto* first = new QHBoxLayout;

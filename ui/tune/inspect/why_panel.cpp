@@ -94,7 +94,7 @@ void WhyPanel::refresh() {
         return empty(tr("The run is still running. Go to a frame that it has processed, and ask there."));
     if (!why_.asked())
         return empty(
-            tr("Point at a place of the picture, hit or missed, and press Shift+W, or choose “Why here?” from its "
+            tr("Point at a place of the picture, hit or missed, and press Shift+W, or choose “Why?” from its "
                "context menu. Every comparison that was made there is listed, and the one that decided."));
     if (!why_.problem().isEmpty()) return empty(why_.problem());
     if (!view)

@@ -188,7 +188,7 @@ void Tuning::showParameter(const QString& name) {
 
 void Tuning::showPlaceMenu(QPointF place, double margin, QPoint global) {
     QMenu menu(&parts_.window);
-    QAction* why = menu.addAction(tr("Why here?"));
+    QAction* why = menu.addAction(tr("Why?"));
     why->setShortcut(parts_.actions.why->shortcut());
     if (menu.exec(global) == why) askWhy(place, margin);
 }
