@@ -7,11 +7,13 @@
 #include <QMenuBar>
 #include <QMimeData>
 #include <QPixmapCache>
+#include <QResizeEvent>
 #include <QScreen>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <utility>
 
 #include "canvas/layers/stages/image_stack_layer.h"
@@ -53,6 +55,8 @@ namespace {
 constexpr QSize kFirstSize(1500, 940);
 /// The style keeps a picture of every button that ever was, and messages bring new ones all the time.
 constexpr int kStyleCache_kB = 2048;
+constexpr int kLeastLabelRows_px = 68;
+constexpr int kMostLabelRows_px = 118;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
 }  // namespace
 
@@ -117,7 +121,6 @@ void MainWindow::buildCentre() {
     transport_ = new TransportBar(session_, *actions_);
     timeline_ = new TimelineView;
     label_rows_ = new LabelTimeline(*timeline_);
-    label_rows_->setFixedHeight(118);
     auto* review = new QWidget;
     auto* rows = new QVBoxLayout(review);
     rows->setContentsMargins(0, 0, 0, 0);
@@ -307,6 +310,12 @@ void MainWindow::focusCanvas() {
 }
 
 // ---- events ---------------------------------------------------------------------------------------------------------
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+    QMainWindow::resizeEvent(event);
+    // Of a low window the picture takes more.
+    label_rows_->setFixedHeight(std::clamp(height() / 9, kLeastLabelRows_px, kMostLabelRows_px));
+}
 
 void MainWindow::showEvent(QShowEvent* event) {
     QMainWindow::showEvent(event);

@@ -64,6 +64,7 @@ class MainWindow : public QMainWindow {
     Tuning& tuning() { return *tuning_; }
 
  protected:
+    void resizeEvent(QResizeEvent* event) override;
     void showEvent(QShowEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;

@@ -8,6 +8,7 @@
 #include <QDBusVariant>
 #include <QIcon>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QStyle>
 #include <QStyleFactory>
 #include <QToolTip>
@@ -71,10 +72,22 @@ QPalette darkPalette() {
     return palette;
 }
 
+/// Tabs of docks stand close enough to each other that all of a workspace are seen.
+class CloseTabs : public QProxyStyle {
+ public:
+    using QProxyStyle::QProxyStyle;
+    int pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const override {
+        return metric == PM_TabBarTabHSpace ? kTabSpace_px : QProxyStyle::pixelMetric(metric, option, widget);
+    }
+
+ private:
+    static constexpr int kTabSpace_px = 12;
+};
+
 }  // namespace
 
 Theme::Theme(QApplication& application, QObject* parent) : QObject(parent), application_(application) {
-    if (QStyle* fusion = QStyleFactory::create(QStringLiteral("Fusion"))) QApplication::setStyle(fusion);
+    if (QStyle* fusion = QStyleFactory::create(QStringLiteral("Fusion"))) QApplication::setStyle(new CloseTabs(fusion));
     QIcon::setThemeSearchPaths(QIcon::themeSearchPaths() << QStringLiteral("/usr/share/icons"));
     QIcon::setFallbackThemeName(QStringLiteral("breeze"));
     apply();

@@ -18,7 +18,7 @@ constexpr int kNarrow = 1500;  ///< below, the video comes first
 constexpr int kOnlyColumn = 340;
 constexpr int kNarrowColumn = 260;
 constexpr int kLeftColumn = 380;
-constexpr int kRightColumn = 420;
+constexpr int kRightColumn = 440;
 
 /// The name of a dock in stored layouts: these words must not change.
 const char* nameOf(DockId id) {
@@ -74,9 +74,9 @@ Columns columnsOf(WorkspaceKind workspace) {
         case WorkspaceKind::tune:
             break;
     }
-    return {{DockId::runs, DockId::tracks, DockId::events, DockId::errors},
-            {DockId::inspector, DockId::stages, DockId::stacks, DockId::parameters, DockId::why, DockId::evaluation,
-             DockId::sweeps, DockId::stage_times, DockId::statistics}};
+    return {{DockId::runs, DockId::tracks, DockId::events, DockId::evaluation, DockId::errors, DockId::sweeps},
+            {DockId::inspector, DockId::stages, DockId::stacks, DockId::parameters, DockId::why, DockId::stage_times,
+             DockId::statistics}};
 }
 
 }  // namespace

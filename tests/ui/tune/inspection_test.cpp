@@ -153,7 +153,7 @@ class InspectionTest : public QObject {
         inspection.step(1);
         QVERIFY(inspection.cluster());
         QVERIFY(inspection.area());
-        QTest::qWait(50);
+        QCoreApplication::processEvents();
         QVERIFY(!inspection.view());  // nobody looks
         inspection.wantStages(true);
         QVERIFY(waitFor([&] { return inspection.view() && !inspection.view()->traces.empty(); }));
@@ -228,7 +228,7 @@ class InspectionTest : public QObject {
         Inspection inspection(*session);
         inspection.wantStacks(StackPictures::surroundings);
         session->goToFrame(58);
-        QTest::qWait(30);
+        QVERIFY(waitFor([&] { return inspection.framesLeft() > 0; }));
     }
 };
 

@@ -6,6 +6,7 @@
 #include <QMenuBar>
 #include <QSet>
 #include <QSettings>
+#include <QTabBar>
 #include <QTest>
 #include <QTreeWidget>
 
@@ -22,6 +23,7 @@
 #include "ui/support/ui_support.h"
 #include "widgets/message_bar.h"
 #include "window/main_window.h"
+#include "window/theme.h"
 #include "workspace/dock_registry.h"
 #include "workspace/key_sheet.h"
 #include "workspace/window_actions.h"
@@ -177,6 +179,25 @@ class WorkspacesTest : public QObject {
                                     .arg(wordOf(window->workspaces().current()))
                                     .arg(window->canvas().width())
                                     .arg(window->canvas().height())));
+        }
+    }
+
+    void everyTabOfASmallWindowIsSeen() {
+        const Theme theme(*qApp);
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
+            go(*window, key);
+            QTest::qWait(0);
+            for (const QTabBar* tabs : window->findChildren<QTabBar*>()) {
+                if (!tabs->isVisible() || tabs->count() == 0) continue;
+                const int end = tabs->tabRect(tabs->count() - 1).right();
+                QVERIFY2(end < tabs->width(),
+                         qPrintable(QStringLiteral("%1: tabs up to %2 need %3 of %4 px")
+                                        .arg(wordOf(window->workspaces().current()), tabs->tabText(tabs->count() - 1))
+                                        .arg(end)
+                                        .arg(tabs->width())));
+            }
         }
     }
 
