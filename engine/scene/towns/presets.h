@@ -16,5 +16,10 @@ SceneDescription presetRoadFlight(std::uint32_t seed);
 SceneDescription presetRoadFlightHaze(std::uint32_t seed);
 SceneDescription presetRoadFlightDusk(std::uint32_t seed);
 SceneDescription presetRoadFlightNight(std::uint32_t seed);
+SceneDescription presetEstate(std::uint32_t seed);
+SceneDescription presetOrbit(std::uint32_t seed);
+SceneDescription presetCityHigh(std::uint32_t seed);
+SceneDescription presetThermal(std::uint32_t seed);
+SceneDescription presetLowRate(std::uint32_t seed);
 
 }  // namespace eyrie
