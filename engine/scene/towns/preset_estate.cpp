@@ -126,6 +126,7 @@ SceneDescription presetEstate(std::uint32_t seed) {
     traffic.send(route, 0, random.uniform(200, 330), ObjectKind::van, 8);
     traffic.people(rows[1], 0.4, 0.3);
     scene.objects = traffic.drive(scene.frame_count, scene.frame_rate_hz, 4);
+    dropColliding(scene.objects);
     thinOut(scene, {});
     return scene;
 }

@@ -83,7 +83,9 @@ std::vector<MovingObject> growCity(SceneDescription& scene, double distance, dou
             for (const int other : along) traffic.redLight(route, index, other, forward, {{-99, 999}});
         }
     }
-    return traffic.drive(clock_frames, clock_hz, run_up);
+    std::vector<MovingObject> objects = traffic.drive(clock_frames, clock_hz, run_up);
+    dropColliding(objects);
+    return objects;
 }
 
 }  // namespace
@@ -151,17 +153,9 @@ SceneDescription presetLowRate(std::uint32_t seed) {
                    {last, {step * last, -4}, height - 4, radiansFromDegrees(-2), radiansFromDegrees(4), focal}};
     // Traffic needs a finer clock than the camera has.
     constexpr int kFine = 10;
-    std::vector<MovingObject> fine =
-        growCity(scene, 70, 0.8, 3, scene.frame_count * kFine, scene.frame_rate_hz * kFine);
-    for (MovingObject& object : fine) {
-        MovingObject seen = object;
-        seen.poses.clear();
-        seen.first_frame = (object.first_frame + kFine - 1) / kFine;
-        const int first = seen.first_frame * kFine - object.first_frame;
-        for (std::size_t i = static_cast<std::size_t>(first); i < object.poses.size(); i += kFine)
-            seen.poses.push_back(object.poses[i]);
-        if (!seen.poses.empty()) scene.objects.push_back(std::move(seen));
-    }
+    const std::vector<MovingObject> fine =
+        growCity(scene, 70, 2.5, 3, scene.frame_count * kFine, scene.frame_rate_hz * kFine);
+    scene.objects = everyNth(fine, kFine);
     thinOut(scene, {});
     return scene;
 }

@@ -58,6 +58,7 @@ void driveAlong(SceneDescription& scene, const Town& town, int street, int cross
     }
     traffic.people(street, 1.5, 0.3);
     scene.objects = traffic.drive(scene.frame_count, scene.frame_rate_hz, 4);
+    dropColliding(scene.objects);
     thinOut(scene, {});
 }
 

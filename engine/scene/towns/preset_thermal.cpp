@@ -91,6 +91,7 @@ SceneDescription presetThermal(std::uint32_t seed) {
                                               : static_cast<float>(random.uniform(48, 92));
         parked.look.colour = {warm, warm, warm};
     }
+    dropColliding(scene.objects);
     thinOut(scene, {});
     return scene;
 }
