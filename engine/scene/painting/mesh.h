@@ -25,6 +25,7 @@ struct Face {
     Finish finish = Finish::matte;
     float storey = 3;        ///< m between rows of windows
     std::uint32_t seed = 0;  ///< chooses the windows that are lit at night
+    float lit = 1;           ///< share of street lamps' light that reaches a facade's foot at night
 };
 
 /// A ball of leaves, a reflection: seen as a disc from everywhere.

@@ -146,7 +146,7 @@ void PassBuilder::add(const Face& face) {
     }
     if (light_.night) reflected_sky *= light_.ambient;
     // Lamps light walls from the side.
-    const double lit = light_.night && face.finish == Finish::facade ? 0.6 : lambert;
+    const double lit = light_.night && face.finish == Finish::facade ? 0.8 * face.lit : lambert;
     for (std::size_t channel = 0; channel < 3; ++channel) {
         const int c = static_cast<int>(channel);
         const double colour = face.finish == Finish::map_roof ? 1.0 : face.colour[c];

@@ -107,6 +107,17 @@ StandingThing thingOf(Mesh mesh) {
     return thing;
 }
 
+void lightFacades(Mesh& mesh, const SceneDescription& scene) {
+    for (Face& face : mesh.faces) {
+        if (face.finish != Finish::facade) continue;
+        cv::Point3d middle(0, 0, 0);
+        for (const cv::Point3d& corner : face.corners)
+            middle += corner * (1.0 / static_cast<double>(face.corners.size()));
+        const cv::Point2d before(middle.x + 4 * face.normal.x, middle.y + 4 * face.normal.y);
+        face.lit = static_cast<float>(lampLightAt(scene, before));
+    }
+}
+
 }  // namespace
 
 std::vector<Ball> crownOf(const Tree& tree, const Sun& sun, cv::Vec3f direct) {
@@ -174,7 +185,10 @@ std::vector<std::vector<cv::Point2d>> shadowsOf(const Mesh& mesh, cv::Point2d sh
 
 std::vector<StandingThing> standingThings(const SceneDescription& scene) {
     std::vector<StandingThing> things;
-    for (const Building& building : scene.buildings) things.push_back(thingOf(meshOf(building)));
+    for (const Building& building : scene.buildings) {
+        things.push_back(thingOf(meshOf(building)));
+        if (scene.night.lamps) lightFacades(things.back().mesh, scene);
+    }
     for (const Block& block : scene.blocks) things.push_back(thingOf(meshOf(block)));
     for (const LampPost& post : scene.posts) {
         things.push_back(thingOf(meshOf(post)));
