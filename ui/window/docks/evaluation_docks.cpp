@@ -11,11 +11,11 @@
 #include "tune/evaluate/error_chips.h"
 #include "tune/evaluate/errors_panel.h"
 #include "tune/evaluate/evaluation_panel.h"
-#include "tune/evaluate/report_writer.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
+#include "window/docks/report_writer.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 

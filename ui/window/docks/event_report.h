@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "events/event_options.h"
-#include "tune/evaluate/report_writer.h"
+#include "window/docks/report_writer.h"
 
 class QWidget;
 

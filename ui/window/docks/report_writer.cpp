@@ -1,4 +1,4 @@
-#include "tune/evaluate/report_writer.h"
+#include "window/docks/report_writer.h"
 
 #include <QAbstractTextDocumentLayout>
 #include <QDir>
