@@ -12,7 +12,7 @@ namespace eyrie {
 DuplicateRemovalOptions duplicatesFor(const ChainOptions& options) {
     DuplicateRemovalOptions duplicates = options.duplicates;
     if (duplicates.strategy == DuplicateStrategy::by_detector) {
-        const bool whole = drawsWholeVehicles(options.detection.method);
+        const bool whole = kindOf(options.detection.method).whole_vehicles;
         duplicates.strategy = whole ? DuplicateStrategy::suppress : DuplicateStrategy::fuse;
     }
     return duplicates;

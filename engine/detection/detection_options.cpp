@@ -12,10 +12,6 @@ bool looksThroughWindows(DetectionMethod method) {
     return kindOf(method).through_windows;
 }
 
-bool drawsWholeVehicles(DetectionMethod method) {
-    return kindOf(method).whole_vehicles;
-}
-
 DetectionOptions DetectionOptions::thesis() {
     DetectionOptions options;
     options.method = DetectionMethod::gradient;

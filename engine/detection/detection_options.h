@@ -26,8 +26,6 @@ enum class DetectionMethod {
 const char* nameOf(DetectionMethod method);
 /// Whether a trained classifier takes part.
 bool looksThroughWindows(DetectionMethod method);
-/// Whether its boxes are those of whole vehicles, so that of duplicates one is right and the others are not parts.
-bool drawsWholeVehicles(DetectionMethod method);
 /// All of them, in the order of tables 7.6 and 7.7.
 const std::vector<DetectionMethod>& allDetectionMethods();
 

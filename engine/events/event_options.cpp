@@ -47,7 +47,7 @@ void describeBorder(EventOptions& options, const ParameterDeclarer& declare) {
 }
 
 void describeOne(EventOptions& options, const ParameterDeclarer& declare) {
-    declare.real("events.stands", options.stands_s, 0, 3600, {"s", "Shortest standstill that is an event.", ""});
+    declare.real("events.stands", options.stands_s, 0, 3600, {"s", "Shortest standstill that is told as such.", ""});
     declare.real("events.turn_back_angle", options.turn_back_deg, 90, 180,
                  {"degrees", "Directions before and after turning back differ by at least this.", ""});
     declare.real("events.turn_back_time", options.turn_back_s, 1, 600,
@@ -56,10 +56,10 @@ void describeOne(EventOptions& options, const ParameterDeclarer& declare) {
                  {"m", "How far the vehicle drives in either direction at least.", ""});
     declare.real("events.turn_back_offset", options.turn_back_offset_m, 0, 500,
                  {"m", "How far beside its first way the vehicle comes back at most; more is a loop or a bend.", ""});
-    declare.real("events.over", options.over_kmh, 1, 400, {"km/h", "Speed above which a vehicle counts as fast.", ""});
+    declare.real("events.over", options.over_kmh, 1, 400, {"km/h", "Speed above which a vehicle is told as fast.", ""});
     declare.real("events.over_time", options.over_s, 0, 600, {"s", "For at least so long.", ""});
     declare.real("events.under", options.under_kmh, 0, 400,
-                 {"km/h", "Speed below which a vehicle that moves counts as slow.", ""});
+                 {"km/h", "Speed below which a vehicle that moves is told as slow.", ""});
     declare.real("events.under_time", options.under_s, 0, 600, {"s", "For at least so long.", ""});
     declare.real("events.loiter_radius", options.loiter_radius_m, 1, 1000,
                  {"m", "A vehicle loiters that stays within such a circle …", ""});

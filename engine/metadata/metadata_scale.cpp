@@ -43,7 +43,7 @@ MetadataScale scaleByMetadata(const MetadataTimeline& timeline, const FrameSourc
         scale.why_not = "only " + std::to_string(scale.frames_known) + " of " + std::to_string(scale.frames_asked) +
                         " frames looked at have a scale";
     } else if (median < kFinest || median > kCoarsest) {
-        scale.why_not = fixedText(median, 4) + " m/px is not plausible";
+        scale.why_not = fixedText(median, 4) + " m/px is beyond belief";
     } else if (high > kSpread * low) {
         scale.why_not = "the scale changes from " + fixedText(low, 4) + " to " + fixedText(high, 4) + " m/px";
     } else {

@@ -157,7 +157,7 @@ TEST_F(ReviewReport, WithoutAKnownScaleNobodyIsToldMetres) {
     EXPECT_THAT(html, HasSubstr("px/frame"));
     EXPECT_THAT(html,
                 HasSubstr("not known; the search worked with 0.2 m/px, estimated from 14 vehicles, right to within "
-                          "a factor of 1.2, and no speeds in km/h are given"));
+                          "a factor of 1.2, and no speeds in km/h are told"));
     EXPECT_THAT(html, HasSubstr("Clock</b></td><td>not known"));
 }
 
@@ -191,7 +191,7 @@ TEST_F(ReviewReport, VerdictsWithoutAnEventAreListedWithTheReason) {
 TEST_F(ReviewReport, ARunWithoutTracksOrFramesHasAReportAllTheSame) {
     writeRun(true, -1, 40, false);
     const std::string html = htmlOf(gather());
-    EXPECT_THAT(html, HasSubstr("Nothing that happened is an event by these limits."));
+    EXPECT_THAT(html, HasSubstr("Nothing happened that the limits call an event."));
     path_ = folder_ / "empty.eyrie";
     writeRun(true, -1, 0, false);
     EXPECT_THAT(htmlOf(gather()), HasSubstr("the run has no frames"));

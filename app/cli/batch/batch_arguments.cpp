@@ -33,7 +33,7 @@ void BatchArguments::addTo(CLI::App& command) {
     command.add_option("--jobs", jobs, "Files at once (default: one for every four cores)")->check(CLI::Range(1, 256));
     video.addTo(command);
     preset.addTo(command);
-    command.add_flag("--quiet", quiet, "Report only what failed");
+    command.add_flag("--quiet", quiet, "Tell only what failed");
 }
 
 BatchOptions BatchArguments::options(const std::string& record) const {

@@ -152,7 +152,7 @@ void addClipCommand(CLI::App& app, int& exit_code) {
         app.add_subcommand("clip", "Cut an event, or some frames, out of a run's video, with or without the tracks");
     arguments->events.addRunTo(*command);
     CLI::Option* event = command->add_option("--event", arguments->event,
-                                             "Number of the event, as eyrie-cli events lists it with the same --zone "
+                                             "Number of the event, as eyrie-cli events tells it with the same --zone "
                                              "and --set");
     command->add_option("--frames", arguments->frames, "First and last frame instead, both included: A:B, A: or :B")
         ->excludes(event);

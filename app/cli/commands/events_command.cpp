@@ -44,7 +44,7 @@ void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& rem
                      numberText(stored.footage.scale.gsd_m_per_px).c_str());
     }
     if (stored.unregistered > 0) {
-        std::fprintf(stderr, "eyrie-cli: %d frame%s could not be registered; no event is found across them\n",
+        std::fprintf(stderr, "eyrie-cli: %d frame%s could not be registered; nothing is told across them\n",
                      stored.unregistered, stored.unregistered == 1 ? "" : "s");
     }
     for (const std::string& remark : remarks) std::fprintf(stderr, "eyrie-cli: %s\n", remark.c_str());

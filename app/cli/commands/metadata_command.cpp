@@ -230,7 +230,7 @@ void addMetadataCommand(CLI::App& app, int& exit_code) {
     command->add_option("FILE", arguments->file, "Video, e.g. a transport stream, or a file of nothing but KLV")
         ->required();
     command->add_option("--frame", arguments->frame,
-                        "Frame whose scale, north and footprint to show (default: the first that has them)");
+                        "Frame whose scale, north and footprint to tell (default: the first that has them)");
     command->add_option("--stream", arguments->stream,
                         "Number of the stream to use, where there are several (default: the one that says most)");
     command->add_option("--csv", arguments->csv, "Write the sets of the stream as a table: a row each, a column a tag")

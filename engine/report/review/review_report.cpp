@@ -230,7 +230,7 @@ ReportFile makeReviewReport(const ReviewReportInput& input, FrameSource* pixels,
     page.chapter("Events");
     if (!trouble.empty()) page.paragraph("Pictures are missing: " + markupEscaped(trouble) + ".");
     if (chosen.empty()) {
-        page.paragraph(input.reviewed.events.empty() ? "Nothing that happened is an event by these limits."
+        page.paragraph(input.reviewed.events.empty() ? "Nothing happened that the limits call an event."
                                                      : "None of the events has such a verdict.");
     } else {
         page.paragraph(
