@@ -19,6 +19,8 @@ Linkage vehicleLinkage(const SceneScale& scale, double background_speed_sigma, d
     linkage.across = std::max(kSmallestLinkage, scale.px(kAcross));
     linkage.velocity_floor = std::max(kVelocityFloor, std::min(background_speed_sigma, kNoiseLimit));
     linkage.velocity_share = velocity_share;
+    linkage.smallest = kSmallestLinkage;
+    linkage.slope = scale.slope;
     return linkage;
 }
 
