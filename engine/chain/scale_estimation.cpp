@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,7 +10,6 @@
 #include "chain/chain.h"
 #include "core/error.h"
 #include "detection/detector_factory.h"
-#include "detection/sliding_window/scale_votes.h"
 
 namespace eyrie {
 namespace {
@@ -181,34 +178,6 @@ std::vector<Outcome> outcomesOf(FrameSource& source, FrameIndex first, FrameInde
     return outcomes;
 }
 
-void printVotes(FrameSource& source, FrameIndex first, FrameIndex last, const ChainOptions& options,
-                const SceneScale& scale) {
-    MotionHalf motion_half(options, scale);
-    const MotionClustering clustering(options.clustering, scale);
-    const ScaleLooker looker(options.detection.sliding_window);
-    int count = 0;
-    for (FrameIndex i = first; i <= last && count < 34; ++i, ++count) {
-        const Frame frame = source.read(i, false);
-        StageTimes times{};
-        const FrameMotion motion = motion_half.next(frame, times);
-        if (count < 17 || count % 8 != 1) continue;
-        for (const MotionCluster& cluster : clustering.cluster(motion)) {
-            std::vector<cv::Point2f> places;
-            for (const int member : cluster.members)
-                places.push_back(motion.motion_vectors[static_cast<std::size_t>(member)].position);
-            const auto vote =
-                looker.voteOn(frame.gray, cluster.box, places,
-                              {scale.gsd_m_per_px / 3.5, scale.gsd_m_per_px * 3.5});
-            if (vote)
-                std::printf("VOTE %d %.1f %.1f %.4f %.2f %d %.2f\n", i, vote->place.x, vote->place.y, vote->gsd_m_per_px,
-                            vote->decision, int(cluster.members.size()), cluster.box.heading);
-            else
-                std::printf("NONE %d %.1f %.1f %d\n", i, cluster.box.centre.x, cluster.box.centre.y,
-                            int(cluster.members.size()));
-        }
-    }
-}
-
 }  // namespace
 
 std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
@@ -224,17 +193,15 @@ ScaleBasis basisOf(const SceneScale& scale, const std::optional<ScaleEstimate>& 
     return {ScaleOrigin::estimated, estimated->uncertainty, estimated->vehicles};
 }
 
-SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
+namespace {
+
+/// The scale at the middle of the picture.
+SceneScale middleScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
                        const std::stop_token& stop, const ScaleProgress& told, std::optional<ScaleEstimate>* estimated,
                        std::string* why_not) {
     if (estimated != nullptr) estimated->reset();
     if (why_not != nullptr) why_not->clear();
     SceneScale scale = sceneScale(source.info(), gsd_m_per_px);
-    if (std::getenv("VOTES")) {
-        const FrameIndex count = source.info().frame_count;
-        for (const FrameIndex at : {0, (count - 40) / 2, count - 40}) printVotes(source, at, count - 1, options, scale);
-        std::exit(0);
-    }
     if (scale.gsd_known) return scale;
     const FrameIndex end = source.info().frame_count - 1;
     const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
@@ -260,6 +227,17 @@ SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions
         if (estimated != nullptr) *estimated = estimate;
         if (estimate->vehicles >= kPlenty) break;
     }
+    return scale;
+}
+
+}  // namespace
+
+SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
+                       const std::stop_token& stop, const ScaleProgress& told, std::optional<ScaleEstimate>* estimated,
+                       std::string* why_not) {
+    SceneScale scale = middleScale(source, range, options, gsd_m_per_px, stop, told, estimated, why_not);
+    // Where nothing is known of the scale, nothing looked like vehicles either.
+    if (options.view.oblique && hasMetricLimits(scale)) scale.slope = estimateSlope(source, range, options, scale, stop);
     return scale;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <opencv2/core/types.hpp>
-#include <optional>
 #include <vector>
 
 #include "core/values/scale_slope.h"
@@ -10,10 +9,10 @@
 namespace eyrie {
 
 /// How the scale changes over pictures of a size, from places in them where something looks like a vehicle: the linear
-/// function of the place that fits pixels per metre, robustly, for lorries vote for a scale that is too fine and
-/// pairs of cars for one too coarse. A horizon that is not level needs more evidence than a level one. Nothing where
-/// votes are few or lie too close together to tell a slope from chance, or where the scale may as well be the same
-/// everywhere.
-std::optional<ScaleSlope> fitSlope(const std::vector<ScaleVote>& votes, cv::Size image);
+/// function of the place that fits pixels per metre. Votes that lie far off count all the same, for a part of a car may
+/// look like one as well as two of them do. Around the picture's middle, where `gsd_m_per_px` was given or estimated, a
+/// car may be somewhat smaller or larger than usual; a horizon that is not level needs more evidence than a level one.
+/// Flat unless a slope explains the votes far better than none, and matters.
+ScaleSlope fitSlope(const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px);
 
 }  // namespace eyrie

@@ -1,7 +1,6 @@
 #include "chain/recording/run_recorder.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "chain/recording/classified_vehicles.h"
@@ -110,11 +109,6 @@ SceneScale sceneScale(const VideoInfo& video, double gsd_m_per_px) {
     const double gsd = gsd_m_per_px > 0 ? gsd_m_per_px : video.gsd_m_per_px;
     scale.gsd_known = gsd > 0;
     if (scale.gsd_known) scale.gsd_m_per_px = gsd;
-    if (const char* slope = std::getenv("SLOPE")) {
-        scale.slope.down_per_px = std::atof(slope);
-        scale.slope.centre_x = (video.size.width - 1) / 2.0;
-        scale.slope.centre_y = (video.size.height - 1) / 2.0;
-    }
     return scale;
 }
 

@@ -12,22 +12,47 @@
 namespace eyrie {
 namespace {
 
-constexpr double kLookStep = 1.12;      ///< from one scale to the next
-constexpr double kReachLengths = 1.9;   ///< of the searched area, in car lengths …
-constexpr double kReachWidths = 2.6;    ///< … and widths: the place is that of its vectors, not its middle
-constexpr double kSureVote = 5;         ///< decision value from which a window is believed
-constexpr double kSmallestCarPx = 8;    ///< length below which every dot looks like a car
-constexpr double kHeld = 0.7;           ///< share of the motion vectors that a window must hold
-constexpr double kLeastFilled = 0.5;    ///< of the window's length that they spread over, at least …
-constexpr double kMostFilled = 1.3;     ///< … and at most, and of its width
-constexpr double kInPicture = 0.8;      ///< share of the searched area
-constexpr double kNotLooked = -1000;
-constexpr double kFarBelow = 4;         ///< decision value that stands for none beside the best
+constexpr double kLookStep = 1.12;       ///< from one scale to the next
+constexpr double kAroundLengths = 1.3;   ///< of the searched area beyond what moves, in car lengths …
+constexpr double kAroundWidths = 1.6;    ///< … and widths: vectors lie on outlines, if not on one end only
+constexpr double kSureVote = 6;          ///< decision value from which a window is believed
+constexpr double kSmallestCarPx = 8;     ///< length below which every dot looks like a car
+constexpr double kLongestCarPx = 250;    ///< and above which nothing is looked for
+constexpr std::size_t kFewestHeld = 4;   ///< motion vectors in a window
+constexpr double kFilledAlong = 0.6;     ///< of the window's length that they spread over …
+constexpr double kFilledAcross = 0.45;   ///< … and of its width
+constexpr double kBeyond = 0.15;         ///< of its sides to every side of a window, where …
+constexpr double kHeldShare = 0.8;       ///< … few vectors lie: it is no part of something larger
+constexpr double kOnePlace = 0.3;        ///< share of the smaller of two windows that lie on one place
+constexpr double kMargin = 1;            ///< px: corners lie beside the edges they belong to
 
-/// Where a parabola through three neighbours has its top, in steps from the middle one.
-double topOf(double before, double middle, double after) {
-    const double bend = before - 2 * middle + after;
-    return bend < 0 ? std::clamp((before - after) / (2 * bend), -0.5, 0.5) : 0;
+struct Hypothesis {
+    cv::Rect2d box;  ///< px, in the frame of the searched thing: motion up, its middle at the origin
+    double gsd_m_per_px;
+    double decision;
+};
+
+bool isFilled(const cv::Rect2d& box, const std::vector<cv::Point2d>& places) {
+    const cv::Rect2d around(box.x - kMargin, box.y - kMargin, box.width + 2 * kMargin, box.height + 2 * kMargin);
+    const cv::Rect2d surroundings(around.x - kBeyond * box.width, around.y - kBeyond * box.height,
+                                  around.width + 2 * kBeyond * box.width, around.height + 2 * kBeyond * box.height);
+    std::size_t held = 0;
+    std::size_t near = 0;
+    double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+    for (const cv::Point2d& place : places) {
+        near += surroundings.contains(place);
+        if (!around.contains(place)) continue;
+        ++held;
+        left = std::min(left, place.x);
+        right = std::max(right, place.x);
+        top = std::min(top, place.y);
+        bottom = std::max(bottom, place.y);
+    }
+    return held >= kFewestHeld && static_cast<double>(held) >= kHeldShare * static_cast<double>(near) && bottom - top >= kFilledAlong * box.height && right - left >= kFilledAcross * box.width;
+}
+
+bool onOnePlace(const cv::Rect2d& a, const cv::Rect2d& b) {
+    return (a & b).area() > kOnePlace * std::min(a.area(), b.area());
 }
 
 }  // namespace
@@ -35,55 +60,45 @@ double topOf(double before, double middle, double after) {
 ScaleLooker::ScaleLooker(const SlidingWindowOptions& options)
     : options_(options), scanner_(loadModel(modelLocation(options.model))) {}
 
-double ScaleLooker::decisionAt(const cv::Mat& gray, const OrientedBox& moving, const std::vector<cv::Point2f>& vectors,
-                               const SceneScale& scale) const {
-    const double length = scale.px(options_.car_length_m);
-    const double width = scale.px(options_.car_width_m);
-    if (length < kSmallestCarPx || moving.length < kLeastFilled * length || moving.length > kMostFilled * length ||
-        moving.width > kMostFilled * width + 1)
-        return kNotLooked;
-    OrientedBox area = moving;
-    area.length = length * kReachLengths;
-    area.width = width * kReachWidths;
-    if (areaInImage(area, gray.size()) < kInPicture * area.area()) return kNotLooked;
-    const UprightPatch patch = cutUpright(gray, area);
+std::vector<ScaleVote> ScaleLooker::votesOn(const cv::Mat& gray, const OrientedBox& moving,
+                                            const std::vector<cv::Point2f>& vectors, const ScaleRange& range) const {
     std::vector<cv::Point2d> places;
-    for (const cv::Point2f& vector : vectors) places.push_back(toPatch(patch.image_from_patch, vector));
+    for (const cv::Point2f& vector : vectors) {
+        const cv::Point2d in_box = moving.toBox(vector);  // x ahead, y to the right
+        places.emplace_back(in_box.y, -in_box.x);
+    }
     SlidingWindowOptions looking = options_;
     looking.decision_threshold = kSureVote;
-    cv::Mat decision;
-    double best = kNotLooked;
-    for (const WindowHypothesis& found : scanAtScale(scanner_, patch.image, 1, looking, scale, decision)) {
-        const cv::Rect2d box(found.box.x - 1, found.box.y - 1, found.box.width + 2, found.box.height + 2);
-        const auto inside = std::count_if(places.begin(), places.end(), [&](cv::Point2d p) { return box.contains(p); });
-        if (static_cast<double>(inside) < kHeld * static_cast<double>(places.size())) continue;
-        best = std::max(best, found.decision);
-    }
-    return best;
-}
-
-std::optional<ScaleVote> ScaleLooker::voteOn(const cv::Mat& gray, const OrientedBox& moving,
-                                             const std::vector<cv::Point2f>& vectors, const ScaleRange& range) const {
-    std::vector<double> scales;
-    std::vector<double> decisions;
+    std::vector<Hypothesis> found;
     for (double gsd = range.finest_m_per_px; gsd <= range.coarsest_m_per_px; gsd *= kLookStep) {
         SceneScale scale;
         scale.gsd_m_per_px = gsd;
-        scales.push_back(gsd);
-        decisions.push_back(decisionAt(gray, moving, vectors, scale));
+        const double length = scale.px(options_.car_length_m);
+        if (length < kSmallestCarPx || length > kLongestCarPx || length > moving.length / kFilledAlong) continue;
+        OrientedBox area = moving;
+        area.length += kAroundLengths * length;
+        area.width += kAroundWidths * scale.px(options_.car_width_m);
+        const UprightPatch patch = cutUpright(gray, area);
+        const cv::Point2d middle = toPatch(patch.image_from_patch, moving.centre);
+        cv::Mat decision;
+        for (const WindowHypothesis& window : scanAtScale(scanner_, patch.image, 1, looking, scale, decision)) {
+            const cv::Rect2d box(window.box.x - middle.x, window.box.y - middle.y, window.box.width, window.box.height);
+            if (isFilled(box, places)) found.push_back({box, gsd, window.decision});
+        }
     }
-    if (decisions.size() < 3) return std::nullopt;
-    const auto best = std::max_element(decisions.begin() + 1, decisions.end() - 1);
-    if (*best < kSureVote || *best < decisions.front() || *best < decisions.back()) return std::nullopt;
-    const auto at = static_cast<std::size_t>(best - decisions.begin());
-    ScaleVote vote;
-    vote.place = moving.centre;
-    vote.decision = *best;
-    // Neighbours that were not looked at, or in which nothing was found, say nothing of where the top lies.
-    const double before = std::max(decisions[at - 1], *best - kFarBelow);
-    const double after = std::max(decisions[at + 1], *best - kFarBelow);
-    vote.gsd_m_per_px = scales[at] * std::pow(kLookStep, topOf(before, *best, after));
-    return vote;
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Hypothesis& a, const Hypothesis& b) { return a.decision > b.decision; });
+    std::vector<Hypothesis> kept;
+    std::vector<ScaleVote> votes;
+    for (const Hypothesis& candidate : found) {
+        const bool taken = std::any_of(kept.begin(), kept.end(),
+                                       [&](const Hypothesis& other) { return onOnePlace(other.box, candidate.box); });
+        if (taken) continue;
+        kept.push_back(candidate);
+        const cv::Point2d centre(candidate.box.x + candidate.box.width / 2, candidate.box.y + candidate.box.height / 2);
+        votes.push_back({moving.toImage({-centre.y, centre.x}), candidate.gsd_m_per_px, candidate.decision});
+    }
+    return votes;
 }
 
 }  // namespace eyrie

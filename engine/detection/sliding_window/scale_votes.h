@@ -1,7 +1,6 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
-#include <optional>
 #include <vector>
 
 #include "core/geometry/oriented_box.h"
@@ -30,17 +29,12 @@ class ScaleLooker {
     explicit ScaleLooker(const SlidingWindowOptions& options);
 
     /// What moves within a box, whose heading is its motion's, in a CV_8UC1 picture. `vectors` are the places of its
-    /// motion vectors: a window counts that holds most of them and is filled by them, so that neither a part of a
-    /// lorry nor two cars are taken for one. Nothing where no such window is sure that it is a vehicle, or where the
-    /// surest one is at an end of the range.
-    std::optional<ScaleVote> voteOn(const cv::Mat& gray, const OrientedBox& moving,
-                                    const std::vector<cv::Point2f>& vectors, const ScaleRange& range) const;
+    /// motion vectors: a window counts that is filled by those that it holds. Of windows on one place, whatever their
+    /// scales, the surest stays.
+    std::vector<ScaleVote> votesOn(const cv::Mat& gray, const OrientedBox& moving,
+                                   const std::vector<cv::Point2f>& vectors, const ScaleRange& range) const;
 
  private:
-    /// The surest window at one scale.
-    double decisionAt(const cv::Mat& gray, const OrientedBox& moving, const std::vector<cv::Point2f>& vectors,
-                      const SceneScale& scale) const;
-
     SlidingWindowOptions options_;
     WindowScanner scanner_;
 };
