@@ -237,7 +237,8 @@ SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions
                        std::string* why_not) {
     SceneScale scale = middleScale(source, range, options, gsd_m_per_px, stop, told, estimated, why_not);
     // Where nothing is known of the scale, nothing looked like vehicles either.
-    if (options.view.oblique && hasMetricLimits(scale)) scale.slope = estimateSlope(source, range, options, scale, stop);
+    if (options.view.oblique && hasMetricLimits(scale))
+        scale.slope = estimateSlope(source, range, options, scale, stop);
     return scale;
 }
 

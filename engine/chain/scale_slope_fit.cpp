@@ -8,17 +8,17 @@ namespace eyrie {
 namespace {
 
 constexpr std::size_t kFewestVotes = 12;
-constexpr double kVoteSpread = 0.18;  ///< of the logarithm of a vote: cars differ by half of it, looks by the rest
-constexpr double kFarOff = 2.5;       ///< cost of votes that say nothing
-constexpr double kIndependent = 0.5;  ///< share of votes: vehicles are seen in several frames
-constexpr double kMiddleError = 0.15;      ///< usual error of the logarithm of the scale in the middle …
-constexpr double kLevelHorizon = 0.12;       ///< … growth from there to the side of the picture …
-constexpr double kTilted = 0.6;       ///< … and to its lower edge
-constexpr double kGrowthStep = 0.05;        ///< of growths and of the logarithm
-constexpr int kMostAside = 6;         ///< steps
+constexpr double kVoteSpread = 0.18;    ///< of the logarithm of a vote: cars differ by half of it, looks by the rest
+constexpr double kFarOff = 2.5;         ///< cost of votes that say nothing
+constexpr double kIndependent = 0.5;    ///< share of votes: vehicles are seen in several frames
+constexpr double kMiddleError = 0.15;   ///< usual error of the logarithm of the scale in the middle …
+constexpr double kLevelHorizon = 0.12;  ///< … growth from there to the side of the picture …
+constexpr double kTilted = 0.6;         ///< … and to its lower edge
+constexpr double kGrowthStep = 0.05;    ///< of growths and of the logarithm
+constexpr int kMostAside = 6;           ///< steps
 constexpr int kMostDown = 18;
 constexpr int kMostOff = 8;
-constexpr double kSaved = 5;           ///< cost that a slope must save
+constexpr double kSaved = 5;          ///< cost that a slope must save
 constexpr double kWorthwhile = 0.15;  ///< growth from the middle of the picture to an edge
 
 double squared(double value) {
@@ -28,7 +28,7 @@ double squared(double value) {
 /// Of a growth to the right and downwards, with the best scale in the middle.
 double costOf(double right, double down, const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px) {
     const cv::Point2d half(image.width / 2.0, image.height / 2.0);
-    const ScaleSlope slope{right / half.x, down / half.y, half.x - 0.5, half.y - 0.5};
+    const ScaleSlope slope = ScaleSlope::ofPicture(image, right / half.x, down / half.y);
     std::vector<double> off;  // logarithm of how much finer the vote is than the slope and the GSD say
     for (const ScaleVote& vote : votes)
         off.push_back(std::log(gsd_m_per_px / vote.gsd_m_per_px / slope.factorAt(vote.place)));
@@ -60,8 +60,7 @@ ScaleSlope fitSlope(const std::vector<ScaleVote>& votes, cv::Size image, double 
     }
     if (std::max(std::abs(right), std::abs(down)) < kWorthwhile) return {};
     if (costOf(0, 0, votes, image, gsd_m_per_px) - least < kSaved) return {};
-    return {right / (image.width / 2.0), down / (image.height / 2.0), (image.width - 1) / 2.0,
-            (image.height - 1) / 2.0};
+    return ScaleSlope::ofPicture(image, right / (image.width / 2.0), down / (image.height / 2.0));
 }
 
 }  // namespace eyrie

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <opencv2/core/utility.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -86,8 +85,6 @@ ScaleSlope estimateSlope(FrameSource& source, FrameRange range, const ChainOptio
         const std::vector<ScaleVote> found = votesFrom(source, first, last, options, scale, *looker, stop);
         votes.insert(votes.end(), found.begin(), found.end());
     }
-    if (std::getenv("VOTES")) for (auto& v : votes) std::fprintf(stderr,"VOTE 0 %.1f %.1f %.4f %.2f\n",v.place.x,v.place.y,v.gsd_m_per_px,v.decision);
-    const ScaleSlope ss = fitSlope(votes, source.info().size, scale.gsd_m_per_px); std::fprintf(stderr, "SLOPE %zu votes right %.5f down %.5f\n", votes.size(), ss.right_per_px, ss.down_per_px);
     return stop.stop_requested() ? ScaleSlope{} : fitSlope(votes, source.info().size, scale.gsd_m_per_px);
 }
 

@@ -49,7 +49,8 @@ std::unique_ptr<Detector> makeFor(const DetectionOptions& options, const SceneSc
 
 std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const SceneScale& scale) {
     if (scale.slope.isFlat()) return makeFor(options, scale);
-    return std::make_unique<ScaledDetectors>(scale, [options](const SceneScale& here) { return makeFor(options, here); });
+    return std::make_unique<ScaledDetectors>(scale,
+                                             [options](const SceneScale& here) { return makeFor(options, here); });
 }
 
 }  // namespace eyrie

@@ -43,10 +43,7 @@ bool isCut(const Registration& registration) {
 }  // namespace
 
 Tracker::Tracker(const TrackerOptions& options, const SceneScale& scale)
-    : options_(options),
-      scale_(scale),
-      model_(options, checked(scale)),
-      manager_(options, scale) {}
+    : options_(options), scale_(scale), model_(options, checked(scale)), manager_(options, scale) {}
 
 double Tracker::gateAt(cv::Point2d place) const {
     return std::max(options_.distance_gate_px, scale_.at(place).px(options_.distance_gate_m));

@@ -12,19 +12,19 @@
 namespace eyrie {
 namespace {
 
-constexpr double kLookStep = 1.12;       ///< from one scale to the next
-constexpr double kAroundLengths = 1.3;   ///< of the searched area beyond what moves, in car lengths …
-constexpr double kAroundWidths = 1.6;    ///< … and widths: vectors lie on outlines, if not on one end only
-constexpr double kSureVote = 6;          ///< decision value from which a window is believed
-constexpr double kSmallestCarPx = 8;     ///< length below which every dot looks like a car
-constexpr double kLongestCarPx = 250;    ///< and above which nothing is looked for
-constexpr std::size_t kFewestHeld = 4;   ///< motion vectors in a window
-constexpr double kFilledAlong = 0.6;     ///< of the window's length that they spread over …
-constexpr double kFilledAcross = 0.45;   ///< … and of its width
-constexpr double kBeyond = 0.15;         ///< of its sides to every side of a window, where …
-constexpr double kHeldShare = 0.8;       ///< … few vectors lie: it is no part of something larger
-constexpr double kOnePlace = 0.3;        ///< share of the smaller of two windows that lie on one place
-constexpr double kMargin = 1;            ///< px: corners lie beside the edges they belong to
+constexpr double kLookStep = 1.12;      ///< from one scale to the next
+constexpr double kAroundLengths = 1.3;  ///< of the searched area beyond what moves, in car lengths …
+constexpr double kAroundWidths = 1.6;   ///< … and widths: vectors lie on outlines, if not on one end only
+constexpr double kSureVote = 6;         ///< decision value from which a window is believed
+constexpr double kSmallestCarPx = 8;    ///< length below which every dot looks like a car
+constexpr double kLongestCarPx = 250;   ///< and above which nothing is looked for
+constexpr std::size_t kFewestHeld = 4;  ///< motion vectors in a window
+constexpr double kFilledAlong = 0.6;    ///< of the window's length that they spread over …
+constexpr double kFilledAcross = 0.45;  ///< … and of its width
+constexpr double kBeyond = 0.15;        ///< of its sides to every side of a window, where …
+constexpr double kHeldShare = 0.8;      ///< … few vectors lie: it is no part of something larger
+constexpr double kOnePlace = 0.3;       ///< share of the smaller of two windows that lie on one place
+constexpr double kMargin = 1;           ///< px: corners lie beside the edges they belong to
 
 struct Hypothesis {
     cv::Rect2d box;  ///< px, in the frame of the searched thing: motion up, its middle at the origin
@@ -48,7 +48,8 @@ bool isFilled(const cv::Rect2d& box, const std::vector<cv::Point2d>& places) {
         top = std::min(top, place.y);
         bottom = std::max(bottom, place.y);
     }
-    return held >= kFewestHeld && static_cast<double>(held) >= kHeldShare * static_cast<double>(near) && bottom - top >= kFilledAlong * box.height && right - left >= kFilledAcross * box.width;
+    return held >= kFewestHeld && static_cast<double>(held) >= kHeldShare * static_cast<double>(near) &&
+           bottom - top >= kFilledAlong * box.height && right - left >= kFilledAcross * box.width;
 }
 
 bool onOnePlace(const cv::Rect2d& a, const cv::Rect2d& b) {

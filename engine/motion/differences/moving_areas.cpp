@@ -306,7 +306,8 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion,
             const auto min_correlation = correlationNeeded(motion, place);
             if (!min_correlation) continue;
             const auto shift = shiftOf(areas[at], *min_correlation);
-            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift_px, min_speed(place) * gap_))
+            if (shift &&
+                std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift_px, min_speed(place) * gap_))
                 shifts[at] = shift;
         }
     });
@@ -323,7 +324,8 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion,
                 ++known;
         }
         if (known >= kEnough) continue;
-        const double spacing = std::max(kVectorSpacingPx, scale_.at(middleOf(grownBounds(areas[i]))).px(kVectorSpacing));
+        const double spacing =
+            std::max(kVectorSpacingPx, scale_.at(middleOf(grownBounds(areas[i]))).px(kVectorSpacing));
         for (const cv::Point2d& p : spread(areas[i], spacing))
             inferred.push_back({next_id_++, p + *shifts[i], velocity, 0});
     }

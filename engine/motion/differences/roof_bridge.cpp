@@ -12,7 +12,7 @@ namespace {
 constexpr double kMoreAlike = 0.5;  ///< of the velocity difference that links neighbours
 constexpr double kExpected = 0.4;  ///< standing corners in the gap, were it road like its surroundings; fewer: no proof
 constexpr double kThinnestStrip = 1;  ///< px
-constexpr double kVehicleEnd = 1.5;  ///< px: corners of the road next to a vehicle lie this close to its own
+constexpr double kVehicleEnd = 1.5;   ///< px: corners of the road next to a vehicle lie this close to its own
 
 /// Whether something hides the road between two places: no corner stands there though the surroundings have enough
 /// that one might be expected. Where the ground has hardly any corners, as at night, their absence says nothing.

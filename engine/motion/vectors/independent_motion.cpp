@@ -198,7 +198,8 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     if (options_.parallax.enabled) {
         for (std::size_t i = 0; i < corners.size(); ++i) {
             // Slower than what counts as moving: else vehicles that go one way would vote, too.
-            const bool below = measured[i].baseline > 0 && length(measured[i].velocity) < limitsAt(corners[i].current).least;
+            const bool below =
+                measured[i].baseline > 0 && length(measured[i].velocity) < limitsAt(corners[i].current).least;
             if (corners[i].on_background && below && measured[i].baseline >= options_.baseline / 2)
                 parallax_test_.add(corners[i].current, measured[i].velocity);
         }
@@ -241,8 +242,8 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     std::vector<char> looks_like_shadow = shadowLooks(frame, motion.motion_vectors);
     inferRoofs(motion, looks_like_shadow);
     if (options_.shadow.enabled) leaveOutShadows(motion, looks_like_shadow, verdicts);
-    const std::vector<MotionVector> starved = areas_.infer(
-        motion, [this](cv::Point2d place) { return limitsAt(place).least; });
+    const std::vector<MotionVector> starved =
+        areas_.infer(motion, [this](cv::Point2d place) { return limitsAt(place).least; });
     motion.motion_vectors.insert(motion.motion_vectors.end(), starved.begin(), starved.end());
 }
 

@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::size_t kOwnerVectors = 4;
 constexpr double kOwnerVelocityShare = 0.05;
-constexpr double kOwnerAlike = 2.5;  ///< shadow and owner may differ by this many times what members may
+constexpr double kOwnerAlike = 2.5;     ///< shadow and owner may differ by this many times what members may
 constexpr double kShadowLinkage = 1.2;  ///< m, linkage distance of shadows
-constexpr double kReachMargin = 1;   ///< px by which a shadow may reach farther
-constexpr double kOwnMargin = 0.5;   ///< px; dark corners within the owner's box are its own
+constexpr double kReachMargin = 1;      ///< px by which a shadow may reach farther
+constexpr double kOwnMargin = 0.5;      ///< px; dark corners within the owner's box are its own
 
 double distanceTo(const OrientedBox& box, cv::Point2d point) {
     const cv::Point2d in_box = box.toBox(point);

@@ -43,9 +43,9 @@ struct FrameAssociation {
 
 /// Length and width, px, of a box that holds one vehicle at most; 0: unknown.
 struct VehicleLimit {
-    double length = 0;     ///< at the slope's centre
-    double width = 0;      ///< there
-    double margin = 0;     ///< px in both that do not depend on the scale
+    double length = 0;  ///< at the slope's centre
+    double width = 0;   ///< there
+    double margin = 0;  ///< px in both that do not depend on the scale
     ScaleSlope slope = {};
     /// The usual car of the options times `one_vehicle_factor`, and what gradients widen a box by.
     static VehicleLimit of(const TrackerOptions& options, const SceneScale& scale);

@@ -297,7 +297,8 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
             std::erase_if(path.states,
                           [](const TimedPathState& s) { return s.second.status == TrackStatus::tentative; });
         }
-        if (options.trim_predicted) trimPredictedEnd(path, ground, scale.at(middleOf(path)).pxPerFrame(options.stop_speed_m_s));
+        if (options.trim_predicted)
+            trimPredictedEnd(path, ground, scale.at(middleOf(path)).pxPerFrame(options.stop_speed_m_s));
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);

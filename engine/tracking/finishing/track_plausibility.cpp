@@ -144,7 +144,8 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
             const Sharing sharing = sharingOf(stronger, weaker, scale);
             const auto shorter = static_cast<double>(std::min(stronger.states.size(), weaker.states.size()));
             if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
-            const bool fixed = sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scale.at(middleOf(weaker)));
+            const bool fixed =
+                sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scale.at(middleOf(weaker)));
             if (fixed && sharing.share > kFixedShare * max_sharing) {
                 drop(weaker, TrackDrop::shares_place, dropped, stronger.id);
                 continue;
