@@ -17,6 +17,13 @@ bool finite(const MotionVector& v) {
 
 }  // namespace
 
+void Linkage::reach(double along_px, double across_px, double smallest_px) {
+    smallest = smallest_px;
+    // Elsewhere the scale may be so much finer that what is too small at the centre is not.
+    along = slope.isFlat() ? std::max(along_px, smallest) : along_px;
+    across = slope.isFlat() ? std::max(across_px, smallest) : across_px;
+}
+
 Linkage Linkage::at(cv::Point2d place) const {
     Linkage here = *this;
     here.slope = {};

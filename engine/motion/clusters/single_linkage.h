@@ -16,6 +16,8 @@ struct Linkage {
     double smallest = 0;           ///< px below which no half axis falls where the slope makes it smaller
     ScaleSlope slope = {};         ///< the half axes are those at its centre
 
+    /// Sets both half axes, px at the slope's centre, with the smallest that either may be anywhere.
+    void reach(double along_px, double across_px, double smallest_px);
     /// The linkage at a place, as one that is the same everywhere.
     Linkage at(cv::Point2d place) const;
     /// The farthest that any two of the vectors may lie apart, px.

@@ -54,7 +54,7 @@ std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vec
         return group.members.size() < kOwnerVectors || group.box.length < here.px(options_.shadow_owner_length_m) ||
                group.box.width < here.px(options_.shadow_owner_width_m);
     });
-    linkage.along = linkage.across = std::max(kSmallestLinkage, scale_.px(kShadowLinkage));
+    linkage.reach(scale_.px(kShadowLinkage), scale_.px(kShadowLinkage), kSmallestLinkage);
     for (const VectorGroup& shadow : groupVectors(vectors, dark, linkage)) {
         for (const VectorGroup& owner : owners) {
             const cv::Point2d apart = shadow.velocity - owner.velocity;
