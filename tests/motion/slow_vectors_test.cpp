@@ -27,6 +27,8 @@ double upperMedian(std::vector<double> values) {
 /// The motion of corners, each looked up by its id in every picture that is remembered.
 class SlowMotion {
  public:
+    CornerVerdicts verdicts;  ///< of the last frame
+
     SlowMotion(const IndependentMotionOptions& options, const SceneScale& scale) : options_(options), scale_(scale) {
         options_.baseline = std::max(options_.baseline, options_.min_age);
     }
@@ -34,6 +36,7 @@ class SlowMotion {
     FrameMotion next(const RegisteredFrame& registered, cv::Size size, const cv::Matx33d& camera) {
         const RegistrationState state = registered.registration.state;
         FrameMotion motion;
+        verdicts.clear();
         if (state == RegistrationState::first) pictures_.clear();
         if (state == RegistrationState::frozen) return last_;
         for (Picture& picture : pictures_) ++picture.frames_ago;
@@ -97,7 +100,43 @@ class SlowMotion {
         const double certain = std::max(0.2 * speed, 7 * sigma);
         return mean + std::min(1.0, std::max(0.0, 2 * std::abs(bend) / certain - 1)) * bend * across;
     }
-    void sort(const RegisteredFrame& registered, cv::Size size, FrameMotion& motion) const {
+    /// By the measurement that came nearest to its limit.
+    template <class Sigma>
+    CornerVerdict verdictOn(const Corner& corner, const Measured& fast, const Measured& slow,
+                            const Sigma& sigma) const {
+        CornerVerdict verdict;
+        verdict.id = corner.id;
+        verdict.position = corner.current;
+        verdict.age = corner.age;
+        verdict.on_background = corner.on_background;
+        double nearest = -1;
+        const auto look = [&](const Measured& m, double metres, const char* name) {
+            const double lowest = std::max(scale_.pxPerFrame(metres), options_.min_speed_px);
+            const double noise = options_.sigma_factor * sigma(m.baseline);
+            if (m.baseline == 0 || cv::norm(m.velocity) / std::max(lowest, noise) <= nearest) return;
+            nearest = cv::norm(m.velocity) / std::max(lowest, noise);
+            verdict.baseline = m.baseline;
+            verdict.speed = cv::norm(m.velocity);
+            verdict.limit = std::max(lowest, noise);
+            verdict.parameter = noise >= lowest                  ? "motion.sigma_factor"
+                                : lowest > options_.min_speed_px ? name
+                                                                 : "motion.min_speed_px";
+        };
+        look(fast, options_.min_speed_m_s, "motion.min_speed");
+        if (options_.find_slow) look(slow, options_.slow_min_speed_m_s, "motion.slow_min_speed");
+        verdict.fate = CornerFate::slow;
+        const double most = scale_.gsd_known ? scale_.pxPerFrame(options_.max_speed_m_s) : 0;
+        if (corner.age < options_.min_age || fast.baseline == 0) {
+            verdict.fate = CornerFate::young;
+            verdict.parameter = "motion.min_age";
+        } else if (most > 0 && verdict.speed > most) {
+            verdict.fate = CornerFate::too_fast;
+            verdict.parameter = "motion.max_speed";
+            verdict.limit = most;
+        }
+        return verdict;
+    }
+    void sort(const RegisteredFrame& registered, cv::Size size, FrameMotion& motion) {
         std::map<CornerId, Measured> fast, slow;
         int background = 0;
         for (const Corner& corner : registered.corners) {
@@ -157,6 +196,11 @@ class SlowMotion {
                                     : options_.find_slow && moves(slow[corner.id], options_.slow_min_speed_m_s)
                                         ? &slow[corner.id]
                                         : nullptr;
+            verdicts.push_back(verdictOn(corner, fast[corner.id], slow[corner.id], sigma));
+            if (found != nullptr) {
+                verdicts.back().fate = CornerFate::moving;
+                verdicts.back().parameter.clear();
+            }
             if (found != nullptr) {
                 const cv::Point2d velocity = present(corner, found->velocity, motion.background_speed_sigma);
                 motion.motion_vectors.push_back({corner.id, corner.current, velocity, corner.age});
@@ -236,7 +280,8 @@ TEST(SlowVectors, CornersMoveByWhatEveryPictureSaysOfThem) {
             if (index == 0) seen.registration.state = RegistrationState::first;
             static int time = 0;
             if (index == 0) time = 0;
-            const FrameMotion found = motion.next(seen, test::flatFrame(index));
+            CornerVerdicts verdicts;
+            const FrameMotion found = motion.next(seen, test::flatFrame(index), &verdicts);
             const bool repeated = seen.registration.state == RegistrationState::frozen;
             const FrameMotion expected = slow.next(seen, {640, 480}, MovingCorners::camera(repeated ? time - 1 : time));
             if (!repeated) ++time;
@@ -252,6 +297,20 @@ TEST(SlowVectors, CornersMoveByWhatEveryPictureSaysOfThem) {
                 EXPECT_EQ(a.age, b.age);
             }
             ASSERT_EQ(found.stationary_corners, expected.stationary_corners) << variant << " " << t;
+            ASSERT_EQ(verdicts.size(), slow.verdicts.size()) << variant << " " << t;
+            for (std::size_t i = 0; i < verdicts.size(); ++i) {
+                const CornerVerdict& a = verdicts[i];
+                const CornerVerdict& b = slow.verdicts[i];
+                ASSERT_EQ(a.id, b.id);
+                EXPECT_EQ(a.position, b.position);
+                EXPECT_EQ(a.age, b.age);
+                EXPECT_EQ(a.on_background, b.on_background);
+                EXPECT_EQ(a.fate, b.fate) << variant << " " << t;
+                EXPECT_EQ(a.parameter, b.parameter) << variant << " " << t;
+                EXPECT_EQ(a.baseline, b.baseline) << variant << " " << t;
+                EXPECT_NEAR(a.speed, b.speed, 1e-5);
+                EXPECT_NEAR(a.limit, b.limit, 1e-5);
+            }
             vectors += found.motion_vectors.size();
             standing += found.stationary_corners.size();
         }
