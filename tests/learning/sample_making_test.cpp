@@ -389,7 +389,7 @@ std::vector<double> haralickPlainly(const cv::Mat& levels, cv::Point step) {
 }  // namespace
 
 TEST(SampleMaking, HaralickFeaturesAreThoseOfThePaper) {
-    cv::Mat levels = pattern({16, 32}) / 16;
+    const cv::Mat levels = pattern({16, 32}) / 17;
     for (const cv::Point step : {cv::Point(1, 0), {1, -1}, {0, -1}, {-1, -1}, {3, -3}, {-2, -2}, {0, -3}, {2, 0}}) {
         const auto features = haralickFeatures(levels, step);
         const auto expected = haralickPlainly(levels, step);

@@ -173,7 +173,7 @@ const Seen& street() {
 
 /// px by which a place may differ: vectors are floats, pictures are sampled to a thirty-second of a pixel.
 double toleranceOf(const TrackerOptions& options) {
-    return options.appearance == AppearanceUse::none ? 0.1 : 0.2;
+    return options.appearance == AppearanceUse::none ? 0.003 : 0.2;
 }
 
 std::vector<TrackerOptions> kindsOfTracking() {
@@ -228,9 +228,11 @@ TEST(TrackingLaws, AMirrorMirrorsTheTracks) {
     for (const TrackerOptions& options : kindsOfTracking()) {
         const auto before = tracked(street(), options);
         const auto after = tracked(seen, options);
-        const double tolerance = toleranceOf(options);
+        // A slanted box that comes in over the border with an end and a side is smeared along their sum, which has a
+        // hand.
+        const double tolerance = 0.3;
         expectSameTracks(before, after, mirror, tolerance);
-        expectSameTracks(finished(street(), before), finished(seen, after), mirror, 0.2);
+        expectSameTracks(finished(street(), before), finished(seen, after), mirror, tolerance);
         expectSameTracks(finished(street(), before, untraced), finished(seen, after, untraced), mirror, tolerance);
     }
 }
