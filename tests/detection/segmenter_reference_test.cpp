@@ -318,7 +318,7 @@ TEST(SegmenterReference, ViewsAreTheAlgorithmsOfTheirNames) {
     expectSame(superpixelSegments(roi, kTenToAMetre, 1000), slic(std::max(roi.image.cols, roi.image.rows) / 2),
                "half of the area at most");
     for (const double smoothing : {0.0, 1.5}) {
-        cv::Mat smooth = roi.image, gradient, lowest, markers, colour;
+        cv::Mat smooth = roi.image.clone(), gradient, lowest, markers, colour;
         if (smoothing > 0) cv::GaussianBlur(roi.image, smooth, {}, smoothing);
         simpleGradient(smooth, gradient);
         cv::erode(gradient, lowest, cv::Mat::ones(3, 3, CV_8UC1));
@@ -326,8 +326,10 @@ TEST(SegmenterReference, ViewsAreTheAlgorithmsOfTheirNames) {
         cv::cvtColor(smooth, colour, cv::COLOR_GRAY2BGR);
         cv::watershed(colour, markers);
         markers.setTo(0, markers < 0);
+        const cv::Mat before = roi.image.clone();
         expectSame(drawSegments(roi.image, watershedSegments(roi, smoothing)).reshape(1),
                    drawSegments(roi.image, markers).reshape(1), "watershed");
+        EXPECT_EQ(cv::norm(roi.image, before, cv::NORM_INF), 0) << "a view changes nothing";
     }
 }
 
