@@ -232,4 +232,19 @@ TEST(TracingLimits, ExtendingBackKeepsHalfOfTheBoxInThePictureAndOffOthers) {
     EXPECT_EQ(back(320, 0, 9), 0);
 }
 
+TEST(TracingLimits, NothingIsExtendedOverAFrameThatCouldNotBeRegistered) {
+    // It came in eight frames before, but how the ground moved five frames before is only guessed.
+    std::vector<FrameMotionSummary> motion;
+    for (FrameIndex frame = 0; frame < 120; ++frame) motion.push_back(testing::summaryOfFrame(frame));
+    motion[kFound - 4].registration.state = RegistrationState::failed;
+    Traced car;
+    car.start = {7.7, 180};
+    std::vector<TrackPath> paths{car.traced([](FrameIndex) { return std::vector<MotionVector>{}; })};
+    extendBack(paths, GroundMotion(motion), 2, 20);
+    EXPECT_EQ(paths[0].states.size(), 42U);
+    paths[0].states.erase(paths[0].states.begin(), paths[0].states.begin() + 2);
+    extendBack(paths, GroundMotion(motion), 9, 0);
+    EXPECT_EQ(paths[0].states.size(), 44U) << "as far as it is known";
+}
+
 }  // namespace eyrie
