@@ -208,6 +208,10 @@ TEST(PartLimits, PartsAreFusedWhereThatFitsThePredictionBetter) {
     const TrackAuthority young{true, false, true, false};
     EXPECT_EQ(containing({at(15, 0, 6, 10)}, lorry, {young}).tracks[0].kind, AssociationKind::missed);
     EXPECT_EQ(containing({at(15, 0, 6, 10)}, lorry, {young}).used[0], 0);
+    // A track that is too young to own parts leaves them to the next one.
+    const auto next = containing({at(15, 0, 6, 10)}, {at(0, 0, 40, 12), at(1, 0, 40, 12)}, {young, kKnown});
+    EXPECT_EQ(next.tracks[0].kind, AssociationKind::missed);
+    EXPECT_EQ(next.tracks[1].kind, AssociationKind::matched);
     // Of two tracks it is the part of the one that holds more of it.
     const auto shared = containing({at(18, 4, 5, 6)}, {at(0, 0, 40, 12), at(0, 6, 40, 12)});
     EXPECT_EQ(shared.tracks[0].kind, AssociationKind::missed);
