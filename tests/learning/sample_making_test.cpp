@@ -9,7 +9,6 @@
 #include "core/geometry/angle.h"
 #include "learning/descriptors/haralick.h"
 #include "learning/drawn_windows.h"
-#include "learning/training/background_mining.h"
 #include "learning/training/labelled_frames.h"
 #include "learning/training/trainer.h"
 
@@ -419,46 +418,6 @@ TEST(SampleMaking, HaralickFeaturesAreThoseOfThePaper) {
             for (const double value : haralickPlainly(sixteen, distance * direction))
                 EXPECT_NEAR(values[at++], value, 1e-4) << distance << direction;
         }
-    }
-}
-
-TEST(SampleMaking, MiningFindsTheHighestWindowsOfUprightPictures) {
-    TrainingOptions options;
-    options.classifier_options.trees = 40;
-    options.hard_negative_rounds = 0;
-    const VehicleModel model = *trainModel(test::drawnSamples(60, 120, 1), options, {});
-    LabelledImage image;
-    image.gray = pattern({150, 130}, 12);
-    constexpr double kHeading = -kPi / 2;  // up: nothing is turned
-    image.vehicles = {{{40, 40}, 21.5, 10, kHeading}};
-    image.unclear = {{{110, 30}, 40, 30, 0}};
-    constexpr std::uint64_t kSeed = 2;
-    // Of the headings one is drawn, two are the vehicle's: each of its windows is found twice.
-    cv::Mat1f decision(130 - 31, 150 - 15);
-    for (int y = 0; y < decision.rows; ++y) {
-        for (int x = 0; x < decision.cols; ++x)
-            decision(y, x) = float(model.decide(image.gray(cv::Rect(x, y, 16, 32))));
-    }
-    std::vector<std::pair<double, cv::Mat>> expected;
-    for (int y = 0; y < decision.rows; ++y) {
-        for (int x = 0; x < decision.cols; ++x) {
-            const cv::Rect near = cv::Rect(x - 3, y - 3, 7, 7) & cv::Rect({}, decision.size());
-            double highest = 0;
-            cv::minMaxLoc(decision(near), nullptr, &highest);
-            if (decision(y, x) <= 0 || decision(y, x) < highest) continue;
-            const OrientedBox box{{x + 7.5, y + 15.5}, 21.5, 10, kHeading};
-            if (overlap(box, image.vehicles[0]) >= 0.45) continue;
-            if (intersectionArea(box, image.unclear[0]) > 0.2 * box.area()) continue;
-            expected.emplace_back(decision(y, x), cutWindow(image.gray, box));
-        }
-    }
-    ASSERT_GE(expected.size(), 2U);
-    const SampleSet found = mineBackground(model, {image}, {}, 1000, kSeed);
-    for (const auto& [value, window] : expected) {
-        const auto times = std::count_if(found.begin(), found.end(), [&, cut = window](const Sample& sample) {
-            return cv::norm(sample.window, cut, cv::NORM_INF) == 0;
-        });
-        EXPECT_GE(times, 2) << value;
     }
 }
 
