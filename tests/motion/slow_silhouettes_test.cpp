@@ -132,8 +132,9 @@ TEST(SlowSilhouettes, OutlinesAreThoseOfWhatDiffersFromTheGroundBefore) {
     DrivenGround scene;
     scene.size = {170, 130};
     scene.ground_contrast = 0.45;
+    scene.noise = 4;
     scene.vehicles = {{{70, 60}, {1.6, 0.2}, {34, 8}, 205, 0.1},    // a plain lorry
-                      {{110, 30}, {-1.1, 0.5}, {20, 9}, 175, 0.6},  // light, textured
+                      {{110, 30}, {-1.1, 0.5}, {20, 9}, 141, 0.6},  // light, textured
                       {{70, 100}, {0.9, -0.1}, {16, 7}, 75, 0.1},   // half dark, like a shadow
                       {{130, 90}, {0.05, 1.3}, {7, 22}, 20, 0.2},   // black, towards the border
                       {{40, 40}, {0.2, 0}, {12, 7}, 220, 0.3}};     // creeping

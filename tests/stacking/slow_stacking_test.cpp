@@ -373,4 +373,18 @@ TEST(SlowStacking, MastersAndTheirVectorsAreThoseOfTheBook) {
     EXPECT_GT(refused, 20U);
 }
 
+TEST(SlowStacking, TheMiddleHeadingIsTheMedianAboutTheMeanDirection) {
+    std::mt19937 random(4);
+    for (int trial = 0; trial < 500; ++trial) {
+        // Up to a right angle about any direction, beyond ±180° too.
+        const double about = double(random() % 6283) / 1000 - CV_PI;
+        std::vector<double> headings;
+        for (unsigned i = 0; i < 1 + random() % 6; ++i)
+            headings.push_back(std::remainder(about + double(random() % 3000) / 1000 - 1.5, 2 * CV_PI));
+        EXPECT_NEAR(std::remainder(medianHeading(headings) - middleHeading(headings), 2 * CV_PI), 0, 1e-9) << trial;
+        EXPECT_LE(std::abs(medianHeading(headings)), CV_PI + 1e-9);
+        EXPECT_EQ(lowerMedian(headings), lower(headings));
+    }
+}
+
 }  // namespace eyrie
