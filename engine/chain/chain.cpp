@@ -5,6 +5,7 @@
 
 #include "core/values/stopwatch.h"
 #include "detection/detector_factory.h"
+#include "detection/detector_table.h"
 #include "detection/roi_cutter.h"
 
 namespace eyrie {
@@ -12,8 +13,8 @@ namespace eyrie {
 DuplicateRemovalOptions duplicatesFor(const ChainOptions& options) {
     DuplicateRemovalOptions duplicates = options.duplicates;
     if (duplicates.strategy == DuplicateStrategy::by_detector) {
-        const bool classifier = options.detection.method == DetectionMethod::sliding_window;
-        duplicates.strategy = classifier ? DuplicateStrategy::suppress : DuplicateStrategy::fuse;
+        const bool whole = kindOf(options.detection.method).whole_vehicles;
+        duplicates.strategy = whole ? DuplicateStrategy::suppress : DuplicateStrategy::fuse;
     }
     return duplicates;
 }

@@ -1,43 +1,15 @@
 #include "detection/detection_options.h"
 
+#include "detection/detector_table.h"
+
 namespace eyrie {
 
 const char* nameOf(DetectionMethod method) {
-    switch (method) {
-        case DetectionMethod::clusters:
-            return "clusters";
-        case DetectionMethod::gradient:
-            return "gradient";
-        case DetectionMethod::relative_connectivity:
-            return "relative_connectivity";
-        case DetectionMethod::sliding_window:
-            return "sliding_window";
-        case DetectionMethod::window_and_gradient:
-            return "window_and_gradient";
-        case DetectionMethod::tophat_otsu:
-            return "tophat_otsu";
-        case DetectionMethod::mser:
-            return "mser";
-        case DetectionMethod::canny_harris:
-            return "canny_harris";
-    }
-    return "";
-}
-
-const std::vector<DetectionMethod>& allDetectionMethods() {
-    static const std::vector<DetectionMethod> all{DetectionMethod::clusters,
-                                                  DetectionMethod::gradient,
-                                                  DetectionMethod::relative_connectivity,
-                                                  DetectionMethod::sliding_window,
-                                                  DetectionMethod::window_and_gradient,
-                                                  DetectionMethod::tophat_otsu,
-                                                  DetectionMethod::mser,
-                                                  DetectionMethod::canny_harris};
-    return all;
+    return kindOf(method).name;
 }
 
 bool looksThroughWindows(DetectionMethod method) {
-    return method == DetectionMethod::sliding_window || method == DetectionMethod::window_and_gradient;
+    return kindOf(method).through_windows;
 }
 
 DetectionOptions DetectionOptions::thesis() {
@@ -46,11 +18,7 @@ DetectionOptions DetectionOptions::thesis() {
     options.min_roi_length_m = 0;
     options.min_roi_width_m = 0;
     options.cluster_margin_px = 0;
-    options.gradient = GradientOptions::thesis();
-    options.relative_connectivity = RelativeConnectivityOptions::thesis();
-    options.sliding_window = SlidingWindowOptions::thesis();
-    options.tophat_otsu = TophatOtsuOptions::thesis();
-    options.mser = MserOptions::thesis();
+    for (const DetectionMethod known : allDetectionMethods()) kindOf(known).set_as_in_thesis(options);
     return options;
 }
 
@@ -78,13 +46,7 @@ void DetectionOptions::describe(ParameterVisitor& visitor) {
     deciding.real(
         "detection.cluster_margin", cluster_margin_px, 0, 20,
         {"px", "Where a cluster itself is the detection, its box is grown by this on every side of its vectors.", ""});
-    gradient.describe(visitor);
-    relative_connectivity.describe(visitor);
-    sliding_window.describe(visitor);
-    window_and_gradient.describe(visitor);
-    tophat_otsu.describe(visitor);
-    mser.describe(visitor);
-    canny_harris.describe(visitor);
+    for (const DetectionMethod known : allDetectionMethods()) kindOf(known).describe(*this, visitor);
 }
 
 }  // namespace eyrie

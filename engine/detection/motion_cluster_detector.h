@@ -18,5 +18,7 @@ class MotionClusterDetector : public Detector {
 
 /// The box around the cluster's own vectors, grown by a margin, as a detection; none where the ROI has no vectors.
 std::vector<Detection> clusterDetection(const MotionRoi& roi, double margin_px);
+/// Boxes of a search area, in its own pixels, as detections that move as its cluster does.
+std::vector<Detection> detectionsIn(const MotionRoi& roi, const std::vector<cv::Rect2d>& boxes);
 
 }  // namespace eyrie

@@ -36,31 +36,8 @@ struct LabelFormat {
     std::vector<ExportFile> (*files)(const std::filesystem::path&, const ExportOptions&) = nullptr;
 };
 
-/// All formats; the order is the order of sniffing.
+/// All formats, in the order of sniffing; made in format_table.cpp, which alone knows their functions.
 const std::vector<LabelFormat>& formatTable();
-
-LabelFormat nativeFormat();
-LabelFormat nativeResultFormat();
-LabelFormat motFormat();
-LabelFormat motCvatFormat();
-LabelFormat motResultFormat();
-LabelFormat trackEvalFormat();
-LabelFormat cvatFormat();
-LabelFormat cocoFormat();
-LabelFormat kwcocoFormat();
-LabelFormat dotaFormat();
-LabelFormat yoloObbFormat();
-LabelFormat visDroneFormat();
-LabelFormat uavdtFormat();
-LabelFormat kw18Format();
-LabelFormat viratFormat();
-LabelFormat viameFormat();
-LabelFormat vividFormat();
-LabelFormat columnsFormat();
-LabelFormat tracksCsvFormat();
-LabelFormat geoJsonFormat();
-LabelFormat kmlFormat();
-LabelFormat stanag4676Format();
 
 /// A box by the fields left, top, width, height from `first` on.
 OrientedBox boxByEdges(const TextLine& line, std::size_t first, double first_pixel_edge);

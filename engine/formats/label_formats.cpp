@@ -151,16 +151,6 @@ void applyOptions(LabelFile& labels, const ImportOptions& options, const std::fi
 
 }  // namespace
 
-const std::vector<LabelFormat>& formatTable() {
-    static const std::vector<LabelFormat> table{
-        nativeFormat(),    nativeResultFormat(), cvatFormat(),     kwcocoFormat(),    cocoFormat(),
-        trackEvalFormat(), uavdtFormat(),        visDroneFormat(), motCvatFormat(),   motFormat(),
-        motResultFormat(), viameFormat(),        vividFormat(),    kw18Format(),      viratFormat(),
-        yoloObbFormat(),   dotaFormat(),         columnsFormat(),  tracksCsvFormat(), geoJsonFormat(),
-        kmlFormat(),       stanag4676Format()};
-    return table;
-}
-
 const std::vector<LabelFormatInfo>& labelFormats() {
     static const std::vector<LabelFormatInfo> infos = [] {
         std::vector<LabelFormatInfo> list;

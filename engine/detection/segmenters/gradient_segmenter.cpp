@@ -7,7 +7,6 @@
 #include "imaging/gradients.h"
 #include "imaging/region_boxes.h"
 #include "imaging/thresholds.h"
-#include "imaging/upright_patch.h"
 
 namespace eyrie {
 namespace {
@@ -137,16 +136,7 @@ std::vector<Detection> GradientSegmenter::detectionsOf(const MotionRoi& roi, con
                                                        DetectionTrace* trace) const {
     if (options_.fall_back && !component_boxes_.explain(boxes, roi.vectors, trace))
         return clusterDetection(roi, cluster_margin_px_);
-    std::vector<Detection> detections;
-    detections.reserve(boxes.size());
-    for (const cv::Rect2d& box : boxes) {
-        Detection detection;
-        detection.box = boxInImage(roi.image_from_roi, box);
-        detection.velocity = roi.velocity;
-        detection.cluster = roi.cluster;
-        detections.push_back(detection);
-    }
-    return detections;
+    return detectionsIn(roi, boxes);
 }
 
 }  // namespace eyrie

@@ -5,7 +5,6 @@
 
 #include "detection/motion_cluster_detector.h"
 #include "imaging/region_boxes.h"
-#include "imaging/upright_patch.h"
 
 namespace eyrie {
 namespace {
@@ -77,16 +76,7 @@ std::vector<Detection> MaskSegmenter::detect(const MotionRoi& roi, DetectionTrac
     const std::vector<cv::Rect2d> boxes = segment(roi, trace);
     if (components_.fall_back && !component_boxes_.explain(boxes, roi.vectors, trace))
         return clusterDetection(roi, cluster_margin_px_);
-    std::vector<Detection> detections;
-    detections.reserve(boxes.size());
-    for (const cv::Rect2d& box : boxes) {
-        Detection detection;
-        detection.box = boxInImage(roi.image_from_roi, box);
-        detection.velocity = roi.velocity;
-        detection.cluster = roi.cluster;
-        detections.push_back(detection);
-    }
-    return detections;
+    return detectionsIn(roi, boxes);
 }
 
 }  // namespace eyrie

@@ -5,6 +5,10 @@
 
 namespace eyrie {
 
+struct LabelFormat;
+/// MOTChallenge as it is specified, from which CVAT's differs a little.
+LabelFormat motFormat();
+
 /// Beside upright text, our own table with the exact boxes where any was turned: gt.txt → gt.oriented.csv.
 void writeOrientedSidecar(const VisitFrames& frames, const std::filesystem::path& path, ExportReport& report);
 
