@@ -1,6 +1,7 @@
 #include "chain/chain_options.h"
 
 #include "core/error.h"
+#include "store/details/recording_options.h"
 
 namespace eyrie {
 
@@ -54,6 +55,7 @@ ChainOptions storedOptions(const std::vector<std::pair<std::string, std::string>
                            std::vector<std::string>* unknown) {
     ChainOptions options;
     for (const auto& [name, value] : parameters) {
+        if (isOfRecording(name)) continue;
         try {
             setParameter(describeOf(options), name, value);
         } catch (const Error&) {

@@ -58,7 +58,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"tracking", {"core", "imaging"}},
     {"peer", {"core", "motion", "tracking"}},
     {"evaluation", {"core"}},
-    {"exchange", {"core", "annotation", "events", "formats", "georeference", "io", "store"}},
+    {"exchange", {"core", "annotation", "events", "formats", "georeference", "io", "metadata", "store"}},
     {"scene", {"core", "io"}},
     {"store", {"core"}},
     {"rerun",

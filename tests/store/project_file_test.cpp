@@ -145,6 +145,9 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "ALTER TABLE run DROP COLUMN removed_utc",
                   "DROP TABLE run_state",
                   "DROP TABLE unfinished_track_state",
+                  "ALTER TABLE frame DROP COLUMN details",
+                  "DROP TABLE unfinished_frame",
+                  "DROP TABLE control_point",
                   "DROP TABLE dropped_state",
                   "PRAGMA user_version = 5"});
     ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);

@@ -12,6 +12,7 @@
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <utility>
 
 #include "canvas/layers/stages/image_stack_layer.h"
@@ -54,6 +55,14 @@ constexpr QSize kFirstSize(1500, 940);
 /// The style keeps a picture of every button that ever was, and messages bring new ones all the time.
 constexpr int kStyleCache_kB = 2048;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
+
+/// Whether the run found motion in a frame, but kept none of it.
+bool keptTracksOnly(const ViewFrame& frame, const RunData* run) {
+    if (!frame.result || run == nullptr || !frame.result->motion.motion_vectors.empty()) return false;
+    const auto found = std::lower_bound(run->frames.begin(), run->frames.end(), frame.index,
+                                        [](const FrameSummary& one, FrameIndex index) { return one.frame < index; });
+    return found != run->frames.end() && found->frame == frame.index && found->motion_vectors > 0;
+}
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
@@ -197,6 +206,7 @@ void MainWindow::buildWorkspaces() {
         // Zones are drawn and tracks narrowed by what they did, whichever list is in front.
         if (kind == WorkspaceKind::review) events_->review().setWanted();
         evaluation_->enterWorkspace(kind);
+        showPicture();
     });
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
 }
@@ -271,9 +281,11 @@ void MainWindow::showPicture() {
     const ViewFrame& frame = session_.viewFrame();
     canvas_->setFrame(frame);
     // An empty picture of a run may not look as if nothing was found there.
-    const bool missing = !frame.result && session_.currentRun() && !session_.running();
-    if (std::exchange(told_missing_, missing) != missing)
-        canvas_->setBadge(missing ? tr("Not processed in this run") : QString());
+    QString missing;
+    if (!frame.result && session_.currentRun() && !session_.running()) missing = tr("Not processed in this run");
+    if (workspaces_->current() == WorkspaceKind::tune && keptTracksOnly(frame, session_.runData().get()))
+        missing = tr("Only the tracks of this frame were kept (recording.details)");
+    if (std::exchange(told_missing_, !missing.isEmpty()) || !missing.isEmpty()) canvas_->setBadge(missing);
     evaluation_->showMarks();
 }
 

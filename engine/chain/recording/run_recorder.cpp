@@ -17,14 +17,21 @@ const std::filesystem::path& prepared(const std::filesystem::path& project) {
     return project;
 }
 
+std::vector<std::pair<std::string, std::string>> storedParameters(const ChainOptions& options,
+                                                                  const RecordingOptions& recording) {
+    auto values = parameterValues(options);
+    for (auto& changed : recording.changed()) values.push_back(std::move(changed));
+    return values;
+}
+
 }  // namespace
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
-                         ChainObserver* also)
+                         ChainObserver* also, const RecordingOptions& recording)
     : project_(prepared(project)),
       options_(options),
       scale_(run.scale),
-      writer_(project, std::move(run), parameterValues(options)),
+      writer_(project, std::move(run), storedParameters(options, recording)),
       also_(also) {}
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also)

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include "store/details/squeezed_bytes.h"
 #include "store/labels/packed_labels.h"
 #include "store/project/sequence_rows.h"
 #include "store/review/packed_review.h"
@@ -81,6 +82,8 @@ void addRowFunctions(SQLite::Database& database) {
                                 nullptr, nullptr);
     };
     add("are_motion_vectors", answerReadable<unpackMotionVectors>);
+    add("are_squeezed_vectors", answerReadable<unsqueezeMotionVectors>);
+    add("are_squeezed_boxes", answerReadable<unsqueezeBoxes>);
     add("octets", answerOctets);
     add("are_points", answerReadable<unpackPoints>);
     add("are_indices", answerReadable<unpackIndices>);
@@ -146,6 +149,9 @@ std::vector<RowRule> rowRules() {
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
              isOneOf("origin", stored::kStateOrigins),
          "state of a track is impossible"},
+        {"frame", "details IN (0, 1)", "whether details of a frame were kept is no answer", 15},
+        {"unfinished_frame", frame + " AND are_squeezed_vectors(vectors) AND are_squeezed_boxes(vehicles)",
+         "what finishing needs of a frame cannot be read", 15},
         {"run_state", frame, "state of a run is impossible"},
         {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),
          "a state left out of a track is impossible"},
@@ -173,6 +179,10 @@ std::vector<RowRule> rowRules() {
          "id BETWEEN 1 AND 2147483647 AND " + in_video + " AND " + areNumbers("seconds") +
              " AND (x IS NULL) = (y IS NULL) AND " + areShort("note, person, when_utc"),
          "a bookmark cannot be read", 11},
+        {"control_point",
+         in_video + " AND x BETWEEN -1e6 AND 1e6 AND y BETWEEN -1e6 AND 1e6 AND latitude_deg BETWEEN -90 AND 90 AND "
+                    "longitude_deg BETWEEN -180 AND 180",
+         "a control point is not on the earth", 15},
         {"zone",
          "id BETWEEN 1 AND 2147483647 AND " + in_video + " AND name <> '' AND colour BETWEEN -1 AND 16777215 AND " +
              "is_zone(shape, points) AND " + isOneOf("shape", stored::kZoneShapes) + " AND " +

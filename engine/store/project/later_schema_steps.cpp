@@ -273,4 +273,33 @@ FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE run.removed_utc = 
 )sql");
 }
 
+// Runs may keep what is behind their tracks of some frames only; until such a run is finished, what finishing needs of
+// the others lies aside. Places that a person found on the earth.
+void addKeptDetails(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE frame ADD COLUMN details INTEGER NOT NULL DEFAULT 1;
+CREATE TABLE unfinished_frame (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    vectors BLOB NOT NULL,
+    vehicles BLOB NOT NULL,
+    UNIQUE (run_id, frame)
+);
+CREATE TABLE control_point (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    x REAL NOT NULL, y REAL NOT NULL,
+    latitude_deg REAL NOT NULL, longitude_deg REAL NOT NULL
+);
+CREATE INDEX control_point_of_sequence ON control_point (sequence_id);
+DROP VIEW IF EXISTS v_frames;
+CREATE VIEW v_frames AS
+SELECT frame.run_id AS run, frame.frame, frame.time_us / 1e6 AS seconds, frame.registration_state AS registration,
+    frame.reason, frame.picture, frame.corner_count AS corners, frame.motion_vector_count AS motion_vectors,
+    frame.detection_count AS detections, frame.track_count AS tracks, frame.details
+FROM frame JOIN v_runs ON v_runs.run = frame.run_id;
+)sql");
+}
+
 }  // namespace eyrie::schema

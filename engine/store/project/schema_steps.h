@@ -22,5 +22,6 @@ void addReview(SQLite::Database& database);
 void addScaleOrigins(SQLite::Database& database);
 void addZones(SQLite::Database& database);
 void addScaleSlopes(SQLite::Database& database);
+void addKeptDetails(SQLite::Database& database);
 
 }  // namespace eyrie::schema

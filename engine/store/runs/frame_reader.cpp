@@ -2,6 +2,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "store/database/rows.h"
+#include "store/details/unfinished_frames.h"
 #include "store/runs/run_store.h"
 
 namespace eyrie {
@@ -22,11 +23,12 @@ std::vector<Item> readItems(SQLite::Database& database, const std::string& query
     return items;
 }
 
-std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, FrameIndex frame) {
+/// `details`: whether the run kept what is behind the tracks of the frame.
+std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, FrameIndex frame, bool& details) {
     std::string query =
         "SELECT time_us, width, height, registration_state, reason, picture, reason_count, reason_of, from_frame, "
         "to_frame, "
-        "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, background_speed_sigma";
+        "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, background_speed_sigma, details";
     for (const char* stage : stored::kStageColumns) query += std::string(", ") + stage;
     SQLite::Statement statement(database, query + " FROM frame WHERE run_id = ? AND frame = ?");
     statement.bind(1, run_id);
@@ -50,6 +52,7 @@ std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, 
     homography.rms_px = row.real();
     motion.corner_count = row.integer();
     motion.background_speed_sigma = row.real();
+    details = row.integer() != 0;
     for (float& ms : result.stage_ms) ms = static_cast<float>(row.real());
     return result;
 }
@@ -128,11 +131,14 @@ std::optional<FrameResult> RunStore::frameResult(int run_id, FrameIndex frame) c
         SQLite::Database& database = project_.database();
         // One view of the file for all tables, whatever a writer does meanwhile.
         SQLite::Transaction view(database, SQLite::TransactionBehavior::DEFERRED);
-        std::optional<FrameResult> result = readFrameRow(database, run_id, frame);
+        bool details = true;
+        std::optional<FrameResult> result = readFrameRow(database, run_id, frame, details);
         if (!result) return std::nullopt;
         FrameMotion& motion = result->motion;
-        motion.motion_vectors = readPacked(database, "motion_vectors", run_id, frame, unpackMotionVectors);
-        motion.stationary_corners = readPacked(database, "stationary_corners", run_id, frame, unpackPoints);
+        if (details) {
+            motion.motion_vectors = readPacked(database, "motion_vectors", run_id, frame, unpackMotionVectors);
+            motion.stationary_corners = readPacked(database, "stationary_corners", run_id, frame, unpackPoints);
+        }
         result->clusters = readClusters(database, run_id, frame, motion.motion_vectors.size());
         result->rois = readItems<OrientedBox>(database,
                                               "SELECT x, y, length, width, heading_rad FROM roi WHERE run_id = ? AND "
@@ -152,6 +158,7 @@ std::vector<MotionVector> RunStore::motionVectors(int run_id, FrameIndex frame) 
     const std::string doing =
         "reading the motion vectors of frame " + std::to_string(frame) + " of run " + std::to_string(run_id);
     return guarded(project_.path(), doing, [&] {
+        if (auto aside = UnfinishedFrames::vectors(project_.database(), run_id, frame)) return std::move(*aside);
         return readPacked(project_.database(), "motion_vectors", run_id, frame, unpackMotionVectors);
     });
 }

@@ -24,7 +24,7 @@ std::string frameColumns() {
         "run_id, frame, time_us, width, height, registration_state, reason, picture, reason_count, "
         "reason_of, from_frame, to_frame, "
         "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, motion_vector_count, "
-        "detection_count, track_count, background_speed_sigma";
+        "detection_count, track_count, background_speed_sigma, details";
     for (const char* stage : stored::kStageColumns) columns += std::string(", ") + stage;
     return columns;
 }
@@ -95,13 +95,15 @@ FrameRows::FrameRows(SQLite::Database& database)
       detection_(database, insertInto("detection",
                                       "run_id, frame, number, x, y, length, width, heading_rad, vx, vy, score, "
                                       "cluster, rejection, vectors, complete")),
+      unfinished_(database),
       tracks_(database) {
-    for (const char* table : {"frame", "motion_vectors", "stationary_corners", "roi", "motion_cluster", "detection"}) {
+    for (const char* table :
+         {"frame", "motion_vectors", "stationary_corners", "roi", "motion_cluster", "detection", "unfinished_frame"}) {
         forget_.emplace_back(database, std::string("DELETE FROM ") + table + " WHERE run_id = ? AND frame = ?");
     }
 }
 
-void FrameRows::insert(int run_id, const FrameResult& result) {
+void FrameRows::insert(int run_id, const FrameResult& result, bool details) {
     const FrameMotion& motion = result.motion;
     const FrameIndex frame = motion.frame;
     const Homography& homography = motion.registration.current_from_previous;
@@ -128,10 +130,21 @@ void FrameRows::insert(int run_id, const FrameResult& result) {
         .integer(summary.motion_vectors)
         .integer(summary.detections)
         .integer(summary.tracks)
-        .real(motion.background_speed_sigma);
+        .real(motion.background_speed_sigma)
+        .integer(details ? 1 : 0);
     for (const float ms : result.stage_ms) row.real(static_cast<double>(ms));
     row.run();
+    if (details) {
+        insertDetails(run_id, result);
+    } else {
+        unfinished_.insert(run_id, result);
+    }
+    for (const TrackState& state : result.tracks) tracks_.insert(run_id, frame, state);
+}
 
+void FrameRows::insertDetails(int run_id, const FrameResult& result) {
+    const FrameMotion& motion = result.motion;
+    const FrameIndex frame = motion.frame;
     const Bytes vectors = packMotionVectors(motion.motion_vectors);
     RowWriter(vectors_).integer(run_id).integer(frame).bytes(vectors).run();
     const Bytes corners = packPoints(motion.stationary_corners);
@@ -169,7 +182,6 @@ void FrameRows::insert(int run_id, const FrameResult& result) {
             .integer(detection.complete ? 1 : 0)
             .run();
     }
-    for (const TrackState& state : result.tracks) tracks_.insert(run_id, frame, state);
 }
 
 void FrameRows::erase(int run_id, FrameIndex frame) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/values/frame_result.h"
+#include "store/details/unfinished_frames.h"
 #include "store/runs/run_store.h"
 
 namespace SQLite {
@@ -35,18 +36,21 @@ class TrackRows {
 class FrameRows {
  public:
     explicit FrameRows(SQLite::Database& database);
-    /// Throws SQLite::Exception; then the caller's transaction must be rolled back.
-    void insert(int run_id, const FrameResult& result);
+    /// Without `details`, what is behind the tracks is put aside until the run is finished (UnfinishedFrames). Throws
+    /// SQLite::Exception; then the caller's transaction must be rolled back.
+    void insert(int run_id, const FrameResult& result, bool details);
     /// Leaves nothing of a frame, there or not. The same errors.
     void erase(int run_id, FrameIndex frame);
 
  private:
+    void insertDetails(int run_id, const FrameResult& result);
     SQLite::Statement frame_;
     SQLite::Statement vectors_;
     SQLite::Statement corners_;
     SQLite::Statement cluster_;
     SQLite::Statement roi_;
     SQLite::Statement detection_;
+    UnfinishedFrames unfinished_;
     TrackRows tracks_;
     std::vector<SQLite::Statement> forget_;  ///< one for each table but those of tracks
 };

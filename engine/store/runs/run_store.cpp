@@ -7,6 +7,7 @@
 
 #include "core/utc_time.h"
 #include "store/database/rows.h"
+#include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/frame_rows.h"
 #include "store/runs/of_run.h"
@@ -221,6 +222,13 @@ void RunStore::replaceTracks(int run_id, const std::function<void(const StateVis
                 .integer(state.beside)
                 .run();
         });
+        // Of frames without details nobody can ask why; what was left out at all is still to be counted.
+        SQLite::Statement thin(
+            database,
+            "DELETE FROM dropped_state WHERE run_id = ?1 AND frame IN (SELECT frame FROM frame WHERE "
+            "run_id = ?1 AND details = 0) AND (track_id, frame) NOT IN (SELECT track_id, min(frame) "
+            "FROM dropped_state WHERE run_id = ?1 GROUP BY track_id)");
+        RowWriter(thin).integer(run_id).run();
         removeFrom("track_state");
         removeFrom("track");
         TrackRows rows(database);
@@ -274,8 +282,9 @@ std::optional<RunRecord> RunStore::lastRemoved() const {
 }
 
 void RunStore::purgeRemoved() {
-    guarded(project_.path(), "deleting removed runs",
-            [&] { project_.database().exec("DELETE FROM run WHERE removed_utc <> ''"); });
+    guarded(project_.path(), "deleting removed runs", [&] {
+        if (project_.database().exec("DELETE FROM run WHERE removed_utc <> ''") > 0) giveBackSpace(project_.database());
+    });
 }
 
 void RunStore::refuseUnchanged(int run_id) const {

@@ -6,6 +6,8 @@
 #include "core/error.h"
 #include "core/parameter.h"
 #include "store/database/rows.h"
+#include "store/details/kept_details.h"
+#include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/of_run.h"
 #include "store/runs/run_store.h"
@@ -170,6 +172,7 @@ BoxesByFrame RunStore::trackBoxes(int run_id) const {
 
 std::vector<OrientedBox> RunStore::vehicleBoxes(int run_id, FrameIndex frame) const {
     return guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
+        if (auto aside = UnfinishedFrames::vehicles(project_.database(), run_id, frame)) return std::move(*aside);
         SQLite::Statement statement(project_.database(),
                                     "SELECT x, y, length, width, heading_rad FROM detection WHERE run_id = ? AND "
                                     "frame = ? AND rejection = 'none' AND complete ORDER BY number");
@@ -182,6 +185,7 @@ std::vector<OrientedBox> RunStore::vehicleBoxes(int run_id, FrameIndex frame) co
 }
 
 void RunStore::visitDetectionBoxes(int run_id, const BoxVisitor& visitor) const {
+    if (const std::optional<RunRecord> whole = run(run_id)) needDetails(project_, *whole);
     guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(),
                                     "SELECT frame, x, y, length, width, heading_rad, vx, vy, score FROM detection "
