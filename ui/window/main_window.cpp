@@ -22,6 +22,9 @@
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
 #include "review/tracks_panel.h"
+#include "review/watch/steady_watch.h"
+#include "review/watch/watch_commands.h"
+#include "review/watch/watched_ground.h"
 #include "tune/compare/live_preview.h"
 #include "tune/inspect/inspection.h"
 #include "tune/inspect/stacks_panel.h"
@@ -30,6 +33,7 @@
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "window/bars/overlay_button.h"
+#include "window/bars/picture_button.h"
 #include "window/bars/run_bar.h"
 #include "window/bars/status_fields.h"
 #include "window/bars/transport_bar.h"
@@ -78,6 +82,10 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         const auto& found = events_->review().found();
         review_->tracks().setDoings(found ? found->doings : nullptr);
     });
+    ground_ = new WatchedGround(this);
+    connect(events_, &EventsDock::tracksRead, ground_, [this] { ground_->setRun(events_->review().tracks()); });
+    steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
+    watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
     event_report_ = new EventReport({session_, *events_, *messages_, *this});
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
@@ -151,6 +159,7 @@ void MainWindow::buildToolBar() {
     bar->addAction(actions_->fit);
     bar->addAction(actions_->one_to_one);
     bar->addWidget(new OverlayButton(overlays_, *actions_));
+    bar->addWidget(new PictureButton(session_, *actions_));
     bar->addSeparator();
     for (QAction* action : actions_->workspace) bar->addAction(action);
     connect(run_bar_, &RunBar::editingDone, this, &MainWindow::focusCanvas);
@@ -194,6 +203,8 @@ void MainWindow::buildWorkspaces() {
             docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
         labelling_->setActive(kind == WorkspaceKind::label);
         events_->setActive(kind != WorkspaceKind::label);
+        watching_->setActive(kind != WorkspaceKind::label);
+        steady_->setActive(kind != WorkspaceKind::label);
         // Zones are drawn and tracks narrowed by what they did, whichever list is in front.
         if (kind == WorkspaceKind::review) events_->review().setWanted();
         evaluation_->enterWorkspace(kind);
@@ -285,6 +296,7 @@ void MainWindow::enableActions() {
             if (section.actions.contains(actions_->play) || section.actions.contains(actions_->fit))
                 action->setEnabled(has_video);
     actions_->full_screen->setEnabled(true);
+    steady_->enableActions();
     for (QAction* action : actions_->workspace) action->setEnabled(true);
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);

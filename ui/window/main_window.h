@@ -25,10 +25,13 @@ class ReviewDocks;
 class RunBar;
 class RunGuard;
 class StatusFields;
+class SteadyWatch;
 class TimelineView;
 class TransportBar;
 class Tuning;
 class VideoView;
+class WatchCommands;
+class WatchedGround;
 class WelcomePanel;
 class WindowActions;
 class WindowCommands;
@@ -59,6 +62,8 @@ class MainWindow : public QMainWindow {
     Workspaces& workspaces() { return *workspaces_; }
     LabelWorkspace& labelling() { return *labelling_; }
     EventsDock& events() { return *events_; }
+    WatchedGround& ground() { return *ground_; }
+    WatchCommands& watching() { return *watching_; }
     EventReport& eventReport() { return *event_report_; }
     EvaluationDocks& evaluation() { return *evaluation_; }
     Tuning& tuning() { return *tuning_; }
@@ -107,6 +112,9 @@ class MainWindow : public QMainWindow {
     DockRegistry* docks_;
     ReviewDocks* review_;
     EventsDock* events_;
+    WatchedGround* ground_;
+    SteadyWatch* steady_;
+    WatchCommands* watching_;
     EventReport* event_report_;
     EvaluationDocks* evaluation_;
     Tuning* tuning_;

@@ -128,7 +128,7 @@ class ViewTransformTest : public QObject {
         transform.panBy({10, -4});
         compare(transform.viewFromImage(before), {160, 496});
         transform.setRotation(std::numbers::pi / 2);  // clockwise: what pointed right points down
-        const QPointF along = transform.viewVector({1, 0});
+        const QPointF along = transform.viewVector({1, 0}, {});
         QVERIFY(std::abs(along.x()) < 1e-9 && along.y() > 0);
         compare(transform.turn().map(transform.unturnedFromImage(somewhere)), transform.viewFromImage(somewhere));
     }

@@ -72,6 +72,7 @@ EventReviewAnswers EventsDock::reviewAnswers() {
                 if (zones_ == nullptr) return;
                 zones_->showZones();
                 enableActions();
+                emit tracksRead();
             },
         .go_back_to =
             [this](const std::vector<std::size_t>& places) {

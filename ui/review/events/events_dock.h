@@ -57,6 +57,8 @@ class EventsDock : public QObject {
  signals:
     /// Other events are listed, or none.
     void eventsShown();
+    /// The tracks of the run were read, or are those of none: EventReview::tracks().
+    void tracksRead();
 
  private:
     void bindCommands();
