@@ -11,13 +11,14 @@
 namespace eyrie {
 namespace {
 
-constexpr double kMostOnStation = 2.5;  ///< enlargement of a corner beside the frame it is laid on
-constexpr double kMostOnSheet = 4;      ///< enlargement of a whole picture beside the anchor
+constexpr double kMostOnStation = 2;  ///< enlargement of a corner beside the frame it is laid on
+constexpr double kMostOnSheet = 4;    ///< enlargement of a whole picture beside the anchor
 
-/// The map that moves, turns and enlarges all as `map` does at a place.
+/// The map that moves and turns all as `map` does at a place, and enlarges by half as much in steps of zoom: views from
+/// another side make things smaller on the ground than they are, which would add up over a long flight.
 cv::Matx33d similarityAt(const cv::Matx33d& map, cv::Point2d place) {
     const HomographyJacobian local(map, place);
-    const double scale = local.scale();
+    const double scale = std::sqrt(local.scale());
     const double turn = local.turned(0);
     const double c = scale * std::cos(turn);
     const double s = scale * std::sin(turn);
@@ -87,8 +88,8 @@ std::optional<cv::Point2d> GroundSheets::inImage(FrameIndex frame, cv::Point2d o
     const double w = back(2, 0) * on_sheet.x + back(2, 1) * on_sheet.y + back(2, 2);
     if (!(w * back(2, 2) > 0)) return std::nullopt;
     const cv::Point2d place = HomographyJacobian(back, on_sheet).point();
-    const bool inside = place.x >= -0.5 && place.y >= -0.5 && place.x <= image_.width - 0.5 &&
-                        place.y <= image_.height - 0.5;
+    const bool inside =
+        place.x >= -0.5 && place.y >= -0.5 && place.x <= image_.width - 0.5 && place.y <= image_.height - 0.5;
     return inside ? std::optional(place) : std::nullopt;
 }
 

@@ -11,9 +11,9 @@ namespace eyrie {
 
 /// Lays every frame of a run on a plane of ground, so that what stands on the ground stands still: place, rotation and
 /// enlargement are those of a chosen frame, the anchor. Where a picture has become too unlike the anchor (height, tilt,
-/// way flown) the frames from there on are laid on one that lies between, which itself lies as it is turned and enlarged
-/// in its middle: so rotation and zoom stay steady on any flight. A new sheet begins where nothing connects two frames,
-/// as it was filmed there. Never changed, safe to share.
+/// way flown) the frames from there on are laid on one that lies between, which itself lies as it is turned in its
+/// middle, and about as large: so rotation and zoom stay steady on any flight. A new sheet begins where nothing
+/// connects two frames, as it was filmed there. Never changed, safe to share.
 class GroundSheets {
  public:
     /// No frames.

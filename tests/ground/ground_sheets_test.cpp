@@ -51,28 +51,30 @@ TEST(GroundSheets, RotationAndZoomStaySteadyOverAFlightThatNoPlaneHolds) {
     const auto view = [](double frame) {
         const double turn = frame / 150;
         const cv::Matx33d tilt{1, 0, 0, 0, 1, 0, 0, 3e-4, 1};
-        const cv::Matx33d fly{std::cos(turn), -std::sin(turn), 6 * frame, std::sin(turn), std::cos(turn), 4 * frame, 0,
-                              0, 1};
+        const cv::Matx33d fly{
+            std::cos(turn), -std::sin(turn), 6 * frame, std::sin(turn), std::cos(turn), 4 * frame, 0, 0, 1};
         return tilt * fly;
     };
     const GroundSheets sheets(flownOver(view, 600), 0);
     EXPECT_EQ(sheets.count(), 1);
-    cv::Point2d north_before(0, 0);
+    cv::Point2d before(0, 0);
+    int leaps = 0;
     for (int frame = 0; frame <= 600; ++frame) {
         // What lies in the middle of the picture: its direction and size on the sheet change by little from frame to
-        // frame, though the camera turns by 4 radians.
+        // frame, though the camera turns by 4 radians; by more only where frames are laid on another one.
         const cv::Point2d middle(320, 180);
         const HomographyJacobian to_ground(view(frame).inv(), middle);
         const cv::Point2d seen = HomographyJacobian(view(frame), to_ground.point()).vector({0, -1});
         const cv::Point2d north = HomographyJacobian(sheets.sheetFromImage(frame), middle).vector(seen);
-        if (frame > 0) {
-            EXPECT_LT(std::hypot(north.x - north_before.x, north.y - north_before.y), 0.1) << frame;
-        }
-        north_before = north;
+        const double leap = frame == 0 ? 0 : distance(north, before);
+        EXPECT_LT(leap, 0.5) << frame;
+        leaps += leap > 0.02 ? 1 : 0;
+        EXPECT_LT(std::abs(std::atan2(north.x, -north.y)), 0.5) << frame;
+        EXPECT_GT(distance(north, {0, 0}), 0.4) << frame;
+        EXPECT_LT(distance(north, {0, 0}), 1.6) << frame;
+        before = north;
     }
-    EXPECT_LT(std::abs(std::atan2(north_before.x, -north_before.y)), 0.6);
-    EXPECT_GT(std::hypot(north_before.x, north_before.y), 0.4);
-    EXPECT_LT(std::hypot(north_before.x, north_before.y), 2.5);
+    EXPECT_LE(leaps, 6);
 }
 
 TEST(GroundSheets, WhereNothingConnectsTwoFramesASheetBeginsAsFilmed) {
@@ -93,12 +95,12 @@ TEST(GroundSheets, APlaceIsFoundInTheFramesThatShowIt) {
     const auto view = [](double frame) { return cv::Matx33d(1, 0, -10 * frame, 0, 1, 0, 0, 0, 1); };
     const GroundSheets sheets(flownOver(view, 200), 0);
     EXPECT_EQ(sheets.inImage(0, {100, 50}), cv::Point2d(100, 50));
-    EXPECT_EQ(sheets.inImage(10, {100, 50}), cv::Point2d(0, 50));
+    EXPECT_LT(distance(sheets.inImage(10, {100, 50}).value(), {0, 50}), 1e-9);
     EXPECT_FALSE(sheets.inImage(11, {100, 50}));
     EXPECT_TRUE(sheets.inImage(11, {740, 50}));
     EXPECT_FALSE(sheets.inImage(0, {100, 360}));
     EXPECT_FALSE(sheets.inImage(201, {2100, 50}));
-    EXPECT_EQ(sheets.outlineOf(10)[2], cv::Point2d(739.5, 359.5));
+    EXPECT_LT(distance(sheets.outlineOf(10)[2], {739.5, 359.5}), 1e-9);
 }
 
 TEST(GroundSheets, WithoutFramesNothingIsMoved) {

@@ -21,7 +21,11 @@
 #include "label/label_workspace.h"
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
+#include "review/events/events_panel.h"
+#include "review/mosaic/mosaic_panel.h"
+#include "review/mosaic/mosaic_view.h"
 #include "review/tracks_panel.h"
+#include "review/watch/seen_watch.h"
 #include "review/watch/steady_watch.h"
 #include "review/watch/watch_commands.h"
 #include "review/watch/watched_ground.h"
@@ -82,10 +86,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         const auto& found = events_->review().found();
         review_->tracks().setDoings(found ? found->doings : nullptr);
     });
-    ground_ = new WatchedGround(this);
-    connect(events_, &EventsDock::tracksRead, ground_, [this] { ground_->setRun(events_->review().tracks()); });
-    steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
-    watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
+    buildWatching();
     event_report_ = new EventReport({session_, *events_, *messages_, *this});
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
@@ -210,6 +211,22 @@ void MainWindow::buildWorkspaces() {
         evaluation_->enterWorkspace(kind);
     });
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
+}
+
+void MainWindow::buildWatching() {
+    ground_ = new WatchedGround(this);
+    connect(events_, &EventsDock::tracksRead, ground_, [this] { ground_->setRun(events_->review().tracks()); });
+    steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
+    watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
+    seen_ = new SeenWatch(
+        session_, *canvas_, *this, [this](std::optional<double> share) { events_->panel().showSeen(share); }, this);
+    mosaic_ = new MosaicPanel({session_, overlays_, *ground_});
+    docks_->add(DockId::mosaic, tr("Mosaic"), mosaic_);
+    docks_->watch(DockId::mosaic, mosaic_, [this](bool visible) { mosaic_->setLookedAt(visible); });
+    bindCommands(this, {{actions_->show_mosaic, [this] {
+                             docks_->raise(DockId::mosaic);
+                             mosaic_->view().setFocus();
+                         }}});
 }
 
 void MainWindow::buildEvaluation() {

@@ -20,10 +20,12 @@ class Inspection;
 class LabelTimeline;
 class LabelWorkspace;
 class MessageBar;
+class MosaicPanel;
 class OpenedFiles;
 class ReviewDocks;
 class RunBar;
 class RunGuard;
+class SeenWatch;
 class StatusFields;
 class SteadyWatch;
 class TimelineView;
@@ -63,6 +65,8 @@ class MainWindow : public QMainWindow {
     LabelWorkspace& labelling() { return *labelling_; }
     EventsDock& events() { return *events_; }
     WatchedGround& ground() { return *ground_; }
+    MosaicPanel& mosaic() { return *mosaic_; }
+    SeenWatch& seen() { return *seen_; }
     WatchCommands& watching() { return *watching_; }
     EventReport& eventReport() { return *event_report_; }
     EvaluationDocks& evaluation() { return *evaluation_; }
@@ -79,6 +83,7 @@ class MainWindow : public QMainWindow {
     void buildMenus();
     void buildToolBar();
     void buildEvaluation();
+    void buildWatching();
     void buildWorkspaces();
     void wireCanvas();
     void wireSession();
@@ -115,6 +120,8 @@ class MainWindow : public QMainWindow {
     WatchedGround* ground_;
     SteadyWatch* steady_;
     WatchCommands* watching_;
+    SeenWatch* seen_;
+    MosaicPanel* mosaic_;
     EventReport* event_report_;
     EvaluationDocks* evaluation_;
     Tuning* tuning_;

@@ -29,9 +29,10 @@ enum class DockId {
     sweeps,
     objects,
     object,
-    object_chips
+    object_chips,
+    mosaic
 };
-inline constexpr int kDockCount = 16;
+inline constexpr int kDockCount = 17;
 
 constexpr std::array<DockId, kDockCount> allDocks() {
     std::array<DockId, kDockCount> ids{};

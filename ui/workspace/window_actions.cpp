@@ -109,16 +109,24 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                                {QKeySequence(Qt::Key_S)},
                                QT_TR_NOOP("Follow the selected vehicle: in the middle, heading up, and near")},
                               false);
-    measure = addToggle(
-        tr("&Measure"),
-        {nullptr, {QKeySequence(tr("Ctrl+M"))}, QT_TR_NOOP("Click two places: how far, and between two frames how fast")},
-        false);
-    even_picture = addToggle(
-        tr("&Even out the contrast"),
-        {nullptr, {QKeySequence(tr("Ctrl+H"))}, QT_TR_NOOP("Shows what lies in the dark or in haze; changes no result")},
-        false);
-    snapshot = add(tr("&Save what is seen…"),
-                   {"camera-photo", {QKeySequence(Qt::Key_F12)}, QT_TR_NOOP("The view with all overlays, as a PNG file")});
+    measure = addToggle(tr("&Measure"),
+                        {nullptr,
+                         {QKeySequence(tr("Ctrl+M"))},
+                         QT_TR_NOOP("Click two places: how far, and between two frames how fast")},
+                        false);
+    even_picture = addToggle(tr("&Even out the contrast"),
+                             {nullptr,
+                              {QKeySequence(tr("Ctrl+H"))},
+                              QT_TR_NOOP("Shows what lies in the dark or in haze; changes no result")},
+                             false);
+    show_mosaic =
+        add(tr("M&osaic of the ground"),
+            {nullptr,
+             {QKeySequence(tr("Ctrl+Shift+M"))},
+             QT_TR_NOOP("All ground that was seen, with the ways over it; a click tells what happened there")});
+    snapshot =
+        add(tr("&Save what is seen…"),
+            {"camera-photo", {QKeySequence(Qt::Key_F12)}, QT_TR_NOOP("The view with all overlays, as a PNG file")});
     snapshot_plain =
         add(tr("Save the &picture alone…"),
             {nullptr, {QKeySequence(tr("Shift+F12"))}, QT_TR_NOOP("The whole frame without overlays, as a PNG file")});

@@ -29,6 +29,7 @@ QSlider* pictureSlider(const QString& name, QWidget* parent) {
 PictureButton::PictureButton(ProjectSession& session, const WindowActions& actions, QWidget* parent)
     : QToolButton(parent), session_(session), actions_(actions) {
     setText(tr("Picture"));
+    setCheckable(true);
     setIcon(QIcon::fromTheme(QStringLiteral("contrast")));
     setToolTip(tr("Brightness and contrast of what is shown; results are not changed"));
     setPopupMode(QToolButton::InstantPopup);
@@ -70,7 +71,7 @@ void PictureButton::apply() {
     look.even = actions_.even_picture->isChecked();
     session_.setPictureLook(look);
     // Whoever looks at an adjusted picture should know.
-    setText(look.plain() ? tr("Picture") : tr("Picture*"));
+    setChecked(!look.plain());
 }
 
 }  // namespace eyrie::ui
