@@ -41,10 +41,11 @@ PlaceHistory placeHistory(const GroundSheets& sheets, const std::vector<EventTra
             history.seen.push_back({frame, frame});
     }
     for (const EventTrack& track : tracks) {
-        std::optional<FrameSpan> there;
+        FrameSpan there;
+        bool is_there = false;
         const auto end = [&] {
-            if (there) history.passed.push_back({track.id, *there});
-            there.reset();
+            if (is_there) history.passed.push_back({track.id, there});
+            is_there = false;
         };
         const TrackedBox* before = nullptr;
         cv::Point2d centre_before(0, 0);
@@ -60,8 +61,9 @@ PlaceHistory placeHistory(const GroundSheets& sheets, const std::vector<EventTra
             const bool crossed =
                 before != nullptr && place && fromSegment(on_sheet, centre_before, local.point()) <= reach;
             if (isAt(sheets, box, place, margin) || crossed) {
-                if (!there) there = FrameSpan{box.frame, box.frame};
-                there->last = box.frame;
+                if (!is_there) there.first = box.frame;
+                there.last = box.frame;
+                is_there = true;
             } else {
                 end();
             }

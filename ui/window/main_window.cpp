@@ -19,6 +19,7 @@
 #include "canvas/video_view.h"
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
+#include "review/card/card_dock.h"
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
@@ -220,6 +221,7 @@ void MainWindow::buildWatching() {
     watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
     seen_ = new SeenWatch(
         session_, *canvas_, *this, [this](std::optional<double> share) { events_->panel().showSeen(share); }, this);
+    card_ = new CardDock({session_, *docks_, *events_, *ground_});
     mosaic_ = new MosaicPanel({session_, overlays_, *ground_});
     docks_->add(DockId::mosaic, tr("Mosaic"), mosaic_);
     docks_->watch(DockId::mosaic, mosaic_, [this](bool visible) { mosaic_->setLookedAt(visible); });

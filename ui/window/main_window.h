@@ -12,6 +12,7 @@ class QStackedWidget;
 
 namespace eyrie::ui {
 
+class CardDock;
 class DockRegistry;
 class EvaluationDocks;
 class EventReport;
@@ -65,6 +66,7 @@ class MainWindow : public QMainWindow {
     LabelWorkspace& labelling() { return *labelling_; }
     EventsDock& events() { return *events_; }
     WatchedGround& ground() { return *ground_; }
+    CardDock& card() { return *card_; }
     MosaicPanel& mosaic() { return *mosaic_; }
     SeenWatch& seen() { return *seen_; }
     WatchCommands& watching() { return *watching_; }
@@ -122,6 +124,7 @@ class MainWindow : public QMainWindow {
     WatchCommands* watching_;
     SeenWatch* seen_;
     MosaicPanel* mosaic_;
+    CardDock* card_;
     EventReport* event_report_;
     EvaluationDocks* evaluation_;
     Tuning* tuning_;

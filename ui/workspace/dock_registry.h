@@ -30,9 +30,10 @@ enum class DockId {
     objects,
     object,
     object_chips,
-    mosaic
+    mosaic,
+    card
 };
-inline constexpr int kDockCount = 17;
+inline constexpr int kDockCount = 18;
 
 constexpr std::array<DockId, kDockCount> allDocks() {
     std::array<DockId, kDockCount> ids{};

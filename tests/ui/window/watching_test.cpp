@@ -1,11 +1,18 @@
+#include <QLineEdit>
+#include <QListWidget>
 #include <QSlider>
 #include <QTest>
 #include <cmath>
 
 #include "canvas/video_view.h"
+#include "review/card/card_dock.h"
+#include "review/card/story_sketch.h"
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
+#include "review/events/events_model.h"
 #include "review/events/events_panel.h"
+#include "review/mosaic/mosaic_panel.h"
+#include "review/mosaic/mosaic_view.h"
 #include "review/watch/measure_tool.h"
 #include "review/watch/seen_watch.h"
 #include "review/watch/watch_commands.h"
@@ -14,6 +21,7 @@
 #include "widgets/message_bar.h"
 #include "window/bars/picture_button.h"
 #include "window/main_window.h"
+#include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -220,6 +228,74 @@ class WatchingTest : public QObject {
         window().watching().writeSnapshot(project, SnapshotKind::alone);
         QTRY_VERIFY_WITH_TIMEOUT(tells(QString::fromStdString(project.filename().string())), kPatience_ms);
         QVERIFY(std::filesystem::file_size(project) >= size);
+    }
+
+    void theMosaicTellsWhenAPlaceWasSeenAndWhoCrossedIt() {
+        QTest::keyClick(&canvas(), Qt::Key_M, Qt::ControlModifier | Qt::ShiftModifier);
+        MosaicPanel& panel = window().mosaic();
+        QTRY_VERIFY_WITH_TIMEOUT(panel.mosaic() != nullptr && panel.mosaic()->share == 1, kPatience_ms);
+        QCOMPARE(panel.mosaic()->pictures.size(), std::size_t(1));
+        const SheetPicture& sheet = panel.mosaic()->pictures.front();
+        QCOMPARE(sheet.image.size(), QSize(299, 180));  // 59 px further than a picture
+        QVERIFY(!sheet.paths.empty());
+        // A place that a vehicle crosses, by the mouse: on its way.
+        const SheetPath& path = sheet.paths.front();
+        const FramePoint& there = path.points[path.points.size() / 2];
+        QTRY_VERIFY(panel.view().width() > 100);
+        QTest::mouseClick(&panel.view(), Qt::LeftButton, {},
+                          panel.view().viewFromSheet({there.at.x, there.at.y}).toPoint());
+        const auto row_with = [&](const QString& words) {
+            for (int row = 0; row < panel.list().count(); ++row)
+                if (panel.list().item(row)->text().contains(words)) return row;
+            return -1;
+        };
+        QTRY_VERIFY_WITH_TIMEOUT(row_with(QStringLiteral("seen")) == 0, kPatience_ms);
+        const QString name = QStringLiteral("track %1").arg(path.track);
+        QVERIFY(row_with(name) > 0);
+        // By the keyboard: into the list, and go.
+        panel.list().setFocus();
+        panel.list().setCurrentRow(row_with(name));
+        QTest::keyClick(&panel.list(), Qt::Key_Return);
+        QCOMPARE(window().session().selectedTrack(), std::optional<TrackId>(path.track));
+        QVERIFY(std::abs(window().session().currentFrame() - there.frame) < 12);
+        panel.list().clear();
+        panel.view().setFocus();
+        QTest::keyClick(&panel.view(), Qt::Key_Plus);
+        QTest::keyClick(&panel.view(), Qt::Key_Return);
+        QTRY_VERIFY_WITH_TIMEOUT(panel.list().count() > 0, kPatience_ms);
+    }
+
+    void theCardShowsTheEventInALoopWithItsSpeedAndNote() {
+        window().docks().raise(DockId::card);
+        EventsModel& model = window().events().model();
+        QTRY_VERIFY_WITH_TIMEOUT(model.rowCount() > 0, kPatience_ms);
+        int id = 0;
+        for (int row = 0; row < model.rowCount() && id == 0; ++row)
+            if (model.found()->eventAt(model.recordAt(row)->position) != nullptr) id = model.recordAt(row)->id;
+        QVERIFY(id != 0);
+        EventCard& card = window().card().card();
+        window().events().show(id);
+        QVERIFY(card.subject().has_value());
+        QCOMPARE(card.subject()->event, id);
+        QTRY_VERIFY_WITH_TIMEOUT(card.story() && card.story()->chips.size() > 3, kPatience_ms);
+        QCOMPARE(card.story()->chips.size(), card.story()->shown.size());
+        const std::size_t before = card.chip();
+        QTRY_VERIFY(card.chip() != before);
+        QVERIFY2(card.speed().figureText().contains(QStringLiteral("km/h")), qPrintable(card.speed().figureText()));
+        QVERIFY(card.way().figureText().endsWith(QStringLiteral(" m")));
+        // A click on the curve goes there.
+        QTest::mouseClick(&card.speed(), Qt::LeftButton, {}, QPoint(card.speed().width() - 3, 10));
+        QCOMPARE(window().session().currentFrame(), card.story()->points.back().frame);
+        card.note().setText(QStringLiteral("seen twice"));
+        QTest::keyClick(&card.note(), Qt::Key_Return);
+        QCOMPARE(model.recordAt(model.rowOf(id))->note, QStringLiteral("seen twice"));
+        window().actions().undo_verdict->trigger();
+        QCOMPARE(card.note().text(), QString());
+        // A track alone has a card without a note.
+        window().session().selectTrack(std::nullopt);
+        QVERIFY(!card.subject());
+        window().session().selectTrack(window().ground().ground()->run->tracks.back().id);
+        QVERIFY(card.subject()->event == 0 && !card.note().isVisible());
     }
 
     void whatWasWatchedIsCounted() {

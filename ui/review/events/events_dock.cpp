@@ -245,6 +245,11 @@ void EventsDock::show(int id) {
         parts_.session.selectTrack(std::nullopt);
     parts_.session.goToFrame(found.frameAt(*place));
     if (event != nullptr) bringIntoView(QPointF(event->place.x, event->place.y));
+    emit eventShown(id);
+}
+
+void EventsDock::writeNote(int id, const QString& note) {
+    if (const auto place = placeOf(id)) review_->setNote(*place, note);
 }
 
 void EventsDock::bringIntoView(QPointF place) {

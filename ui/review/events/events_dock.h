@@ -53,8 +53,11 @@ class EventsDock : public QObject {
     void setActive(bool active);
     /// Shows an event: its frame, its track, its place.
     void show(int id);
+    void writeNote(int id, const QString& note);
 
  signals:
+    /// A person chose this event.
+    void eventShown(int id);
     /// Other events are listed, or none.
     void eventsShown();
     /// The tracks of the run were read, or are those of none: EventReview::tracks().
