@@ -10,7 +10,7 @@
 namespace eyrie {
 namespace {
 
-constexpr double kNewShare = 0.15;      ///< of the picture's diagonal that a corner moved: worth another frame
+constexpr double kNewShare = 0.08;      ///< of the picture's diagonal that a corner moved: worth another frame
 constexpr double kFewerFactor = 1.5;    ///< where there are too many
 constexpr double kLongestSide = 16000;  ///< px, of a sheet
 constexpr double kSoftEdge = 0.06;      ///< of the smaller side

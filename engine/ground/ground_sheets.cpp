@@ -11,8 +11,9 @@
 namespace eyrie {
 namespace {
 
-constexpr double kMostOnStation = 2;  ///< enlargement of a corner beside the frame it is laid on
-constexpr double kMostOnSheet = 4;    ///< enlargement of a whole picture beside the anchor
+constexpr double kMostOnStation = 2;    ///< enlargement of a corner beside the frame it is laid on
+constexpr double kMostStretched = 1.6;  ///< in any direction in the middle, beside that frame
+constexpr double kMostOnSheet = 4;      ///< enlargement of a whole picture beside the anchor
 
 /// The map that moves and turns all as `map` does at a place, and enlarges by half as much in steps of zoom: views from
 /// another side make things smaller on the ground than they are, which would add up over a long flight.
@@ -49,6 +50,13 @@ void GroundSheets::lay(const CameraMotion& camera, int direction) {
     const auto laid = [&](FrameIndex frame) -> std::optional<cv::Matx33d> {
         const auto map = camera.map(frame, station);
         if (!map || !isSoundMap(map->matrix, image_, kMostOnStation)) return std::nullopt;
+        // Seen from another side, things become narrow in one direction before their area tells.
+        const HomographyJacobian local(map->matrix, middle);
+        for (const cv::Point2d& way :
+             {cv::Point2d(1, 0), cv::Point2d(0, 1), cv::Point2d(0.7, 0.7), cv::Point2d(0.7, -0.7)}) {
+            const double stretched = cv::norm(local.vector(way)) / cv::norm(way);
+            if (!(stretched < kMostStretched && stretched > 1 / kMostStretched)) return std::nullopt;
+        }
         const cv::Matx33d result = sheet_from_station * map->matrix;
         return result * (1 / result(2, 2));
     };

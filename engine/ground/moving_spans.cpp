@@ -12,8 +12,8 @@ constexpr double kMargin_s = 1;
 
 }  // namespace
 
-std::vector<FrameSpan> movingSpans(const StoredTracks& run, const GroundStretches& ground,
-                                   const EventOptions& options, double min_score) {
+std::vector<FrameSpan> movingSpans(const StoredTracks& run, const GroundStretches& ground, const EventOptions& options,
+                                   double min_score) {
     const Footage& footage = run.footage;
     const auto margin = static_cast<FrameIndex>(std::lround(kMargin_s * footage.scale.frame_rate_hz));
     std::vector<FrameSpan> spans;

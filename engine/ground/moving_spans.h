@@ -8,9 +8,10 @@
 
 namespace eyrie {
 
-/// The stretches in which something may move, ascending and apart: where a vehicle drives over the ground, with a second
-/// before and after it, and where nobody can know, because a frame could not be registered. What stands still the whole
-/// time is left out. `ground` must be that of the run's footage; `min_score`: tracks of a lower score do not count.
+/// The stretches in which something may move, ascending and apart: where a vehicle drives over the ground, with a
+/// second before and after it, and where nobody can know, because a frame could not be registered. What stands still
+/// the whole time is left out. `ground` must be that of the run's footage; `min_score`: tracks of a lower score do not
+/// count.
 std::vector<FrameSpan> movingSpans(const StoredTracks& run, const GroundStretches& ground,
                                    const EventOptions& options = {}, double min_score = 0);
 

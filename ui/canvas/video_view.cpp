@@ -159,11 +159,14 @@ void VideoView::setRotation(double radians) {
 void VideoView::setGround(const std::optional<QTransform>& ground_from_image) {
     if (!ground_from_image && !transform_.onGround()) return;
     const bool was_on_ground = transform_.onGround();
+    const QPointF looked_at = transform_.imageFromView({width() / 2.0, height() / 2.0});
     transform_.setGround(ground_from_image);
     if (transform_.onGround() && was_on_ground)
         transform_.keepInView();
     else if (transform_.fitted())
         transform_.fit();
+    else
+        transform_.centreOn(looked_at);
     transformWasChanged();
 }
 

@@ -291,6 +291,9 @@ class WatchingTest : public QObject {
         QCOMPARE(model.recordAt(model.rowOf(id))->note, QStringLiteral("seen twice"));
         window().actions().undo_verdict->trigger();
         QCOMPARE(card.note().text(), QString());
+        card.tags().setText(QStringLiteral("lorry,  gate 3, lorry"));
+        QTest::keyClick(&card.tags(), Qt::Key_Return);
+        QCOMPARE(card.tags().text(), QStringLiteral("lorry, gate 3"));
         // A track alone has a card without a note.
         window().session().selectTrack(std::nullopt);
         QVERIFY(!card.subject());

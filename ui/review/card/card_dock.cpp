@@ -24,6 +24,7 @@ CardDock::CardDock(const CardParts& parts) : QObject(&parts.docks), parts_(parts
                 parts_.session.goToFrame(frame);
             },
         .write_note = [this](int event, const QString& note) { parts_.events.writeNote(event, note); },
+        .write_tags = [this](int event, const QString& tags) { parts_.events.writeTags(event, tags); },
     });
     connect(&parts_.events, &EventsDock::eventShown, this, [this](int id) { showEvent(id); });
     whenAny(
@@ -52,6 +53,7 @@ std::optional<CardSubject> CardDock::subjectOf(int id) const {
     subject.title = words.join(QStringLiteral(" · "));
     subject.event = id;
     subject.note = entry->note;
+    subject.tags = parts_.events.tagsOn(id);
     subject.track = event != nullptr && !event->tracks.empty() ? event->tracks.front() : 0;
     subject.frame = found->frameAt(entry->position);
     return subject;

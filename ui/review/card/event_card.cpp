@@ -31,6 +31,10 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     note_->setMaxLength(kLongestNote);
     note_->setPlaceholderText(tr("Note"));
     note_->setAccessibleName(tr("Note"));
+    tags_ = new QLineEdit;
+    tags_->setMaxLength(kLongestNote);
+    tags_->setPlaceholderText(tr("Tags: gate 3, lorry"));
+    tags_->setAccessibleName(tr("Tags"));
     auto* card = new QWidget;
     auto* grid = new QGridLayout(card);
     grid->setContentsMargins(6, 6, 6, 6);
@@ -40,6 +44,7 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     grid->addWidget(way_, 1, 1);
     grid->addWidget(speed_, 2, 0, 1, 2);
     grid->addWidget(note_, 3, 0, 1, 2);
+    grid->addWidget(tags_, 4, 0, 1, 2);
     grid->setRowStretch(2, 1);
     grid->setColumnStretch(1, 1);
     stack_ = new QStackedLayout(this);
@@ -52,6 +57,13 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
                 commands_.write_note(subject_->event, note_->text());
         },
         note_);
+    onFinished(
+        this,
+        [this] {
+            if (subject_ && subject_->event != 0 && tags_->text() != subject_->tags)
+                commands_.write_tags(subject_->event, tags_->text());
+        },
+        tags_);
     for (StorySketch* sketch : {speed_, way_})
         connect(sketch, &StorySketch::frameClicked, this, [this](FrameIndex frame) { commands_.go_to(frame); });
 }
@@ -69,6 +81,8 @@ void EventCard::show(const std::optional<CardSubject>& subject) {
     note_->setVisible(subject->event != 0);
     note_->setText(subject->note);
     note_->setCursorPosition(0);
+    tags_->setVisible(subject->event != 0);
+    tags_->setText(subject->tags);
 }
 
 void EventCard::setStory(const std::shared_ptr<const VehicleStory>& story, const SceneScale& scale) {

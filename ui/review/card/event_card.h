@@ -21,6 +21,7 @@ struct CardSubject {
     QString title;  ///< "Stops · 0:12.4 · track 7"
     int event = 0;  ///< 0: a track that no event was chosen of, which has no note
     QString note;
+    QString tags;  ///< "gate 3, lorry"
     TrackId track = 0;
     FrameIndex frame = 0;
 
@@ -31,9 +32,11 @@ struct CardSubject {
 struct CardCommands {
     std::function<void(FrameIndex)> go_to = [](FrameIndex) {};
     std::function<void(int event, const QString& note)> write_note = [](int, const QString&) {};
+    std::function<void(int event, const QString& tags)> write_tags = [](int, const QString&) {};
 };
 
-/// One event, or track, at a glance: its vehicle in a loop, how fast it was, which way it drove, and the note on it.
+/// One event, or track, at a glance: its vehicle in a loop, how fast it was, which way it drove, and note and tags on
+/// it.
 class EventCard : public QWidget {
     Q_OBJECT
 
@@ -54,6 +57,7 @@ class EventCard : public QWidget {
     StorySketch& speed() { return *speed_; }
     StorySketch& way() { return *way_; }
     QLineEdit& note() { return *note_; }
+    QLineEdit& tags() { return *tags_; }
     /// The number of the chip shown; it goes on by itself.
     std::size_t chip() const { return chip_; }
 
@@ -75,6 +79,7 @@ class EventCard : public QWidget {
     StorySketch* speed_;
     StorySketch* way_;
     QLineEdit* note_;
+    QLineEdit* tags_;
     RepeatedCall loop_;
 };
 

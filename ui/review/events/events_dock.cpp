@@ -252,6 +252,16 @@ void EventsDock::writeNote(int id, const QString& note) {
     if (const auto place = placeOf(id)) review_->setNote(*place, note);
 }
 
+void EventsDock::writeTags(int id, const QString& tags) {
+    if (const auto place = placeOf(id)) review_->setTags(*place, tags);
+}
+
+QString EventsDock::tagsOn(int id) const {
+    const auto place = placeOf(id);
+    const Verdict* verdict = place ? review_->verdictAt(*place) : nullptr;
+    return verdict == nullptr ? QString() : QString::fromStdString(tagText(verdict->tags));
+}
+
 void EventsDock::bringIntoView(QPointF place) {
     constexpr int kMargin = 40;  // px: what lies nearer to the edge is hardly seen
     VideoView& canvas = parts_.canvas;

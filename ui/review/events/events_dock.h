@@ -54,6 +54,9 @@ class EventsDock : public QObject {
     /// Shows an event: its frame, its track, its place.
     void show(int id);
     void writeNote(int id, const QString& note);
+    /// "gate 3, lorry".
+    void writeTags(int id, const QString& tags);
+    QString tagsOn(int id) const;
 
  signals:
     /// A person chose this event.

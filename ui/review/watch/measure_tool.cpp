@@ -34,6 +34,10 @@ MeasureTool::~MeasureTool() = default;
 
 void MeasureTool::start() {
     if (measuring_) return;
+    if (canvas_.tool() != nullptr) {  // something is being drawn
+        emit measuringChanged();
+        return;
+    }
     measuring_ = true;
     from_.reset();
     to_.reset();
@@ -55,8 +59,7 @@ bool MeasureTool::eventFilter(QObject* watched, QEvent* event) {
     if (!measuring_ || watched != &canvas_ || (!override && event->type() != QEvent::KeyPress))
         return QObject::eventFilter(watched, event);
     const auto* key = static_cast<QKeyEvent*>(event);
-    if (key->key() != Qt::Key_Escape || key->modifiers() != Qt::NoModifier)
-        return QObject::eventFilter(watched, event);
+    if (key->key() != Qt::Key_Escape || key->modifiers() != Qt::NoModifier) return QObject::eventFilter(watched, event);
     event->accept();
     if (!override) end();
     return true;
@@ -108,9 +111,8 @@ QString MeasureTool::text() const {
     };
     const double seconds = std::abs(secondsOf(to->frame) - secondsOf(from_->frame));
     const double km_per_hour = seconds > 0 ? measure->metres / seconds * 3.6 : 0;
-    const QString speed = scale.gsd_known
-                              ? QStringLiteral("%1 km/h").arg(numberText(km_per_hour, 1))
-                              : QStringLiteral("%1 px/frame").arg(numberText(measure->px / frames, 2));
+    const QString speed = scale.gsd_known ? QStringLiteral("%1 km/h").arg(numberText(km_per_hour, 1))
+                                          : QStringLiteral("%1 px/frame").arg(numberText(measure->px / frames, 2));
     return tr("%1 in %2: %3").arg(length, durationText(seconds), speed);
 }
 

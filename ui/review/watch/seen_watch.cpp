@@ -58,13 +58,15 @@ void SeenWatch::flush() {
     const int sequence = sequence_;
     const RunRecord* run = session_.shownRun();
     sequence_ = run != nullptr ? run->sequence.id : 0;
+    const FrameSpan searched_before = searched_;
     searched_ = run != nullptr ? FrameSpan{run->first_frame, run->last_frame} : FrameSpan{0, -1};
     if (sequence == 0) seen.clear();
     if (sequence == 0 && sequence_ == 0) {
         show_share_(std::nullopt);
         return;
     }
-    const bool nothing_new = seen.empty() && sequence == sequence_ && project == project_;
+    const bool nothing_new =
+        seen.empty() && sequence == sequence_ && project == project_ && searched_ == searched_before;
     if (nothing_new) return;
     query_.post(
         [this, seen = std::move(seen), project, sequence, now = project_, shown = sequence_, searched = searched_,

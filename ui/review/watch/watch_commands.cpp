@@ -28,15 +28,14 @@ const QString kMovingTopic = QStringLiteral("moving");
 }  // namespace
 
 WatchCommands::WatchCommands(const WatchParts& parts, QObject* parent)
-    : QObject(parent),
-      parts_(parts),
-      measure_(new MeasureTool(parts.session, parts.canvas, parts.ground, this)) {
+    : QObject(parent), parts_(parts), measure_(new MeasureTool(parts.session, parts.canvas, parts.ground, this)) {
     const WindowActions& actions = parts_.actions;
-    bindCommands(this,
-                 {{actions.measure, [this](bool on) { on ? measure_->start() : measure_->end(); }},
-                  {actions.deselect, [this] { measure_->end(); }},
-                  {actions.snapshot, [this] { askForSnapshot(SnapshotKind::as_seen); }},
-                  {actions.snapshot_plain, [this] { askForSnapshot(SnapshotKind::alone); }}});
+    bindCommands(this, {{actions.measure, [this](bool on) { on ? measure_->start() : measure_->end(); }},
+                        {actions.draw_zone, [this] { measure_->end(); }},
+                        {actions.draw_line, [this] { measure_->end(); }},
+                        {actions.deselect, [this] { measure_->end(); }},
+                        {actions.snapshot, [this] { askForSnapshot(SnapshotKind::as_seen); }},
+                        {actions.snapshot_plain, [this] { askForSnapshot(SnapshotKind::alone); }}});
     bindSwitches(this, {{actions.only_moving, [this] { playMoving(); }}});
     connect(measure_, &MeasureTool::measuringChanged, this,
             [this] { parts_.actions.measure->setChecked(measure_->measuring()); });
@@ -116,9 +115,7 @@ void WatchCommands::writeSnapshot(const std::filesystem::path& path, SnapshotKin
                                           tr("Saved %1.").arg(QString::fromStdString(path.string())));
             });
         },
-        [this](const QString& message) {
-            parts_.messages.showTopic(kSnapshotTopic, MessageKind::error, message);
-        });
+        [this](const QString& message) { parts_.messages.showTopic(kSnapshotTopic, MessageKind::error, message); });
 }
 
 }  // namespace eyrie::ui
