@@ -14,8 +14,8 @@ struct PictureLook {
     bool operator==(const PictureLook&) const = default;
 };
 
-/// A grey or blue-green-red picture of 8 bit; colours keep their hue. Others, and empty ones, come back as they are; the
-/// picture itself is never written.
+/// A grey or blue-green-red picture of 8 bit; colours keep their hue. Others, and empty ones, come back as they are;
+/// the picture itself is never written.
 cv::Mat withLook(const cv::Mat& picture, const PictureLook& look);
 
 }  // namespace eyrie

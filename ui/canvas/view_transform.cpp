@@ -120,8 +120,7 @@ bool ViewTransform::keepInView() {
     constexpr double kLoose = 0.25;
     const QRectF picture = imageRect();
     const auto away = [](double from_middle, double picture_half, double view_half) {
-        const double allowed =
-            std::max(0.0, picture_half - view_half) + kLoose * std::min(picture_half, view_half);
+        const double allowed = std::max(0.0, picture_half - view_half) + kLoose * std::min(picture_half, view_half);
         return from_middle - std::clamp(from_middle, -allowed, allowed);
     };
     const QPointF from_middle = picture.center() - middle();

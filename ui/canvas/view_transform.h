@@ -11,8 +11,8 @@ namespace eyrie::ui {
 
 /// The map between an image and the widget that shows it. Arithmetic only: no widget, no screen.
 /// Image coordinates: px, pixel centres at integers, so the image covers [−0.5, size − 0.5]. View coordinates: the
-/// widget's logical pixels, origin at its top left. The picture may be turned around the middle of the view, and be laid
-/// on the ground: then zoom and place are those of the ground, whose unit is a pixel of some other frame.
+/// widget's logical pixels, origin at its top left. The picture may be turned around the middle of the view, and be
+/// laid on the ground: then zoom and place are those of the ground, whose unit is a pixel of some other frame.
 class ViewTransform {
  public:
     static constexpr double kMaxZoom = 64;  ///< screen pixels per image pixel

@@ -30,8 +30,8 @@ class Playback : public QObject {
     bool looping() const { return looping_; }
     void setLooping(bool looping) { looping_ = looping; }
 
-    /// Plays these frames alone, merged spans, and leaps over what lies between; nothing: all. Frames that are asked for
-    /// otherwise are shown all the same.
+    /// Plays these frames alone, merged spans, and leaps over what lies between; nothing: all. Frames that are asked
+    /// for otherwise are shown all the same.
     void setSpans(std::optional<std::vector<FrameSpan>> spans) { spans_ = std::move(spans); }
     const std::optional<std::vector<FrameSpan>>& spans() const { return spans_; }
 
