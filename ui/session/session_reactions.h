@@ -5,12 +5,9 @@
 
 namespace eyrie::ui {
 
-/// What an object does when something of the session is another than it was;
-/// holds as long as `receiver`.
-inline void followSession(ProjectSession &session, QObject *receiver,
-                          Reactions<SessionChange> reactions) {
-  QObject::connect(&session, &ProjectSession::changed, receiver,
-                   std::move(reactions));
+/// What an object does when something of the session is another than it was; holds as long as `receiver`.
+inline void followSession(ProjectSession& session, QObject* receiver, Reactions<SessionChange> reactions) {
+    QObject::connect(&session, &ProjectSession::changed, receiver, std::move(reactions));
 }
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

@@ -60,374 +60,324 @@ namespace eyrie::ui {
 
 namespace {
 constexpr QSize kFirstSize(1500, 940);
-/// The style keeps a picture of every button that ever was, and messages bring
-/// new ones all the time.
+/// The style keeps a picture of every button that ever was, and messages bring new ones all the time.
 constexpr int kStyleCache_kB = 2048;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
-} // namespace
+}  // namespace
 
-MainWindow::MainWindow(QWidget *parent) : QMainWindow(parent) {
-  setObjectName(QStringLiteral("main_window"));
-  setAcceptDrops(true);
-  QPixmapCache::setCacheLimit(kStyleCache_kB);
-  // The lists reach down to the timeline, which belongs to the canvas.
-  setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
-  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-  actions_ = new WindowActions(overlays_, this);
-  keys_.add({QString(), actions_->sections()});
-  buildCentre();
-  buildToolBar();
-  resize(kFirstSize.boundedTo(screen()->availableSize()));
-  guard_ = new RunGuard(session_, *this);
-  inspection_ = new Inspection(session_, this);
-  docks_ = new DockRegistry(*this);
-  review_ = new ReviewDocks({session_, *inspection_, *docks_, *actions_,
-                             overlays_, *guard_, *messages_});
-  events_ = new EventsDock(
-      {session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
-  review_->setDoingsWanted([this] { events_->review().setWanted(); });
-  connect(events_, &EventsDock::eventsShown, this, [this] {
-    const auto &found = events_->review().found();
-    review_->tracks().setDoings(found ? found->doings : nullptr);
-  });
-  buildWatching();
-  event_report_ = new EventReport({session_, *events_, *messages_, *this});
-  tuning_ = new Tuning({session_, *canvas_, *docks_, review_->parameterForm(),
-                        *actions_, review_->parameters(), overlays_, *this});
-  buildEvaluation();
-  new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
-  status_ = new StatusFields(session_, *statusBar());
-  labelling_ =
-      new LabelWorkspace({session_, *canvas_, *timeline_, *label_rows_,
-                          *messages_, *actions_, *docks_, keys_, *this});
-  evaluation_->join(*labelling_);
-  new RunMessages(
-      session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
-  files_ = new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_,
-                            *run_bar_, *welcome_, *canvas_, *this});
-  commands_ =
-      new WindowCommands({session_, *actions_, *canvas_, *transport_, *run_bar_,
-                          *inspection_, keys_, *labelling_, *this});
-  buildMenus();
-  wireCanvas();
-  wireSession();
-  wireInspection();
-  restoreGeometry(settings_.geometry());
-  buildWorkspaces();
-  enableActions();
-  updateTitle();
+MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
+    setObjectName(QStringLiteral("main_window"));
+    setAcceptDrops(true);
+    QPixmapCache::setCacheLimit(kStyleCache_kB);
+    // The lists reach down to the timeline, which belongs to the canvas.
+    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    actions_ = new WindowActions(overlays_, this);
+    keys_.add({QString(), actions_->sections()});
+    buildCentre();
+    buildToolBar();
+    resize(kFirstSize.boundedTo(screen()->availableSize()));
+    guard_ = new RunGuard(session_, *this);
+    inspection_ = new Inspection(session_, this);
+    docks_ = new DockRegistry(*this);
+    review_ = new ReviewDocks({session_, *inspection_, *docks_, *actions_, overlays_, *guard_, *messages_});
+    events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
+    review_->setDoingsWanted([this] { events_->review().setWanted(); });
+    connect(events_, &EventsDock::eventsShown, this, [this] {
+        const auto& found = events_->review().found();
+        review_->tracks().setDoings(found ? found->doings : nullptr);
+    });
+    buildWatching();
+    event_report_ = new EventReport({session_, *events_, *messages_, *this});
+    tuning_ = new Tuning(
+        {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
+    buildEvaluation();
+    new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
+    status_ = new StatusFields(session_, *statusBar());
+    labelling_ = new LabelWorkspace(
+        {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
+    evaluation_->join(*labelling_);
+    new RunMessages(
+        session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
+    files_ =
+        new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_, *run_bar_, *welcome_, *canvas_, *this});
+    commands_ = new WindowCommands(
+        {session_, *actions_, *canvas_, *transport_, *run_bar_, *inspection_, keys_, *labelling_, *this});
+    buildMenus();
+    wireCanvas();
+    wireSession();
+    wireInspection();
+    restoreGeometry(settings_.geometry());
+    buildWorkspaces();
+    enableActions();
+    updateTitle();
 }
 
 MainWindow::~MainWindow() {
-  // Docks that vanish tell their panels, which ask the session: it must be
-  // there still.
-  hide();
+    // Docks that vanish tell their panels, which ask the session: it must be there still.
+    hide();
 }
 
-// ---- assembly
-// -------------------------------------------------------------------------------------------------------
+// ---- assembly -------------------------------------------------------------------------------------------------------
 
 void MainWindow::buildCentre() {
-  messages_ = new MessageBar;
-  welcome_ = new WelcomePanel(*actions_);
-  canvas_ = new VideoView(overlays_);
-  transport_ = new TransportBar(session_, *actions_);
-  timeline_ = new TimelineView;
-  label_rows_ = new LabelTimeline(*timeline_);
-  label_rows_->setFixedHeight(118);
-  auto *review = new QWidget;
-  auto *rows = new QVBoxLayout(review);
-  rows->setContentsMargins(0, 0, 0, 0);
-  rows->setSpacing(0);
-  rows->addWidget(canvas_, 1);
-  rows->addWidget(transport_);
-  rows->addWidget(timeline_);
-  rows->addWidget(label_rows_);
-  stack_ = new QStackedWidget;
-  stack_->addWidget(welcome_);
-  stack_->addWidget(review);
-  auto *centre = new QWidget;
-  auto *layout = new QVBoxLayout(centre);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
-  layout->addWidget(messages_);
-  layout->addWidget(stack_, 1);
-  setCentralWidget(centre);
+    messages_ = new MessageBar;
+    welcome_ = new WelcomePanel(*actions_);
+    canvas_ = new VideoView(overlays_);
+    transport_ = new TransportBar(session_, *actions_);
+    timeline_ = new TimelineView;
+    label_rows_ = new LabelTimeline(*timeline_);
+    label_rows_->setFixedHeight(118);
+    auto* review = new QWidget;
+    auto* rows = new QVBoxLayout(review);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(0);
+    rows->addWidget(canvas_, 1);
+    rows->addWidget(transport_);
+    rows->addWidget(timeline_);
+    rows->addWidget(label_rows_);
+    stack_ = new QStackedWidget;
+    stack_->addWidget(welcome_);
+    stack_->addWidget(review);
+    auto* centre = new QWidget;
+    auto* layout = new QVBoxLayout(centre);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(messages_);
+    layout->addWidget(stack_, 1);
+    setCentralWidget(centre);
 }
 
 void MainWindow::buildToolBar() {
-  auto *bar = addToolBar(tr("Run"));
-  bar->setObjectName(QStringLiteral("run_bar"));
-  bar->setMovable(false);
-  bar->addAction(actions_->open_video);
-  bar->addSeparator();
-  run_bar_ = new RunBar(session_, *actions_, *messages_);
-  run_bar_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-  bar->addWidget(run_bar_);
-  bar->addSeparator();
-  bar->addAction(actions_->fit);
-  bar->addAction(actions_->one_to_one);
-  bar->addWidget(new OverlayButton(overlays_, *actions_));
-  bar->addWidget(new PictureButton(session_, *actions_));
-  bar->addSeparator();
-  for (QAction *action : actions_->workspace)
-    bar->addAction(action);
-  connect(run_bar_, &RunBar::editingDone, this, &MainWindow::focusCanvas);
-  connect(transport_, &TransportBar::editingDone, this,
-          &MainWindow::focusCanvas);
+    auto* bar = addToolBar(tr("Run"));
+    bar->setObjectName(QStringLiteral("run_bar"));
+    bar->setMovable(false);
+    bar->addAction(actions_->open_video);
+    bar->addSeparator();
+    run_bar_ = new RunBar(session_, *actions_, *messages_);
+    run_bar_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    bar->addWidget(run_bar_);
+    bar->addSeparator();
+    bar->addAction(actions_->fit);
+    bar->addAction(actions_->one_to_one);
+    bar->addWidget(new OverlayButton(overlays_, *actions_));
+    bar->addWidget(new PictureButton(session_, *actions_));
+    bar->addSeparator();
+    for (QAction* action : actions_->workspace) bar->addAction(action);
+    connect(run_bar_, &RunBar::editingDone, this, &MainWindow::focusCanvas);
+    connect(transport_, &TransportBar::editingDone, this, &MainWindow::focusCanvas);
 }
 
 void MainWindow::buildMenus() {
-  for (const ActionSection &section : actions_->sections()) {
-    if (section.actions.contains(actions_->next_error))
-      menuBar()->addMenu(labelling_->menu());
-    QMenu *menu = menuBar()->addMenu(section.title);
-    menu->addActions(section.actions);
-    if (section.actions.contains(actions_->open_project)) {
-      menu->insertMenu(actions_->save_as, files_->recentMenu());
-      menu->insertSeparator(actions_->save_as);
-      menu->insertSeparator(actions_->quit);
+    for (const ActionSection& section : actions_->sections()) {
+        if (section.actions.contains(actions_->next_error)) menuBar()->addMenu(labelling_->menu());
+        QMenu* menu = menuBar()->addMenu(section.title);
+        menu->addActions(section.actions);
+        if (section.actions.contains(actions_->open_project)) {
+            menu->insertMenu(actions_->save_as, files_->recentMenu());
+            menu->insertSeparator(actions_->save_as);
+            menu->insertSeparator(actions_->quit);
+        }
+        if (section.actions.contains(actions_->fit)) {
+            menu->addSeparator();
+            for (const DockId id : allDocks()) menu->addAction(docks_->dock(id)->toggleViewAction());
+            menu->addAction(tr("Reset the layout"), this, [this] { workspaces_->reset(); });
+        }
     }
-    if (section.actions.contains(actions_->fit)) {
-      menu->addSeparator();
-      for (const DockId id : allDocks())
-        menu->addAction(docks_->dock(id)->toggleViewAction());
-      menu->addAction(tr("Reset the layout"), this,
-                      [this] { workspaces_->reset(); });
-    }
-  }
 }
 
-void MainWindow::start(const StartOptions &options) {
-  if (options.workspace)
-    workspaces_->open(*options.workspace);
-  files_->start(options);
+void MainWindow::start(const StartOptions& options) {
+    if (options.workspace) workspaces_->open(*options.workspace);
+    files_->start(options);
 }
 
-// ---- wiring
-// ---------------------------------------------------------------------------------------------------------
+// ---- wiring ---------------------------------------------------------------------------------------------------------
 
 void MainWindow::buildWorkspaces() {
-  workspaces_ = new Workspaces(*this, *docks_, overlays_);
-  for (const WorkspaceKind kind : allWorkspaces())
-    bindCommands(this, {{actions_->workspaceAction(kind),
-                         [this, kind] { workspaces_->open(kind); }}});
-  connect(workspaces_, &Workspaces::leaving, evaluation_,
-          &EvaluationDocks::leaveWorkspace);
-  connect(workspaces_, &Workspaces::opened, this, [this](WorkspaceKind kind) {
-    actions_->workspaceAction(kind)->setChecked(true);
-    const QList<QDockWidget *> offered = docks_->docksFor(kind);
-    for (const DockId id : allDocks())
-      docks_->dock(id)->toggleViewAction()->setVisible(
-          offered.contains(docks_->dock(id)));
-    labelling_->setActive(kind == WorkspaceKind::label);
-    events_->setActive(kind != WorkspaceKind::label);
-    watching_->setActive(kind != WorkspaceKind::label);
-    steady_->setActive(kind != WorkspaceKind::label);
-    // Zones are drawn and tracks narrowed by what they did, whichever list is
-    // in front.
-    if (kind == WorkspaceKind::review)
-      events_->review().setWanted();
-    evaluation_->enterWorkspace(kind);
-  });
-  workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
+    workspaces_ = new Workspaces(*this, *docks_, overlays_);
+    for (const WorkspaceKind kind : allWorkspaces())
+        bindCommands(this, {{actions_->workspaceAction(kind), [this, kind] { workspaces_->open(kind); }}});
+    connect(workspaces_, &Workspaces::leaving, evaluation_, &EvaluationDocks::leaveWorkspace);
+    connect(workspaces_, &Workspaces::opened, this, [this](WorkspaceKind kind) {
+        actions_->workspaceAction(kind)->setChecked(true);
+        const QList<QDockWidget*> offered = docks_->docksFor(kind);
+        for (const DockId id : allDocks())
+            docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
+        labelling_->setActive(kind == WorkspaceKind::label);
+        events_->setActive(kind != WorkspaceKind::label);
+        watching_->setActive(kind != WorkspaceKind::label);
+        steady_->setActive(kind != WorkspaceKind::label);
+        // Zones are drawn and tracks narrowed by what they did, whichever list is in front.
+        if (kind == WorkspaceKind::review) events_->review().setWanted();
+        evaluation_->enterWorkspace(kind);
+    });
+    workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
 }
 
 void MainWindow::buildWatching() {
-  ground_ = new WatchedGround(this);
-  whenAny(
-      events_, ground_, [this] { ground_->setRun(events_->review().tracks()); },
-      &EventsDock::tracksRead);
-  steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
-  watching_ = new WatchCommands(
-      {session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
-  seen_ = new SeenWatch(
-      session_, *canvas_, *this,
-      [this](std::optional<double> share) { events_->panel().showSeen(share); },
-      this);
-  card_ = new CardDock({session_, *docks_, *events_, *ground_});
-  mosaic_ = new MosaicPanel({session_, overlays_, *ground_});
-  docks_->add(DockId::mosaic, tr("Mosaic"), mosaic_);
-  docks_->watch(DockId::mosaic, mosaic_,
-                [this](bool visible) { mosaic_->setLookedAt(visible); });
-  bindCommands(this, {{actions_->show_mosaic, [this] {
-                         docks_->raise(DockId::mosaic);
-                         mosaic_->view().setFocus();
-                       }}});
+    ground_ = new WatchedGround(this);
+    whenAny(
+        events_, ground_, [this] { ground_->setRun(events_->review().tracks()); }, &EventsDock::tracksRead);
+    steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
+    watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
+    seen_ = new SeenWatch(
+        session_, *canvas_, *this, [this](std::optional<double> share) { events_->panel().showSeen(share); }, this);
+    card_ = new CardDock({session_, *docks_, *events_, *ground_});
+    mosaic_ = new MosaicPanel({session_, overlays_, *ground_});
+    docks_->add(DockId::mosaic, tr("Mosaic"), mosaic_);
+    docks_->watch(DockId::mosaic, mosaic_, [this](bool visible) { mosaic_->setLookedAt(visible); });
+    bindCommands(this, {{actions_->show_mosaic, [this] {
+                             docks_->raise(DockId::mosaic);
+                             mosaic_->view().setFocus();
+                         }}});
 }
 
 void MainWindow::buildEvaluation() {
-  evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, overlays_,
-                                    *docks_, *messages_, *this);
-  connect(evaluation_, &EvaluationDocks::whyRequested, tuning_,
-          &Tuning::askWhyAbout);
-  // A preview takes the verdicts away, which are those of the stored run; they
-  // come back with it.
-  connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
-    if (!tuning_->preview().active())
-      evaluation_->showMarks();
-  });
+    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, overlays_, *docks_, *messages_, *this);
+    connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
+    // A preview takes the verdicts away, which are those of the stored run; they come back with it.
+    connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
+        if (!tuning_->preview().active()) evaluation_->showMarks();
+    });
 }
 
 void MainWindow::wireInspection() {
-  connect(canvas_, &VideoView::placeClicked, inspection_,
-          [this](QPointF place, double margin) {
-            if (!session_.selectedTrack())
-              inspection_->choose(place, margin);
-          });
-  const auto show_stacks = [this] {
-    const ReplayView &view = *inspection_->view();
-    canvas_->setStacks(view.wish.frame, stackMarks(view));
-  };
-  connect(inspection_, &Inspection::changed, canvas_,
-          Reactions<InspectionChange>{
-              {InspectionChange::choice,
-               [this] { canvas_->setInspectedArea(inspection_->area()); }},
-              {InspectionChange::view, show_stacks}});
-  connect(&overlays_, &OverlaySettings::changed, inspection_, [this] {
-    inspection_->wantStackOverlay(overlays_.isVisible(ImageStackLayer::kKind));
-  });
-  review_->stacks().setCommands({
-      .show_place =
-          [this](QPointF place) {
-            canvas_->centreOn(place);
-            inspection_->choose(place);
-          },
-      .run_with_stacking =
-          [this] {
-            review_->parameters().adoptRunParameters();
-            review_->parameters().setValue("stacking.enabled", "true");
-            commands_->startRun();
-          },
-  });
+    connect(canvas_, &VideoView::placeClicked, inspection_, [this](QPointF place, double margin) {
+        if (!session_.selectedTrack()) inspection_->choose(place, margin);
+    });
+    const auto show_stacks = [this] {
+        const ReplayView& view = *inspection_->view();
+        canvas_->setStacks(view.wish.frame, stackMarks(view));
+    };
+    connect(inspection_, &Inspection::changed, canvas_,
+            Reactions<InspectionChange>{
+                {InspectionChange::choice, [this] { canvas_->setInspectedArea(inspection_->area()); }},
+                {InspectionChange::view, show_stacks}});
+    connect(&overlays_, &OverlaySettings::changed, inspection_,
+            [this] { inspection_->wantStackOverlay(overlays_.isVisible(ImageStackLayer::kKind)); });
+    review_->stacks().setCommands({
+        .show_place =
+            [this](QPointF place) {
+                canvas_->centreOn(place);
+                inspection_->choose(place);
+            },
+        .run_with_stacking =
+            [this] {
+                review_->parameters().adoptRunParameters();
+                review_->parameters().setValue("stacking.enabled", "true");
+                commands_->startRun();
+            },
+    });
 }
 
 void MainWindow::wireCanvas() {
-  connect(canvas_, &VideoView::trackClicked, &session_,
-          &ProjectSession::selectTrack);
-  connect(canvas_, &VideoView::cursorMoved, status_, &StatusFields::showCursor);
-  connect(canvas_, &VideoView::transformChanged, status_,
-          [this] { status_->showZoom(canvas_->transform().zoom()); });
-  connect(&overlays_, &OverlaySettings::changed, timeline_,
-          [this] { timeline_->setPalette(overlays_.palette()); });
-  timeline_->setPalette(overlays_.palette());
+    connect(canvas_, &VideoView::trackClicked, &session_, &ProjectSession::selectTrack);
+    connect(canvas_, &VideoView::cursorMoved, status_, &StatusFields::showCursor);
+    connect(canvas_, &VideoView::transformChanged, status_, [this] { status_->showZoom(canvas_->transform().zoom()); });
+    connect(&overlays_, &OverlaySettings::changed, timeline_, [this] { timeline_->setPalette(overlays_.palette()); });
+    timeline_->setPalette(overlays_.palette());
 }
 
 void MainWindow::wireSession() {
-  connect(
-      &session_, &ProjectSession::changed, this,
-      Reactions<SessionChange>{
-          {SessionChange::video, [this] { showVideo(); }},
-          {SessionChange::picture, [this] { showPicture(); }},
-          {SessionChange::selection,
-           [this] { canvas_->setSelectedTrack(session_.selectedTrack()); }},
-          {SessionChange::following,
-           [this] { actions_->follow->setChecked(session_.following()); }},
-          {{SessionChange::video, SessionChange::project, SessionChange::runs,
-            SessionChange::current_run, SessionChange::run_started,
-            SessionChange::run_ended, SessionChange::following},
-           [this] { enableActions(); }},
-          {{SessionChange::video, SessionChange::project},
-           [this] { updateTitle(); }},
-      });
+    connect(&session_, &ProjectSession::changed, this,
+            Reactions<SessionChange>{
+                {SessionChange::video, [this] { showVideo(); }},
+                {SessionChange::picture, [this] { showPicture(); }},
+                {SessionChange::selection, [this] { canvas_->setSelectedTrack(session_.selectedTrack()); }},
+                {SessionChange::following, [this] { actions_->follow->setChecked(session_.following()); }},
+                {{SessionChange::video, SessionChange::project, SessionChange::runs, SessionChange::current_run,
+                  SessionChange::run_started, SessionChange::run_ended, SessionChange::following},
+                 [this] { enableActions(); }},
+                {{SessionChange::video, SessionChange::project}, [this] { updateTitle(); }},
+            });
 }
 
 void MainWindow::showVideo() {
-  const auto &video = session_.video();
-  canvas_->clear(video ? QSize(video->size.width, video->size.height)
-                       : QSize());
-  stack_->setCurrentIndex(video ? 1 : 0);
+    const auto& video = session_.video();
+    canvas_->clear(video ? QSize(video->size.width, video->size.height) : QSize());
+    stack_->setCurrentIndex(video ? 1 : 0);
 }
 
 void MainWindow::showPicture() {
-  const ViewFrame &frame = session_.viewFrame();
-  canvas_->setFrame(frame);
-  // An empty picture of a run may not look as if nothing was found there.
-  const bool missing =
-      !frame.result && session_.currentRun() && !session_.running();
-  if (std::exchange(told_missing_, missing) != missing)
-    canvas_->setBadge(missing ? tr("Not processed in this run") : QString());
-  evaluation_->showMarks();
+    const ViewFrame& frame = session_.viewFrame();
+    canvas_->setFrame(frame);
+    // An empty picture of a run may not look as if nothing was found there.
+    const bool missing = !frame.result && session_.currentRun() && !session_.running();
+    if (std::exchange(told_missing_, missing) != missing)
+        canvas_->setBadge(missing ? tr("Not processed in this run") : QString());
+    evaluation_->showMarks();
 }
 
 void MainWindow::enableActions() {
-  const bool has_video = session_.video().has_value();
-  const bool running = session_.running();
-  for (const ActionSection &section : actions_->sections())
-    for (QAction *action : section.actions)
-      if (section.actions.contains(actions_->play) ||
-          section.actions.contains(actions_->fit))
-        action->setEnabled(has_video);
-  actions_->full_screen->setEnabled(true);
-  steady_->enableActions();
-  for (QAction *action : actions_->workspace)
-    action->setEnabled(true);
-  actions_->run->setEnabled(has_video && !running);
-  actions_->stop->setEnabled(running);
-  actions_->continue_run->setEnabled(
-      session_.currentRun() && session_.canContinue(*session_.currentRun()));
-  actions_->follow->setEnabled(running);
-  actions_->save_as->setEnabled(has_video && !running);
-  actions_->restore_state->setEnabled(!session_.project().empty());
-  actions_->save_copy->setEnabled(!session_.project().empty());
-  actions_->restore_run->setEnabled(session_.lastRemovedRun().has_value());
+    const bool has_video = session_.video().has_value();
+    const bool running = session_.running();
+    for (const ActionSection& section : actions_->sections())
+        for (QAction* action : section.actions)
+            if (section.actions.contains(actions_->play) || section.actions.contains(actions_->fit))
+                action->setEnabled(has_video);
+    actions_->full_screen->setEnabled(true);
+    steady_->enableActions();
+    for (QAction* action : actions_->workspace) action->setEnabled(true);
+    actions_->run->setEnabled(has_video && !running);
+    actions_->stop->setEnabled(running);
+    actions_->continue_run->setEnabled(session_.currentRun() && session_.canContinue(*session_.currentRun()));
+    actions_->follow->setEnabled(running);
+    actions_->save_as->setEnabled(has_video && !running);
+    actions_->restore_state->setEnabled(!session_.project().empty());
+    actions_->save_copy->setEnabled(!session_.project().empty());
+    actions_->restore_run->setEnabled(session_.lastRemovedRun().has_value());
 }
 
 void MainWindow::updateTitle() {
-  QStringList parts;
-  if (session_.media())
-    parts << QString::fromStdString(session_.media()->name);
-  if (!session_.project().empty())
-    parts << QString::fromStdString(session_.project().filename().string());
-  setWindowTitle((parts << tr("Eyrie")).join(QStringLiteral(" – ")));
+    QStringList parts;
+    if (session_.media()) parts << QString::fromStdString(session_.media()->name);
+    if (!session_.project().empty()) parts << QString::fromStdString(session_.project().filename().string());
+    setWindowTitle((parts << tr("Eyrie")).join(QStringLiteral(" – ")));
 }
 
-void MainWindow::focusCanvas() { canvas_->setFocus(); }
-
-// ---- events
-// ---------------------------------------------------------------------------------------------------------
-
-void MainWindow::showEvent(QShowEvent *event) {
-  QMainWindow::showEvent(event);
-  // Only now its size is known. Shown again, from an icon say, it is as a
-  // person has arranged it.
-  if (!std::exchange(shown_, true))
-    workspaces_->fit();
+void MainWindow::focusCanvas() {
+    canvas_->setFocus();
 }
 
-void MainWindow::closeEvent(QCloseEvent *event) {
-  if (!closing_ && session_.running() && !session_.stopping()) {
-    event->ignore();
-    guard_->beforeEnding(tr("the window closes"), [this] {
-      closing_ = true;
-      close();
-    });
-    return;
-  }
-  files_->rememberView();
-  settings_.setGeometry(saveGeometry());
-  settings_.setValue(kWorkspaces, workspaces_->state());
-  session_.stopRun(); // the run's own thread finishes storing while the program
-                      // goes down
-  event->accept();
+// ---- events ---------------------------------------------------------------------------------------------------------
+
+void MainWindow::showEvent(QShowEvent* event) {
+    QMainWindow::showEvent(event);
+    // Only now its size is known. Shown again, from an icon say, it is as a person has arranged it.
+    if (!std::exchange(shown_, true)) workspaces_->fit();
 }
 
-void MainWindow::dragEnterEvent(QDragEnterEvent *event) {
-  for (const QUrl &url : event->mimeData()->urls())
-    if (url.isLocalFile()) {
-      event->acceptProposedAction();
-      return;
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (!closing_ && session_.running() && !session_.stopping()) {
+        event->ignore();
+        guard_->beforeEnding(tr("the window closes"), [this] {
+            closing_ = true;
+            close();
+        });
+        return;
+    }
+    files_->rememberView();
+    settings_.setGeometry(saveGeometry());
+    settings_.setValue(kWorkspaces, workspaces_->state());
+    session_.stopRun();  // the run's own thread finishes storing while the program goes down
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    for (const QUrl& url : event->mimeData()->urls())
+        if (url.isLocalFile()) {
+            event->acceptProposedAction();
+            return;
+        }
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    for (const QUrl& url : event->mimeData()->urls()) {
+        if (!url.isLocalFile()) continue;
+        event->acceptProposedAction();
+        files_->open(url.toLocalFile());
+        return;
     }
 }
 
-void MainWindow::dropEvent(QDropEvent *event) {
-  for (const QUrl &url : event->mimeData()->urls()) {
-    if (!url.isLocalFile())
-      continue;
-    event->acceptProposedAction();
-    files_->open(url.toLocalFile());
-    return;
-  }
-}
-
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

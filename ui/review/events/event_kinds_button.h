@@ -10,36 +10,33 @@ class QMenu;
 
 namespace eyrie::ui {
 
-/// Which kinds of events are shown: a button that says how many are hidden,
-/// with a list of the kinds and their counts that stays open while kinds are
-/// ticked.
+/// Which kinds of events are shown: a button that says how many are hidden, with a list of the kinds and their counts
+/// that stays open while kinds are ticked.
 class EventKindsButton : public QToolButton {
-  Q_OBJECT
+    Q_OBJECT
 
-public:
-  using Counts = std::array<int, kListedKinds>;
+ public:
+    using Counts = std::array<int, kListedKinds>;
 
-  explicit EventKindsButton(QWidget *parent = nullptr);
+    explicit EventKindsButton(QWidget* parent = nullptr);
 
-  /// How many there are of each kind.
-  void setCounts(const Counts &counts);
-  bool shows(int listed_kind) const {
-    return shown_.at(static_cast<std::size_t>(listed_kind));
-  }
-  void setShown(int listed_kind, bool shown);
-  void showAll(bool shown = true);
+    /// How many there are of each kind.
+    void setCounts(const Counts& counts);
+    bool shows(int listed_kind) const { return shown_.at(static_cast<std::size_t>(listed_kind)); }
+    void setShown(int listed_kind, bool shown);
+    void showAll(bool shown = true);
 
-signals:
-  void edited();
+ signals:
+    void edited();
 
-private:
-  void makeMenu();
-  void refresh();
+ private:
+    void makeMenu();
+    void refresh();
 
-  QMenu *list_;
-  std::array<QCheckBox *, kListedKinds> boxes_{};
-  std::array<bool, kListedKinds> shown_{};
-  Counts counts_{};
+    QMenu* list_;
+    std::array<QCheckBox*, kListedKinds> boxes_{};
+    std::array<bool, kListedKinds> shown_{};
+    Counts counts_{};
 };
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

@@ -18,148 +18,127 @@ namespace eyrie::ui {
 
 /// Whom a review of events tells what. All are called on its thread.
 struct EventReviewAnswers {
-  using Positions = std::vector<std::size_t>; ///< in the queue
+    using Positions = std::vector<std::size_t>;  ///< in the queue
 
-  /// Another state, or other events.
-  std::function<void()> show_events;
-  std::function<void(const Positions &positions)> show_verdicts;
-  /// The zones of the video are others, or were read.
-  std::function<void()> show_zones;
-  /// Verdicts on these events were undone or done again.
-  std::function<void(const Positions &positions)> go_back_to;
-  /// The text names what went wrong, the place and the remedy.
-  std::function<void(const QString &text)> tell_problem;
-  /// Why nothing was changed.
-  std::function<void(const QString &text)> tell_notice;
+    /// Another state, or other events.
+    std::function<void()> show_events;
+    std::function<void(const Positions& positions)> show_verdicts;
+    /// The zones of the video are others, or were read.
+    std::function<void()> show_zones;
+    /// Verdicts on these events were undone or done again.
+    std::function<void(const Positions& positions)> go_back_to;
+    /// The text names what went wrong, the place and the remedy.
+    std::function<void(const QString& text)> tell_problem;
+    /// Why nothing was changed.
+    std::function<void(const QString& text)> tell_notice;
 };
 
-/// The events of the run shown and what is said about them: searched for in the
-/// background as soon as they are wanted, judged on the window's own thread,
-/// where a verdict takes a few milliseconds. Events are named by their place in
-/// the queue.
+/// The events of the run shown and what is said about them: searched for in the background as soon as they are wanted,
+/// judged on the window's own thread, where a verdict takes a few milliseconds. Events are named by their place in the
+/// queue.
 class EventReview : public QObject {
-  Q_OBJECT
+    Q_OBJECT
 
-public:
-  enum class State {
-    nothing,   ///< no run
-    at_work,   ///< the run is not done yet
-    searching, ///< for the first time in this run
-    found,
-    failed
-  };
+ public:
+    enum class State {
+        nothing,    ///< no run
+        at_work,    ///< the run is not done yet
+        searching,  ///< for the first time in this run
+        found,
+        failed
+    };
 
-  /// The session must outlive it.
-  EventReview(ProjectSession &session, EventReviewAnswers answers,
-              QObject *parent = nullptr);
-  ~EventReview() override;
+    /// The session must outlive it.
+    EventReview(ProjectSession& session, EventReviewAnswers answers, QObject* parent = nullptr);
+    ~EventReview() override;
 
-  /// Somebody wants to see events, now and of every run to come. Until then
-  /// nothing is read, and the right to judge is not taken.
-  void setWanted();
-  /// Searches with other thresholds; of several in a short time the last
-  /// counts.
-  void setOptions(const EventOptions &options);
+    /// Somebody wants to see events, now and of every run to come. Until then nothing is read, and the right to judge
+    /// is not taken.
+    void setWanted();
+    /// Searches with other thresholds; of several in a short time the last counts.
+    void setOptions(const EventOptions& options);
 
-  State state() const { return state_; }
-  /// Null unless events were found.
-  const std::shared_ptr<const FoundEvents> &found() const { return found_; }
-  std::size_t count() const { return found_ ? found_->queue.size() : 0; }
+    State state() const { return state_; }
+    /// Null unless events were found.
+    const std::shared_ptr<const FoundEvents>& found() const { return found_; }
+    std::size_t count() const { return found_ ? found_->queue.size() : 0; }
 
-  /// What is said about an event; null: nothing.
-  const Verdict *verdictAt(std::size_t position) const;
-  bool isJudged(std::size_t position) const;
-  std::size_t judgedCount() const;
-  /// Verdicts on this video for which this run has no event.
-  std::size_t leftCount() const {
-    return found_ ? found_->carried.left.size() : 0;
-  }
+    /// What is said about an event; null: nothing.
+    const Verdict* verdictAt(std::size_t position) const;
+    bool isJudged(std::size_t position) const;
+    std::size_t judgedCount() const;
+    /// Verdicts on this video for which this run has no event.
+    std::size_t leftCount() const { return found_ ? found_->carried.left.size() : 0; }
 
-  /// The zones that are watched; none until the verdicts were read.
-  const std::map<int, StoredZone> &zones() const;
-  /// Whether there is a place for zones: a run that is done, whose verdicts
-  /// were read.
-  bool canHaveZones() const { return store_ != nullptr; }
-  /// Changes zones by a step made from what was said and watched so far;
-  /// searches anew where it makes a difference.
-  bool
-  changeZones(const std::function<ReviewEdit(const ReviewSet &, const Judge &,
-                                             const NewId &)> &step);
-  /// How the camera moved over the ground; null until the run was read.
-  const std::shared_ptr<const StoredTracks> &tracks() const { return tracks_; }
+    /// The zones that are watched; none until the verdicts were read.
+    const std::map<int, StoredZone>& zones() const;
+    /// Whether there is a place for zones: a run that is done, whose verdicts were read.
+    bool canHaveZones() const { return store_ != nullptr; }
+    /// Changes zones by a step made from what was said and watched so far; searches anew where it makes a difference.
+    bool changeZones(const std::function<ReviewEdit(const ReviewSet&, const Judge&, const NewId&)>& step);
+    /// How the camera moved over the ground; null until the run was read.
+    const std::shared_ptr<const StoredTracks>& tracks() const { return tracks_; }
 
-  /// Each is one step that can be undone. What goes wrong is told as a problem,
-  /// or as a notice where another window judges; they answer whether anything
-  /// was changed.
-  bool judge(const std::vector<std::size_t> &positions, Judgement judgement);
-  bool setStarred(const std::vector<std::size_t> &positions, bool starred);
-  bool setNote(std::size_t position, const QString &note);
-  /// "gate 3, lorry".
-  bool setTags(std::size_t position, const QString &tags);
-  void undo();
-  void redo();
-  bool canUndo() const {
-    return store_ && !store_->readOnly() && store_->canUndo();
-  }
-  bool canRedo() const {
-    return store_ && !store_->readOnly() && store_->canRedo();
-  }
-  /// "Judge 12 events not relevant"; empty when there is nothing to undo.
-  QString undoName() const {
-    return store_ ? QString::fromStdString(store_->undoName()) : QString();
-  }
-  QString redoName() const {
-    return store_ ? QString::fromStdString(store_->redoName()) : QString();
-  }
+    /// Each is one step that can be undone. What goes wrong is told as a problem, or as a notice where another window
+    /// judges; they answer whether anything was changed.
+    bool judge(const std::vector<std::size_t>& positions, Judgement judgement);
+    bool setStarred(const std::vector<std::size_t>& positions, bool starred);
+    bool setNote(std::size_t position, const QString& note);
+    /// "gate 3, lorry".
+    bool setTags(std::size_t position, const QString& tags);
+    void undo();
+    void redo();
+    bool canUndo() const { return store_ && !store_->readOnly() && store_->canUndo(); }
+    bool canRedo() const { return store_ && !store_->readOnly() && store_->canRedo(); }
+    /// "Judge 12 events not relevant"; empty when there is nothing to undo.
+    QString undoName() const { return store_ ? QString::fromStdString(store_->undoName()) : QString(); }
+    QString redoName() const { return store_ ? QString::fromStdString(store_->redoName()) : QString(); }
 
-private:
-  struct Opened;
-  /// What of a run the events depend on; it is read again while the project
-  /// changes otherwise.
-  struct RunKey {
-    std::filesystem::path project;
-    int run = 0;
-    std::size_t frames = 0;
-    std::size_t tracks = 0;
-    bool operator==(const RunKey &) const = default;
-  };
+ private:
+    struct Opened;
+    /// What of a run the events depend on; it is read again while the project changes otherwise.
+    struct RunKey {
+        std::filesystem::path project;
+        int run = 0;
+        std::size_t frames = 0;
+        std::size_t tracks = 0;
+        bool operator==(const RunKey&) const = default;
+    };
 
-  void refresh();
-  void close();
-  void openStore(int sequence_id);
-  void search();
-  void adopt(const std::shared_ptr<const FoundEvents> &found,
-             std::uint64_t version);
-  void setState(State state);
-  void fail(const QString &message);
-  void refreshReadOnly();
-  int &verdictIdAt(std::size_t position);
-  int verdictIdAt(std::size_t position) const;
-  bool mayJudge();
-  bool apply(const ReviewEdit &edit, const std::vector<std::size_t> &positions);
-  std::vector<Judged> judgedAt(const std::vector<std::size_t> &positions) const;
-  Judge whoJudges() const;
-  void goBack(const std::function<std::optional<ReviewEdit>()> &step);
+    void refresh();
+    void close();
+    void openStore(int sequence_id);
+    void search();
+    void adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version);
+    void setState(State state);
+    void fail(const QString& message);
+    void refreshReadOnly();
+    int& verdictIdAt(std::size_t position);
+    int verdictIdAt(std::size_t position) const;
+    bool mayJudge();
+    bool apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions);
+    std::vector<Judged> judgedAt(const std::vector<std::size_t>& positions) const;
+    Judge whoJudges() const;
+    void goBack(const std::function<std::optional<ReviewEdit>()>& step);
 
-  ProjectSession &session_;
-  EventReviewAnswers answers_;
-  bool wanted_ = false;
-  State state_ = State::nothing;
-  std::optional<RunKey> key_;
-  std::shared_ptr<const RunData> data_;
-  EventOptions options_;
-  std::shared_ptr<const StoredTracks>
-      tracks_; ///< of the run above, once they were read
-  std::shared_ptr<const FoundEvents> found_;
-  CarriedVerdicts carried_; ///< which event has which verdict now
-  std::filesystem::path store_project_;
-  int store_sequence_ = 0;
-  std::unique_ptr<ProjectFile> project_;
-  std::unique_ptr<ReviewStore> store_;
-  DelayedCall search_due_;
-  RepeatedCall reread_; ///< what another window judges is read now and then
-  BackgroundQuery store_query_;
-  BackgroundQuery search_query_; ///< last: both stop before the rest goes
+    ProjectSession& session_;
+    EventReviewAnswers answers_;
+    bool wanted_ = false;
+    State state_ = State::nothing;
+    std::optional<RunKey> key_;
+    std::shared_ptr<const RunData> data_;
+    EventOptions options_;
+    std::shared_ptr<const StoredTracks> tracks_;  ///< of the run above, once they were read
+    std::shared_ptr<const FoundEvents> found_;
+    CarriedVerdicts carried_;  ///< which event has which verdict now
+    std::filesystem::path store_project_;
+    int store_sequence_ = 0;
+    std::unique_ptr<ProjectFile> project_;
+    std::unique_ptr<ReviewStore> store_;
+    DelayedCall search_due_;
+    RepeatedCall reread_;  ///< what another window judges is read now and then
+    BackgroundQuery store_query_;
+    BackgroundQuery search_query_;  ///< last: both stop before the rest goes
 };
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

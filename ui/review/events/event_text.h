@@ -9,28 +9,25 @@
 /// Events and verdicts in words and colours.
 namespace eyrie::ui {
 
-/// "Stops"; of a kind as it is listed, the last being what could not be
-/// searched.
+/// "Stops"; of a kind as it is listed, the last being what could not be searched.
 QString listedKindText(int listed_kind);
 /// "Enters yard", "Crosses gate to the left".
-QString eventKindText(const FoundEvents &found, std::size_t position);
-/// "12", the number that eyrie-cli has it under; empty for a stretch that could
-/// not be searched.
-QString eventNumberText(const FoundEvents &found, std::size_t position);
+QString eventKindText(const FoundEvents& found, std::size_t position);
+/// "12", the number that eyrie-cli has it under; empty for a stretch that could not be searched.
+QString eventNumberText(const FoundEvents& found, std::size_t position);
 /// When the event begins: "1:02.4".
-QString eventClockText(const FoundEvents &found, std::size_t position);
+QString eventClockText(const FoundEvents& found, std::size_t position);
 /// "12, 15"; empty for a stretch that could not be searched.
-QString eventTracksText(const FoundEvents &found, std::size_t position);
+QString eventTracksText(const FoundEvents& found, std::size_t position);
 /// "43 km/h"; of what has no figure, how long it lasts.
-QString eventFigureText(const FoundEvents &found, std::size_t position);
+QString eventFigureText(const FoundEvents& found, std::size_t position);
 /// Kind, zone and sense, number, frames and place in the queue, for tooltips.
-QString eventTipText(const FoundEvents &found, std::size_t position);
+QString eventTipText(const FoundEvents& found, std::size_t position);
 
 /// "Relevant"; empty while it is not judged.
 QString judgementText(Judgement judgement);
-/// Told apart from each other on light and dark grounds, and by shape, too,
-/// where drawn as icons.
+/// Told apart from each other on light and dark grounds, and by shape, too, where drawn as icons.
 QColor judgementColour(Judgement judgement, bool dark);
 QIcon judgementIcon(Judgement judgement, bool dark);
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

@@ -25,343 +25,289 @@ namespace {
 
 const QString kEventsTopic = QStringLiteral("events");
 
-/// What of several events in one place is to be seen: what is to be judged,
-/// what matters, what is doubtful.
+/// What of several events in one place is to be seen: what is to be judged, what matters, what is doubtful.
 int weightOf(Judgement judgement) {
-  switch (judgement) {
-  case Judgement::open:
-    return 3;
-  case Judgement::relevant:
-    return 2;
-  case Judgement::unsure:
-    return 1;
-  case Judgement::not_relevant:
-    break;
-  }
-  return 0;
+    switch (judgement) {
+        case Judgement::open:
+            return 3;
+        case Judgement::relevant:
+            return 2;
+        case Judgement::unsure:
+            return 1;
+        case Judgement::not_relevant:
+            break;
+    }
+    return 0;
 }
 
-} // namespace
+}  // namespace
 
-EventsDock::EventsDock(const EventsParts &parts)
-    : QObject(&parts.docks), parts_(parts),
-      marks_due_(0, [this] { showMarks(); }) {
-  review_ = new EventReview(parts_.session, reviewAnswers(), this);
-  model_ = new EventsModel(this);
-  panel_ = new EventsPanel(model_, parts_.actions);
-  zones_ = new ZoneReview({parts_.session, parts_.canvas, parts_.actions,
-                           parts_.messages, *review_},
-                          this);
-  panel_->setZones(&zones_->panel());
-  connect(zones_, &ZoneReview::listWanted, this, [this] {
-    parts_.docks.raise(DockId::events);
-    panel_->showZones(true);
-  });
-  parts_.docks.add(DockId::events, tr("Events"), panel_);
-  parts_.docks.watch(DockId::events, panel_, [this](bool visible) {
-    if (visible)
-      review_->setWanted();
-  });
-  wireLists();
-  bindCommands();
-  review_->setOptions(panel_->thresholds().options());
-  showEvents();
+EventsDock::EventsDock(const EventsParts& parts)
+    : QObject(&parts.docks), parts_(parts), marks_due_(0, [this] { showMarks(); }) {
+    review_ = new EventReview(parts_.session, reviewAnswers(), this);
+    model_ = new EventsModel(this);
+    panel_ = new EventsPanel(model_, parts_.actions);
+    zones_ = new ZoneReview({parts_.session, parts_.canvas, parts_.actions, parts_.messages, *review_}, this);
+    panel_->setZones(&zones_->panel());
+    connect(zones_, &ZoneReview::listWanted, this, [this] {
+        parts_.docks.raise(DockId::events);
+        panel_->showZones(true);
+    });
+    parts_.docks.add(DockId::events, tr("Events"), panel_);
+    parts_.docks.watch(DockId::events, panel_, [this](bool visible) {
+        if (visible) review_->setWanted();
+    });
+    wireLists();
+    bindCommands();
+    review_->setOptions(panel_->thresholds().options());
+    showEvents();
 }
 
 EventReviewAnswers EventsDock::reviewAnswers() {
-  return {
-      .show_events = [this] { showEvents(); },
-      .show_verdicts =
-          [this](const std::vector<std::size_t> &places) {
-            showVerdicts(places);
-          },
-      .show_zones =
-          [this] {
-            if (zones_ == nullptr)
-              return;
-            zones_->showZones();
-            enableActions();
-            emit tracksRead();
-          },
-      .go_back_to =
-          [this](const std::vector<std::size_t> &places) {
-            if (!places.empty() &&
-                model_->recordAt(static_cast<int>(places.front())) != nullptr)
-              chooseAndShow(
-                  model_->recordAt(static_cast<int>(places.front()))->id);
-          },
-      .tell_problem =
-          [this](const QString &text) {
-            parts_.messages.showTopic(kEventsTopic, MessageKind::error, text);
-          },
-      .tell_notice =
-          [this](const QString &text) {
-            parts_.messages.showTopic(kEventsTopic, MessageKind::warning,
-                                      text.left(1).toUpper() + text.mid(1));
-          },
-  };
+    return {
+        .show_events = [this] { showEvents(); },
+        .show_verdicts = [this](const std::vector<std::size_t>& places) { showVerdicts(places); },
+        .show_zones =
+            [this] {
+                if (zones_ == nullptr) return;
+                zones_->showZones();
+                enableActions();
+                emit tracksRead();
+            },
+        .go_back_to =
+            [this](const std::vector<std::size_t>& places) {
+                if (!places.empty() && model_->recordAt(static_cast<int>(places.front())) != nullptr)
+                    chooseAndShow(model_->recordAt(static_cast<int>(places.front()))->id);
+            },
+        .tell_problem =
+            [this](const QString& text) { parts_.messages.showTopic(kEventsTopic, MessageKind::error, text); },
+        .tell_notice =
+            [this](const QString& text) {
+                parts_.messages.showTopic(kEventsTopic, MessageKind::warning, text.left(1).toUpper() + text.mid(1));
+            },
+    };
 }
 
 void EventsDock::wireLists() {
-  panel_->setCommands({.show = [this](int id) { show(id); },
-                       .listing_changed = [this] { marks_due_.start(); }});
-  connect(&panel_->thresholds(), &EventThresholds::edited, this,
-          [this] { review_->setOptions(panel_->thresholds().options()); });
-  connect(model_, &EventsModel::noteEdited, this,
-          [this](int id, const QString &note) {
-            if (const auto place = placeOf(id))
-              review_->setNote(*place, note);
-          });
-  connect(&parts_.timeline, &TimelineView::markClicked, this, [this](int id) {
-    parts_.docks.raise(DockId::events);
-    chooseAndShow(id);
-  });
+    panel_->setCommands({.show = [this](int id) { show(id); }, .listing_changed = [this] { marks_due_.start(); }});
+    connect(&panel_->thresholds(), &EventThresholds::edited, this,
+            [this] { review_->setOptions(panel_->thresholds().options()); });
+    connect(model_, &EventsModel::noteEdited, this, [this](int id, const QString& note) {
+        if (const auto place = placeOf(id)) review_->setNote(*place, note);
+    });
+    connect(&parts_.timeline, &TimelineView::markClicked, this, [this](int id) {
+        parts_.docks.raise(DockId::events);
+        chooseAndShow(id);
+    });
 }
 
 void EventsDock::bindCommands() {
-  const WindowActions &actions = parts_.actions;
-  eyrie::ui::bindCommands(
-      this,
-      {
-          {actions.next_event, [this] { chooseAndShow(panel_->neighbour(1)); }},
-          {actions.previous_event,
-           [this] { chooseAndShow(panel_->neighbour(-1)); }},
-          {actions.next_open_event,
-           [this] { chooseAndShow(panel_->nextOpen(panel_->selectedIds())); }},
-          {actions.relevant, [this] { judge(Judgement::relevant); }},
-          {actions.not_relevant, [this] { judge(Judgement::not_relevant); }},
-          {actions.unsure, [this] { judge(Judgement::unsure); }},
-          {actions.take_back,
-           [this] { review_->judge(selectedPlaces(), Judgement::open); }},
-          {actions.star, [this] { toggleStars(); }},
-          {actions.note,
-           [this] {
-             parts_.docks.raise(DockId::events);
-             panel_->editNote(panel_->currentId());
-           }},
-          {actions.undo_verdict, [this] { review_->undo(); }},
-          {actions.redo_verdict, [this] { review_->redo(); }},
-      });
+    const WindowActions& actions = parts_.actions;
+    eyrie::ui::bindCommands(
+        this, {
+                  {actions.next_event, [this] { chooseAndShow(panel_->neighbour(1)); }},
+                  {actions.previous_event, [this] { chooseAndShow(panel_->neighbour(-1)); }},
+                  {actions.next_open_event, [this] { chooseAndShow(panel_->nextOpen(panel_->selectedIds())); }},
+                  {actions.relevant, [this] { judge(Judgement::relevant); }},
+                  {actions.not_relevant, [this] { judge(Judgement::not_relevant); }},
+                  {actions.unsure, [this] { judge(Judgement::unsure); }},
+                  {actions.take_back, [this] { review_->judge(selectedPlaces(), Judgement::open); }},
+                  {actions.star, [this] { toggleStars(); }},
+                  {actions.note,
+                   [this] {
+                       parts_.docks.raise(DockId::events);
+                       panel_->editNote(panel_->currentId());
+                   }},
+                  {actions.undo_verdict, [this] { review_->undo(); }},
+                  {actions.redo_verdict, [this] { review_->redo(); }},
+              });
 }
 
 void EventsDock::setActive(bool active) {
-  active_ = active;
-  zones_->setActive(active);
-  enableActions();
-  showMarks();
+    active_ = active;
+    zones_->setActive(active);
+    enableActions();
+    showMarks();
 }
 
-// ---- showing
-// --------------------------------------------------------------------------------------------------------
+// ---- showing --------------------------------------------------------------------------------------------------------
 
 void EventsDock::showEvents() {
-  explainNothing();
-  const auto &found = review_->found();
-  if (found && found->run != listed_run_)
-    model_->forgetIds();
-  listed_run_ = found ? found->run : nullptr;
-  if (review_->state() != EventReview::State::failed)
-    parts_.messages.dismissTopic(kEventsTopic);
-  model_->setEvents(
-      found, [this](std::size_t place) { return review_->verdictAt(place); });
-  panel_->showCounts(review_->leftCount());
-  zones_->showZones();
-  showMarks();
-  enableActions();
-  emit eventsShown();
+    explainNothing();
+    const auto& found = review_->found();
+    if (found && found->run != listed_run_) model_->forgetIds();
+    listed_run_ = found ? found->run : nullptr;
+    if (review_->state() != EventReview::State::failed) parts_.messages.dismissTopic(kEventsTopic);
+    model_->setEvents(found, [this](std::size_t place) { return review_->verdictAt(place); });
+    panel_->showCounts(review_->leftCount());
+    zones_->showZones();
+    showMarks();
+    enableActions();
+    emit eventsShown();
 }
 
 void EventsDock::explainNothing() {
-  QString text;
-  switch (review_->state()) {
-  case EventReview::State::nothing:
-    text = tr("What happened to the vehicles of a run is listed here: stops, "
-              "turns back, lost in mid-picture "
-              "and more, what matters most first.");
-    break;
-  case EventReview::State::at_work:
-    text = tr("Events are listed when the run ends.");
-    break;
-  case EventReview::State::searching:
-    text = tr("Looking for events…");
-    break;
-  case EventReview::State::failed:
-    text =
-        tr("Events could not be read; the message above the video says why.");
-    break;
-  case EventReview::State::found:
-    text = review_->found()->run->tracks.empty() && parts_.session.runData()
-               ? whyNoTracks(parts_.session.runData()->facts)
-               : tr("Nothing happened that these limits call an event.");
-    break;
-  }
-  panel_->emptyState()->setTexts(text);
+    QString text;
+    switch (review_->state()) {
+        case EventReview::State::nothing:
+            text =
+                tr("What happened to the vehicles of a run is listed here: stops, turns back, lost in mid-picture "
+                   "and more, what matters most first.");
+            break;
+        case EventReview::State::at_work:
+            text = tr("Events are listed when the run ends.");
+            break;
+        case EventReview::State::searching:
+            text = tr("Looking for events…");
+            break;
+        case EventReview::State::failed:
+            text = tr("Events could not be read; the message above the video says why.");
+            break;
+        case EventReview::State::found:
+            text = review_->found()->run->tracks.empty() && parts_.session.runData()
+                       ? whyNoTracks(parts_.session.runData()->facts)
+                       : tr("Nothing happened that these limits call an event.");
+            break;
+    }
+    panel_->emptyState()->setTexts(text);
 }
 
-void EventsDock::showVerdicts(const std::vector<std::size_t> &positions) {
-  // One row after the other is cheap for a few; many at once are shown anew.
-  constexpr std::size_t kFew = 64;
-  if (positions.size() > kFew)
-    model_->setEvents(review_->found(), [this](std::size_t place) {
-      return review_->verdictAt(place);
-    });
-  else
-    for (const std::size_t place : positions)
-      model_->setVerdict(place, review_->verdictAt(place));
-  panel_->showCounts(review_->leftCount());
-  marks_due_.start();
-  enableActions();
+void EventsDock::showVerdicts(const std::vector<std::size_t>& positions) {
+    // One row after the other is cheap for a few; many at once are shown anew.
+    constexpr std::size_t kFew = 64;
+    if (positions.size() > kFew)
+        model_->setEvents(review_->found(), [this](std::size_t place) { return review_->verdictAt(place); });
+    else
+        for (const std::size_t place : positions) model_->setVerdict(place, review_->verdictAt(place));
+    panel_->showCounts(review_->leftCount());
+    marks_due_.start();
+    enableActions();
 }
 
 void EventsDock::showMarks() {
-  marks_due_.stop();
-  std::vector<TimelineMark> marks;
-  const auto &found = model_->found();
-  const bool dark = isDark(parts_.timeline.palette());
-  for (int row = 0; active_ && found && row < model_->rowCount(); ++row) {
-    const EventEntry &entry = *model_->recordAt(row);
-    if (!panel_->isListed(entry))
-      continue;
-    marks.push_back({entry.id, found->frameAt(entry.position),
-                     judgementColour(entry.judgement, dark),
-                     weightOf(entry.judgement)});
-  }
-  parts_.timeline.setMarks(tr("Events"), std::move(marks),
-                           [this](int id) { return markText(id); });
+    marks_due_.stop();
+    std::vector<TimelineMark> marks;
+    const auto& found = model_->found();
+    const bool dark = isDark(parts_.timeline.palette());
+    for (int row = 0; active_ && found && row < model_->rowCount(); ++row) {
+        const EventEntry& entry = *model_->recordAt(row);
+        if (!panel_->isListed(entry)) continue;
+        marks.push_back({entry.id, found->frameAt(entry.position), judgementColour(entry.judgement, dark),
+                         weightOf(entry.judgement)});
+    }
+    parts_.timeline.setMarks(tr("Events"), std::move(marks), [this](int id) { return markText(id); });
 }
 
 QString EventsDock::markText(int id) const {
-  const auto place = placeOf(id);
-  if (!place || !model_->found())
-    return {};
-  const QString verdict =
-      judgementText(model_->recordAt(static_cast<int>(*place))->judgement);
-  return eventTipText(*model_->found(), *place) +
-         (verdict.isEmpty() ? QString() : QLatin1Char('\n') + verdict);
+    const auto place = placeOf(id);
+    if (!place || !model_->found()) return {};
+    const QString verdict = judgementText(model_->recordAt(static_cast<int>(*place))->judgement);
+    return eventTipText(*model_->found(), *place) + (verdict.isEmpty() ? QString() : QLatin1Char('\n') + verdict);
 }
 
 void EventsDock::enableActions() {
-  const WindowActions &actions = parts_.actions;
-  const bool any = active_ && review_->count() > 0;
-  for (QAction *action :
-       {actions.next_event, actions.previous_event, actions.next_open_event,
-        actions.relevant, actions.not_relevant, actions.unsure,
-        actions.take_back, actions.star, actions.note})
-    action->setEnabled(any);
-  actions.undo_verdict->setEnabled(active_ && review_->canUndo());
-  actions.redo_verdict->setEnabled(active_ && review_->canRedo());
-  const auto named = [](const QString &verb, const QString &step) {
-    return step.isEmpty() ? verb : QStringLiteral("%1: %2").arg(verb, step);
-  };
-  setTip(*actions.undo_verdict, named(tr("Undo"), review_->undoName()));
-  setTip(*actions.redo_verdict, named(tr("Redo"), review_->redoName()));
+    const WindowActions& actions = parts_.actions;
+    const bool any = active_ && review_->count() > 0;
+    for (QAction* action : {actions.next_event, actions.previous_event, actions.next_open_event, actions.relevant,
+                            actions.not_relevant, actions.unsure, actions.take_back, actions.star, actions.note})
+        action->setEnabled(any);
+    actions.undo_verdict->setEnabled(active_ && review_->canUndo());
+    actions.redo_verdict->setEnabled(active_ && review_->canRedo());
+    const auto named = [](const QString& verb, const QString& step) {
+        return step.isEmpty() ? verb : QStringLiteral("%1: %2").arg(verb, step);
+    };
+    setTip(*actions.undo_verdict, named(tr("Undo"), review_->undoName()));
+    setTip(*actions.redo_verdict, named(tr("Redo"), review_->redoName()));
 }
 
-// ---- going
-// ----------------------------------------------------------------------------------------------------------
+// ---- going ----------------------------------------------------------------------------------------------------------
 
 std::optional<std::size_t> EventsDock::placeOf(int id) const {
-  const EventEntry *entry = model_->recordAt(model_->rowOf(id));
-  return entry != nullptr ? std::optional(entry->position) : std::nullopt;
+    const EventEntry* entry = model_->recordAt(model_->rowOf(id));
+    return entry != nullptr ? std::optional(entry->position) : std::nullopt;
 }
 
 void EventsDock::chooseAndShow(std::optional<int> id) {
-  if (!id)
-    return;
-  panel_->selectId(*id);
-  show(*id);
+    if (!id) return;
+    panel_->selectId(*id);
+    show(*id);
 }
 
 void EventsDock::show(int id) {
-  const auto place = placeOf(id);
-  if (!place)
-    return;
-  const FoundEvents &found = *model_->found();
-  const Event *event = found.eventAt(*place);
-  parts_.session.playback().pause();
-  if (event != nullptr && !event->tracks.empty())
-    parts_.session.selectTrack(event->tracks.front());
-  else
-    parts_.session.selectTrack(std::nullopt);
-  parts_.session.goToFrame(found.frameAt(*place));
-  if (event != nullptr)
-    bringIntoView(QPointF(event->place.x, event->place.y));
-  tell_shown_(id);
+    const auto place = placeOf(id);
+    if (!place) return;
+    const FoundEvents& found = *model_->found();
+    const Event* event = found.eventAt(*place);
+    parts_.session.playback().pause();
+    if (event != nullptr && !event->tracks.empty())
+        parts_.session.selectTrack(event->tracks.front());
+    else
+        parts_.session.selectTrack(std::nullopt);
+    parts_.session.goToFrame(found.frameAt(*place));
+    if (event != nullptr) bringIntoView(QPointF(event->place.x, event->place.y));
+    tell_shown_(id);
 }
 
-void EventsDock::writeNote(int id, const QString &note) {
-  if (const auto place = placeOf(id))
-    review_->setNote(*place, note);
+void EventsDock::writeNote(int id, const QString& note) {
+    if (const auto place = placeOf(id)) review_->setNote(*place, note);
 }
 
-void EventsDock::writeTags(int id, const QString &tags) {
-  if (const auto place = placeOf(id))
-    review_->setTags(*place, tags);
+void EventsDock::writeTags(int id, const QString& tags) {
+    if (const auto place = placeOf(id)) review_->setTags(*place, tags);
 }
 
 QString EventsDock::tagsOn(int id) const {
-  const auto place = placeOf(id);
-  const Verdict *verdict = place ? review_->verdictAt(*place) : nullptr;
-  return verdict == nullptr ? QString()
-                            : QString::fromStdString(tagText(verdict->tags));
+    const auto place = placeOf(id);
+    const Verdict* verdict = place ? review_->verdictAt(*place) : nullptr;
+    return verdict == nullptr ? QString() : QString::fromStdString(tagText(verdict->tags));
 }
 
 void EventsDock::bringIntoView(QPointF place) {
-  constexpr int kMargin = 40; // px: what lies nearer to the edge is hardly seen
-  VideoView &canvas = parts_.canvas;
-  const QRectF seen =
-      QRectF(canvas.rect()).adjusted(kMargin, kMargin, -kMargin, -kMargin);
-  if (seen.contains(canvas.transform().viewFromImage(place)))
-    return;
-  // Where the whole picture is shown there is nothing to bring nearer.
-  const QSizeF size = canvas.frame().image.size();
-  const QRectF pixels(
-      canvas.transform().viewFromImage({0, 0}), // centres of the outermost ones
-      canvas.transform().viewFromImage({size.width() - 1, size.height() - 1}));
-  if (!size.isEmpty() && QRectF(canvas.rect()).contains(pixels.normalized()))
-    return;
-  canvas.centreOn(place);
+    constexpr int kMargin = 40;  // px: what lies nearer to the edge is hardly seen
+    VideoView& canvas = parts_.canvas;
+    const QRectF seen = QRectF(canvas.rect()).adjusted(kMargin, kMargin, -kMargin, -kMargin);
+    if (seen.contains(canvas.transform().viewFromImage(place))) return;
+    // Where the whole picture is shown there is nothing to bring nearer.
+    const QSizeF size = canvas.frame().image.size();
+    const QRectF pixels(canvas.transform().viewFromImage({0, 0}),  // centres of the outermost ones
+                        canvas.transform().viewFromImage({size.width() - 1, size.height() - 1}));
+    if (!size.isEmpty() && QRectF(canvas.rect()).contains(pixels.normalized())) return;
+    canvas.centreOn(place);
 }
 
-// ---- judging
-// --------------------------------------------------------------------------------------------------------
+// ---- judging --------------------------------------------------------------------------------------------------------
 
 std::vector<std::size_t> EventsDock::selectedPlaces() const {
-  std::vector<std::size_t> places;
-  for (const int id : panel_->selectedIds())
-    if (const auto place = placeOf(id))
-      places.push_back(*place);
-  return places;
+    std::vector<std::size_t> places;
+    for (const int id : panel_->selectedIds())
+        if (const auto place = placeOf(id)) places.push_back(*place);
+    return places;
 }
 
 void EventsDock::judge(Judgement judgement) {
-  const QList<int> ids = panel_->selectedIds();
-  if (ids.isEmpty()) {
-    chooseAndShow(panel_->nextOpen({}));
-    return;
-  }
-  // Asked for before: judged, rows may vanish from the list.
-  const std::optional<int> next = panel_->nextOpen(ids);
-  const std::vector<std::size_t> places = selectedPlaces();
-  const bool all_so =
-      std::all_of(places.begin(), places.end(), [&](std::size_t place) {
-        const Verdict *verdict = review_->verdictAt(place);
+    const QList<int> ids = panel_->selectedIds();
+    if (ids.isEmpty()) {
+        chooseAndShow(panel_->nextOpen({}));
+        return;
+    }
+    // Asked for before: judged, rows may vanish from the list.
+    const std::optional<int> next = panel_->nextOpen(ids);
+    const std::vector<std::size_t> places = selectedPlaces();
+    const bool all_so = std::all_of(places.begin(), places.end(), [&](std::size_t place) {
+        const Verdict* verdict = review_->verdictAt(place);
         return verdict != nullptr && verdict->judgement == judgement;
-      });
-  if (!all_so && !review_->judge(places, judgement))
-    return;
-  chooseAndShow(next);
+    });
+    if (!all_so && !review_->judge(places, judgement)) return;
+    chooseAndShow(next);
 }
 
 void EventsDock::toggleStars() {
-  const std::vector<std::size_t> places = selectedPlaces();
-  const bool all_starred =
-      std::all_of(places.begin(), places.end(), [&](std::size_t place) {
-        const Verdict *verdict = review_->verdictAt(place);
+    const std::vector<std::size_t> places = selectedPlaces();
+    const bool all_starred = std::all_of(places.begin(), places.end(), [&](std::size_t place) {
+        const Verdict* verdict = review_->verdictAt(place);
         return verdict != nullptr && verdict->starred;
-      });
-  if (!places.empty())
-    review_->setStarred(places, !all_starred);
+    });
+    if (!places.empty()) review_->setStarred(places, !all_starred);
 }
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

@@ -12,7 +12,7 @@
 namespace eyrie {
 struct StoredTracks;
 enum class Judgement;
-} // namespace eyrie
+}  // namespace eyrie
 
 namespace eyrie::ui {
 
@@ -30,75 +30,70 @@ class ZoneReview;
 
 /// What the dock of events works on. All must outlive it.
 struct EventsParts {
-  ProjectSession &session;
-  VideoView &canvas;
-  TimelineView &timeline;
-  DockRegistry &docks;
-  WindowActions &actions;
-  MessageBar &messages;
+    ProjectSession& session;
+    VideoView& canvas;
+    TimelineView& timeline;
+    DockRegistry& docks;
+    WindowActions& actions;
+    MessageBar& messages;
 };
 
-/// The dock of events, its commands and its marks on the timeline: how they
-/// follow the session and each other.
+/// The dock of events, its commands and its marks on the timeline: how they follow the session and each other.
 class EventsDock : public QObject {
-  Q_OBJECT
+    Q_OBJECT
 
-public:
-  explicit EventsDock(const EventsParts &parts);
+ public:
+    explicit EventsDock(const EventsParts& parts);
 
-  EventReview &review() { return *review_; }
-  EventsPanel &panel() { return *panel_; }
-  EventsModel &model() { return *model_; }
-  ZoneReview &zones() { return *zones_; }
+    EventReview& review() { return *review_; }
+    EventsPanel& panel() { return *panel_; }
+    EventsModel& model() { return *model_; }
+    ZoneReview& zones() { return *zones_; }
 
-  /// Whether keys and marks are wanted: labelling has others.
-  void setActive(bool active);
-  /// Shows an event: its frame, its track, its place.
-  void show(int id);
-  /// Who is told which event a person chose.
-  void setEventShown(std::function<void(int id)> tell) {
-    tell_shown_ = std::move(tell);
-  }
-  void writeNote(int id, const QString &note);
-  /// "gate 3, lorry".
-  void writeTags(int id, const QString &tags);
-  QString tagsOn(int id) const;
+    /// Whether keys and marks are wanted: labelling has others.
+    void setActive(bool active);
+    /// Shows an event: its frame, its track, its place.
+    void show(int id);
+    /// Who is told which event a person chose.
+    void setEventShown(std::function<void(int id)> tell) { tell_shown_ = std::move(tell); }
+    void writeNote(int id, const QString& note);
+    /// "gate 3, lorry".
+    void writeTags(int id, const QString& tags);
+    QString tagsOn(int id) const;
 
-signals:
-  /// Other events are listed, or none.
-  void eventsShown();
-  /// The tracks of the run were read, or are those of none:
-  /// EventReview::tracks().
-  void tracksRead();
+ signals:
+    /// Other events are listed, or none.
+    void eventsShown();
+    /// The tracks of the run were read, or are those of none: EventReview::tracks().
+    void tracksRead();
 
-private:
-  void bindCommands();
-  EventReviewAnswers reviewAnswers();
-  void wireLists();
-  void showEvents();
-  void explainNothing();
-  void showVerdicts(const std::vector<std::size_t> &positions);
-  void showMarks();
-  void enableActions();
-  void chooseAndShow(std::optional<int> id);
-  void judge(Judgement judgement);
-  void toggleStars();
-  /// Selected events as places in the queue.
-  std::vector<std::size_t> selectedPlaces() const;
-  std::optional<std::size_t> placeOf(int id) const;
-  void bringIntoView(QPointF place);
-  QString markText(int id) const;
+ private:
+    void bindCommands();
+    EventReviewAnswers reviewAnswers();
+    void wireLists();
+    void showEvents();
+    void explainNothing();
+    void showVerdicts(const std::vector<std::size_t>& positions);
+    void showMarks();
+    void enableActions();
+    void chooseAndShow(std::optional<int> id);
+    void judge(Judgement judgement);
+    void toggleStars();
+    /// Selected events as places in the queue.
+    std::vector<std::size_t> selectedPlaces() const;
+    std::optional<std::size_t> placeOf(int id) const;
+    void bringIntoView(QPointF place);
+    QString markText(int id) const;
 
-  EventsParts parts_;
-  EventReview *review_;
-  EventsModel *model_;
-  EventsPanel *panel_;
-  ZoneReview *zones_ = nullptr;
-  DelayedCall marks_due_;
-  std::shared_ptr<const StoredTracks>
-      listed_run_; ///< whose events have their ids
-  bool active_ = true;
-  std::function<void(int id)> tell_shown_ = [](int) {};
+    EventsParts parts_;
+    EventReview* review_;
+    EventsModel* model_;
+    EventsPanel* panel_;
+    ZoneReview* zones_ = nullptr;
+    DelayedCall marks_due_;
+    std::shared_ptr<const StoredTracks> listed_run_;  ///< whose events have their ids
+    bool active_ = true;
+    std::function<void(int id)> tell_shown_ = [](int) {};
 };
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

@@ -11,74 +11,65 @@
 
 namespace eyrie::ui {
 
-/// A row: an event, or a stretch that could not be searched, with what is said
-/// about it.
+/// A row: an event, or a stretch that could not be searched, with what is said about it.
 struct EventEntry {
-  int id = 0;               ///< the same event keeps it when thresholds change
-  std::size_t position = 0; ///< in the queue
-  Judgement judgement = Judgement::open;
-  bool starred = false;
-  QString note;
+    int id = 0;                ///< the same event keeps it when thresholds change
+    std::size_t position = 0;  ///< in the queue
+    Judgement judgement = Judgement::open;
+    bool starred = false;
+    QString note;
 };
 
-/// The events of a run in the order of the queue, one row each. Texts are made
-/// when they are shown.
+/// The events of a run in the order of the queue, one row each. Texts are made when they are shown.
 class EventsModel : public RecordModel<EventEntry> {
-  Q_OBJECT
+    Q_OBJECT
 
-public:
-  enum Column {
-    number_column,
-    time_column,
-    kind_column,
-    tracks_column,
-    figure_column,
-    verdict_column,
-    note_column,
-    column_count
-  };
+ public:
+    enum Column {
+        number_column,
+        time_column,
+        kind_column,
+        tracks_column,
+        figure_column,
+        verdict_column,
+        note_column,
+        column_count
+    };
 
-  explicit EventsModel(QObject *parent = nullptr) : RecordModel(parent) {}
+    explicit EventsModel(QObject* parent = nullptr) : RecordModel(parent) {}
 
-  /// Other events; null for none. `verdict_at` answers what is said about each,
-  /// null for nothing.
-  void setEvents(const std::shared_ptr<const FoundEvents> &found,
-                 const std::function<const Verdict *(std::size_t)> &verdict_at);
-  /// What is said about one event.
-  void setVerdict(std::size_t position, const Verdict *verdict);
-  /// Icons for a light or a dark ground.
-  void setDark(bool dark);
-  const std::shared_ptr<const FoundEvents> &found() const { return found_; }
-  /// Ids are forgotten: what comes belongs to another run.
-  void forgetIds();
+    /// Other events; null for none. `verdict_at` answers what is said about each, null for nothing.
+    void setEvents(const std::shared_ptr<const FoundEvents>& found,
+                   const std::function<const Verdict*(std::size_t)>& verdict_at);
+    /// What is said about one event.
+    void setVerdict(std::size_t position, const Verdict* verdict);
+    /// Icons for a light or a dark ground.
+    void setDark(bool dark);
+    const std::shared_ptr<const FoundEvents>& found() const { return found_; }
+    /// Ids are forgotten: what comes belongs to another run.
+    void forgetIds();
 
-  int columnCount(const QModelIndex &parent = {}) const override {
-    return parent.isValid() ? 0 : column_count;
-  }
-  QVariant data(const QModelIndex &index, int role) const override;
-  QVariant headerData(int section, Qt::Orientation orientation,
-                      int role) const override;
-  Qt::ItemFlags flags(const QModelIndex &index) const override;
-  bool setData(const QModelIndex &index, const QVariant &value,
-               int role) override;
+    int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }
+    QVariant data(const QModelIndex& index, int role) const override;
+    QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+    Qt::ItemFlags flags(const QModelIndex& index) const override;
+    bool setData(const QModelIndex& index, const QVariant& value, int role) override;
 
-signals:
-  void noteEdited(int id, const QString &note);
+ signals:
+    void noteEdited(int id, const QString& note);
 
-private:
-  /// Kind, tracks, first and last frame, and which of those that have the same.
-  using EventIdentity =
-      std::tuple<int, std::vector<TrackId>, FrameIndex, FrameIndex, int>;
+ private:
+    /// Kind, tracks, first and last frame, and which of those that have the same.
+    using EventIdentity = std::tuple<int, std::vector<TrackId>, FrameIndex, FrameIndex, int>;
 
-  int idAt(const FoundEvents &found, std::size_t position,
-           std::map<EventIdentity, int> &doubles);
-  QString textOf(const EventEntry &entry, int column) const;
-  QVariant sortValueOf(const EventEntry &entry, int column) const;
+    int idAt(const FoundEvents& found, std::size_t position, std::map<EventIdentity, int>& doubles);
+    QString textOf(const EventEntry& entry, int column) const;
+    QVariant sortValueOf(const EventEntry& entry, int column) const;
 
-  std::shared_ptr<const FoundEvents> found_;
-  std::map<EventIdentity, int> ids_;
-  int next_id_ = 1;
-  bool dark_ = false;
+    std::shared_ptr<const FoundEvents> found_;
+    std::map<EventIdentity, int> ids_;
+    int next_id_ = 1;
+    bool dark_ = false;
 };
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

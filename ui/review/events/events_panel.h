@@ -18,95 +18,84 @@ class WindowActions;
 
 /// What the list of events asks for.
 struct EventsPanelCommands {
-  /// A person wants to see an event.
-  std::function<void(int id)> show = [](int) {};
-  /// Other events are listed than before.
-  std::function<void()> listing_changed = [] {};
+    /// A person wants to see an event.
+    std::function<void(int id)> show = [](int) {};
+    /// Other events are listed than before.
+    std::function<void()> listing_changed = [] {};
 };
 
-/// The queue of events: how many are judged and shown, the list, the keys that
-/// judge as buttons, and the thresholds.
+/// The queue of events: how many are judged and shown, the list, the keys that judge as buttons, and the thresholds.
 class EventsPanel : public TablePanel {
-  Q_OBJECT
+    Q_OBJECT
 
-public:
-  /// `model` and `actions` must outlive the panel.
-  EventsPanel(EventsModel *model, const WindowActions &actions,
-              QWidget *parent = nullptr);
+ public:
+    /// `model` and `actions` must outlive the panel.
+    EventsPanel(EventsModel* model, const WindowActions& actions, QWidget* parent = nullptr);
 
-  void setCommands(EventsPanelCommands commands) {
-    commands_ = std::move(commands);
-  }
-  EventKindsButton &kinds() { return *kinds_; }
-  EventThresholds &thresholds() { return *thresholds_; }
-  /// Takes the list of zones into the panel, below the events, hidden until it
-  /// is wanted.
-  void setZones(QWidget *zones);
-  /// Shows the thresholds, or the zones, below the events; one of the two has
-  /// room.
-  void showThresholds(bool shown);
-  void showZones(bool shown);
-  /// Which verdicts are listed: all, to judge, relevant, not relevant, unsure,
-  /// starred, with a note.
-  QComboBox &verdicts() { return *verdicts_; }
+    void setCommands(EventsPanelCommands commands) { commands_ = std::move(commands); }
+    EventKindsButton& kinds() { return *kinds_; }
+    EventThresholds& thresholds() { return *thresholds_; }
+    /// Takes the list of zones into the panel, below the events, hidden until it is wanted.
+    void setZones(QWidget* zones);
+    /// Shows the thresholds, or the zones, below the events; one of the two has room.
+    void showThresholds(bool shown);
+    void showZones(bool shown);
+    /// Which verdicts are listed: all, to judge, relevant, not relevant, unsure, starred, with a note.
+    QComboBox& verdicts() { return *verdicts_; }
 
-  /// Counts kinds and verdicts anew; `left`: verdicts without an event in this
-  /// run.
-  void showCounts(std::size_t left);
-  /// The share of the run's frames that was watched, 0 … 1; nothing: not known.
-  void showSeen(std::optional<double> share);
-  /// "214 of 380 judged", "61 % of the time seen" and "38 of 380 shown".
-  QString headerText() const;
-  /// Whether an event is listed by kind and verdict; words in the filter line
-  /// are not asked.
-  bool isListed(const EventEntry &entry) const;
+    /// Counts kinds and verdicts anew; `left`: verdicts without an event in this run.
+    void showCounts(std::size_t left);
+    /// The share of the run's frames that was watched, 0 … 1; nothing: not known.
+    void showSeen(std::optional<double> share);
+    /// "214 of 380 judged", "61 % of the time seen" and "38 of 380 shown".
+    QString headerText() const;
+    /// Whether an event is listed by kind and verdict; words in the filter line are not asked.
+    bool isListed(const EventEntry& entry) const;
 
-  /// Id of the row `rows` below (above) the current one in the order shown, the
-  /// first one if none is current; nothing at the end.
-  std::optional<int> neighbour(int rows) const;
-  /// The next row below `ids` and around that is not judged, in the order
-  /// shown.
-  std::optional<int> nextOpen(const QList<int> &ids) const;
-  /// Starts writing the note of an event.
-  void editNote(int id);
+    /// Id of the row `rows` below (above) the current one in the order shown, the first one if none is current;
+    /// nothing at the end.
+    std::optional<int> neighbour(int rows) const;
+    /// The next row below `ids` and around that is not judged, in the order shown.
+    std::optional<int> nextOpen(const QList<int>& ids) const;
+    /// Starts writing the note of an event.
+    void editNote(int id);
 
-signals:
-  /// The user wants a report: of every event, or of those judged relevant or
-  /// unsure.
-  void reportWanted(bool all);
+ signals:
+    /// The user wants a report: of every event, or of those judged relevant or unsure.
+    void reportWanted(bool all);
 
-protected:
-  void rowSelected(int id) override { commands_.show(id); }
-  void rowClicked(int id, int /*column*/) override { commands_.show(id); }
-  void rowDoubleClicked(int id) override;
-  void fillMenu(QMenu &menu, int id) override;
-  QString hiddenText() const override;
-  bool canShowHidden() const override { return true; }
-  void showHidden() override;
-  bool eventFilter(QObject *watched, QEvent *event) override;
-  void changeEvent(QEvent *event) override;
+ protected:
+    void rowSelected(int id) override { commands_.show(id); }
+    void rowClicked(int id, int /*column*/) override { commands_.show(id); }
+    void rowDoubleClicked(int id) override;
+    void fillMenu(QMenu& menu, int id) override;
+    QString hiddenText() const override;
+    bool canShowHidden() const override { return true; }
+    void showHidden() override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void changeEvent(QEvent* event) override;
 
-private:
-  void buildFilters();
-  void buildButtons();
-  void filterEvents();
-  void showHeader();
-  /// Row in the order shown, −1 for none.
-  int shownRowOf(int id) const;
-  const EventEntry *shownAt(int row) const;
+ private:
+    void buildFilters();
+    void buildButtons();
+    void filterEvents();
+    void showHeader();
+    /// Row in the order shown, −1 for none.
+    int shownRowOf(int id) const;
+    const EventEntry* shownAt(int row) const;
 
-  EventsModel *events_;
-  const WindowActions &actions_;
-  EventsPanelCommands commands_;
-  QLabel *header_;
-  EventKindsButton *kinds_;
-  QComboBox *verdicts_;
-  EventThresholds *thresholds_;
-  QWidget *zones_ = nullptr;
-  QToolButton *limits_button_ = nullptr;
-  QToolButton *zones_button_ = nullptr;
-  std::size_t left_ = 0;
-  std::optional<double> seen_;
+    EventsModel* events_;
+    const WindowActions& actions_;
+    EventsPanelCommands commands_;
+    QLabel* header_;
+    EventKindsButton* kinds_;
+    QComboBox* verdicts_;
+    EventThresholds* thresholds_;
+    QWidget* zones_ = nullptr;
+    QToolButton* limits_button_ = nullptr;
+    QToolButton* zones_button_ = nullptr;
+    std::size_t left_ = 0;
+    std::optional<double> seen_;
 };
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

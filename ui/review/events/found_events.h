@@ -11,64 +11,54 @@
 
 namespace eyrie::ui {
 
-/// What is to be judged in a run, in the order of the queue: events, and
-/// stretches that could not be searched. Made in the background, then never
-/// changed.
+/// What is to be judged in a run, in the order of the queue: events, and stretches that could not be searched. Made in
+/// the background, then never changed.
 struct FoundEvents {
-  std::shared_ptr<const StoredTracks> run;
-  std::vector<Event> events;
-  std::vector<FrameSpan> unsearched;
-  std::vector<Zone> zones; ///< that were watched
-  std::vector<QueueItem> queue;
-  CarriedVerdicts carried; ///< verdicts when it was made
-  std::shared_ptr<const DoingsByTrack> doings;
+    std::shared_ptr<const StoredTracks> run;
+    std::vector<Event> events;
+    std::vector<FrameSpan> unsearched;
+    std::vector<Zone> zones;  ///< that were watched
+    std::vector<QueueItem> queue;
+    CarriedVerdicts carried;  ///< verdicts when it was made
+    std::shared_ptr<const DoingsByTrack> doings;
 
-  /// The event at a place of the queue; null for a stretch that could not be
-  /// searched.
-  const Event *eventAt(std::size_t position) const {
-    const QueueItem &item = queue.at(position);
-    return item.is_event ? &events.at(item.index) : nullptr;
-  }
-  /// The event's number among all of the run, from 1: the same in the window,
-  /// on the command line and in reports. Stretches that could not be searched
-  /// have none.
-  std::optional<int> numberAt(std::size_t position) const {
-    const QueueItem &item = queue.at(position);
-    return item.is_event ? std::optional(static_cast<int>(item.index) + 1)
-                         : std::nullopt;
-  }
-  FrameSpan framesAt(std::size_t position) const {
-    const Event *event = eventAt(position);
-    return event != nullptr ? FrameSpan{event->first_frame, event->last_frame}
-                            : unsearched.at(queue.at(position).index);
-  }
-  /// The frame to look at.
-  FrameIndex frameAt(std::size_t position) const {
-    const Event *event = eventAt(position);
-    return event != nullptr ? event->frame : framesAt(position).first;
-  }
-  ReviewSubject subjectAt(std::size_t position) const {
-    const Event *event = eventAt(position);
-    return event != nullptr ? subjectOf(*event, *run)
-                            : subjectOf(framesAt(position), *run);
-  }
+    /// The event at a place of the queue; null for a stretch that could not be searched.
+    const Event* eventAt(std::size_t position) const {
+        const QueueItem& item = queue.at(position);
+        return item.is_event ? &events.at(item.index) : nullptr;
+    }
+    /// The event's number among all of the run, from 1: the same in the window, on the command line and in reports.
+    /// Stretches that could not be searched have none.
+    std::optional<int> numberAt(std::size_t position) const {
+        const QueueItem& item = queue.at(position);
+        return item.is_event ? std::optional(static_cast<int>(item.index) + 1) : std::nullopt;
+    }
+    FrameSpan framesAt(std::size_t position) const {
+        const Event* event = eventAt(position);
+        return event != nullptr ? FrameSpan{event->first_frame, event->last_frame}
+                                : unsearched.at(queue.at(position).index);
+    }
+    /// The frame to look at.
+    FrameIndex frameAt(std::size_t position) const {
+        const Event* event = eventAt(position);
+        return event != nullptr ? event->frame : framesAt(position).first;
+    }
+    ReviewSubject subjectAt(std::size_t position) const {
+        const Event* event = eventAt(position);
+        return event != nullptr ? subjectOf(*event, *run) : subjectOf(framesAt(position), *run);
+    }
 };
 
 /// Searches stored tracks for events and gives them the verdicts they have.
-std::shared_ptr<const FoundEvents>
-findAndOrder(const std::shared_ptr<const StoredTracks> &run,
-             const EventOptions &options,
-             const std::map<int, Verdict> &verdicts,
-             const std::vector<Zone> &zones = {});
+std::shared_ptr<const FoundEvents> findAndOrder(const std::shared_ptr<const StoredTracks>& run,
+                                                const EventOptions& options, const std::map<int, Verdict>& verdicts,
+                                                const std::vector<Zone>& zones = {});
 /// The same with events that are known.
-std::shared_ptr<const FoundEvents>
-inOrder(const std::shared_ptr<const StoredTracks> &run,
-        std::vector<Event> events, const std::map<int, Verdict> &verdicts,
-        const std::vector<Zone> &zones = {});
+std::shared_ptr<const FoundEvents> inOrder(const std::shared_ptr<const StoredTracks>& run, std::vector<Event> events,
+                                           const std::map<int, Verdict>& verdicts, const std::vector<Zone>& zones = {});
 
-/// Kinds as they are listed: those of events by their numbers, and behind them
-/// what could not be searched.
+/// Kinds as they are listed: those of events by their numbers, and behind them what could not be searched.
 inline constexpr int kListedKinds = kEventKinds + 1;
-int listedKindAt(const FoundEvents &found, std::size_t position);
+int listedKindAt(const FoundEvents& found, std::size_t position);
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

@@ -14,58 +14,57 @@ class QVBoxLayout;
 
 namespace eyrie::ui {
 
-/// A row of chips that narrow the list of tracks: a button that adds one, and a
-/// chip for each quality that is limited, which opens its limits and can be
-/// removed. Filters are kept by name in the person's settings.
+/// A row of chips that narrow the list of tracks: a button that adds one, and a chip for each quality that is limited,
+/// which opens its limits and can be removed. Filters are kept by name in the person's settings.
 class FilterChips : public QWidget {
-  Q_OBJECT
+    Q_OBJECT
 
-public:
-  explicit FilterChips(QWidget *parent = nullptr);
+ public:
+    explicit FilterChips(QWidget* parent = nullptr);
 
-  const TrackFilter &filter() const { return filter_; }
-  void setFilter(const TrackFilter &filter);
-  void clear() { setFilter({}); }
-  /// The units of the limits.
-  void setScale(const SceneScale &scale);
-  /// What there is to choose from; null while nobody knows.
-  void setDoings(std::shared_ptr<const DoingsByTrack> doings);
+    const TrackFilter& filter() const { return filter_; }
+    void setFilter(const TrackFilter& filter);
+    void clear() { setFilter({}); }
+    /// The units of the limits.
+    void setScale(const SceneScale& scale);
+    /// What there is to choose from; null while nobody knows.
+    void setDoings(std::shared_ptr<const DoingsByTrack> doings);
 
-  /// Opens the limits of a quality, as a click on its chip does.
-  QFrame *openLimits(TrackQuality quality);
-  /// Names of kept filters.
-  QStringList keptNames() const;
-  void keepAs(const QString &name);
-  void useKept(const QString &name);
-  void forgetKept(const QString &name);
+    /// Opens the limits of a quality, as a click on its chip does.
+    QFrame* openLimits(TrackQuality quality);
+    /// Names of kept filters.
+    QStringList keptNames() const;
+    void keepAs(const QString& name);
+    void useKept(const QString& name);
+    void forgetKept(const QString& name);
 
-signals:
-  void edited();
-  /// Directions, events and zones are asked for: somebody should look for them.
-  void doingsWanted();
+ signals:
+    void edited();
+    /// Directions, events and zones are asked for: somebody should look for them.
+    void doingsWanted();
 
-private:
-  struct Chip {
-    QWidget *whole = nullptr;
-    QToolButton *button = nullptr;
-  };
+ private:
+    struct Chip {
+        QWidget* whole = nullptr;
+        QToolButton* button = nullptr;
+    };
 
-  void makeChip(TrackQuality quality);
-  void fillAddMenu(QMenu &menu);
-  void fillRange(QVBoxLayout &rows, TrackQuality quality);
-  void fillDirections(QVBoxLayout &rows);
-  void fillEvents(QVBoxLayout &rows);
-  void fillZones(QVBoxLayout &rows);
-  void change(const std::function<void(TrackFilter &)> &what);
-  void askForName();
-  void refresh();
+    void makeChip(TrackQuality quality);
+    void fillAddMenu(QMenu& menu);
+    void fillRange(QVBoxLayout& rows, TrackQuality quality);
+    void fillDirections(QVBoxLayout& rows);
+    void fillEvents(QVBoxLayout& rows);
+    void fillZones(QVBoxLayout& rows);
+    void change(const std::function<void(TrackFilter&)>& what);
+    void askForName();
+    void refresh();
 
-  TrackFilter filter_;
-  SceneScale scale_;
-  std::shared_ptr<const DoingsByTrack> doings_;
-  QToolButton *add_;
-  std::array<Chip, kTrackQualities> chips_;
-  QPointer<QFrame> popup_;
+    TrackFilter filter_;
+    SceneScale scale_;
+    std::shared_ptr<const DoingsByTrack> doings_;
+    QToolButton* add_;
+    std::array<Chip, kTrackQualities> chips_;
+    QPointer<QFrame> popup_;
 };
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

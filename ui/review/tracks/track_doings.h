@@ -11,24 +11,22 @@
 
 namespace eyrie::ui {
 
-/// Directions are told in eighths of a circle, from right (0) over down (2),
-/// clockwise, as the ground lies in the first frame of the track's ground.
+/// Directions are told in eighths of a circle, from right (0) over down (2), clockwise, as the ground lies in the first
+/// frame of the track's ground.
 inline constexpr int kEighths = 8;
 /// The eighth of a heading (radians, clockwise from +x); nothing for none.
 int eighthOf(double heading);
 
 /// What is known of a track besides its summary, from its path and its events.
 struct TrackDoings {
-  std::optional<int> eighth; ///< nothing: it went nowhere
-  std::set<EventKind> events;
-  std::set<std::string> zones; ///< that it entered, left or crossed
+    std::optional<int> eighth;  ///< nothing: it went nowhere
+    std::set<EventKind> events;
+    std::set<std::string> zones;  ///< that it entered, left or crossed
 };
 /// By track; tracks that are missing did nothing.
 using DoingsByTrack = std::map<TrackId, TrackDoings>;
 
-/// What the tracks of a run did: where they went over the ground, which events
-/// they had, which zones they met.
-DoingsByTrack doingsOf(const StoredTracks &run,
-                       const std::vector<Event> &events);
+/// What the tracks of a run did: where they went over the ground, which events they had, which zones they met.
+DoingsByTrack doingsOf(const StoredTracks& run, const std::vector<Event>& events);
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

@@ -22,59 +22,46 @@ inline constexpr int kRangedQualities = 4;
 
 /// From … to, both included, in the unit shown; nothing: no limit there.
 struct TrackRange {
-  std::optional<double> from;
-  std::optional<double> to;
+    std::optional<double> from;
+    std::optional<double> to;
 
-  bool any() const { return from || to; }
-  bool holds(double value) const {
-    return (!from || value >= *from) && (!to || value <= *to);
-  }
-  bool operator==(const TrackRange &) const = default;
+    bool any() const { return from || to; }
+    bool holds(double value) const { return (!from || value >= *from) && (!to || value <= *to); }
+    bool operator==(const TrackRange&) const = default;
 };
 
-/// Which tracks are listed: those that every chip holds for. A chip without a
-/// limit holds for all.
+/// Which tracks are listed: those that every chip holds for. A chip without a limit holds for all.
 struct TrackFilter {
-  std::array<TrackRange, kRangedQualities> ranges;
-  std::set<int> eighths;      ///< any of them; none: all
-  std::set<EventKind> events; ///< any of them
-  std::set<std::string> zones;
+    std::array<TrackRange, kRangedQualities> ranges;
+    std::set<int> eighths;       ///< any of them; none: all
+    std::set<EventKind> events;  ///< any of them
+    std::set<std::string> zones;
 
-  bool has(TrackQuality quality) const;
-  bool any() const;
-  void clear(TrackQuality quality);
-  TrackRange &range(TrackQuality quality) {
-    return ranges.at(static_cast<std::size_t>(quality));
-  }
-  const TrackRange &range(TrackQuality quality) const {
-    return ranges.at(static_cast<std::size_t>(quality));
-  }
-  bool operator==(const TrackFilter &) const = default;
+    bool has(TrackQuality quality) const;
+    bool any() const;
+    void clear(TrackQuality quality);
+    TrackRange& range(TrackQuality quality) { return ranges.at(static_cast<std::size_t>(quality)); }
+    const TrackRange& range(TrackQuality quality) const { return ranges.at(static_cast<std::size_t>(quality)); }
+    bool operator==(const TrackFilter&) const = default;
 
-  /// `doings`: null while nobody knows them; then directions, events and zones
-  /// hide nothing.
-  bool holds(const TrackSummary &track, const SceneScale &scale,
-             const DoingsByTrack *doings) const;
+    /// `doings`: null while nobody knows them; then directions, events and zones hide nothing.
+    bool holds(const TrackSummary& track, const SceneScale& scale, const DoingsByTrack* doings) const;
 
-  /// For settings.
-  QJsonObject json() const;
-  /// What is not known is left out.
-  static TrackFilter fromJson(const QJsonObject &json);
+    /// For settings.
+    QJsonObject json() const;
+    /// What is not known is left out.
+    static TrackFilter fromJson(const QJsonObject& json);
 };
 
-/// The number of a ranged quality as it is shown: km/h or px/frame, s, m or px,
-/// 0 … 1.
-double valueOf(const TrackSummary &track, TrackQuality quality,
-               const SceneScale &scale);
+/// The number of a ranged quality as it is shown: km/h or px/frame, s, m or px, 0 … 1.
+double valueOf(const TrackSummary& track, TrackQuality quality, const SceneScale& scale);
 /// "Speed", "Life".
 QString nameOf(TrackQuality quality);
 /// "km/h"; empty for what has none.
-QString unitOf(TrackQuality quality, const SceneScale &scale);
+QString unitOf(TrackQuality quality, const SceneScale& scale);
 /// "→".
 QString arrowOf(int eighth);
-/// "Speed 20–60 km/h", "Zone yard, gate"; the name alone where nothing is
-/// limited.
-QString chipText(const TrackFilter &filter, TrackQuality quality,
-                 const SceneScale &scale);
+/// "Speed 20–60 km/h", "Zone yard, gate"; the name alone where nothing is limited.
+QString chipText(const TrackFilter& filter, TrackQuality quality, const SceneScale& scale);
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

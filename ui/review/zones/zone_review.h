@@ -21,58 +21,56 @@ class ZonesPanel;
 
 /// What zones work on. All must outlive them.
 struct ZoneParts {
-  ProjectSession &session;
-  VideoView &canvas;
-  WindowActions &actions;
-  MessageBar &messages;
-  EventReview &review;
+    ProjectSession& session;
+    VideoView& canvas;
+    WindowActions& actions;
+    MessageBar& messages;
+    EventReview& review;
 };
 
-/// The zones of the video in the window: drawn, listed, changed, shown over
-/// each frame where the ground has carried them.
+/// The zones of the video in the window: drawn, listed, changed, shown over each frame where the ground has carried
+/// them.
 class ZoneReview : public QObject {
-  Q_OBJECT
+    Q_OBJECT
 
-public:
-  explicit ZoneReview(const ZoneParts &parts, QObject *parent = nullptr);
+ public:
+    explicit ZoneReview(const ZoneParts& parts, QObject* parent = nullptr);
 
-  /// Without a parent until somebody takes it into a layout.
-  ZonesPanel &panel() { return *panel_; }
-  ZonesModel &model() { return *model_; }
-  ZoneTool &tool() { return *tool_; }
+    /// Without a parent until somebody takes it into a layout.
+    ZonesPanel& panel() { return *panel_; }
+    ZonesModel& model() { return *model_; }
+    ZoneTool& tool() { return *tool_; }
 
-  /// Whether drawing is wanted: labelling draws otherwise.
-  void setActive(bool active);
-  /// The zones, or what was found in them, are others.
-  void showZones();
-  /// Files as the command line reads them; what is wrong with one is told.
-  void readFile(const QString &path);
-  void writeFile(const QString &path);
+    /// Whether drawing is wanted: labelling draws otherwise.
+    void setActive(bool active);
+    /// The zones, or what was found in them, are others.
+    void showZones();
+    /// Files as the command line reads them; what is wrong with one is told.
+    void readFile(const QString& path);
+    void writeFile(const QString& path);
 
-signals:
-  /// A person draws: the list should be in sight.
-  void listWanted();
+ signals:
+    /// A person draws: the list should be in sight.
+    void listWanted();
 
-private:
-  void bindCommands();
-  void startDrawing(ZoneShape shape, bool wanted);
-  void add(ZoneShape shape, const std::vector<cv::Point2d> &points);
-  void setAnchor(int id, ZoneAnchor anchor);
-  void showMarks();
-  void enableActions();
-  void carryDrawing();
-  /// Points of one frame as another shows the same ground; nothing where nobody
-  /// knows.
-  std::optional<std::vector<cv::Point2d>>
-  carried(const std::vector<cv::Point2d> &points, int from, int to) const;
-  QString hintText() const;
+ private:
+    void bindCommands();
+    void startDrawing(ZoneShape shape, bool wanted);
+    void add(ZoneShape shape, const std::vector<cv::Point2d>& points);
+    void setAnchor(int id, ZoneAnchor anchor);
+    void showMarks();
+    void enableActions();
+    void carryDrawing();
+    /// Points of one frame as another shows the same ground; nothing where nobody knows.
+    std::optional<std::vector<cv::Point2d>> carried(const std::vector<cv::Point2d>& points, int from, int to) const;
+    QString hintText() const;
 
-  ZoneParts parts_;
-  ZonesModel *model_;
-  ZonesPanel *panel_;
-  ZoneTool *tool_;
-  bool active_ = true;
-  int drawn_in_ = 0; ///< frame that the points being drawn are meant in
+    ZoneParts parts_;
+    ZonesModel* model_;
+    ZonesPanel* panel_;
+    ZoneTool* tool_;
+    bool active_ = true;
+    int drawn_in_ = 0;  ///< frame that the points being drawn are meant in
 };
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui

@@ -13,65 +13,57 @@ namespace eyrie::ui {
 
 class VideoView;
 
-/// Draws a zone or a line on the canvas: clicks set points, a double click,
-/// Return or the right button ends it, Backspace takes the last point back,
-/// Escape gives up. Changes nothing itself.
+/// Draws a zone or a line on the canvas: clicks set points, a double click, Return or the right button ends it,
+/// Backspace takes the last point back, Escape gives up. Changes nothing itself.
 class ZoneTool : public QObject, public CanvasTool {
-  Q_OBJECT
+    Q_OBJECT
 
-public:
-  /// Works on the canvas while it draws; the canvas must outlive it.
-  explicit ZoneTool(VideoView &canvas, QObject *parent = nullptr);
-  ~ZoneTool() override;
+ public:
+    /// Works on the canvas while it draws; the canvas must outlive it.
+    explicit ZoneTool(VideoView& canvas, QObject* parent = nullptr);
+    ~ZoneTool() override;
 
-  /// What becomes of the points, px of the frame shown: called when a drawing
-  /// ends that holds enough of them.
-  void
-  setFinished(std::function<void(ZoneShape, const std::vector<cv::Point2d> &)>
-                  finished) {
-    finished_ = std::move(finished);
-  }
-  /// Why a drawing cannot end yet, for people.
-  void setRefused(std::function<void(const QString &)> refused) {
-    refused_ = std::move(refused);
-  }
+    /// What becomes of the points, px of the frame shown: called when a drawing ends that holds enough of them.
+    void setFinished(std::function<void(ZoneShape, const std::vector<cv::Point2d>&)> finished) {
+        finished_ = std::move(finished);
+    }
+    /// Why a drawing cannot end yet, for people.
+    void setRefused(std::function<void(const QString&)> refused) { refused_ = std::move(refused); }
 
-  void start(ZoneShape shape);
-  bool drawing() const { return shape_.has_value(); }
-  std::optional<ZoneShape> shape() const { return shape_; }
-  const std::vector<cv::Point2d> &points() const { return points_; }
-  /// The picture below moved: the points are these now.
-  void movePoints(std::vector<cv::Point2d> points);
-  void finish();
-  void cancel();
+    void start(ZoneShape shape);
+    bool drawing() const { return shape_.has_value(); }
+    std::optional<ZoneShape> shape() const { return shape_; }
+    const std::vector<cv::Point2d>& points() const { return points_; }
+    /// The picture below moved: the points are these now.
+    void movePoints(std::vector<cv::Point2d> points);
+    void finish();
+    void cancel();
 
-  void paint(QPainter &painter, const CanvasPlace &place) const override;
-  bool press(const QMouseEvent &event, const CanvasPlace &place) override;
-  bool move(const QMouseEvent &event, const CanvasPlace &place) override;
-  bool release(const QMouseEvent &event, const CanvasPlace &place) override;
-  bool doubleClick(const QMouseEvent &event, const CanvasPlace &place) override;
-  void leave() override;
-  const QCursor *cursor() const override;
+    void paint(QPainter& painter, const CanvasPlace& place) const override;
+    bool press(const QMouseEvent& event, const CanvasPlace& place) override;
+    bool move(const QMouseEvent& event, const CanvasPlace& place) override;
+    bool release(const QMouseEvent& event, const CanvasPlace& place) override;
+    bool doubleClick(const QMouseEvent& event, const CanvasPlace& place) override;
+    void leave() override;
+    const QCursor* cursor() const override;
 
-signals:
-  /// Drawing began or ended.
-  void drawingChanged();
+ signals:
+    /// Drawing began or ended.
+    void drawingChanged();
 
-protected:
-  bool eventFilter(QObject *watched, QEvent *event) override;
+ protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
-private:
-  void takeBack();
-  void paintHint(QPainter &painter, const QRectF &view) const;
+ private:
+    void takeBack();
+    void paintHint(QPainter& painter, const QRectF& view) const;
 
-  VideoView &canvas_;
-  std::function<void(ZoneShape, const std::vector<cv::Point2d> &)> finished_ =
-      [](ZoneShape, const auto &) {};
-  std::function<void(const QString &)> refused_ = [](const QString &) {};
-  std::optional<ZoneShape> shape_;
-  std::vector<cv::Point2d> points_;
-  std::optional<QPointF>
-      mouse_; ///< view coordinates; nothing while it is elsewhere
+    VideoView& canvas_;
+    std::function<void(ZoneShape, const std::vector<cv::Point2d>&)> finished_ = [](ZoneShape, const auto&) {};
+    std::function<void(const QString&)> refused_ = [](const QString&) {};
+    std::optional<ZoneShape> shape_;
+    std::vector<cv::Point2d> points_;
+    std::optional<QPointF> mouse_;  ///< view coordinates; nothing while it is elsewhere
 };
 
-} // namespace eyrie::ui
+}  // namespace eyrie::ui
