@@ -5,8 +5,8 @@
 #include "review/events/events_dock.h"
 #include "review/events/events_model.h"
 #include "review/watch/watched_ground.h"
-#include "session/session_reactions.h"
 #include "workspace/dock_registry.h"
+#include "workspace/session_reactions.h"
 
 namespace eyrie::ui {
 

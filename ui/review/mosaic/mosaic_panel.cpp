@@ -12,9 +12,9 @@
 #include "canvas/timeline/timeline_axis.h"
 #include "review/mosaic/mosaic_view.h"
 #include "review/watch/watched_ground.h"
-#include "session/session_reactions.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "workspace/session_reactions.h"
 
 namespace eyrie::ui {
 

@@ -6,8 +6,8 @@
 
 #include "canvas/video_view.h"
 #include "session/project/person_name.h"
-#include "session/session_reactions.h"
 #include "store/review/seen_store.h"
+#include "workspace/session_reactions.h"
 
 namespace eyrie::ui {
 

@@ -6,7 +6,7 @@
 
 #include "canvas/video_view.h"
 #include "review/watch/watched_ground.h"
-#include "session/session_reactions.h"
+#include "workspace/session_reactions.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {

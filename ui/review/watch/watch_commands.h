@@ -3,7 +3,7 @@
 #include <QObject>
 #include <filesystem>
 
-#include "review/watch/snapshot.h"
+#include "review/watch/view_snapshot.h"
 #include "session/background/background_query.h"
 
 namespace eyrie::ui {

@@ -1,4 +1,4 @@
-#include "review/watch/snapshot.h"
+#include "review/watch/view_snapshot.h"
 
 #include <QFileInfo>
 
