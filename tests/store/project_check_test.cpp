@@ -111,8 +111,8 @@ TEST_F(CheckTest, FindsImpossibleValues) {
          {"UPDATE run SET gsd_m_per_px = 0", "UPDATE sequence SET frame_count = 2147483647",
           "UPDATE run SET state = 'asleep'", "UPDATE run SET scale_origin = 'perhaps'",
           "UPDATE run SET scale_origin = 'estimated'", "UPDATE run SET scale_uncertainty = 0.5",
-          "UPDATE run SET scale_vehicles = -1", "UPDATE frame SET width = -1 WHERE frame = 3",
-          "UPDATE motion_vectors SET data = x'0102' WHERE frame = 3",
+          "UPDATE run SET scale_vehicles = -1", "UPDATE run SET scale_growth_down = -1.5",
+          "UPDATE frame SET width = -1 WHERE frame = 3", "UPDATE motion_vectors SET data = x'0102' WHERE frame = 3",
           "UPDATE stationary_corners SET data = x'ff02' WHERE frame = 3",
           "UPDATE labelled_object SET keyframes = x'0901' WHERE id = 2",
           "UPDATE detection SET rejection = 'so so' WHERE frame = 1", "UPDATE sweep_point SET figures = 'f = 1'"}) {

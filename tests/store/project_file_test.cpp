@@ -134,6 +134,8 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP VIEW v_track_states",
                   "DROP VIEW v_tracks",
                   "DROP VIEW v_runs",
+                  "ALTER TABLE run DROP COLUMN scale_growth_right",
+                  "ALTER TABLE run DROP COLUMN scale_growth_down",
                   "ALTER TABLE run DROP COLUMN scale_origin",
                   "ALTER TABLE run DROP COLUMN scale_uncertainty",
                   "ALTER TABLE run DROP COLUMN scale_vehicles",

@@ -16,9 +16,9 @@ namespace eyrie::schema {
 namespace {
 
 constexpr std::array kMigrations{
-    addRuns,          addLabels,    addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
-    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview,  addScaleOrigins,
-    addZones};
+    addRuns,          addLabels,     addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
+    addRemovalOfRuns, addRunStates,  addRegistrationFaults,          addViews,  addReview,  addScaleOrigins,
+    addZones,         addScaleSlopes};
 
 }  // namespace
 

@@ -147,8 +147,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
         "finishing.standing_height", standing_height, 0, 0.9,
         {"",
          "A track that goes along the camera's flow no faster than a standing thing of this share of the flight "
-         "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped. 0: "
-         "never.",
+         "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped; in "
+         "oblique views also one that moves just as such a thing would that the camera passes or circles. 0: never.",
          ""});
     declare.real(
         "finishing.standing_depth", standing_depth, 0, 0.9,
@@ -215,6 +215,12 @@ BoxesAt vehiclesIn(const VehiclesByFrame& kept) {
 
 VectorsAt vectorsIn(const VectorsByFrame& kept) {
     return askFor(kept);
+}
+
+cv::Point2d middleOf(const TrackPath& path) {
+    cv::Point2d sum(0, 0);
+    for (const auto& [frame, state] : path.states) sum += cv::Point2d(state.box.centre);
+    return sum / static_cast<double>(std::max<std::size_t>(path.states.size(), 1));
 }
 
 void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards) {
@@ -291,7 +297,8 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
             std::erase_if(path.states,
                           [](const TimedPathState& s) { return s.second.status == TrackStatus::tentative; });
         }
-        if (options.trim_predicted) trimPredictedEnd(path, ground, scale.pxPerFrame(options.stop_speed_m_s));
+        if (options.trim_predicted)
+            trimPredictedEnd(path, ground, scale.at(middleOf(path)).pxPerFrame(options.stop_speed_m_s));
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);
