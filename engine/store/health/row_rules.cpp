@@ -140,6 +140,15 @@ std::vector<RowRule> rowRules() {
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
              isOneOf("origin", stored::kStateOrigins),
          "state of a track is impossible"},
+        {"doubtful_state",
+         frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
+             isOneOf("origin", stored::kStateOrigins),
+         "state of a doubtful track is impossible"},
+        {"track_evidence",
+         areNumbers("flow_px, flow_ratio") +
+             " AND detected BETWEEN 0 AND 1 AND looked_alike BETWEEN 0 AND 1 AND life_s BETWEEN 0 AND 1e300 AND "
+             "alignment BETWEEN -1.001 AND 1.001 AND score BETWEEN 0 AND 1",
+         "what speaks for a track is impossible"},
         {"run_state", frame, "state of a run is impossible"},
         {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),
          "a state left out of a track is impossible"},

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array kMigrations{
     addRuns,          addLabels,    addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
     addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview,  addScaleOrigins,
-    addZones};
+    addZones,         addEvidence};
 
 }  // namespace
 
