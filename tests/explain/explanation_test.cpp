@@ -424,6 +424,7 @@ TEST(Explanation, whatSpeaksForATrackAndAgainstItIsTold) {
     EXPECT_THAT(stepWith("looked like a vehicle in 25 % of its detections").text, HasSubstr("speaks for a moving"));
     EXPECT_THAT(stepWith("detected in 90 % of its frames").text, HasSubstr("speaks for a moving"));
     EXPECT_THAT(stepWith("0.2 times as fast as the ground").text, HasSubstr("speaks against it, −"));
+    EXPECT_FALSE(stepWith("a standing thing would have to be 0.165 of the flight height tall").text.empty());
 
     evidence.result.tracks.clear();
     evidence.result.dropped = {{7, {{100, 100}, 18, 7, 0}, TrackDrop::unlikely, 0}};

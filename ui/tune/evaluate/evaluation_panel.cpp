@@ -273,11 +273,7 @@ void EvaluationPanel::showScoreCurve(const std::vector<ScorePoint>& curve) {
     std::optional<double> there;
     // Thresholds ascend, so recall falls: the axis wants it the other way round.
     for (auto point = curve.rbegin(); point != curve.rend(); ++point) {
-        const double recall = point->detection.recall;
-        if (!data.places.empty() && recall <= data.places.back()) {
-            data.places.pop_back();
-            for (LineData::Series& series : data.series) series.values.pop_back();
-        }
+        const double recall = std::max(point->detection.recall, data.places.empty() ? 0 : data.places.back());
         data.places.push_back(recall);
         data.series[0].values.push_back(point->detection.precision);
         data.series[1].values.push_back(point->detection.f_score);
