@@ -56,7 +56,6 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"registration.max_corners", "50000"},
         {"registration.favour_movers", "false"},
         {"registration.feature_search", "false"},
-        {"registration.leave_out_stuck", "false"},
         {"motion.baseline", "5"},
         {"motion.sigma_factor", "0"},
         {"motion.follow_turns", "false"},

@@ -68,7 +68,7 @@ double judged(LiveScores& scores, FrameIndex frame) {
 TEST(LiveScores, AreThoseOfAFinishedTrackThatEndedHere) {
     LiveScores scores(kLiveScale);
     for (FrameIndex frame = 0; frame < kLiveFrames; ++frame)
-        ASSERT_NEAR(judged(scores, frame), scoreOfPath(frame), 1e-9) << frame;
+        ASSERT_NEAR(judged(scores, frame), scoreOfPath(frame), 1e-6) << frame;
 }
 
 TEST(LiveScores, GoOnAfterBeingKept) {

@@ -22,7 +22,7 @@ constexpr int kSettledAge = 4;
 constexpr float kMovingPx = 0.3F;
 /// A corner that stays so near to its place in the picture, px, for so many frames, while the ground goes so far, px,
 /// belongs to the picture. A vehicle that the camera follows wanders farther.
-constexpr float kHeldPx = 0.4F;
+constexpr float kHeldPx = 1.5F;
 constexpr int kHeldFrames = 24;
 constexpr float kGroundGonePx = 12;
 
@@ -207,11 +207,13 @@ void TrackingOptions::describe(ParameterVisitor& visitor) {
          ""});
     declare.real("registration.patch_deformation", patch_deformation_px, 0.01, 5,
                  {"px", "The patch is turned and scaled with the picture whenever this moves its border by more.", ""});
-    declare.flag("registration.leave_out_stuck", leave_out_stuck,
-                 {"",
-                  "Corners that stay where they are in the picture while the ground moves away under them (dirt on the "
-                  "lens, vignette, compression) count neither as ground nor as moving.",
-                  ""});
+    declare.flag(
+        "registration.leave_out_stuck", leave_out_stuck,
+        {"",
+         "Corners that stay where they are in the picture while the ground moves away under them (dirt on the "
+         "lens, vignette, compression) count neither as ground nor as moving. What the camera follows to a pixel and a "
+         "half is left out, too.",
+         ""});
 }
 
 CornerTracker::CornerTracker(const TrackingOptions& options, const SceneScale& scale)

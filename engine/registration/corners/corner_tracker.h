@@ -20,7 +20,7 @@ struct TrackingOptions {
     double max_jerk_px = 0.5;
     int patch_life = 100;
     double patch_deformation_px = 0.08;
-    bool leave_out_stuck = true;
+    bool leave_out_stuck = false;
 
     void describe(ParameterVisitor& visitor);
 };
