@@ -322,6 +322,7 @@ TEST_F(RunStoreTest, DoubtfulTracksAreReadApartFromTheResult) {
     EXPECT_EQ(store.scoreThreshold(run), 0) << "nothing was judged yet";
     TrackState state = twoTracks().front().tracks.front();
     state.id = 9;
+    state.status = TrackStatus::confirmed;
     state.score = 0.25;
     TracksOfRun tracks;
     tracks.states = [&](const TracksOfRun::StateVisitor& visitor) {

@@ -22,13 +22,13 @@ enum class Rejection {
 struct Detection {
     OrientedBox box;
     double score = 0;  ///< classifier value, or motion vectors per expected motion vector; higher is surer
-    /// That it is a vehicle that moves, 0 … 1; NaN where it was not judged: rejected, or no classifier takes part.
-    double probability = std::numeric_limits<double>::quiet_NaN();
     cv::Point2d velocity{0, 0};  ///< px/frame relative to the ground, of the motion vectors inside
     int cluster = -1;            ///< index of the motion cluster it came from
     std::vector<int> vectors;    ///< indices into FrameMotion::motion_vectors of those that make or lie in the box
     Rejection rejection = Rejection::none;
     bool complete = false;  ///< the box of a whole vehicle (classifier); other boxes may lack or join parts
+    /// That it is a vehicle that moves, 0 … 1; NaN where it was not judged: rejected, or no classifier takes part.
+    double probability = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What results tell of it: its probability where it has one.

@@ -263,24 +263,24 @@ void EvaluationPanel::askForScoreCurve() {
 void EvaluationPanel::showScoreCurve(const std::vector<ScorePoint>& curve) {
     score_curve_->setVisible(curve.size() > 1);
     if (curve.size() < 2) return;
-    LineData data;
-    data.place_label = tr("recall");
-    data.value_label = tr("share, score");
-    data.top = 1.02;
-    data.series = {
+    LineData chart;
+    chart.place_label = tr("recall");
+    chart.value_label = tr("share, score");
+    chart.top = 1.02;
+    chart.series = {
         {tr("precision"), kFalseColour, {}}, {tr("f-score"), kFoundColour, {}}, {tr("score"), kMissedColour, {}}};
     const double threshold = session_.runData() ? session_.runData()->score_threshold : 0;
     std::optional<double> there;
     // Thresholds ascend, so recall falls: the axis wants it the other way round.
     for (auto point = curve.rbegin(); point != curve.rend(); ++point) {
-        const double recall = std::max(point->detection.recall, data.places.empty() ? 0 : data.places.back());
-        data.places.push_back(recall);
-        data.series[0].values.push_back(point->detection.precision);
-        data.series[1].values.push_back(point->detection.f_score);
-        data.series[2].values.push_back(point->threshold);
+        const double recall = std::max(point->detection.recall, chart.places.empty() ? 0 : chart.places.back());
+        chart.places.push_back(recall);
+        chart.series[0].values.push_back(point->detection.precision);
+        chart.series[1].values.push_back(point->detection.f_score);
+        chart.series[2].values.push_back(point->threshold);
         if (point->threshold >= threshold) there = recall;
     }
-    score_curve_->setData(std::move(data));
+    score_curve_->setData(std::move(chart));
     if (there) score_curve_->setMarker(*there);
 }
 
