@@ -24,7 +24,7 @@ struct Limits {
     double vehicle_length;
     double width;
     double silhouette_length;
-    double silhouette_gap;  ///< 0: silhouettes are not looked at
+    double silhouette_gap;  ///< 0: no vectors lie close enough for one silhouette
 };
 
 /// Whether the silhouette of one vehicle reaches from the middle of the one to the middle of the other: vectors that
@@ -70,8 +70,7 @@ std::optional<Joined> unionOfParts(const Detection& a, const Detection& b, const
     if (both.area() <= 0 || both.width > std::max(limits.width, widest)) return {};
     // Parts lie one behind the other: beside each other they are two vehicles, or one and its shadow.
     if (both.width > 1.5 * widest + 1) return {};
-    if (limits.silhouette_gap > 0 && both.length <= limits.silhouette_length &&
-        onOneSilhouette(a, b, motion, limits.silhouette_gap)) {
+    if (both.length <= limits.silhouette_length && onOneSilhouette(a, b, motion, limits.silhouette_gap)) {
         return Joined{both, limits.silhouette_length, "duplicates.part_silhouette_length"};
     }
     if (a.complete || b.complete) return {};

@@ -79,6 +79,7 @@ struct Block {
     double bottom = 0;
     double top = 2;
     cv::Vec3f colour{120, 120, 120};
+    bool shines = false;  ///< a sign with light of its own
 };
 
 struct Tree {
@@ -102,6 +103,15 @@ struct Sun {
     double ambient = 0.42;         ///< share of the light that reaches shadows; the rest is direct
 };
 
+/// Lamps, windows and vehicles shine while the sun is down; `Sun::ambient` is then what is left of daylight.
+struct Night {
+    bool lamps = false;                      ///< whether it is night
+    cv::Vec3f lamp_tint{0.5F, 0.85F, 1.1F};  ///< of street lamps: blue, green, red
+    double lamp_strength = 1;                ///< light below a lamp, as a share of full sunlight
+    double beams = 0.6;                      ///< light of headlights on the road, likewise
+    double windows = 0.2;                    ///< share of windows that are lit
+};
+
 /// What the camera and the radio link do to the picture.
 struct Sensor {
     double blur_px = 0.35;     ///< deviation of lens blur, besides the pixel's own area
@@ -114,6 +124,9 @@ struct Sensor {
     double vignette = 0.12;    ///< darkening of the corners
     int jpeg_quality = 0;      ///< 1 … 100; 0 without compression
     bool gray = false;         ///< a camera without colour
+    double glare = 1;          ///< halos around lamps at night, 1: clean lens and clear air
+    double fixed_pattern = 0;  ///< deviation of what sticks to the image: columns, pixels, cloudy shading; grey levels
+    int smudges = 0;           ///< specks of dirt on the lens
     int samples = 16;          ///< per pixel, spread over its area and the exposure: 4, 8, 16 or 32
 };
 
@@ -125,10 +138,14 @@ struct SceneDescription {
     double frame_rate_hz = 25;
     double gsd_m_per_px = 0.3;  ///< typical, for users; the true one follows from the camera
     cv::Size image_size{640, 480};
+    double least_length_px = 0;  ///< vehicles that look shorter are marked ignore
     bool upright_truth = false;  ///< the original's ground truth has upright boxes; ours is oriented all the same
 
     CameraPath camera;
     Sun sun;
+    Night night;
+    double sight_m = 0;                    ///< m over which haze leaves 37 % of contrast; 0: clear air
+    cv::Vec3f haze_colour{176, 172, 168};  ///< blue, green, red
     Sensor sensor;
     Surface base{Material::grass};
     double map_margin = 25;  ///< m of ground painted beyond what the camera sees

@@ -117,7 +117,9 @@ std::vector<SceneObject> SceneTruth::collect(FrameIndex clock, bool with_visibil
         truth.speed = speedAround(object, clock, scene_.frame_rate_hz);
         truth.velocity = heading * (pose.speed / scene_.frame_rate_hz);
         if (with_visibility) truth.visibility = visibilityOf(object, pose, camera.position);
-        truth.ignore = truth.speed < kStandingSpeed || truth.inside < kLeastInside || truth.visibility < kLeastVisible;
+        truth.ignore = truth.speed < kStandingSpeed || truth.inside < kLeastInside ||
+                       truth.visibility < kLeastVisible ||
+                       std::max(truth.box.length, truth.box.width) < scene_.least_length_px;
         found.push_back(truth);
     }
     std::sort(found.begin(), found.end(), [](const SceneObject& a, const SceneObject& b) { return a.id < b.id; });

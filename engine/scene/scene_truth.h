@@ -17,7 +17,7 @@ struct SceneObject {
     double speed = 0;            ///< m/s, mean over ten frames before and after
     double visibility = 1;       ///< share of the body that nothing standing hides, 0 … 1
     double inside = 1;           ///< share of the box that lies in the image, 0 … 1
-    bool ignore = false;         ///< standing, less than 60 % in the image, or less than 40 % visible
+    bool ignore = false;         ///< standing, less than 60 % in the image, less than 40 % visible, or tiny
 };
 
 /// Finds the truth of frames without painting them.

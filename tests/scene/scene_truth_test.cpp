@@ -53,6 +53,16 @@ TEST(SceneTruth, ignoresWhatStandsAndCountsWhatMoves) {
     EXPECT_NEAR(truth[2].speed, 0.5, 1e-9);
 }
 
+TEST(SceneTruth, ignoresWhatIsTooSmallToBeLabelled) {
+    constexpr int frames = 20;
+    SceneDescription scene = plainScene(frames);
+    scene.objects.push_back(driving(1, carLook(), {-10, 0}, 0, 8, frames));
+    scene.least_length_px = 14;
+    EXPECT_FALSE(truthOf(scene, 10).front().ignore) << "4.5 m are 15 px";
+    scene.least_length_px = 16;
+    EXPECT_TRUE(truthOf(scene, 10).front().ignore);
+}
+
 TEST(SceneTruth, ignoresWhatIsCutByTheBorder) {
     constexpr int frames = 20;
     SceneDescription scene = plainScene(frames);

@@ -5,6 +5,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "core/error.h"
+#include "scene/painting/night_lights.h"
 #include "scene/painting/polygon_scan.h"
 #include "scene/towns/static_world.h"
 #include "scene/traffic/path.h"
@@ -26,7 +27,7 @@ cv::Vec3f unpacked(std::uint32_t texel) {
 }  // namespace
 
 GroundMap::GroundMap(const SceneDescription& scene, cv::Rect2d area, double texel)
-    : origin_(area.x, area.y), texel_(texel) {
+    : origin_(area.x, area.y), texel_(texel), night_(scene.night.lamps) {
     const double columns = std::ceil(area.width / texel);
     const double rows = std::ceil(area.height / texel);
     if (!(columns >= 2) || !(rows >= 2) || columns * rows > 2e8) {
@@ -67,7 +68,9 @@ std::vector<GroundMap::Job> GroundMap::jobsOf(const SceneDescription& scene) con
     std::vector<Job> jobs;
     for (const GroundPatch& patch : scene.patches)
         jobs.push_back(job(patch.outline, patch.surface, Job::Effect::paint));
-    for (const auto& shadow : staticShadows(scene)) jobs.push_back(job(shadow, {}, Job::Effect::shadow));
+    if (!night_) {
+        for (const auto& shadow : staticShadows(scene)) jobs.push_back(job(shadow, {}, Job::Effect::shadow));
+    }
     for (const ParkedVehicle& parked : scene.parked) {
         // Little skylight reaches the ground below a vehicle.
         jobs.push_back(job(
@@ -92,12 +95,21 @@ std::vector<GroundMap::Job> GroundMap::jobsOf(const SceneDescription& scene) con
     }
     for (const Block& block : scene.blocks) {
         // Machines on roofs darken the roof beside them.
-        if (block.bottom < 2) continue;
+        if (block.bottom < 2 || night_) continue;
         std::vector<cv::Point2d> corners = rectangleAt(block.centre, block.direction, block.length, block.width);
         const std::size_t count = corners.size();
         for (std::size_t i = 0; i < count; ++i)
             corners.push_back(corners[i] + scene.sun.shadow * (block.top - block.bottom));
         jobs.push_back(job(hullOf(corners), {}, Job::Effect::shadow));
+    }
+    for (const LampPost& post : scene.posts) {
+        if (!night_) break;
+        const cv::Point2d below = lightOf(post);
+        Job pool = job(rectangleAt(below, {1, 0}, 2 * kLampReach, 2 * kLampReach), {}, Job::Effect::lamp);
+        pool.lamp = below;
+        pool.height = post.height;
+        pool.strength = scene.night.lamp_strength;
+        jobs.push_back(std::move(pool));
     }
     return jobs;
 }
@@ -108,13 +120,15 @@ void GroundMap::paintRows(const Surface& base, const std::vector<Job>& jobs, int
         for (int x = 0; x < width_; ++x) {
             const cv::Point2d ground = origin_ + cv::Point2d(x, y) * texel_;
             texels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
-                packedWithSun(colourOf(base, ground), 255);
+                packedWithSun(colourOf(base, ground), night_ ? 0 : 255);
         }
     }
     for (const Job& next : jobs) {
         if (next.bottom < begin - 1 || next.top > end) continue;
         if (next.effect == Job::Effect::shadow) {
             darken(next, bounds);
+        } else if (next.effect == Job::Effect::lamp) {
+            lighten(next, bounds);
         } else {
             paint(next, bounds);
         }
@@ -130,7 +144,7 @@ void GroundMap::paint(const Job& job, cv::Rect bounds) {
             if (share <= 0) continue;
             const cv::Point2d ground = origin_ + cv::Point2d(x, y) * texel_;
             // The sun reaches every roof, whatever shadow lies on the ground that it hides.
-            const std::uint32_t sun = is_roof && share > 0.5F ? 255U : row[x] >> 24;
+            const std::uint32_t sun = is_roof && share > 0.5F && !night_ ? 255U : row[x] >> 24;
             share *= opacityOf(job.surface, ground);
             row[x] = packedWithSun(unpacked(row[x]) * (1 - share) + colourOf(job.surface, ground) * share, sun);
         }
@@ -143,6 +157,17 @@ void GroundMap::darken(const Job& job, cv::Rect bounds) {
         for (int x = x_begin; x < x_end; ++x) {
             const float sun = static_cast<float>(row[x] >> 24) * (1 - coverage[x - x_begin]);
             row[x] = (row[x] & 0x00FFFFFFU) | (static_cast<std::uint32_t>(sun + 0.5F) << 24);
+        }
+    });
+}
+
+void GroundMap::lighten(const Job& job, cv::Rect bounds) {
+    scanPolygon(job.outline, bounds, [&](int y, int x_begin, int x_end, const float*) {
+        std::uint32_t* row = texels_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+        for (int x = x_begin; x < x_end; ++x) {
+            const cv::Point2d away = origin_ + cv::Point2d(x, y) * texel_ - job.lamp;
+            const double light = (row[x] >> 24) + 255 * job.strength * lampLight(away, job.height);
+            row[x] = (row[x] & 0x00FFFFFFU) | (static_cast<std::uint32_t>(std::min(light + 0.5, 255.0)) << 24);
         }
     });
 }

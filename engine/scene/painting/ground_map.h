@@ -61,18 +61,23 @@ class GroundMap {
         std::vector<cv::Point2d> outline;
         double top = 0, bottom = 0;  ///< rows
         Surface surface;
-        enum class Effect { paint, roof, shadow } effect = Effect::paint;
+        enum class Effect { paint, roof, shadow, lamp } effect = Effect::paint;
+        cv::Point2d lamp;  ///< m: below the light
+        double height = 0;
+        double strength = 0;
     };
     Job job(const std::vector<cv::Point2d>& outline, const Surface& surface, Job::Effect effect) const;
     std::vector<Job> jobsOf(const SceneDescription& scene) const;
     void paintRows(const Surface& base, const std::vector<Job>& jobs, int begin, int end);
     void paint(const Job& job, cv::Rect bounds);
     void darken(const Job& job, cv::Rect bounds);
+    void lighten(const Job& job, cv::Rect bounds);
 
     cv::Point2d origin_;  ///< ground point at the centre of texel (0, 0)
     double texel_;
     int width_ = 0;
     int height_ = 0;
+    bool night_ = false;  ///< the high byte holds the light of lamps
     std::vector<std::uint32_t> texels_;
 };
 

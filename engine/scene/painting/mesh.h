@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/matx.hpp>
 #include <opencv2/core/types.hpp>
 #include <vector>
@@ -11,7 +12,7 @@ enum class Finish {
     matte,
     lacquer,   ///< broad highlight of the sun
     glass,     ///< dark, with a narrow and strong highlight
-    lamp,      ///< as bright in the shade as in the sun
+    lamp,      ///< shines by itself: its colour is what is seen
     map_roof,  ///< takes its colours from the ground map below it, where roofs are painted
     facade     ///< wall with windows
 };
@@ -22,7 +23,9 @@ struct Face {
     cv::Point3d normal{0, 0, 1};      ///< outwards; `orient` sets it
     cv::Vec3f colour{128, 128, 128};  ///< blue, green, red in full sunlight
     Finish finish = Finish::matte;
-    float storey = 3;  ///< m between rows of windows
+    float storey = 3;        ///< m between rows of windows
+    std::uint32_t seed = 0;  ///< chooses the windows that are lit at night
+    float lit = 1;           ///< share of street lamps' light that reaches a facade's foot at night
 };
 
 /// A ball of leaves, a reflection: seen as a disc from everywhere.
@@ -30,6 +33,7 @@ struct Ball {
     cv::Point3d centre;
     double radius = 0.5;
     cv::Vec3f colour;
+    bool shines = false;  ///< a lamp, with a halo in the picture
 };
 
 /// Faces in one system of coordinates, with the outlines whose hulls cast its shadow.

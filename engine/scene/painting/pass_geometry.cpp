@@ -19,8 +19,16 @@ cv::Point3d unit(cv::Point3d v) {
 
 }  // namespace
 
-Light::Light(const Sun& sun)
-    : to_sun(unit({-sun.shadow.x, -sun.shadow.y, 1})), ambient(sun.ambient), shadow(sun.shadow) {}
+Light::Light(const SceneDescription& scene)
+    : to_sun(unit({-scene.sun.shadow.x, -scene.sun.shadow.y, 1})),
+      ambient(scene.sun.ambient),
+      shadow(scene.sun.shadow),
+      night(scene.night.lamps),
+      windows(scene.night.windows),
+      sight(scene.sight_m),
+      haze(scene.haze_colour) {
+    if (night) direct = scene.night.lamp_tint;
+}
 
 cv::Rect TileGrid::tile(int index) const {
     const int x = index % columns() * tile_width;
@@ -35,6 +43,7 @@ PassBuilder::PassBuilder(CameraPose camera, cv::Point2d offset, const TileGrid& 
     camera_.principal -= offset;
     image_from_ground_ = camera_.imageFromGround();
     pass_.ground_from_image = image_from_ground_.inv();
+    pass_.ground_inverse_depth = planeOf(camera_.camera_from_world_turn * cv::Vec3d(0, 0, -1 / camera_.position.z));
 }
 
 ScreenPlane PassBuilder::planeOf(cv::Vec3d in_camera) const {
@@ -120,6 +129,7 @@ void PassBuilder::add(const Face& face) {
     out.v_base = static_cast<float>(v_base + v_gradient.dot(cv::Vec3d(camera_.position)));
     out.finish = face.finish;
     out.storey = face.storey;
+    out.seed = face.seed;
 
     const double lambert = std::min(1.5, std::max(0.0, normal.dot(light_.to_sun)) / light_.to_sun.z);
     const double sky = light_.ambient * (0.7 + 0.3 * normal.z);
@@ -134,12 +144,18 @@ void PassBuilder::add(const Face& face) {
         glare = 210 * powerOfTwo(aligned, 8);
         reflected_sky = 20;
     }
+    if (light_.night) reflected_sky *= light_.ambient;
+    // Lamps light walls from the side.
+    const double lit = light_.night && face.finish == Finish::facade ? 0.8 * face.lit : lambert;
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        const double colour = face.finish == Finish::map_roof ? 1.0 : face.colour[static_cast<int>(channel)];
-        const double shaded = colour * sky + reflected_sky;
-        const double sunny = shaded + colour * (1 - light_.ambient) * lambert + glare;
+        const int c = static_cast<int>(channel);
+        const double colour = face.finish == Finish::map_roof ? 1.0 : face.colour[c];
+        const bool shines = face.finish == Finish::lamp;
+        const double shaded = shines ? colour : colour * sky + reflected_sky;
+        const double direct = light_.direct[c];
+        const double sunny = shines ? colour : shaded + colour * (1 - light_.ambient) * lit * direct + glare * direct;
         out.sunny[channel] = static_cast<float>(sunny);
-        out.shaded[channel] = static_cast<float>(face.finish == Finish::lamp ? sunny : shaded);
+        out.shaded[channel] = static_cast<float>(shaded);
     }
     enter(bounds, &TileContent::faces, pass_.faces.size());
     pass_.faces.push_back(out);
@@ -163,23 +179,39 @@ void PassBuilder::add(const Ball& ball, cv::Point3d shift) {
         const float value = std::clamp(ball.colour[channel], 0.0F, 255.0F);
         out.colour |= static_cast<std::uint32_t>(value) << (8 * channel);
     }
+    if (ball.shines) out.colour |= kShines;
     enter(bounds, &TileContent::balls, pass_.balls.size());
     pass_.balls.push_back(out);
+}
+
+std::vector<cv::Point2f> PassBuilder::onScreen(const std::vector<cv::Point2d>& outline, Bounds& bounds) const {
+    std::vector<cv::Point2f> corners;
+    for (const cv::Point2d& p : outline) {
+        const cv::Vec3d seen = image_from_ground_ * cv::Vec3d(p.x, p.y, 1);
+        corners.emplace_back(static_cast<float>(seen[0] / seen[2]), static_cast<float>(seen[1] / seen[2]));
+        bounds.hold(corners.back());
+    }
+    return corners;
 }
 
 void PassBuilder::addShadow(const std::vector<cv::Point2d>& outline, bool contact) {
     ScreenShadow out;
     out.contact = contact;
     Bounds bounds;
-    for (const cv::Point2d& p : outline) {
-        const cv::Vec3d seen = image_from_ground_ * cv::Vec3d(p.x, p.y, 1);
-        const cv::Point2f corner(static_cast<float>(seen[0] / seen[2]), static_cast<float>(seen[1] / seen[2]));
-        out.corners.push_back(corner);
-        bounds.hold(corner);
-    }
+    out.corners = onScreen(outline, bounds);
     if (!inPicture(bounds)) return;
     enter(bounds, &TileContent::shadows, pass_.shadows.size());
     pass_.shadows.push_back(std::move(out));
+}
+
+void PassBuilder::addBeam(const std::vector<cv::Point2d>& outline, double light) {
+    ScreenBeam out;
+    out.light = static_cast<std::uint8_t>(std::clamp(light, 0.0, 1.0) * 255);
+    Bounds bounds;
+    out.corners = onScreen(outline, bounds);
+    if (!inPicture(bounds)) return;
+    enter(bounds, &TileContent::beams, pass_.beams.size());
+    pass_.beams.push_back(std::move(out));
 }
 
 bool PassBuilder::sees(cv::Point2d centre, double reach, double height) const {

@@ -31,12 +31,16 @@ struct ScreenFace {
     std::array<float, 3> sunny{};   ///< colour in the sun
     std::array<float, 3> shaded{};  ///< colour in the shade
     float storey = 3;
+    std::uint32_t seed = 0;
 };
 
 struct ScreenBall {
     float x = 0, y = 0, radius = 0, inverse_depth = 0;
-    std::uint32_t colour = 0;
+    std::uint32_t colour = 0;  ///< with `kShines` for lamps
 };
+
+/// Beside the colour of a pixel: a lamp is seen there.
+constexpr std::uint32_t kShines = 1U << 24;
 
 /// A dark area on the ground that moves with an object.
 struct ScreenShadow {
@@ -44,12 +48,23 @@ struct ScreenShadow {
     bool contact = false;  ///< below the body: skylight is missing, too
 };
 
-struct Light {
-    cv::Point3d to_sun;  ///< unit vector
-    double ambient = 0.4;
-    cv::Point2d shadow;  ///< m per metre of height
+/// An area on the ground in the light of a headlight.
+struct ScreenBeam {
+    std::vector<cv::Point2f> corners;
+    std::uint8_t light = 0;  ///< 255: as much as full sunlight
+};
 
-    explicit Light(const Sun& sun);
+struct Light {
+    cv::Point3d to_sun;  ///< unit vector; at night to the lamps overhead
+    double ambient = 0.4;
+    cv::Point2d shadow;         ///< m per metre of height
+    cv::Vec3f direct{1, 1, 1};  ///< colour of what comes from the sun or, at night, from lamps
+    bool night = false;
+    double windows = 0;  ///< share of windows that are lit
+    double sight = 0;    ///< m over which haze leaves 37 % of contrast; 0: clear air
+    cv::Vec3f haze;      ///< its colour
+
+    explicit Light(const SceneDescription& scene);
 };
 
 /// The picture is painted in tiles, so that the part of the ground map that a tile shows stays in the cache.
@@ -66,7 +81,7 @@ struct TileGrid {
 
 /// What may touch a tile: positions in the lists of its pass.
 struct TileContent {
-    std::vector<int> faces, balls, shadows;
+    std::vector<int> faces, balls, shadows, beams;
 };
 
 /// One pass, ready to be painted.
@@ -75,6 +90,8 @@ struct PassGeometry {
     std::vector<ScreenFace> faces;
     std::vector<ScreenBall> balls;
     std::vector<ScreenShadow> shadows;
+    std::vector<ScreenBeam> beams;
+    ScreenPlane ground_inverse_depth;
     std::vector<TileContent> tiles;
 };
 
@@ -89,6 +106,8 @@ class PassBuilder {
     /// A ball whose colour is that seen.
     void add(const Ball& ball, cv::Point3d shift = {0, 0, 0});
     void addShadow(const std::vector<cv::Point2d>& outline, bool contact);
+    /// `light`: share of full sunlight.
+    void addBeam(const std::vector<cv::Point2d>& outline, double light);
     /// Whether something that stands within `reach` of `centre` up to `height` can be in the picture.
     bool sees(cv::Point2d centre, double reach, double height) const;
     PassGeometry finish();
@@ -99,6 +118,7 @@ class PassBuilder {
         void hold(cv::Point2f point);
     };
     ScreenPlane planeOf(cv::Vec3d in_camera) const;
+    std::vector<cv::Point2f> onScreen(const std::vector<cv::Point2d>& outline, Bounds& bounds) const;
     bool inPicture(const Bounds& bounds) const;
     /// Enters a thing into the tiles it may touch.
     void enter(const Bounds& bounds, std::vector<int> TileContent::*list, std::size_t position);

@@ -7,7 +7,9 @@
 
 #include "core/error.h"
 #include "core/geometry/angle.h"
+#include "scene/painting/glare.h"
 #include "scene/painting/ground_map.h"
+#include "scene/painting/night_lights.h"
 #include "scene/painting/pass_geometry.h"
 #include "scene/painting/sensor.h"
 #include "scene/painting/tile_painter.h"
@@ -88,7 +90,7 @@ struct SceneRenderer::World {
 
     explicit World(SceneDescription description)
         : scene((check(description), std::move(description))),
-          light(scene.sun),
+          light(scene),
           grid{scene.image_size},
           things(standingThings(scene)),
           map(scene, mapArea(scene), mapTexel(scene)),
@@ -99,6 +101,7 @@ struct SceneRenderer::World {
     PassGeometry prepare(FrameIndex clock, const PassSample& sample, const std::vector<Ball>& glints) const;
     std::vector<Ball> glintsAt(FrameIndex clock) const;
     cv::Mat lightOf(FrameIndex clock) const;
+    void addLights(PassBuilder& builder, const ObjectLook& look, const ObjectPose& pose) const;
 };
 
 PassGeometry SceneRenderer::World::prepare(FrameIndex clock, const PassSample& sample,
@@ -124,6 +127,7 @@ PassGeometry SceneRenderer::World::prepare(FrameIndex clock, const PassSample& s
         const Mesh body = placed(bodies[i], pose);
         builder.add(body);
         for (const auto& outline : shadowsOf(body, light.shadow)) builder.addShadow(outline, false);
+        if (light.night) addLights(builder, look, pose);
         if (isVehicle(look.kind)) {
             builder.addShadow(rectangleAt(pose.position, pose.direction, look.length, look.width), true);
         }
@@ -133,8 +137,9 @@ PassGeometry SceneRenderer::World::prepare(FrameIndex clock, const PassSample& s
 }
 
 std::vector<Ball> SceneRenderer::World::glintsAt(FrameIndex clock) const {
-    const CameraPose camera = scene.camera.at(clock);
     std::vector<Ball> glints;
+    if (light.night) return glints;
+    const CameraPose camera = scene.camera.at(clock);
     for (const StandingThing& thing : things) {
         if (!thing.mesh.glints.empty()) addGlints(thing.mesh, light, camera, map, glints);
     }
@@ -143,6 +148,11 @@ std::vector<Ball> SceneRenderer::World::glintsAt(FrameIndex clock) const {
         if (poseAt(scene.objects[i], clock, pose)) addGlints(placed(bodies[i], pose), light, camera, map, glints);
     }
     return glints;
+}
+
+void SceneRenderer::World::addLights(PassBuilder& builder, const ObjectLook& look, const ObjectPose& pose) const {
+    for (const Ball& lamp : lampsOf(look, pose)) builder.add(lamp);
+    for (const auto& [outline, share] : beamsOf(look, pose)) builder.addBeam(outline, share * scene.night.beams);
 }
 
 cv::Mat SceneRenderer::World::lightOf(FrameIndex clock) const {
@@ -157,20 +167,28 @@ cv::Mat SceneRenderer::World::lightOf(FrameIndex clock) const {
     });
 
     cv::Mat mean(scene.image_size, CV_32FC3);
+    cv::Mat lamps;
+    if (light.night) lamps = cv::Mat(scene.image_size, CV_32SC3, cv::Scalar::all(0));
     const float share = 1.0F / static_cast<float>(samples.size());
     cv::parallel_for_(cv::Range(0, grid.count()), [&](const cv::Range& range) {
         for (int index = range.start; index < range.end; ++index) {
             const cv::Rect tile = grid.tile(index);
             TilePainter painter(tile, index);
-            for (const PassGeometry& pass : passes) painter.add(pass, map, light.ambient);
+            for (const PassGeometry& pass : passes) painter.add(pass, map, light);
             const std::uint32_t* sums = painter.sums().data();
             for (int y = tile.y; y < tile.y + tile.height; ++y) {
                 float* to = mean.ptr<float>(y) + 3 * tile.x;
                 // Passes hold whole levels cut off at the top: half a level was lost on average.
                 for (int i = 0; i < 3 * tile.width; ++i) *to++ = static_cast<float>(*sums++) * share + 0.5F;
             }
+            const std::uint32_t* shining = painter.lampSums().data();
+            for (int y = tile.y; y < tile.y + tile.height && light.night; ++y) {
+                std::int32_t* to = lamps.ptr<std::int32_t>(y) + 3 * tile.x;
+                for (int i = 0; i < 3 * tile.width; ++i) *to++ = static_cast<std::int32_t>(*shining++);
+            }
         }
     });
+    if (light.night) addGlare(mean, lamps, static_cast<int>(samples.size()), scene.sensor.glare);
     return mean;
 }
 

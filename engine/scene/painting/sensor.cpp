@@ -52,6 +52,52 @@ cv::Mat compressed(const cv::Mat& image, int quality) {
     return cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
 }
 
+/// What sticks to the image: levels added to each pixel (columns, pixels, clouds of shading), and shares taken by dirt.
+struct Sticking {
+    cv::Mat levels;  ///< CV_32F, empty: none
+    cv::Mat left;    ///< CV_32F, share of light that passes, empty: all
+
+    Sticking(cv::Size size, const Sensor& sensor, std::uint32_t seed) {
+        if (sensor.fixed_pattern > 0) addPattern(size, static_cast<float>(sensor.fixed_pattern), seed);
+        if (sensor.smudges > 0) addSmudges(size, sensor.smudges, seed);
+    }
+
+ private:
+    void addPattern(cv::Size size, float deviation, std::uint32_t seed) {
+        levels.create(size, CV_32FC1);
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                const auto column = static_cast<std::uint32_t>(x);
+                const auto row = static_cast<std::uint32_t>(y);
+                const std::uint32_t a = hashOf(column, 1, seed);
+                const std::uint32_t b = hashOf(column, row, seed + 1);
+                levels.at<float>(y, x) =
+                    deviation * (0.6F * normalFrom(a, hashOf(a, 2, seed)) + 0.5F * normalFrom(b, hashOf(b, 3, seed)) +
+                                 1.6F * fractalNoise(x / 150.0, y / 150.0, seed + 2, 3));
+            }
+        }
+    }
+
+    void addSmudges(cv::Size size, int count, std::uint32_t seed) {
+        left = cv::Mat(size, CV_32FC1, cv::Scalar(1));
+        Random random(seed * 31 + 7);
+        for (int i = 0; i < count; ++i) {
+            const double radius = random.uniform(3, 14);
+            const double x0 = random.uniform(0, size.width);
+            const double y0 = random.uniform(0, size.height);
+            const double dark = random.uniform(0.05, 0.22);
+            for (int y = std::max(0, static_cast<int>(y0 - radius)); y < std::min<double>(size.height, y0 + radius);
+                 ++y) {
+                for (int x = std::max(0, static_cast<int>(x0 - radius)); x < std::min<double>(size.width, x0 + radius);
+                     ++x) {
+                    const double away = ((x - x0) * (x - x0) + (y - y0) * (y - y0)) / (radius * radius);
+                    if (away < 1) left.at<float>(y, x) *= static_cast<float>(1 - dark * (1 - away));
+                }
+            }
+        }
+    }
+};
+
 }  // namespace
 
 std::vector<PassSample> passesOf(const Sensor& sensor) {
@@ -80,17 +126,20 @@ Frame develop(const cv::Mat& light, const Sensor& sensor, std::uint32_t seed, Fr
     const auto read_variance = static_cast<float>(sensor.read_noise * sensor.read_noise);
     const auto shot_variance = static_cast<float>(sensor.shot_noise * sensor.shot_noise);
     const int channels = picture.channels();
+    const Sticking sticking(light.size(), sensor, seed);
     for (int y = 0; y < height; ++y) {
         const auto* from = light.ptr<cv::Vec3f>(y);
         auto* to = picture.ptr<std::uint8_t>(y);
         const float dy = static_cast<float>(y) - static_cast<float>(height - 1) / 2;
         for (int x = 0; x < width; ++x) {
             const float dx = static_cast<float>(x) - static_cast<float>(width - 1) / 2;
-            const float shade = 1 - static_cast<float>(sensor.vignette) * (dx * dx + dy * dy) * corner;
+            float shade = 1 - static_cast<float>(sensor.vignette) * (dx * dx + dy * dy) * corner;
+            if (!sticking.left.empty()) shade *= sticking.left.at<float>(y, x);
+            const float stuck = sticking.levels.empty() ? 0 : sticking.levels.at<float>(y, x);
             for (int channel = 0; channel < channels; ++channel) {
                 const float scene =
                     channels == 1 ? 0.114F * from[x][0] + 0.587F * from[x][1] + 0.299F * from[x][2] : from[x][channel];
-                float value = std::clamp((level + contrast * (scene - 120)) * shade, 0.0F, 255.0F);
+                float value = std::clamp((level + contrast * (scene - 120)) * shade + stuck, 0.0F, 255.0F);
                 const float deviation = std::sqrt(read_variance + shot_variance * value);
                 const auto place = static_cast<std::uint32_t>((y * width + x) * 3 + channel);
                 const std::uint32_t bits = hashOf(place, frame_seed, 77);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/portable_math.h"
+#include "scene/random.h"
+
 namespace eyrie {
 namespace {
 
@@ -74,19 +77,73 @@ TilePainter::TilePainter(cv::Rect tile, int index)
       shadow_(pixels_.size()),
       sums_(pixels_.size() * 3) {}
 
-void TilePainter::add(const PassGeometry& pass, const GroundMap& map, double ambient) {
+void TilePainter::add(const PassGeometry& pass, const GroundMap& map, const Light& light) {
     std::fill(inverse_depth_.begin(), inverse_depth_.end(), 0.0F);
     std::fill(shadow_.begin(), shadow_.end(), std::uint8_t{0});
     const TileContent& content = pass.tiles[index_];
-    for (const int i : content.faces) paintFace(pass.faces[static_cast<std::size_t>(i)], map);
+    for (const int i : content.faces) paintFace(pass.faces[static_cast<std::size_t>(i)], map, light);
     for (const int i : content.balls) paintBall(pass.balls[static_cast<std::size_t>(i)]);
     for (const int i : content.shadows) markShadow(pass.shadows[static_cast<std::size_t>(i)]);
-    fillGround(pass, map, ambient);
+    if (light.night) {
+        beam_.assign(pixels_.size(), std::uint8_t{0});
+        for (const int i : content.beams) markBeam(pass.beams[static_cast<std::size_t>(i)]);
+    }
+    fillGround(pass, map, light);
+    if (light.sight > 0) veil(pass, light);
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
         const std::uint32_t pixel = pixels_[i];
         sums_[3 * i] += pixel & 255;
         sums_[3 * i + 1] += (pixel >> 8) & 255;
         sums_[3 * i + 2] += (pixel >> 16) & 255;
+    }
+    if (!light.night) return;
+    lamp_sums_.resize(sums_.size());
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const std::uint32_t pixel = pixels_[i];
+        if ((pixel & kShines) == 0) continue;
+        lamp_sums_[3 * i] += pixel & 255;
+        lamp_sums_[3 * i + 1] += (pixel >> 8) & 255;
+        lamp_sums_[3 * i + 2] += (pixel >> 16) & 255;
+    }
+}
+
+void TilePainter::markBeam(const ScreenBeam& beam) {
+    const Span rows = rowsOf(beam.corners, beam.corners.size(), tile_);
+    for (int y = rows.first; y <= rows.last; ++y) {
+        const Span columns = columnsInRow(beam.corners, beam.corners.size(), y, tile_);
+        for (int x = columns.first; x <= columns.last; ++x) {
+            std::uint8_t& light = beam_[indexOf(x, y)];
+            light = static_cast<std::uint8_t>(std::min(255, light + beam.light));
+        }
+    }
+}
+
+void TilePainter::veil(const PassGeometry& pass, const Light& light) {
+    // What is left of the contrast after so many 1/64 of the sight, of 256.
+    std::array<std::uint32_t, 512> left{};
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        left[i] = static_cast<std::uint32_t>(256 * portable::exponential(-static_cast<double>(i) / 64) + 0.5);
+    }
+    const auto per_metre = static_cast<float>(64 / light.sight);
+    std::array<std::uint32_t, 3> haze{};
+    for (std::size_t c = 0; c < 3; ++c) haze[c] = static_cast<std::uint32_t>(light.haze[static_cast<int>(c)]);
+    for (int row = 0; row < tile_.height; ++row) {
+        for (int column = 0; column < tile_.width; ++column) {
+            const int x = tile_.x + column;
+            const int y = tile_.y + row;
+            const std::size_t place = indexOf(x, y);
+            float inverse = inverse_depth_[place];
+            if (!(inverse > 0)) inverse = pass.ground_inverse_depth.at(static_cast<float>(x), static_cast<float>(y));
+            const float away = std::clamp(per_metre / std::max(inverse, 1e-6F), 0.0F, 511.0F);
+            const std::uint32_t share = left[static_cast<std::size_t>(away)];
+            std::uint32_t& pixel = pixels_[place];
+            std::uint32_t veiled = pixel & kShines;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::uint32_t value = (pixel >> (8 * c)) & 255;
+                veiled |= ((value * share + haze[c] * (256 - share)) >> 8) << (8 * c);
+            }
+            pixel = veiled;
+        }
     }
 }
 
@@ -99,10 +156,28 @@ void TilePainter::markShadow(const ScreenShadow& shadow) {
     }
 }
 
-void TilePainter::fillGround(const PassGeometry& pass, const GroundMap& map, double ambient) {
+std::uint32_t TilePainter::groundLit(std::uint32_t texel, std::size_t place, const Light& light) const {
+    const auto base = static_cast<std::uint32_t>(light.ambient * 65536);
+    const auto direct = static_cast<std::uint32_t>((1 - light.ambient) * 65536 / 255);
+    if (!light.night) {
+        std::uint32_t sum = shadow_[place] == 0 ? base + direct * (texel >> 24) : base;
+        if (shadow_[place] & kContact) sum /= 2;
+        return (((texel & 255) * sum) >> 16) | ((((texel >> 8) & 255) * sum >> 16) << 8) |
+               ((((texel >> 16) & 255) * sum >> 16) << 16);
+    }
+    // Headlights are white; lamps have their tint.
+    const std::uint32_t white = base + 257U * beam_[place];
+    std::uint32_t colour = 0;
+    for (int c = 0; c < 3; ++c) {
+        const auto tinted = static_cast<std::uint32_t>(static_cast<float>(direct * (texel >> 24)) * light.direct[c]);
+        const std::uint32_t sum = (shadow_[place] & kContact) ? white / 2 : white + tinted;
+        colour |= std::min(255U, ((texel >> (8 * c)) & 255) * sum >> 16) << (8 * c);
+    }
+    return colour;
+}
+
+void TilePainter::fillGround(const PassGeometry& pass, const GroundMap& map, const Light& light) {
     const double per_metre = 256 / map.texel();
-    const auto base = static_cast<std::uint32_t>(ambient * 65536);
-    const auto direct = static_cast<std::uint32_t>((1 - ambient) * 65536 / 255);
     const cv::Matx33d& g = pass.ground_from_image;
     for (int row = 0; row < tile_.height; ++row) {
         const double y = tile_.y + row;
@@ -118,15 +193,33 @@ void TilePainter::fillGround(const PassGeometry& pass, const GroundMap& map, dou
             const double scale = per_metre / (g(2, 0) * x + wb);
             const std::uint32_t texel = map.sample(static_cast<std::int32_t>((xa * x + xb) * scale),
                                                    static_cast<std::int32_t>((ya * x + yb) * scale));
-            std::uint32_t light = shadow_[place] == 0 ? base + direct * (texel >> 24) : base;
-            if (shadow_[place] & kContact) light /= 2;
-            pixels_[place] = (((texel & 255) * light) >> 16) | ((((texel >> 8) & 255) * light >> 16) << 8) |
-                             ((((texel >> 16) & 255) * light >> 16) << 16);
+            pixels_[place] = groundLit(texel, place, light);
         }
     }
 }
 
-void TilePainter::paintFace(const ScreenFace& face, const GroundMap& map) {
+std::uint32_t TilePainter::facadeAt(const ScreenFace& face, float u, float v, const Light& light) {
+    const bool window = isWindow(u, v, face.storey);
+    if (!light.night) {
+        const float tone = window ? 0.38F : 1.0F;
+        return packed(face.sunny[0] * tone, face.sunny[1] * tone, face.sunny[2] * tone);
+    }
+    const auto bay = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(u / 2.4F)));
+    const auto level = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(v / face.storey)));
+    const std::uint32_t dice = hashOf(bay, level, face.seed);
+    if (window && (dice >> 16) < light.windows * 65536) {
+        const float glow = 70 + static_cast<float>(dice & 127);
+        return (dice & 3) != 0 ? packed(glow * 0.55F, glow * 0.85F, glow) : packed(glow, glow * 0.95F, glow * 0.8F);
+    }
+    // The light of the street reaches the lower storeys.
+    const float low = 1 / (1 + v * v / 36);
+    const float tone = window ? 0.3F : 1.0F;
+    std::array<float, 3> colour{};
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = face.shaded[c] + (face.sunny[c] - face.shaded[c]) * low;
+    return packed(colour[0] * tone, colour[1] * tone, colour[2] * tone);
+}
+
+void TilePainter::paintFace(const ScreenFace& face, const GroundMap& map, const Light& light) {
     const auto count = static_cast<std::size_t>(face.count);
     const Span rows = rowsOf(face.corners, count, tile_);
     for (int y = rows.first; y <= rows.last; ++y) {
@@ -143,8 +236,7 @@ void TilePainter::paintFace(const ScreenFace& face, const GroundMap& map) {
             const float v = face.v_base + depth * face.v.at(fx, fy);
             std::uint32_t& pixel = pixels_[indexOf(x, y)];
             if (face.finish == Finish::facade) {
-                const float tone = isWindow(u, v, face.storey) ? 0.38F : 1.0F;
-                pixel = packed(face.sunny[0] * tone, face.sunny[1] * tone, face.sunny[2] * tone);
+                pixel = facadeAt(face, u, v, light);
                 continue;
             }
             const std::uint32_t below = map.sample(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
@@ -155,6 +247,7 @@ void TilePainter::paintFace(const ScreenFace& face, const GroundMap& map) {
                 for (std::size_t c = 0; c < 3; ++c) colour[c] *= static_cast<float>((below >> (8 * c)) & 255);
             }
             pixel = packed(colour[0], colour[1], colour[2]);
+            if (light.night && face.finish == Finish::lamp) pixel |= kShines;
         }
     }
 }

@@ -14,11 +14,20 @@ struct Preset {
     std::uint32_t seed;
 };
 
-constexpr std::array<Preset, 5> kPresets{{{"seq1", presetSeq1, 1},
-                                          {"seq2", presetSeq2, 1},
-                                          {"egtest01", presetEgTest01, 1},
-                                          {"demo", presetDemo, 1},
-                                          {"stops", presetStops, 1}}};
+constexpr std::array<Preset, 14> kPresets{{{"seq1", presetSeq1, 1},
+                                           {"seq2", presetSeq2, 1},
+                                           {"egtest01", presetEgTest01, 1},
+                                           {"demo", presetDemo, 1},
+                                           {"stops", presetStops, 1},
+                                           {"road_flight", presetRoadFlight, 1},
+                                           {"road_flight_haze", presetRoadFlightHaze, 1},
+                                           {"road_flight_dusk", presetRoadFlightDusk, 1},
+                                           {"road_flight_night", presetRoadFlightNight, 1},
+                                           {"estate", presetEstate, 1},
+                                           {"orbit", presetOrbit, 1},
+                                           {"city_high", presetCityHigh, 1},
+                                           {"thermal", presetThermal, 1},
+                                           {"low_rate", presetLowRate, 1}}};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/angle.h"
+#include "scene/painting/night_lights.h"
 #include "scene/portable_math.h"
 #include "scene/random.h"
 #include "scene/traffic/path.h"
@@ -21,7 +22,10 @@ Mesh meshOf(const Building& building) {
         rectangleAt(building.centre, building.direction, building.length, building.width);
     addPrism(mesh, o, 0, building.height, building.facade, building.facade, Finish::facade);
     const float storey = 2.8F + 0.6F * static_cast<float>(hashOf(building.seed, 5, 9) >> 8) / 16777215.0F;
-    for (Face& face : mesh.faces) face.storey = storey;
+    for (Face& face : mesh.faces) {
+        face.storey = storey;
+        face.seed = building.seed;
+    }
     if (building.roof == RoofKind::flat) {
         mesh.faces.back().finish = Finish::map_roof;
         return mesh;
@@ -52,7 +56,7 @@ Mesh meshOf(const Building& building) {
 Mesh meshOf(const Block& block) {
     Mesh mesh;
     addPrism(mesh, rectangleAt(block.centre, block.direction, block.length, block.width), block.bottom, block.top,
-             block.colour, block.colour, Finish::matte);
+             block.colour, block.colour, block.shines ? Finish::lamp : Finish::matte);
     return mesh;
 }
 
@@ -103,9 +107,20 @@ StandingThing thingOf(Mesh mesh) {
     return thing;
 }
 
+void lightFacades(Mesh& mesh, const SceneDescription& scene) {
+    for (Face& face : mesh.faces) {
+        if (face.finish != Finish::facade) continue;
+        cv::Point3d middle(0, 0, 0);
+        for (const cv::Point3d& corner : face.corners)
+            middle += corner * (1.0 / static_cast<double>(face.corners.size()));
+        const cv::Point2d before(middle.x + 4 * face.normal.x, middle.y + 4 * face.normal.y);
+        face.lit = static_cast<float>(lampLightAt(scene, before));
+    }
+}
+
 }  // namespace
 
-std::vector<Ball> crownOf(const Tree& tree, const Sun& sun) {
+std::vector<Ball> crownOf(const Tree& tree, const Sun& sun, cv::Vec3f direct) {
     Random random(tree.seed);
     const double radius = tree.crown_radius;
     const double crown_height = std::min(tree.height * 0.75, radius * 1.9);
@@ -144,9 +159,12 @@ std::vector<Ball> crownOf(const Tree& tree, const Sun& sun) {
             ball.centre.z = std::clamp(ball.centre.z, tree.height * 0.2, tree.height);
             ball.radius = random.uniform(0.2, 0.48) * (tree.density < 0.6 ? 0.6 : 1.0);
             const double lit = std::max(0.0, out.dot(to_sun));
-            const double light =
-                sun.ambient * (0.55 + 0.45 * std::max(0.0, out.z)) + (1 - sun.ambient) * lit * lit * depth;
-            ball.colour = tree.colour * static_cast<float>(light * 1.25 * random.uniform(0.6, 1.4));
+            const double tone = random.uniform(0.6, 1.4);
+            for (int c = 0; c < 3; ++c) {
+                const double light = sun.ambient * (0.55 + 0.45 * std::max(0.0, out.z)) +
+                                     (1 - sun.ambient) * direct[c] * lit * lit * depth;
+                ball.colour[c] = tree.colour[c] * static_cast<float>(light * 1.25 * tone);
+            }
             balls.push_back(ball);
         }
     }
@@ -167,9 +185,18 @@ std::vector<std::vector<cv::Point2d>> shadowsOf(const Mesh& mesh, cv::Point2d sh
 
 std::vector<StandingThing> standingThings(const SceneDescription& scene) {
     std::vector<StandingThing> things;
-    for (const Building& building : scene.buildings) things.push_back(thingOf(meshOf(building)));
+    for (const Building& building : scene.buildings) {
+        things.push_back(thingOf(meshOf(building)));
+        if (scene.night.lamps) lightFacades(things.back().mesh, scene);
+    }
     for (const Block& block : scene.blocks) things.push_back(thingOf(meshOf(block)));
-    for (const LampPost& post : scene.posts) things.push_back(thingOf(meshOf(post)));
+    for (const LampPost& post : scene.posts) {
+        things.push_back(thingOf(meshOf(post)));
+        if (!scene.night.lamps) continue;
+        const cv::Point2d at = lightOf(post);
+        const cv::Vec3f colour = scene.night.lamp_tint * 220.0F;
+        things.back().balls.push_back({{at.x, at.y, post.height - 0.3}, 0.24, colour, true});
+    }
     for (const ParkedVehicle& parked : scene.parked) {
         things.push_back(thingOf(placed(bodyOf(parked.look), parked.pose)));
         things.back().shadows = shadowsOf(things.back().mesh, scene.sun.shadow);
@@ -179,7 +206,8 @@ std::vector<StandingThing> standingThings(const SceneDescription& scene) {
         addPrism(trunk, rectangleAt(tree.position, {1, 0}, 0.3, 0.3), 0, tree.height * 0.6, {56, 66, 76}, {56, 66, 76},
                  Finish::matte);
         StandingThing thing = thingOf(std::move(trunk));
-        thing.balls = crownOf(tree, scene.sun);
+        const auto lit = static_cast<float>(scene.night.lamps ? lampLightAt(scene, tree.position) : 1);
+        thing.balls = crownOf(tree, scene.sun, scene.night.lamps ? scene.night.lamp_tint * lit : cv::Vec3f(1, 1, 1));
         thing.reach = tree.crown_radius * 1.4 + 1;
         thing.height = tree.height + 1;
         thing.sway = 0.012 * tree.height;

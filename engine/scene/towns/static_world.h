@@ -27,8 +27,8 @@ std::vector<StandingThing> standingThings(const SceneDescription& scene);
 /// frame: bodies look up in the ground map whether the sun reaches them, and would find their own shadow there.
 std::vector<std::vector<cv::Point2d>> staticShadows(const SceneDescription& scene);
 
-/// The clumps of leaves of a tree's crown.
-std::vector<Ball> crownOf(const Tree& tree, const Sun& sun);
+/// The clumps of leaves of a tree's crown; `direct`: share of the sun's (at night the lamps') light that reaches it.
+std::vector<Ball> crownOf(const Tree& tree, const Sun& sun, cv::Vec3f direct = {1, 1, 1});
 
 /// Outlines of the shadow that a mesh's solids cast.
 std::vector<std::vector<cv::Point2d>> shadowsOf(const Mesh& mesh, cv::Point2d shadow_per_metre);

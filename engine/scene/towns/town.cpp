@@ -101,7 +101,7 @@ void Town::layLand() {
             }
         }
         Surface surface;
-        const double draw = random_.uniform();
+        const double draw = std::max(style_.bare_ground, random_.uniform());
         surface.material = draw < 0.42   ? Material::grass
                            : draw < 0.56 ? Material::paving
                            : draw < 0.68 ? Material::worn_asphalt

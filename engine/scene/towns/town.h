@@ -23,6 +23,9 @@ struct Street {
     double lamp_distance = 28;    ///< m; 0: none
     double building_share = 0.9;  ///< share of the frontage that is built up
     std::pair<double, double> storeys{3, 6};
+    std::pair<double, double> frontage{13, 34};  ///< m of each building along the street
+    std::pair<double, double> depth{11, 16};     ///< m
+    bool detached = false;                       ///< houses with gables and front gardens, a gap between any two
     Material material = Material::asphalt;
     bool marked = true;
 
@@ -30,6 +33,15 @@ struct Street {
     double halfWidth() const { return halfCarriageway() + pavement; }
     /// Offset of the middle of a lane to the right of the path; lane 0 is the outer one.
     double laneOffset(int lane) const { return (lanes - 1 - lane + 0.5) * lane_width; }
+};
+
+/// What stands away from the streets.
+struct TownStyle {
+    double car_parks = 0.12;                       ///< share of tries
+    double yard_buildings = 0.33;                  ///< likewise; the rest are trees
+    std::pair<double, double> yard_height{3, 13};  ///< m
+    double m2_per_try = 120;
+    double bare_ground = 0;  ///< 0.7: plots are gravel, soil and concrete alone
 };
 
 /// Where two streets cross.
@@ -47,6 +59,7 @@ class Town {
     Town(SceneDescription& scene, cv::Rect2d area, std::uint32_t seed);
 
     int addStreet(Street street);
+    void setStyle(const TownStyle& style) { style_ = style; }
     /// Builds everything into the scene.
     void build();
     const std::vector<Street>& streets() const { return streets_; }
@@ -76,13 +89,15 @@ class Town {
     void carPark(cv::Point2d centre, cv::Point2d direction, double length, double width);
     bool isFree(const OrientedBox& footprint, double clearance) const;
     bool nearStreet(cv::Point2d point, double clearance) const;
-    void addBuilding(cv::Point2d centre, cv::Point2d direction, double length, double width, double height);
+    void addBuilding(cv::Point2d centre, cv::Point2d direction, double length, double width, double height,
+                     double gables = 0.4);
     void addTree(cv::Point2d position, double height, double radius);
     void patch(std::vector<cv::Point2d> outline, const Surface& surface);
 
     SceneDescription& scene_;
     cv::Rect2d area_;
     Random random_;
+    TownStyle style_;
     std::vector<Street> streets_;
     std::vector<Crossing> crossings_;
     std::vector<OrientedBox> built_;  ///< footprints, in metres

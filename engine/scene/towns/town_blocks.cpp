@@ -8,7 +8,8 @@
 /// What stands beside the streets.
 namespace eyrie {
 
-void Town::addBuilding(cv::Point2d centre, cv::Point2d direction, double length, double width, double height) {
+void Town::addBuilding(cv::Point2d centre, cv::Point2d direction, double length, double width, double height,
+                       double gables) {
     Building building;
     building.centre = centre;
     building.direction = direction;
@@ -18,7 +19,7 @@ void Town::addBuilding(cv::Point2d centre, cv::Point2d direction, double length,
     building.seed = random_.bits();
     Surface roof;
     const double draw = random_.uniform();
-    building.roof = draw < 0.4 && width < 17 ? RoofKind::gable : RoofKind::flat;
+    building.roof = draw < gables && width < 17 ? RoofKind::gable : RoofKind::flat;
     if (building.roof == RoofKind::gable) {
         roof.material = Material::roof_tiles;
         roof.tone = random_.uniform(0.65, 1.15);
@@ -58,25 +59,35 @@ void Town::buildFrontage(int index) {
     for (const double side : {-1.0, 1.0}) {
         double s = random_.uniform(0, 8);
         while (s < street.path.length()) {
-            const double length = random_.uniform(13, 34);
-            const double depth = random_.uniform(11, 16);
-            const double setback = random_.chance(0.6) ? 0.4 : random_.uniform(1, 6);
+            const double length = random_.uniform(street.frontage.first, street.frontage.second);
+            const double depth = random_.uniform(street.depth.first, street.depth.second);
+            const double setback = street.detached       ? random_.uniform(4, 6)
+                                   : random_.chance(0.6) ? 0.4
+                                                         : random_.uniform(1, 6);
             const double storeys = std::floor(random_.uniform(street.storeys.first, street.storeys.second + 1));
             const double at = s + length / 2;
-            s += length + (random_.chance(0.55) ? 0.2 : random_.uniform(2.5, 12));
+            s += length + (street.detached        ? random_.uniform(1.6, 4)
+                           : random_.chance(0.55) ? 0.2
+                                                  : random_.uniform(2.5, 12));
             const bool wanted = random_.chance(street.building_share);
             const cv::Point2d direction = street.path.direction(at);
             const cv::Point2d centre = street.path.beside(at, side * (street.halfWidth() + setback + depth / 2 + 0.3));
             OrientedBox footprint{centre, length, depth, portable::arcTangent(direction.y, direction.x)};
             if (!wanted || !isFree(footprint, 0)) continue;
             built_.push_back(footprint);
-            addBuilding(centre, direction, length, depth, 1.2 + 3.0 * storeys);
+            // Some houses turn their gable to the street.
+            if (street.detached && random_.chance(0.4)) {
+                addBuilding(centre, rightOf(direction), depth, length, 0.4 + 2.8 * storeys, 1);
+            } else {
+                addBuilding(centre, direction, length, depth, (street.detached ? 0.4 : 1.2) + 3.0 * storeys,
+                            street.detached ? 1 : 0.4);
+            }
         }
     }
 }
 
 void Town::buildYards() {
-    const int tries = static_cast<int>(area_.width * area_.height / 120);
+    const int tries = static_cast<int>(area_.width * area_.height / style_.m2_per_try);
     for (int i = 0; i < tries; ++i) {
         cv::Point2d centre;
         centre.x = area_.x + random_.uniform() * area_.width;
@@ -92,19 +103,21 @@ void Town::buildYards() {
             }
         }
         const double draw = random_.uniform();
-        const bool park = draw < 0.12;
+        const bool park = draw < style_.car_parks;
+        const double built_share = style_.car_parks + style_.yard_buildings;
         const double length = park ? random_.uniform(22, 48) : random_.uniform(7, 26);
         const double width = park ? 16.5 : random_.uniform(6, 15);
         const OrientedBox footprint{centre, length, width, portable::arcTangent(direction.y, direction.x)};
-        const bool free = draw < 0.45 && isFree(footprint, park ? 1 : 3);
+        const bool free = draw < built_share && isFree(footprint, park ? 1 : 3);
         if (free) {
             built_.push_back(footprint);
             if (park) {
                 carPark(centre, direction, length, width);
             } else {
-                addBuilding(centre, direction, length, width, random_.uniform(3, 13));
+                addBuilding(centre, direction, length, width,
+                            random_.uniform(style_.yard_height.first, style_.yard_height.second));
             }
-        } else if (draw >= 0.45) {
+        } else if (draw >= built_share) {
             const double height = random_.uniform(4, 13);
             const double radius = height * random_.uniform(0.22, 0.36);
             const OrientedBox spot{centre, radius * 1.2, radius * 1.2, 0};

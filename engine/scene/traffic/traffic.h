@@ -43,4 +43,10 @@ struct Driver {
 std::vector<MovingObject> driveTraffic(const std::vector<Route>& routes, const std::vector<Driver>& drivers,
                                        int frame_count, double frame_rate_hz, double run_up);
 
+/// Takes out vehicles that drive through one with a lower id, as may happen where streets cross without lights.
+void dropColliding(std::vector<MovingObject>& objects);
+
+/// What a camera sees that takes only every `step`-th moment of the clock.
+std::vector<MovingObject> everyNth(const std::vector<MovingObject>& objects, int step);
+
 }  // namespace eyrie

@@ -147,8 +147,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
         "finishing.standing_height", standing_height, 0, 0.9,
         {"",
          "A track that goes along the camera's flow no faster than a standing thing of this share of the flight "
-         "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped. 0: "
-         "never.",
+         "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped; in "
+         "oblique views also one that moves just as such a thing would that the camera passes or circles. 0: never.",
          ""});
     declare.real(
         "finishing.standing_depth", standing_depth, 0, 0.9,
