@@ -21,7 +21,7 @@ enum class Rejection {
 /// A moving object as seen in one frame, before tracking.
 struct Detection {
     OrientedBox box;
-    double score = 0;  ///< classifier value, or motion vectors per expected motion vector; higher is surer
+    double score = 0;            ///< classifier value, or motion vectors per expected motion vector; higher is surer
     cv::Point2d velocity{0, 0};  ///< px/frame relative to the ground, of the motion vectors inside
     int cluster = -1;            ///< index of the motion cluster it came from
     std::vector<int> vectors;    ///< indices into FrameMotion::motion_vectors of those that make or lie in the box

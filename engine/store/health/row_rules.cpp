@@ -131,8 +131,8 @@ std::vector<RowRule> rowRules() {
         {"roi", frame, "frame of a search area is impossible"},
         {"detection", frame + " AND are_indices(vectors) AND " + isOneOf("rejection", stored::kRejections),
          "a detection cannot be read"},
-        {"detection", "(probability IS NULL OR probability BETWEEN 0 AND 1)", "probability of a detection is impossible",
-         14},
+        {"detection", "(probability IS NULL OR probability BETWEEN 0 AND 1)",
+         "probability of a detection is impossible", 14},
         {"track", range + " AND last_frame >= first_frame AND frames > 0", "life of a track is impossible"},
         {"track_state",
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
