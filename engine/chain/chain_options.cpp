@@ -5,6 +5,7 @@
 namespace eyrie {
 
 void ChainOptions::describe(ParameterVisitor& visitor) {
+    view.describe(visitor);
     registration.describe(visitor);
     motion.describe(visitor);
     difference.describe(visitor);
@@ -26,6 +27,7 @@ ChainOptions builtInPreset(const std::string& name) {
     ChainOptions options;
     if (name == "default") return options;
     if (name == "thesis") {
+        options.view = ViewOptions::thesis();
         options.registration = RegistrationOptions::thesis();
         options.motion = IndependentMotionOptions::thesis();
         options.difference = DifferenceOptions::thesis();

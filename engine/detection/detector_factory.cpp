@@ -4,12 +4,15 @@
 
 #include "core/error.h"
 #include "detection/motion_cluster_detector.h"
+#include "detection/scaled_detectors.h"
 #include "detection/segmenters/gradient_segmenter.h"
 #include "detection/sliding_window/sliding_window_detector.h"
 
 namespace eyrie {
 
-std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const SceneScale& scale) {
+namespace {
+
+std::unique_ptr<Detector> makeFor(const DetectionOptions& options, const SceneScale& scale) {
     switch (options.method) {
         case DetectionMethod::clusters:
             return std::make_unique<MotionClusterDetector>(options.cluster_margin_px);
@@ -40,6 +43,14 @@ std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const Sc
     }
     throw Error(ErrorKind::internal,
                 "there is no detector with number " + std::to_string(static_cast<int>(options.method)));
+}
+
+}  // namespace
+
+std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const SceneScale& scale) {
+    if (scale.slope.isFlat()) return makeFor(options, scale);
+    return std::make_unique<ScaledDetectors>(scale,
+                                             [options](const SceneScale& here) { return makeFor(options, here); });
 }
 
 }  // namespace eyrie

@@ -25,6 +25,7 @@ struct Story {
     const PlaceEvidence& evidence;
     const ChainOptions& options;
     const SceneScale& scale;
+    const SceneScale here;  ///< the scale at the place
     Explanation told{};
     bool decided = false;
 };

@@ -43,10 +43,11 @@ bool isCut(const Registration& registration) {
 }  // namespace
 
 Tracker::Tracker(const TrackerOptions& options, const SceneScale& scale)
-    : options_(options),
-      model_(options, checked(scale)),
-      manager_(options, scale),
-      gate_(std::max(options.distance_gate_px, scale.px(options.distance_gate_m))) {}
+    : options_(options), scale_(scale), model_(options, checked(scale)), manager_(options, scale) {}
+
+double Tracker::gateAt(cv::Point2d place) const {
+    return std::max(options_.distance_gate_px, scale_.at(place).px(options_.distance_gate_m));
+}
 
 void Tracker::reset() {
     tracks_.clear();
@@ -112,7 +113,7 @@ void Tracker::predict(const FrameMotion& motion) {
         const double area_before = track.filter.box().area();
         // After dropped frames that were filled by repeats the objects have moved on meanwhile.
         if (frozen_frames_ > 0) track.filter.smear(frozen_frames_ * track.filter.velocity());
-        track.filter.predict(map, model_.processNoise());
+        track.filter.predict(map, model_.processNoise(track.filter.box().centre));
         const double scale = std::sqrt(track.filter.box().area() / area_before);
         track.origin_place = map.apply(track.origin_place);
         OrientedBox& place = track.standstill.place;
@@ -184,13 +185,14 @@ std::vector<MovingBox> Tracker::predictedBoxes() const {
     std::vector<MovingBox> boxes;
     for (const Track& track : tracks_) {
         MovingBox moving{track.filter.box(), track.filter.velocity(), 0, 0};
-        if (gate_ > 0) {
+        const double gate = gateAt(moving.box.centre);
+        if (gate > 0) {
             const cv::Point2d along = moving.box.direction();
-            moving.gate_along = gate_ + 2 * track.filter.positionDeviation(along);
-            moving.gate_across = gate_ + 2 * track.filter.positionDeviation({-along.y, along.x});
+            moving.gate_along = gate + 2 * track.filter.positionDeviation(along);
+            moving.gate_across = gate + 2 * track.filter.positionDeviation({-along.y, along.x});
         }
         if (track.standstill.certain) {
-            moving.fastest = manager_.fastestStart(model_.slowSpeed());
+            moving.fastest = manager_.fastestStart(moving.box.centre, model_.slowSpeed());
             // As long as the vehicle is seen at its place, what moves elsewhere is another one.
             if (track.standstill.agrees) moving.farthest = 2 * TrackManager::reachOf(track.standstill.place);
         }
@@ -224,7 +226,7 @@ void Tracker::traceAssociation(const OverlapMatrix& matrix, const FrameAssociati
                                const std::vector<MovingBox>& predicted, const std::vector<int>& positions,
                                TrackingTrace& trace) const {
     trace.min_overlap = options_.min_overlap;
-    trace.gate_px = gate_;
+    trace.gate_px = gateAt(scale_.slope.centre());
     const auto position = [&](int detection) { return positions[static_cast<std::size_t>(detection)]; };
     for (const BoxRelation& relation : matrix.relations()) {
         trace.relations.push_back({position(relation.detection), tracks_[static_cast<std::size_t>(relation.track)].id,
@@ -312,7 +314,7 @@ bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Dete
     }
     // The first boxes are often parts of the object: what was seen last counts half.
     if (options_.adapt_size && !manager_.established(track) && !update.by_ends)
-        track.filter.forgetSize(model_.sizeDeviation());
+        track.filter.forgetSize(model_.sizeDeviation(box.centre));
     track.growth_streak = update.grows ? track.growth_streak + 1 : 0;
     if (track.growth_streak >= kGrowthsToBelieve) {
         track.filter.loosenEnds(update.grows_front, update.grows_rear, update.grows_left, update.grows_right);

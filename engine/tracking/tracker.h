@@ -92,10 +92,13 @@ class Tracker {
     /// After the update, by updated boxes.
     void associateByUpdate(const FrameVectors& vectors);
 
+    /// px that a detection may lie from where a track at a place is expected; 0: no gate.
+    double gateAt(cv::Point2d place) const;
+
     TrackerOptions options_;
+    SceneScale scale_;
     MeasurementModel model_;
     TrackManager manager_;
-    double gate_ = 0;  ///< px
     std::vector<Track> tracks_;
     TrackId next_id_ = 1;
     int frozen_frames_ = 0;  ///< in a row, up to now

@@ -64,7 +64,8 @@ void Tracker::lookAround(Track& track, Picture& picture) {
         return;
     }
     if (!manager_.mayBeRecognised(track, model_.slowSpeed(), classified_)) return;
-    const auto seen = found(track, picture, track.filter.box(), std::max(kLeastReach, gate_));
+    const auto seen =
+        found(track, picture, track.filter.box(), std::max(kLeastReach, gateAt(track.filter.box().centre)));
     const double away = seen ? between(seen->centre, track.standstill.place.centre) : 0;
     manager_.countStandstill(track, seen ? std::optional(away) : std::nullopt, seen.value_or(track.filter.box()));
     track.recognised = seen && track.filter.update(model_.placed(*seen));

@@ -318,7 +318,7 @@ TEST(SlowAreas, VectorsAreThoseOfAreasThatWentSomewhere) {
                 const SlowAreas slow{options, scale, pictures, scene, options.gapFrames(scale)};
                 for (const double min_speed : {0.1, 1.1}) {
                     motion.motion_vectors.clear();
-                    const auto found = areas.infer(motion, min_speed);
+                    const auto found = areas.infer(motion, [&](cv::Point2d) { return min_speed; });
                     auto expected = slow.infer(motion, min_speed);
                     ASSERT_EQ(found.size(), expected.size()) << variant << " " << scale.gsd_m_per_px << " " << k;
                     vectors += found.size();
@@ -336,7 +336,9 @@ TEST(SlowAreas, VectorsAreThoseOfAreasThatWentSomewhere) {
                             motion.motion_vectors.push_back(found[i]);
                             motion.motion_vectors.back().velocity += cv::Point2f(0, off);
                         }
-                        EXPECT_EQ(areas.infer(motion, min_speed).size(), slow.infer(motion, min_speed).size()) << off;
+                        EXPECT_EQ(areas.infer(motion, [&](cv::Point2d) { return min_speed; }).size(),
+                                  slow.infer(motion, min_speed).size())
+                            << off;
                     }
                 }
             }
@@ -359,8 +361,8 @@ TEST(SlowAreas, PathsThatNoCameraFliesAreNotFollowed) {
         FrameMotion motion;
         motion.image_size = scene.size;
         motion.corner_count = 100;
-        areas.infer(motion, 0.1);
-        return areas.infer(motion, 0.1).size();
+        areas.infer(motion, [](cv::Point2d) { return 0.1; });
+        return areas.infer(motion, [](cv::Point2d) { return 0.1; }).size();
     };
     const cv::Matx33d step = scene.registration(1).current_from_previous.matrix;
     EXPECT_GT(inferred(step), 0U);

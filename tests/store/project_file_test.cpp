@@ -137,6 +137,8 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP VIEW v_track_states",
                   "DROP VIEW v_tracks",
                   "DROP VIEW v_runs",
+                  "ALTER TABLE run DROP COLUMN scale_growth_right",
+                  "ALTER TABLE run DROP COLUMN scale_growth_down",
                   "ALTER TABLE detection DROP COLUMN probability",
                   "ALTER TABLE run DROP COLUMN scale_origin",
                   "ALTER TABLE run DROP COLUMN scale_uncertainty",

@@ -101,8 +101,11 @@ TEST_F(RunStoreTest, RunsKeepWhereTheirScaleComesFromAndHowSureItIs) {
         RunRecord run = sampleRun();
         run.scale = scale;
         run.scale_basis = basis;
+        run.scale.slope = ScaleSlope::ofPicture(run.sequence.size, -0.0004, 0.003);
         const ResultWriter writer(path_, run, {});
         EXPECT_EQ(store.run(writer.runId())->scale_basis, basis) << nameOf(basis.origin);
+        EXPECT_EQ(store.run(writer.runId())->scale.slope, run.scale.slope)
+            << "about the middle of the video's pictures";
     }
 }
 

@@ -22,7 +22,9 @@ std::string conditions(const ChainOptions& options, const SceneScale& scale) {
     double gsd = scale.gsd_m_per_px;
     double rate = scale.frame_rate_hz;
     bool known = scale.gsd_known;
-    writer(gsd, rate, known);
+    double right = scale.slope.right_per_px;
+    double down = scale.slope.down_per_px;
+    writer(gsd, rate, known, right, down);
     return text + writer.bytes();
 }
 

@@ -99,6 +99,11 @@ std::string fittingScaleOrigin() {
            " AND typeof(scale_vehicles) = 'integer' AND scale_vehicles BETWEEN 0 AND 2147483647";
 }
 
+std::string fittingScaleSlope() {
+    static_assert(ScaleSlope::kSteepest == 1);
+    return "scale_growth_right BETWEEN -1 AND 1 AND scale_growth_down BETWEEN -1 AND 1";
+}
+
 std::vector<RowRule> rowRules() {
     const std::string frames = " BETWEEN 0 AND " + std::to_string(kLastFrame + 1);
     const std::string frame = "frame" + frames;
@@ -118,6 +123,7 @@ std::vector<RowRule> rowRules() {
              areShort("name, started_utc, engine_version, preset, message"),
          "range, scale or state of a run is impossible"},
         {"run", fittingScaleOrigin(), "where the scale of a run comes from, or how sure it is, is impossible", 12},
+        {"run", fittingScaleSlope(), "how the scale of a run changes over the picture is impossible", 14},
         {"frame",
          frame + " AND width" + kPixels + " AND height" + kPixels + " AND corner_count >= 0 AND " +
              isOneOf("registration_state", stored::kRegistrationStates),
@@ -132,7 +138,7 @@ std::vector<RowRule> rowRules() {
         {"detection", frame + " AND are_indices(vectors) AND " + isOneOf("rejection", stored::kRejections),
          "a detection cannot be read"},
         {"detection", "(probability IS NULL OR probability BETWEEN 0 AND 1)",
-         "probability of a detection is impossible", 14},
+         "probability of a detection is impossible", 15},
         {"track", range + " AND last_frame >= first_frame AND frames > 0", "life of a track is impossible"},
         {"track_state",
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +

@@ -258,6 +258,21 @@ FROM zone JOIN sequence ON sequence.id = zone.sequence_id;
 )sql");
 }
 
+// How metres per pixel change over an oblique view: growth of pixels per metre for a pixel to the right and downwards,
+// relative to those in the middle of the picture, where the GSD holds.
+void addScaleSlopes(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE run ADD COLUMN scale_growth_right REAL NOT NULL DEFAULT 0;
+ALTER TABLE run ADD COLUMN scale_growth_down REAL NOT NULL DEFAULT 0;
+DROP VIEW IF EXISTS v_runs;
+CREATE VIEW v_runs AS
+SELECT run.id AS run, sequence.path AS video, run.name, run.started_utc, run.state, run.first_frame, run.last_frame,
+    run.frame_rate_hz, CASE WHEN run.gsd_known THEN run.gsd_m_per_px END AS gsd_m_per_px, run.scale_origin,
+    run.scale_growth_right, run.scale_growth_down
+FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE run.removed_utc = '';
+)sql");
+}
+
 // What speaks for each track, those that only their score kept out of the result, and how likely a detection is a
 // vehicle.
 void addEvidence(SQLite::Database& database) {

@@ -15,10 +15,11 @@
 namespace eyrie::schema {
 namespace {
 
-constexpr std::array kMigrations{
-    addRuns,          addLabels,    addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
-    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview,  addScaleOrigins,
-    addZones,         addEvidence};
+constexpr std::array kMigrations{addRuns,          addLabels,      addComparisonsAndCompleteBoxes,
+                                 addSweeps,        addPresets,     addDroppedStates,
+                                 addRemovalOfRuns, addRunStates,   addRegistrationFaults,
+                                 addViews,         addReview,      addScaleOrigins,
+                                 addZones,         addScaleSlopes, addEvidence};
 
 }  // namespace
 

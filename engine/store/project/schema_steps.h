@@ -21,6 +21,7 @@ void addViews(SQLite::Database& database);
 void addReview(SQLite::Database& database);
 void addScaleOrigins(SQLite::Database& database);
 void addZones(SQLite::Database& database);
+void addScaleSlopes(SQLite::Database& database);
 void addEvidence(SQLite::Database& database);
 
 }  // namespace eyrie::schema

@@ -12,7 +12,8 @@ struct ClassRule {
     TrackClassOptions limits;
 
     TrackClass of(const TrackSummary& track) const {
-        return classOf({track.frames, track.mean_length_px, track.mean_width_px, track.mean_speed_px}, scale, limits);
+        return classOf({track.frames, track.mean_length_px, track.mean_width_px, track.mean_speed_px},
+                       scale.at(track.place), limits);
     }
 };
 

@@ -63,10 +63,11 @@ void insertDoubtful(SQLite::Database& database, int run_id, const TracksOfRun& t
 std::vector<TrackSummary> RunStore::doubtfulTracks(int run_id) const {
     const ClassRule rule = classRuleOf(*this, run_id);
     return guarded(project_.path(), "reading the doubtful tracks" + ofRun(run_id), [&] {
-        SQLite::Statement statement(project_.database(),
-                                    "SELECT track_id, min(frame), max(frame), count(*), avg(sqrt(vx * vx + vy * vy)), "
-                                    "avg(length), avg(width), min(score) FROM doubtful_state WHERE run_id = ? GROUP BY "
-                                    "track_id ORDER BY track_id");
+        SQLite::Statement statement(
+            project_.database(),
+            "SELECT track_id, min(frame), max(frame), count(*), avg(sqrt(vx * vx + vy * vy)), "
+            "avg(length), avg(width), min(score), avg(x), avg(y) FROM doubtful_state WHERE run_id = ? GROUP BY "
+            "track_id ORDER BY track_id");
         statement.bind(1, run_id);
         std::vector<TrackSummary> tracks;
         while (statement.executeStep()) {
@@ -82,6 +83,7 @@ std::vector<TrackSummary> RunStore::doubtfulTracks(int run_id) const {
             track.mean_length_px = row.real();
             track.mean_width_px = row.real();
             track.score = row.real();
+            track.place = row.point();
             track.track_class = rule.of(track);
             tracks.push_back(track);
         }

@@ -20,8 +20,9 @@ int storeRun(SQLite::Database& database, const RunRecord& run) {
     SQLite::Statement statement(
         database,
         "INSERT INTO run (sequence_id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, "
-        "frame_rate_hz, scale_origin, scale_uncertainty, scale_vehicles, first_frame, last_frame, state, message) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        "frame_rate_hz, scale_origin, scale_uncertainty, scale_vehicles, scale_growth_right, scale_growth_down, "
+        "first_frame, last_frame, state, message) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     const ScaleBasis basis = agreeing(run.scale_basis, run.scale);
     RowWriter(statement)
         .integer(run.sequence.id)
@@ -35,6 +36,8 @@ int storeRun(SQLite::Database& database, const RunRecord& run) {
         .word(stored::kScaleOrigins, basis.origin)
         .real(basis.uncertainty.value_or(std::numeric_limits<double>::quiet_NaN()))
         .integer(basis.vehicles)
+        .real(run.scale.slope.right_per_px)
+        .real(run.scale.slope.down_per_px)
         .integer(run.first_frame)
         .integer(run.last_frame)
         .word(stored::kRunStates, run.state)

@@ -25,6 +25,10 @@ void check(const RunRecord& run) {
     const auto& uncertainty = run.scale_basis.uncertainty;
     if (uncertainty && !(*uncertainty >= 1 && *uncertainty <= kMostUncertain))
         refuse("an impossible uncertainty of its scale");
+    const ScaleSlope& slope = run.scale.slope;
+    if (!(std::abs(slope.right_per_px) <= ScaleSlope::kSteepest &&
+          std::abs(slope.down_per_px) <= ScaleSlope::kSteepest))
+        refuse("an impossible slope of its scale");
     if (run.scale_basis.vehicles < 0) refuse("an impossible number of vehicles that its scale rests on");
     if (run.first_frame < 0 || run.last_frame > kLastFrame) refuse("frames outside every video");
     checkSequence(run.sequence);
@@ -51,6 +55,8 @@ RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& pro
     run.scale.gsd_known = row.integer() != 0;
     run.scale.frame_rate_hz = row.real();
     run.scale_basis = agreeing(readBasis(row), run.scale);
+    const double growth_right = row.real();
+    const double growth_down = row.real();
     run.first_frame = row.integer();
     run.last_frame = row.integer();
     run.state = row.word(stored::kRunStates);
@@ -59,6 +65,8 @@ RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& pro
     run.sequence.path = row.text();
     run.sequence.size.width = row.integer();
     run.sequence.size.height = row.integer();
+    if (growth_right != 0 || growth_down != 0)
+        run.scale.slope = ScaleSlope::ofPicture(run.sequence.size, growth_right, growth_down);
     run.sequence.frame_count = row.integer();
     run.sequence.frame_rate_hz = row.real();
     run.frames_done = row.integer();
@@ -76,7 +84,9 @@ std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, 
     SQLite::Statement statement(
         project.database(),
         "SELECT run.id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, run.frame_rate_hz, "
-        "scale_origin, scale_uncertainty, scale_vehicles, first_frame, last_frame, state, message, sequence.id, path, "
+        "scale_origin, scale_uncertainty, scale_vehicles, scale_growth_right, scale_growth_down, first_frame, "
+        "last_frame, "
+        "state, message, sequence.id, path, "
         "width, height, frame_count, "
         "sequence.frame_rate_hz, (SELECT count(*) FROM frame WHERE frame.run_id = run.id) "
         "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE " +

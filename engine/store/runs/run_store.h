@@ -80,6 +80,7 @@ struct TrackSummary {
     double mean_speed_px = 0;  ///< px/frame relative to the ground
     double mean_length_px = 0;
     double mean_width_px = 0;
+    cv::Point2d place{0, 0};  ///< mean of its boxes' centres, where the run's scale differs over the picture
     double score = 0;       ///< of its last state; in a result the same in all: the probability of a vehicle that moves
     bool doubtful = false;  ///< only its score kept it out of the result
     TrackClass track_class = TrackClass::unknown;  ///< by its size and speed so far and the run's limits

@@ -27,11 +27,29 @@ std::vector<TrackFrame> readStates(SQLite::Statement& statement) {
     return states;
 }
 
+/// Where each track was on the whole.
+std::map<TrackId, cv::Point2d> meanPlaces(SQLite::Database& database, int run_id) {
+    SQLite::Statement statement(database,
+                                "SELECT track_id, avg(x), avg(y) FROM track_state WHERE run_id = ? GROUP BY track_id");
+    statement.bind(1, run_id);
+    std::map<TrackId, cv::Point2d> places;
+    while (statement.executeStep()) {
+        RowReader row(statement);
+        const TrackId track = row.integer();
+        cv::Point2d& place = places[track];
+        place.x = row.real();
+        place.y = row.real();
+    }
+    return places;
+}
+
 }  // namespace
 
 std::vector<TrackSummary> RunStore::tracks(int run_id) const {
     const ClassRule rule = classRuleOf(*this, run_id);
     return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
+        std::map<TrackId, cv::Point2d> places;
+        if (!rule.scale.slope.isFlat()) places = meanPlaces(project_.database(), run_id);
         SQLite::Statement statement(project_.database(),
                                     "SELECT id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
                                     "width_sum, ifnull((SELECT score FROM track_state WHERE track_state.run_id = "
@@ -52,6 +70,8 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
             track.mean_length_px = row.real() / track.frames;
             track.mean_width_px = row.real() / track.frames;
             track.score = row.real();
+            const auto place = places.find(track.id);
+            if (place != places.end()) track.place = place->second;
             track.track_class = rule.of(track);
             tracks.push_back(track);
         }

@@ -217,6 +217,12 @@ VectorsAt vectorsIn(const VectorsByFrame& kept) {
     return askFor(kept);
 }
 
+cv::Point2d middleOf(const TrackPath& path) {
+    cv::Point2d sum(0, 0);
+    for (const auto& [frame, state] : path.states) sum += cv::Point2d(state.box.centre);
+    return sum / static_cast<double>(std::max<std::size_t>(path.states.size(), 1));
+}
+
 void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards) {
     // Not by insert, which would hold twice as much from then on.
     std::vector<TimedPathState> states;
@@ -311,7 +317,8 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
             std::erase_if(path.states,
                           [](const TimedPathState& s) { return s.second.status == TrackStatus::tentative; });
         }
-        if (options.trim_predicted) trimPredictedEnd(path, ground, scale.pxPerFrame(options.stop_speed_m_s));
+        if (options.trim_predicted)
+            trimPredictedEnd(path, ground, scale.at(middleOf(path)).pxPerFrame(options.stop_speed_m_s));
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);

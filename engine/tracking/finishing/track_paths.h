@@ -22,6 +22,9 @@ using PathVisitor = std::function<void(FrameIndex, const TrackPath&, const PathS
 /// All states, ordered by frame, then the tracks' ids.
 void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visitor);
 
+/// Where a track is on the whole: the mean of its boxes' centres. Of at least one state.
+cv::Point2d middleOf(const TrackPath& path);
+
 /// Puts earlier states, the latest first, before those of a path.
 void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards);
 
