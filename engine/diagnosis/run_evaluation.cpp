@@ -70,6 +70,17 @@ DiagnosisSource diagnosisSource(const RunStore& store, const RunRecord& run) {
     return source;
 }
 
+std::vector<ScorePoint> scoreCurveOf(const RunEvaluation& evaluation, const RunStore& store,
+                                     const std::stop_token& stop) {
+    constexpr std::size_t kMostPoints = 50;
+    BoxesByFrame boxes = evaluation.result;
+    if (!evaluation.detections) {
+        for (auto& [frame, doubtful] : store.doubtfulBoxes(evaluation.run.id))
+            boxes[frame].insert(boxes[frame].end(), doubtful.begin(), doubtful.end());
+    }
+    return scoreCurve(evaluation.truth, boxes, evaluation.options, kMostPoints, stop);
+}
+
 struct RunEvaluator::Kept {
     std::filesystem::path path;
     std::optional<ProjectFile> project;

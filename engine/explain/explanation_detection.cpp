@@ -132,6 +132,10 @@ bool tellRemoval(Story& story, std::vector<int>& detections) {
         switch (detection.rejection) {
             case Rejection::none:
                 story.pass("removal", vectors, count_parameter);
+                if (!std::isnan(detection.probability)) {
+                    story.note("removal", "a moving vehicle with a probability of " +
+                                              numberText(detection.probability) + ", by this frame alone");
+                }
                 kept.push_back(index);
                 break;
             case Rejection::duplicate: {

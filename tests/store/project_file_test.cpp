@@ -120,7 +120,10 @@ TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
 
 TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
     test::writeSampleProject(path_, 2);
-    makeDatabase({"DROP VIEW v_zones",
+    makeDatabase({"DROP VIEW v_track_evidence",
+                  "DROP TABLE track_evidence",
+                  "DROP TABLE doubtful_state",
+                  "DROP VIEW v_zones",
                   "DROP TABLE zone",
                   "DROP VIEW v_verdicts",
                   "DROP VIEW v_bookmarks",
@@ -136,6 +139,7 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP VIEW v_runs",
                   "ALTER TABLE run DROP COLUMN scale_growth_right",
                   "ALTER TABLE run DROP COLUMN scale_growth_down",
+                  "ALTER TABLE detection DROP COLUMN probability",
                   "ALTER TABLE run DROP COLUMN scale_origin",
                   "ALTER TABLE run DROP COLUMN scale_uncertainty",
                   "ALTER TABLE run DROP COLUMN scale_vehicles",

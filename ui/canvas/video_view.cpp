@@ -346,8 +346,12 @@ void VideoView::mouseReleaseEvent(QMouseEvent* event) {
     if (!was_click || !frame_.result || tool_ != nullptr) return;
     const double margin = kHitMargin / transform_.scale();
     const QPointF point = transform_.imageFromView(event->position());
-    emit trackClicked(settings_.isVisible(TrackLayer::kKind) ? trackAt(*frame_.result, settings_.style(), point, margin)
-                                                             : std::nullopt);
+    std::optional<TrackId> clicked;
+    if (settings_.isVisible(TrackLayer::kKind)) {
+        clicked = trackAt(frame_.result->tracks, settings_.style(), point, margin);
+        if (!clicked) clicked = trackAt(frame_.doubtful, settings_.style(), point, margin);
+    }
+    emit trackClicked(clicked);
     emit placeClicked(point, margin);
 }
 

@@ -64,6 +64,7 @@ TrackInspector::TrackInspector(QWidget* parent)
     stack_->addWidget(page);
 
     class_ = addLine(tr("Class"));
+    score_ = addLine(tr("Score"));
     life_ = addLine(tr("Life"));
     speed_ = addLine(tr("Mean speed"));
     size_ = addLine(tr("Mean size"));
@@ -73,6 +74,7 @@ TrackInspector::TrackInspector(QWidget* parent)
     heading_ = addLine(tr("Heading"));
     speed_now_ = addLine(tr("Speed"));
     size_now_ = addLine(tr("Size"));
+    detection_ = addLine(tr("Detection"));
     origin_counts_->setTextFormat(Qt::RichText);
 
     connect(origins_, &OriginBar::frameActivated, this, &TrackInspector::frameActivated);
@@ -85,6 +87,10 @@ QLabel* TrackInspector::addLine(const QString& name) {
     value->setWordWrap(true);
     form_->addRow(name, value);
     return value;
+}
+
+void TrackInspector::showOrDash(QLabel* label, const QString& text) {
+    label->setText(text.isEmpty() ? QStringLiteral("–") : text);
 }
 
 void TrackInspector::activate(bool last) {

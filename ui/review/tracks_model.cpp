@@ -58,7 +58,7 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
         case width_column:
             return numberText(shownLength(track.mean_width_px, scale_.at(track.place)), 1);
         case status_column:
-            return track.confirmed ? tr("confirmed") : tr("tentative");
+            return track.doubtful ? tr("left out") : track.confirmed ? tr("confirmed") : tr("tentative");
         case score_column:
             return numberText(track.score, 2);
         case class_column:

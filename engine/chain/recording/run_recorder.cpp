@@ -84,9 +84,12 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_,
                                               {vectors_at, classifiedVehicles(options_, vehicles_at)});
     RunStateStore(project).keepTracks(writer_.runId());
-    store.replaceTracks(
-        writer_.runId(), [&](const StateVisitor& visitor) { finished.visit(visitor); },
-        [&](const DropVisitor& visitor) { finished.visitDropped(followed, visitor); });
+    TracksOfRun tracks;
+    tracks.states = [&](const StateVisitor& visitor) { finished.visit(visitor); };
+    tracks.dropped = [&](const DropVisitor& visitor) { finished.visitDropped(followed, visitor); };
+    tracks.doubtful = [&](const StateVisitor& visitor) { finished.visitDoubtful(visitor); };
+    tracks.evidence = finished.evidence;
+    store.replaceTracks(writer_.runId(), tracks);
     if (state == RunState::finished) writer_.finish(state, summary.message);
     return store.run(writer_.runId()).value();
 }

@@ -140,6 +140,8 @@ std::vector<RowRule> rowRules() {
         {"roi", frame, "frame of a search area is impossible"},
         {"detection", frame + " AND are_indices(vectors) AND " + isOneOf("rejection", stored::kRejections),
          "a detection cannot be read"},
+        {"detection", "(probability IS NULL OR probability BETWEEN 0 AND 1)",
+         "probability of a detection is impossible", 16},
         {"track", range + " AND last_frame >= first_frame AND frames > 0", "life of a track is impossible"},
         {"track_state",
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
@@ -152,6 +154,15 @@ std::vector<RowRule> rowRules() {
         {"frame", "details IN (0, 1)", "whether details of a frame were kept is no answer", 15},
         {"unfinished_frame", frame + " AND are_squeezed_vectors(vectors) AND are_squeezed_boxes(vehicles)",
          "what finishing needs of a frame cannot be read", 15},
+        {"doubtful_state",
+         frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
+             isOneOf("origin", stored::kStateOrigins),
+         "state of a doubtful track is impossible"},
+        {"track_evidence",
+         areNumbers("flow_px, flow_ratio") +
+             " AND detected BETWEEN 0 AND 1 AND looked_alike BETWEEN 0 AND 1 AND life_s BETWEEN 0 AND 1e300 AND "
+             "alignment BETWEEN -1.001 AND 1.001 AND score BETWEEN 0 AND 1",
+         "what speaks for a track is impossible"},
         {"run_state", frame, "state of a run is impossible"},
         {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),
          "a state left out of a track is impossible"},

@@ -302,4 +302,50 @@ FROM frame JOIN v_runs ON v_runs.run = frame.run_id;
 )sql");
 }
 
+// What speaks for each track, those that only their score kept out of the result, and how likely a detection is a
+// vehicle.
+void addEvidence(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE track_evidence (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    track_id INTEGER NOT NULL,
+    detected REAL NOT NULL,
+    looked_alike REAL NOT NULL,
+    life_s REAL NOT NULL,
+    flow_px REAL NOT NULL,
+    flow_ratio REAL NOT NULL,
+    alignment REAL NOT NULL,
+    score REAL NOT NULL,
+    PRIMARY KEY (run_id, track_id)
+) WITHOUT ROWID;
+CREATE TABLE doubtful_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    status TEXT NOT NULL,
+    origin TEXT NOT NULL,
+    age INTEGER NOT NULL,
+    hits INTEGER NOT NULL,
+    score REAL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+ALTER TABLE detection ADD COLUMN probability REAL;
+DROP VIEW IF EXISTS v_detections;
+CREATE VIEW v_detections AS
+SELECT detection.run_id AS run, detection.frame, detection.number, detection.x, detection.y,
+    detection.length AS length_px, detection.width AS width_px,
+    detection.heading_rad * 57.29577951308232
+        + CASE WHEN detection.heading_rad < 0 THEN 360 ELSE 0 END AS heading_deg,
+    detection.score, detection.rejection, detection.probability
+FROM detection JOIN v_runs ON v_runs.run = detection.run_id;
+CREATE VIEW v_track_evidence AS
+SELECT track_evidence.run_id AS run, track_evidence.track_id AS track, track_evidence.detected,
+    track_evidence.looked_alike, track_evidence.life_s, track_evidence.flow_px, track_evidence.flow_ratio,
+    track_evidence.alignment, track_evidence.score
+FROM track_evidence JOIN v_runs ON v_runs.run = track_evidence.run_id;
+)sql");
+}
+
 }  // namespace eyrie::schema

@@ -19,7 +19,8 @@ constexpr std::array kMigrations{addRuns,          addLabels,      addComparison
                                  addSweeps,        addPresets,     addDroppedStates,
                                  addRemovalOfRuns, addRunStates,   addRegistrationFaults,
                                  addViews,         addReview,      addScaleOrigins,
-                                 addZones,         addScaleSlopes, addKeptDetails};
+                                 addZones,         addScaleSlopes, addKeptDetails,
+                                 addEvidence};
 
 }  // namespace
 

@@ -23,5 +23,6 @@ void addScaleOrigins(SQLite::Database& database);
 void addZones(SQLite::Database& database);
 void addScaleSlopes(SQLite::Database& database);
 void addKeptDetails(SQLite::Database& database);
+void addEvidence(SQLite::Database& database);
 
 }  // namespace eyrie::schema

@@ -94,8 +94,8 @@ std::vector<MotionCluster> readClusters(SQLite::Database& database, int run_id, 
 std::vector<Detection> readDetections(SQLite::Database& database, int run_id, FrameIndex frame, std::size_t vectors) {
     return readItems<Detection>(
         database,
-        "SELECT x, y, length, width, heading_rad, vx, vy, score, cluster, rejection, vectors, complete "
-        "FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
+        "SELECT x, y, length, width, heading_rad, vx, vy, score, cluster, rejection, vectors, complete, "
+        "probability FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
         run_id, frame, [&](RowReader& row) {
             Detection detection;
             detection.box = row.box();
@@ -105,6 +105,7 @@ std::vector<Detection> readDetections(SQLite::Database& database, int run_id, Fr
             detection.rejection = row.word(stored::kRejections);
             detection.vectors = readIndices(row, vectors);
             detection.complete = row.integer() != 0;
+            detection.probability = row.real();
             return detection;
         });
 }

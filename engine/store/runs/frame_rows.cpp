@@ -31,6 +31,25 @@ std::string frameColumns() {
 
 }  // namespace
 
+std::string insertState(const std::string& table) {
+    return insertInto(table, std::string("run_id, frame, ") + kTrackStateColumns);
+}
+
+void writeState(SQLite::Statement& statement, int run_id, FrameIndex frame, const TrackState& state) {
+    RowWriter(statement)
+        .integer(run_id)
+        .integer(frame)
+        .integer(state.id)
+        .box(state.box)
+        .point(state.velocity)
+        .word(stored::kTrackStatuses, state.status)
+        .word(stored::kStateOrigins, state.origin)
+        .integer(state.age)
+        .integer(state.hits)
+        .real(state.score)
+        .run();
+}
+
 TrackRows::TrackRows(SQLite::Database& database)
     : track_(database, insertInto("track",
                                   "run_id, id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
@@ -40,9 +59,7 @@ TrackRows::TrackRows(SQLite::Database& database)
                            "frames = frames + 1, confirmed = max(confirmed, excluded.confirmed), "
                            "speed_sum = speed_sum + excluded.speed_sum, length_sum = length_sum + "
                            "excluded.length_sum, width_sum = width_sum + excluded.width_sum"),
-      state_(database, insertInto("track_state",
-                                  "run_id, frame, track_id, x, y, length, width, heading_rad, vx, vy, status, origin, "
-                                  "age, hits, score")),
+      state_(database, insertState("track_state")),
       forget_states_(database, "DELETE FROM track_state WHERE run_id = ? AND frame = ?"),
       forget_tracks_(database,
                      "DELETE FROM track WHERE run_id = ?1 AND frames = 1 AND id IN (SELECT track_id FROM track_state "
@@ -65,18 +82,7 @@ void TrackRows::insert(int run_id, FrameIndex frame, const TrackState& state) {
         .real(state.box.length)
         .real(state.box.width)
         .run();
-    RowWriter(state_)
-        .integer(run_id)
-        .integer(frame)
-        .integer(state.id)
-        .box(state.box)
-        .point(state.velocity)
-        .word(stored::kTrackStatuses, state.status)
-        .word(stored::kStateOrigins, state.origin)
-        .integer(state.age)
-        .integer(state.hits)
-        .real(state.score)
-        .run();
+    writeState(state_, run_id, frame, state);
 }
 
 void TrackRows::erase(int run_id, FrameIndex frame) {
@@ -94,7 +100,7 @@ FrameRows::FrameRows(SQLite::Database& database)
       roi_(database, insertInto("roi", "run_id, frame, number, x, y, length, width, heading_rad")),
       detection_(database, insertInto("detection",
                                       "run_id, frame, number, x, y, length, width, heading_rad, vx, vy, score, "
-                                      "cluster, rejection, vectors, complete")),
+                                      "cluster, rejection, vectors, complete, probability")),
       unfinished_(database),
       tracks_(database) {
     for (const char* table :
@@ -180,6 +186,7 @@ void FrameRows::insertDetails(int run_id, const FrameResult& result) {
             .word(stored::kRejections, detection.rejection)
             .bytes(members)
             .integer(detection.complete ? 1 : 0)
+            .real(detection.probability)
             .run();
     }
 }

@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/Statement.h>
 
+#include <string>
 #include <vector>
 
 #include "core/values/frame_result.h"
@@ -13,6 +14,13 @@ class Database;
 }
 
 namespace eyrie {
+
+/// "INSERT INTO table (…) VALUES (…)" for tables like `track_state`, and what binds a row of it and runs it.
+std::string insertState(const std::string& table);
+void writeState(SQLite::Statement& statement, int run_id, FrameIndex frame, const TrackState& state);
+
+/// Writes what TracksOfRun tells beyond states and what was left out; nothing of the run may be there.
+void insertDoubtful(SQLite::Database& database, int run_id, const TracksOfRun& tracks);
 
 /// Adds the states of one frame to a run's tracks, and keeps the sums in table `track` that summaries are read from.
 class TrackRows {

@@ -191,16 +191,17 @@ std::vector<FrameSummary> RunStore::frameSummaries(int run_id) const {
 
 void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
                                   const std::vector<std::pair<FrameIndex, DroppedState>>& dropped) {
-    const auto all = [&](const StateVisitor& visitor) {
+    TracksOfRun tracks;
+    tracks.states = [&](const StateVisitor& visitor) {
         for (const TrackFrame& state : states) visitor(state.frame, state.state);
     };
-    replaceTracks(run_id, all, [&](const DropVisitor& visitor) {
+    tracks.dropped = [&](const TracksOfRun::DropVisitor& visitor) {
         for (const auto& [frame, state] : dropped) visitor(frame, state);
-    });
+    };
+    replaceTracks(run_id, tracks);
 }
 
-void RunStore::replaceTracks(int run_id, const std::function<void(const StateVisitor&)>& states,
-                             const std::function<void(const DropVisitor&)>& dropped) {
+void RunStore::replaceTracks(int run_id, const TracksOfRun& tracks) {
     guarded(project_.path(), "replacing the tracks" + ofRun(run_id), [&] {
         SQLite::Database& database = project_.database();
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
@@ -212,7 +213,7 @@ void RunStore::replaceTracks(int run_id, const std::function<void(const StateVis
         SQLite::Statement left_out(database,
                                    "INSERT OR REPLACE INTO dropped_state (run_id, frame, track_id, x, y, length, "
                                    "width, heading_rad, reason, beside) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-        dropped([&](FrameIndex frame, const DroppedState& state) {
+        tracks.dropped([&](FrameIndex frame, const DroppedState& state) {
             RowWriter(left_out)
                 .integer(run_id)
                 .integer(frame)
@@ -229,10 +230,11 @@ void RunStore::replaceTracks(int run_id, const std::function<void(const StateVis
             "run_id = ?1 AND details = 0) AND (track_id, frame) NOT IN (SELECT track_id, min(frame) "
             "FROM dropped_state WHERE run_id = ?1 GROUP BY track_id)");
         RowWriter(thin).integer(run_id).run();
-        removeFrom("track_state");
+        for (const char* table : {"doubtful_state", "track_evidence", "track_state"}) removeFrom(table);
         removeFrom("track");
         TrackRows rows(database);
-        states([&](FrameIndex frame, const TrackState& state) { rows.insert(run_id, frame, state); });
+        tracks.states([&](FrameIndex frame, const TrackState& state) { rows.insert(run_id, frame, state); });
+        insertDoubtful(database, run_id, tracks);
         SQLite::Statement counts(database,
                                  "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE "
                                  "track_state.run_id = frame.run_id AND track_state.frame = frame.frame AND "

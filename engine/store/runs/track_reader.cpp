@@ -3,12 +3,12 @@
 
 #include <map>
 
-#include "core/error.h"
-#include "core/parameter.h"
 #include "store/database/rows.h"
 #include "store/details/kept_details.h"
 #include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
+#include "store/runs/box_of_state.h"
+#include "store/runs/class_rule.h"
 #include "store/runs/of_run.h"
 #include "store/runs/run_store.h"
 
@@ -27,33 +27,6 @@ std::vector<TrackFrame> readStates(SQLite::Statement& statement) {
     std::vector<TrackFrame> states;
     visitStates(statement, [&](FrameIndex frame, const TrackState& state) { states.push_back({frame, state}); });
     return states;
-}
-
-/// How a run tells classes: its scale and its limits. A run of before there were any has the defaults.
-struct ClassRule {
-    SceneScale scale;
-    TrackClassOptions limits;
-
-    TrackClass of(const TrackSummary& track) const {
-        return classOf({track.frames, track.mean_length_px, track.mean_width_px, track.mean_speed_px},
-                       scale.at(track.place), limits);
-    }
-};
-
-ClassRule classRuleOf(const RunStore& store, int run_id) {
-    ClassRule rule;
-    const std::optional<RunRecord> run = store.run(run_id);
-    if (!run) return rule;
-    rule.scale = run->scale;
-    for (const auto& [name, value] : store.parameters(run_id)) {
-        if (!name.starts_with("classes.")) continue;
-        try {
-            setParameter(describeOf(rule.limits), name, value);
-        } catch (const Error&) {
-            // Another version wrote it; the default holds, as for all parameters of a run.
-        }
-    }
-    return rule;
 }
 
 /// Where each track was on the whole.
@@ -82,7 +55,7 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
         SQLite::Statement statement(project_.database(),
                                     "SELECT id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
                                     "width_sum, ifnull((SELECT score FROM track_state WHERE track_state.run_id = "
-                                    "track.run_id AND frame = first_frame AND track_id = track.id), 0) "
+                                    "track.run_id AND frame = last_frame AND track_id = track.id), 0) "
                                     "FROM track WHERE run_id = ? ORDER BY id");
         statement.bind(1, run_id);
         std::vector<TrackSummary> tracks;
@@ -151,14 +124,8 @@ void RunStore::visitTrackBoxes(int run_id, const BoxVisitor& visitor) const {
                                                              "ORDER BY frame, track_id");
         statement.bind(1, run_id);
         visitStates(statement, [&](FrameIndex frame, const TrackState& state) {
-            BoxRecord record;
-            record.frame = frame;
-            record.id = state.id;
-            record.box = state.box;
+            BoxRecord record = boxOf(frame, state);
             if (const auto known = classes.find(state.id); known != classes.end()) record.object_class = known->second;
-            record.score = state.score;
-            record.velocity = state.velocity;
-            record.origin = nameOf(state.origin);
             visitor(frame, record);
         });
     });
@@ -188,7 +155,8 @@ void RunStore::visitDetectionBoxes(int run_id, const BoxVisitor& visitor) const 
     if (const std::optional<RunRecord> whole = run(run_id)) needDetails(project_, *whole);
     guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(),
-                                    "SELECT frame, x, y, length, width, heading_rad, vx, vy, score FROM detection "
+                                    "SELECT frame, x, y, length, width, heading_rad, vx, vy, "
+                                    "coalesce(probability, score) FROM detection "
                                     "WHERE run_id = ? AND rejection = 'none' ORDER BY frame, number");
         statement.bind(1, run_id);
         while (statement.executeStep()) {

@@ -261,7 +261,9 @@ void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visito
     }
 }
 
-void FinishedTracks::visit(const StateVisitor& visitor) const {
+namespace {
+
+void visitPaths(const std::vector<TrackPath>& paths, const StateVisitor& visitor) {
     visitByFrame(paths, [&](FrameIndex frame, const TrackPath& path, const PathState& found) {
         TrackState state;
         state.id = path.id;
@@ -274,6 +276,24 @@ void FinishedTracks::visit(const StateVisitor& visitor) const {
         state.score = found.score;
         visitor(frame, state);
     });
+}
+
+void confirm(std::vector<TrackPath>& paths) {
+    for (TrackPath& path : paths) {
+        for (auto& [frame, state] : path.states) {
+            if (state.status == TrackStatus::tentative) state.status = TrackStatus::confirmed;
+        }
+    }
+}
+
+}  // namespace
+
+void FinishedTracks::visit(const StateVisitor& visitor) const {
+    visitPaths(paths, visitor);
+}
+
+void FinishedTracks::visitDoubtful(const StateVisitor& visitor) const {
+    visitPaths(doubtful, visitor);
 }
 
 void FinishedTracks::visitDropped(const StatesOfRun& states, const DropVisitor& visitor) const {
@@ -318,13 +338,9 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     if (judged) dropStanding(paths, ground, looks, options, drops);
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
-    if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, drops);
-
-    for (TrackPath& path : paths) {
-        for (auto& [frame, state] : path.states) {
-            if (state.status == TrackStatus::tentative) state.status = TrackStatus::confirmed;
-        }
-    }
+    if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, finished);
+    confirm(paths);
+    confirm(finished.doubtful);
     return finished;
 }
 

@@ -39,6 +39,7 @@ ReplaySource OpenRun::source(std::function<void(FrameIndex)> about_to_read) {
         return std::move(stored->motion);
     };
     source.result_of = result;
+    source.evidence_of = [this](TrackId track) { return store_.evidence(run_id_, track); };
     return source;
 }
 
