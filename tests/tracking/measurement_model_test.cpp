@@ -251,14 +251,14 @@ TEST(MeasurementModel, ProcessNoiseIsInFramesAndHasFloors) {
     options.acceleration_m_s2 = 5;
     options.turn_rate_deg = 50;
     options.size_rate_m = 0.5;
-    const BoxProcessNoise noise = MeasurementModel(options, kFourToAMetre).processNoise();
+    const BoxProcessNoise noise = MeasurementModel(options, kFourToAMetre).processNoise({});
     EXPECT_NEAR(noise.acceleration, 5 / 0.25 / 625, 1e-12);
     EXPECT_NEAR(noise.heading, radiansFromDegrees(2), 1e-12);
     EXPECT_NEAR(noise.size, 2, 1e-12);
     EXPECT_NEAR(noise.position, 0.05, 1e-12);
     options.acceleration_m_s2 = 0.01;
     options.size_rate_m = 0;
-    const BoxProcessNoise least = MeasurementModel(options, kFourToAMetre).processNoise();
+    const BoxProcessNoise least = MeasurementModel(options, kFourToAMetre).processNoise({});
     EXPECT_NEAR(least.acceleration, 0.004, 1e-12);
     EXPECT_NEAR(least.size, 0.01, 1e-12);
 }

@@ -59,8 +59,8 @@ TEST(TrackManager, LimitsInSecondsAreRoundedToFramesAndHaveFloors) {
     EXPECT_EQ(TrackManager(options, {0.2, 2, true}).maxFailedFrames(), 3);
     EXPECT_EQ(TrackManager(options, {0.2, 100, true}).lookInterval(), 10);
     EXPECT_EQ(TrackManager(options, {0.2, 5, true}).lookInterval(), 1);
-    EXPECT_NEAR(managerWith().fastestStart(0.1), 3 * 0.4, 1e-9) << "three times 2 m/s";
-    EXPECT_NEAR(managerWith().fastestStart(0.7), 3 * 0.7, 1e-9);
+    EXPECT_NEAR(managerWith().fastestStart({}, 0.1), 3 * 0.4, 1e-9) << "three times 2 m/s";
+    EXPECT_NEAR(managerWith().fastestStart({}, 0.7), 3 * 0.7, 1e-9);
     EXPECT_NEAR(TrackManager::reachOf({{0, 0}, 20, 10, 0}), 3, 1e-9);
     EXPECT_NEAR(TrackManager::reachOf({{0, 0}, 9, 5, 0}), 1.5, 1e-9);
 }

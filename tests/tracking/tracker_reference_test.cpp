@@ -33,7 +33,7 @@ struct SingleTrack {
         if (filter) {
             // After frames that were repeats it may have moved on by as many.
             if (frozen > 0) filter->smear(frozen * filter->velocity());
-            filter->predict(motion.registration.current_from_previous, model.processNoise());
+            filter->predict(motion.registration.current_from_previous, model.processNoise(filter->box().centre));
         }
         frozen = 0;
         if (state == RegistrationState::failed) {
@@ -64,7 +64,8 @@ struct SingleTrack {
         } else if (size_streak > 0) {
             --size_streak;
         }
-        if (options.adapt_size && !established && !told.by_ends) filter->forgetSize(model.sizeDeviation());
+        if (options.adapt_size && !established && !told.by_ends)
+            filter->forgetSize(model.sizeDeviation(filter->box().centre));
         growth_streak = told.grows ? growth_streak + 1 : 0;
         if (growth_streak >= 2)
             filter->loosenEnds(told.grows_front, told.grows_rear, told.grows_left, told.grows_right);
