@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "store/project/project_file.h"
-#include "store/runs/comparison_store.h"
+#include "store/sweeps/comparison_store.h"
 #include "store/runs/run_store.h"
 #include "support/moving_scene.h"
 #include "support/places.h"

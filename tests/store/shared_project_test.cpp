@@ -10,7 +10,7 @@
 #include "store/health/file_check.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_lock.h"
-#include "store/runs/sweep_store.h"
+#include "store/sweeps/sweep_store.h"
 #include "store/samples.h"
 #include "support/child.h"
 #include "support/temporary_folder.h"

@@ -13,7 +13,7 @@
 #include "store/health/file_check.h"
 #include "store/labels/annotation_store.h"
 #include "store/runs/run_store.h"
-#include "store/runs/sweep_store.h"
+#include "store/sweeps/sweep_store.h"
 
 namespace eyrie::cli {
 namespace {
