@@ -255,7 +255,7 @@ class SessionRunsTest : public QObject {
         QVERIFY(openAndWait(session, test::sceneUnderTest(60, [door](FrameIndex f) { door->pass(f); })));
         QVERIFY(shows(session, 0));
         session.settings().options.view.oblique = false;  // which reads elsewhere, too
-        door->closeFrom(40);  // its picture takes its time
+        door->closeFrom(40);                              // its picture takes its time
         session.goToFrame(50);
         QCOMPARE(session.currentFrame(), 50);
         QCOMPARE(session.shownFrame(), 0);
