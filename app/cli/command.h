@@ -44,6 +44,7 @@ void addEventsCommand(CLI::App& app, int& exit_code);
 void addReportCommand(CLI::App& app, int& exit_code);
 void addClipCommand(CLI::App& app, int& exit_code);
 void addExportCommand(CLI::App& app, int& exit_code);
+void addGeoreferenceCommand(CLI::App& app, int& exit_code);
 void addCheckCommand(CLI::App& app, int& exit_code);
 void addBackupsCommand(CLI::App& app, int& exit_code);
 void addRestoreCommand(CLI::App& app, int& exit_code);

@@ -63,6 +63,7 @@ int commandOf(int argc, char** argv) {
     eyrie::cli::addClassifyTestCommand(app, exit_code);
     eyrie::cli::addImportCommand(app, exit_code);
     eyrie::cli::addExportCommand(app, exit_code);
+    eyrie::cli::addGeoreferenceCommand(app, exit_code);
     eyrie::cli::addClipCommand(app, exit_code);
     eyrie::cli::addCheckCommand(app, exit_code);
     eyrie::cli::addBackupsCommand(app, exit_code);

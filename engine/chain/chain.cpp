@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "core/values/stopwatch.h"
+#include "detection/detector_factory.h"
 #include "detection/detector_table.h"
 #include "detection/roi_cutter.h"
+#include "removal/detection_probability.h"
 
 namespace eyrie {
 
@@ -36,6 +38,7 @@ TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
     options_.duplicates = duplicatesFor(options);
     if (options.difference.method != MotionMethod::vectors)
         difference_ = std::make_unique<DifferenceMotion>(options.difference, scale);
+    if (looksThroughWindows(options.detection.method)) scores_.emplace(scale);
     if (options.stacking.enabled) stacker_ = std::make_unique<ImageStacker>(options.stacking, scale);
 }
 
@@ -125,6 +128,7 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
         result.detections =
             removeDuplicates(std::move(result.detections), result.motion, options_.duplicates, scale_, &removal_);
         result.detections = removeOutliers(std::move(result.detections), result.motion, options_.outliers, scale_);
+        if (scores_) judgeDetections(result.detections, result.motion);
     }
     if (stacker_) {
         const Stopwatch watch(times, Stage::stacking);
@@ -133,6 +137,7 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
     {
         const Stopwatch watch(times, Stage::tracking);
         result.tracks = tracker_.next(result.motion, result.detections, nullptr, [&] { return frame.gray; });
+        if (scores_) scores_->judge(result.tracks, result.detections, result.motion);
     }
     result.stage_ms = times;
     return result;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <opencv2/core/types.hpp>
+#include <optional>
 #include <vector>
 
 #include "chain/chain_options.h"
@@ -9,6 +10,7 @@
 #include "core/values/frame_result.h"
 #include "detection/detector.h"
 #include "motion/differences/difference_motion.h"
+#include "tracking/live_scores.h"
 
 namespace eyrie {
 
@@ -82,6 +84,7 @@ class TrackHalf {
     std::unique_ptr<ImageStacker> stacker_;  ///< null: no stacking
     std::unique_ptr<Detector> detector_;
     Tracker tracker_;
+    std::optional<LiveScores> scores_;  ///< nothing: no classifier takes part
     RemovalTrace removal_;
 };
 

@@ -1,10 +1,12 @@
 #include "chain/chain_options.h"
 
 #include "core/error.h"
+#include "store/details/recording_options.h"
 
 namespace eyrie {
 
 void ChainOptions::describe(ParameterVisitor& visitor) {
+    view.describe(visitor);
     registration.describe(visitor);
     motion.describe(visitor);
     difference.describe(visitor);
@@ -26,6 +28,7 @@ ChainOptions builtInPreset(const std::string& name) {
     ChainOptions options;
     if (name == "default") return options;
     if (name == "thesis") {
+        options.view = ViewOptions::thesis();
         options.registration = RegistrationOptions::thesis();
         options.motion = IndependentMotionOptions::thesis();
         options.difference = DifferenceOptions::thesis();
@@ -52,6 +55,7 @@ ChainOptions storedOptions(const std::vector<std::pair<std::string, std::string>
                            std::vector<std::string>* unknown) {
     ChainOptions options;
     for (const auto& [name, value] : parameters) {
+        if (isOfRecording(name)) continue;
         try {
             setParameter(describeOf(options), name, value);
         } catch (const Error&) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "chain/view_options.h"
 #include "core/labels/track_class.h"
 #include "core/parameter.h"
 #include "core/values/scene_scale.h"
@@ -22,6 +23,7 @@ namespace eyrie {
 
 /// Every parameter of the chain, in the order of the chain.
 struct ChainOptions {
+    ViewOptions view;
     RegistrationOptions registration;
     IndependentMotionOptions motion;
     DifferenceOptions difference;  ///< in place of clustering, where `difference.method` says so

@@ -14,7 +14,9 @@
 
 #include "chain/recording/chain_state.h"
 #include "core/error.h"
+#include "core/values/last_frame.h"
 #include "core/values/stopwatch.h"
+#include "io/live/live_stream.h"
 
 namespace eyrie {
 namespace {
@@ -155,9 +157,15 @@ class Producer {
             for (; index <= range_.last && !stop.stop_requested(); ++index) {
                 RegisteredItem item = read(index);
                 item.motion = progress_.motion_half.next(item.frame, item.times);
+                // The very picture of the frame before, in place of one that a live source left out: there is nothing
+                // in it that is worth the time to look for.
+                if (endless_ && item.frame.gray.data == last_.data) item.motion.motion_vectors.clear();
+                last_ = item.frame.gray;
                 if (clock_.due()) item.motion_state = clock_.timed([&] { return stateBytes(progress_.motion_half); });
                 if (!queue_.push(std::move(item))) return;
             }
+            queue_.close();
+        } catch (const StreamEnded&) {
             queue_.close();
         } catch (...) {
             queue_.close(std::current_exception());
@@ -178,6 +186,8 @@ class Producer {
     ChainProgress& progress_;
     StateClock& clock_;
     ItemQueue& queue_;
+    bool endless_ = source_.info().frame_count > kLastFrame;
+    cv::Mat last_;  ///< picture
 };
 
 /// Frames per second over the last seconds, and what is left.

@@ -193,7 +193,10 @@ ScaleBasis basisOf(const SceneScale& scale, const std::optional<ScaleEstimate>& 
     return {ScaleOrigin::estimated, estimated->uncertainty, estimated->vehicles};
 }
 
-SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
+namespace {
+
+/// The scale at the middle of the picture.
+SceneScale middleScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
                        const std::stop_token& stop, const ScaleProgress& told, std::optional<ScaleEstimate>* estimated,
                        std::string* why_not) {
     if (estimated != nullptr) estimated->reset();
@@ -224,6 +227,19 @@ SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions
         if (estimated != nullptr) *estimated = estimate;
         if (estimate->vehicles >= kPlenty) break;
     }
+    return scale;
+}
+
+}  // namespace
+
+SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
+                       const std::stop_token& stop, const ScaleProgress& told, std::optional<ScaleEstimate>* estimated,
+                       std::string* why_not) {
+    SceneScale scale = middleScale(source, range, options, gsd_m_per_px, stop, told, estimated, why_not);
+    // Where nothing is known of the scale, nothing looked like vehicles either. What knows its own scale is a rendered
+    // scene, which is seen from above; its later frames are dear to come by.
+    if (options.view.oblique && hasMetricLimits(scale) && !(source.info().gsd_m_per_px > 0))
+        scale.slope = estimateSlope(source, range, options, scale, stop);
     return scale;
 }
 

@@ -33,14 +33,21 @@ std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first
 
 /// The scale of a run: the given GSD, or for `gsd_m_per_px` ≤ 0 an estimate, or 0.25 m/px where that fails. Where the
 /// first frames show few vehicles, those in the middle and at the end are looked at, too, and what shows traffic is
-/// taken together: a queue that stands and one rider that drives past it would settle the scale otherwise. An estimate
-/// gives the chain's lengths a footing; `gsd_known` stays false, so that nobody is shown metres that were guessed.
-/// `estimated`, if any, receives what the estimate rests on; nothing where the scale is none. Where no classifier can
-/// be loaded and the run itself needs none, nothing is looked for, and `why_not`, if any, receives the reason. Throws
-/// Error(input) where the run needs it.
+/// taken together: a queue that stands and one rider that drives past it would settle the scale otherwise. With
+/// `view.oblique` it is looked how the scale changes over the picture, too. An estimate gives the chain's lengths a
+/// footing; `gsd_known` stays false, so that nobody is shown metres that were guessed. `estimated`, if any, receives
+/// what the estimate rests on; nothing where the scale is none. Where no classifier can be loaded and the run itself
+/// needs none, nothing is looked for, and `why_not`, if any, receives the reason. Throws Error(input) where the run
+/// needs it.
 SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
                        const std::stop_token& stop, const ScaleProgress& told = {},
                        std::optional<ScaleEstimate>* estimated = nullptr, std::string* why_not = nullptr);
+
+/// How the scale changes over the pictures of an oblique view: the classifier says at some places of up to three
+/// stretches of the video at what scale something that moves looks most like a vehicle, and fitSlope() makes of it what
+/// it can. Flat where no slope is sure, or where no classifier can be loaded. Takes about a second.
+ScaleSlope estimateSlope(FrameSource& source, FrameRange range, const ChainOptions& options, const SceneScale& scale,
+                         const std::stop_token& stop);
 
 /// Where a scale comes from that chooseScale() chose, with what it said about its estimate. A known one counts as
 /// given: that it is the metadata's only knows who took it from there.

@@ -19,7 +19,4 @@ struct DetectorKind {
 };
 const DetectorKind& kindOf(DetectionMethod method);
 
-/// The detector that the options name. Throws Error(input) when it needs a model file that is missing or damaged.
-std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const SceneScale& scale);
-
 }  // namespace eyrie

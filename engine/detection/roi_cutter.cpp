@@ -13,9 +13,10 @@ OrientedBox extendedCluster(const MotionCluster& cluster, cv::Size image, const 
     constexpr double kSmallest = 3;  // px, the reach of the smallest pattern
     const double largest = std::max(kSmallest, 2 * std::hypot(image.width, image.height));
     OrientedBox area = cluster.box.scaled(options.extend_along, options.extend_across);
-    const double context = looksThroughWindows(options.method) ? 2 * scale.px(options.sliding_window.context_m) : 0;
-    area.length = std::clamp(context + std::max(area.length, scale.px(options.min_roi_length_m)), kSmallest, largest);
-    area.width = std::clamp(context + std::max(area.width, scale.px(options.min_roi_width_m)), kSmallest, largest);
+    const SceneScale here = scale.at(cluster.box.centre);
+    const double context = looksThroughWindows(options.method) ? 2 * here.px(options.sliding_window.context_m) : 0;
+    area.length = std::clamp(context + std::max(area.length, here.px(options.min_roi_length_m)), kSmallest, largest);
+    area.width = std::clamp(context + std::max(area.width, here.px(options.min_roi_width_m)), kSmallest, largest);
     return area;
 }
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "rerun/replay.h"
 #include "scoring/scoring.h"
+#include "store/details/kept_details.h"
 
 namespace eyrie {
 namespace {
@@ -69,6 +70,17 @@ DiagnosisSource diagnosisSource(const RunStore& store, const RunRecord& run) {
     return source;
 }
 
+std::vector<ScorePoint> scoreCurveOf(const RunEvaluation& evaluation, const RunStore& store,
+                                     const std::stop_token& stop) {
+    constexpr std::size_t kMostPoints = 50;
+    BoxesByFrame boxes = evaluation.result;
+    if (!evaluation.detections) {
+        for (auto& [frame, doubtful] : store.doubtfulBoxes(evaluation.run.id))
+            boxes[frame].insert(boxes[frame].end(), doubtful.begin(), doubtful.end());
+    }
+    return scoreCurve(evaluation.truth, boxes, evaluation.options, kMostPoints, stop);
+}
+
 struct RunEvaluator::Kept {
     std::filesystem::path path;
     std::optional<ProjectFile> project;
@@ -90,10 +102,18 @@ struct RunEvaluator::Kept {
         store.emplace(*project);
         path = wanted;
     }
+    /// Frames of which the run kept tracks only tell nothing of causes.
+    DiagnosisSource sourceOf(const RunRecord& run) {
+        DiagnosisSource source = diagnosisSource(*store, run);
+        source.frame_result = [this, all = source.frame_result, id = run.id](FrameIndex frame) {
+            return hasDetails(*project, id, frame) ? all(frame) : std::nullopt;
+        };
+        return source;
+    }
     void readRun(const RunRecord& run, bool wants_detections) {
         const bool same_run = run_id == run.id && frames_done == run.frames_done && state == run.state;
         if (same_run && detections == wants_detections) return;
-        if (!same_run) diagnoser.emplace(diagnosisSource(*store, run));
+        if (!same_run) diagnoser.emplace(sourceOf(run));
         run_id = 0;
         result = wants_detections ? store->detectionBoxes(run.id) : store->trackBoxes(run.id);
         run_id = run.id;
@@ -122,6 +142,8 @@ std::shared_ptr<const RunEvaluation> RunEvaluator::evaluate(const EvaluationRequ
     Scoring scoring = scoringOf(readGroundTruth(request.truth, *kept_->project, e.run), wishes, coveredFrames(e.run));
     e.truth_name = request.truth.file.empty() ? "labels of the project" : request.truth.file.filename().string();
     e.remarks = scoring.truth.remarks;
+    if (const int kept = detailedFrames(*kept_->project, e.run.id); kept < e.run.frames_done)
+        e.remarks.push_back("causes of errors are found from tracks alone where " + lackOfDetails(e.run, kept));
     e.options = scoring.options;
     const BoxesByFrame& truth = scoring.truth.boxes;
     if (stop.stop_requested()) return nullptr;

@@ -11,6 +11,7 @@
 #include "evaluation/comparison/method_difference.h"
 #include "evaluation/comparison/track_bootstrap.h"
 #include "evaluation/evaluate.h"
+#include "evaluation/measures/score_curve.h"
 #include "scoring/ground_truth.h"
 #include "store/runs/run_store.h"
 
@@ -76,6 +77,11 @@ class RunEvaluator {
     struct Kept;
     std::unique_ptr<Kept> kept_;
 };
+
+/// Precision and recall over the score, at the shown T_ov; tracks that only their score kept out of the result are
+/// counted, too, so that the curve goes on below the run's own threshold. Throws as RunEvaluator does.
+std::vector<ScorePoint> scoreCurveOf(const RunEvaluation& evaluation, const RunStore& store,
+                                     const std::stop_token& stop = {});
 
 /// What a stored run tells about causes. `store` must outlive the answer's use.
 DiagnosisSource diagnosisSource(const RunStore& store, const RunRecord& run);

@@ -1,6 +1,7 @@
 #include "exchange/project_world.h"
 
 #include <cmath>
+#include <utility>
 
 #include "events/stored_events.h"
 #include "georeference/video_world.h"
@@ -19,7 +20,8 @@ struct WorldFacts {
 }  // namespace
 
 std::shared_ptr<const TrackWorld> trackWorldOf(const RunStore& store, const RunRecord& run, const FrameSource* pixels,
-                                               std::optional<std::int64_t> start_utc_us, const std::stop_token& stop) {
+                                               std::optional<std::int64_t> start_utc_us, const std::stop_token& stop,
+                                               std::vector<ControlPoint> control) {
     const auto facts = std::make_shared<WorldFacts>(readTracks(store, run));
     auto world = std::make_shared<TrackWorld>();
     const Footage& footage = facts->stored.footage;
@@ -32,10 +34,15 @@ std::shared_ptr<const TrackWorld> trackWorldOf(const RunStore& store, const RunR
             return TrackWorld::GroundPlace{stretch, facts->ground.toGround(frame, px)};
         };
     }
-    facts->video = videoWorldOf(
-        pixels,
-        {footage.image_size, footage.first_frame, footage.last_frame, footage.scale.frame_rate_hz, {}, footage.camera},
-        start_utc_us, stop);
+    facts->video = videoWorldOf(pixels,
+                                {footage.image_size,
+                                 footage.first_frame,
+                                 footage.last_frame,
+                                 footage.scale.frame_rate_hz,
+                                 {},
+                                 footage.camera,
+                                 std::move(control)},
+                                start_utc_us, stop);
     world->no_clock = facts->video.no_clock;
     world->no_place = facts->video.no_places;
     if (facts->video.places.known()) {

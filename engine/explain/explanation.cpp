@@ -179,13 +179,13 @@ void Story::decide(const std::string& sentence, const std::string& parameter) {
 
 std::string Story::speedText(double px_per_frame) const {
     std::string text = numberText(px_per_frame) + " px/frame";
-    if (scale.gsd_known) text += " (" + numberText(scale.metresPerSecond(px_per_frame)) + " m/s)";
+    if (here.gsd_known) text += " (" + numberText(here.metresPerSecond(px_per_frame)) + " m/s)";
     return text;
 }
 
 std::string Story::lengthText(double px) const {
     std::string text = numberText(px) + " px";
-    if (scale.gsd_known) text += " (" + numberText(scale.metres(px)) + " m)";
+    if (here.gsd_known) text += " (" + numberText(here.metres(px)) + " m)";
     return text;
 }
 
@@ -277,13 +277,13 @@ const TrackState* storedTrackAt(const PlaceEvidence& evidence) {
 OrientedBox placeAt(cv::Point2d point, const SceneScale& scale) {
     constexpr double kCarLength_m = 4.5;
     constexpr double kSmallest = 8;
-    const double side = std::max(scale.px(kCarLength_m), kSmallest);
+    const double side = std::max(scale.at(point).px(kCarLength_m), kSmallest);
     return {point, side, side, 0};
 }
 
 Explanation explain(const PlaceEvidence& evidence, const ChainOptions& options, const SceneScale& scale) {
     using namespace explaining;
-    Story story{evidence, options, scale};
+    Story story{evidence, options, scale, scale.at(evidence.area.centre)};
     std::vector<int> clusters;
     std::vector<int> detections;
     const bool detected = tellRegistration(story) && tellCorners(story) && tellClusters(story, clusters) &&

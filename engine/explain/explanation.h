@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,14 +34,15 @@ struct Explanation {
 
 /// All that is known of one place of a frame.
 struct PlaceEvidence {
-    OrientedBox area;                       ///< the place, image px
-    FrameResult result;                     ///< the frame as the run found it; tracks are the run's finished ones
-    std::optional<CornerVerdicts> corners;  ///< on all corners of the frame; nothing: not looked at
-    std::vector<SearchTrace> searches;      ///< of the search areas near the place
-    ClusteringTrace clustering;             ///< of the whole frame; empty where clusters come from difference images
-    RemovalTrace removal;                   ///< of the whole frame
-    std::optional<TrackingTrace> tracking;  ///< nothing: not looked at
-    std::vector<TrackState> unfinished;     ///< tracks before they were finished; for `tracking`
+    OrientedBox area;                         ///< the place, image px
+    FrameResult result;                       ///< the frame as the run found it; tracks are the run's finished ones
+    std::optional<CornerVerdicts> corners;    ///< on all corners of the frame; nothing: not looked at
+    std::vector<SearchTrace> searches;        ///< of the search areas near the place
+    ClusteringTrace clustering;               ///< of the whole frame; empty where clusters come from difference images
+    RemovalTrace removal;                     ///< of the whole frame
+    std::optional<TrackingTrace> tracking;    ///< nothing: not looked at
+    std::vector<TrackState> unfinished;       ///< tracks before they were finished; for `tracking`
+    std::map<TrackId, TrackEvidence> judged;  ///< what speaks for the finished tracks here, and those left out
 };
 
 /// Goes through the stages of the chain at one place and names the parameter that decided. `options` and `scale` are

@@ -119,7 +119,7 @@ bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<i
 bool tellRemoval(Story& story, std::vector<int>& detections) {
     const PlaceEvidence& evidence = story.evidence;
     const auto& found = evidence.result.detections;
-    const int needed = vectorsNeeded(evidence.result.motion, story.options.outliers, story.scale);
+    const int needed = vectorsNeeded(evidence.result.motion, story.options.outliers, story.here);
     const bool by_density = needed > story.options.outliers.min_vectors;
     const std::string count_parameter = by_density ? "outliers.min_density_share" : "outliers.min_vectors";
     std::vector<int> kept;
@@ -132,6 +132,10 @@ bool tellRemoval(Story& story, std::vector<int>& detections) {
         switch (detection.rejection) {
             case Rejection::none:
                 story.pass("removal", vectors, count_parameter);
+                if (!std::isnan(detection.probability)) {
+                    story.note("removal", "a moving vehicle with a probability of " +
+                                              numberText(detection.probability) + ", by this frame alone");
+                }
                 kept.push_back(index);
                 break;
             case Rejection::duplicate: {

@@ -25,6 +25,7 @@ struct Story {
     const PlaceEvidence& evidence;
     const ChainOptions& options;
     const SceneScale& scale;
+    const SceneScale here;  ///< the scale at the place
     Explanation told{};
     bool decided = false;
 };
@@ -44,6 +45,8 @@ bool tellClusters(Story& story, std::vector<int>& clusters);
 bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<int>& detections);
 /// Duplicates and outliers; `detections` keeps those that stayed.
 bool tellRemoval(Story& story, std::vector<int>& detections);
+/// What speaks for a finished track, and against it; nothing where it has no score.
+void tellScore(Story& story, TrackId track);
 void tellTracks(Story& story, const std::vector<int>& detections);
 /// The reliable track at the place that was stored, if any.
 const TrackState* storedTrackAt(const PlaceEvidence& evidence);

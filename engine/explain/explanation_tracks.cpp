@@ -80,11 +80,13 @@ void tellTracks(Story& story, const std::vector<int>& detections) {
         story.pass("tracks", "track " + std::to_string(stored->id) + ": " + nameOf(stored->status) + ", " +
                                  nameOf(stored->origin) + ", detected in " + std::to_string(stored->hits) + " of " +
                                  std::to_string(stored->age + 1) + " frames");
+        tellScore(story, stored->id);
         return;
     }
     if (const DroppedState* dropped = droppedAt(evidence)) {
         story.fail("tracks", "left out when the run's tracks were finished: " + textOf(*dropped),
                    parameterOf(dropped->why));
+        tellScore(story, dropped->id);
         story.decide("Left out when the run's tracks were finished: " + textOf(*dropped), parameterOf(dropped->why));
         return;
     }

@@ -42,6 +42,15 @@ bool PlaceExplainer::gather(FrameIndex frame, const std::stop_token& stop) {
     evidence_.result = replayed->result;
     evidence_.result.tracks = stored->tracks;
     evidence_.result.dropped = stored->dropped;
+    if (source_.evidence_of) {
+        const auto judge = [&](TrackId track) {
+            if (const auto judged = source_.evidence_of(track)) evidence_.judged[track] = *judged;
+        };
+        for (const TrackState& track : stored->tracks) judge(track.id);
+        for (const DroppedState& dropped : stored->dropped) {
+            if (dropped.why != TrackDrop::unconfirmed) judge(dropped.id);
+        }
+    }
     evidence_.clustering = replay_.clustering();
     evidence_.removal = replay_.removal();
     const int reach = MotionWindow::reachFor(source_.options.motion, source_.scale);

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/geometry/outline_map.h"
+#include "georeference/control_fit.h"
 #include "io/tables/number_text.h"
 
 namespace eyrie {
@@ -16,6 +17,7 @@ constexpr double kReach_s = 5;
 constexpr double kCompared_s = 2;
 constexpr double kDoubt = 0.05;          ///< of the picture's diagonal
 constexpr double kFarOutside = 1;        ///< widths of the picture: a corner farther out of another frame is no measure
+constexpr double kFarFromControl = 100;  ///< the same, where a person said what lies where
 constexpr double kHorizon = 1e-9;        ///< denominators of projective maps
 constexpr double kFarthest_m = 200'000;  ///< of any corner from the middle of the video
 
@@ -76,6 +78,24 @@ GeoReference::GeoReference(const MetadataTimeline& timeline, GeoFootage footage)
     footage_.time_us = {};  // its source need not live on
 }
 
+GeoReference GeoReference::byControl(GeoFootage footage, std::vector<std::string>* why_not) {
+    GeoReference reference;
+    if (footage.control.empty()) return reference;
+    reference.plane_ = LocalPlane(footage.control.front().place);
+    double squares = 0;
+    for (const ControlFit& fit : fitControlPoints(footage.control, footage.camera, reference.plane_, why_not)) {
+        reference.views_.emplace(fit.frame, Statement{fit.plane_from_image, std::nullopt});
+        reference.control_points_ += fit.points;
+        squares += fit.points * fit.rms_m * fit.rms_m;
+    }
+    if (reference.control_points_ > 0) reference.control_rms_m_ = std::sqrt(squares / reference.control_points_);
+    reference.footage_ = std::move(footage);
+    reference.footage_.time_us = {};
+    constexpr int kAnyDistance = 1 << 28;
+    reference.reach_ = kAnyDistance;
+    return reference;
+}
+
 void GeoReference::measureDisagreement() {
     const int apart = std::max(1, static_cast<int>(std::lround(kCompared_s * footage_.frame_rate_hz)));
     const cv::Size size = footage_.image_size;
@@ -101,6 +121,9 @@ void GeoReference::measureDisagreement() {
 
 std::string GeoReference::origin() const {
     if (!known()) return {};
+    if (control_points_ > 0)
+        return std::to_string(control_points_) + " control points placed by hand (" + fixedText(control_rms_m_, 1) +
+               " m off their places, root mean square), carried by the registration";
     std::string text = std::string(nameOf(source_)) + " in the metadata, steadied by the registration";
     if (!disagreement_m_) return text;
     const std::string apart =
@@ -118,7 +141,7 @@ std::optional<cv::Matx33d> GeoReference::mapOf(FrameIndex frame) const {
     const std::array<cv::Point2d, 4> corners = outlineOf(footage_.image_size);
     std::array<std::vector<double>, 4> east;
     std::array<std::vector<double>, 4> north;
-    const double margin = kFarOutside * footage_.image_size.width;
+    const double margin = (control_points_ > 0 ? kFarFromControl : kFarOutside) * footage_.image_size.width;
     const cv::Rect2d about(-margin, -margin, footage_.image_size.width + 2 * margin,
                            footage_.image_size.height + 2 * margin);
     for (auto view = views_.lower_bound(frame - reach_); view != views_.end() && view->first <= frame + reach_;

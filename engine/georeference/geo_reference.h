@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "annotation/keyframes/camera_motion.h"
+#include "core/geometry/control_point.h"
 #include "core/geometry/local_plane.h"
 #include "metadata/ground_view.h"
 
@@ -21,6 +22,7 @@ struct GeoFootage {
     double frame_rate_hz = 25;
     std::function<std::int64_t(FrameIndex)> time_us;  ///< µs from the beginning of the video
     CameraMotion camera;                              ///< how a run registered them
+    std::vector<ControlPoint> control{};              ///< what a person found; counts more than the metadata
 };
 
 /// Where pixels of a video lie on the earth, by the metadata of the camera and the stored registration together.
@@ -33,6 +35,9 @@ class GeoReference {
     /// Knows no place.
     GeoReference() = default;
     GeoReference(const MetadataTimeline& timeline, GeoFootage footage);
+    /// By the control points of the footage, carried over by the registration as far as that connects frames. `why_not`
+    /// tells of points that say nothing.
+    static GeoReference byControl(GeoFootage footage, std::vector<std::string>* why_not = nullptr);
 
     /// Whether any frame has a place.
     bool known() const { return !views_.empty(); }
@@ -72,6 +77,8 @@ class GeoReference {
     int reach_ = 0;                          ///< frames
     std::map<FrameIndex, Statement> views_;  ///< every half second
     GroundSource source_ = GroundSource::none;
+    int control_points_ = 0;  ///< that it rests on; 0: it rests on metadata
+    double control_rms_m_ = 0;
     std::optional<double> disagreement_m_;
     bool doubtful_ = false;
     mutable FrameIndex mapped_frame_ = -1;

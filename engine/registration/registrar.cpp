@@ -123,7 +123,8 @@ RegisteredFrame Registrar::repeatedFrame(const Frame& frame) {
     result.registration.current_from_previous.to_frame = frame.index;
     for (TrackedCorner& corner : anchor_->corners.corners) {
         ++corner.age;
-        result.corners.push_back({corner.id, corner.position, corner.position, corner.age, corner.on_background});
+        if (!corner.sticks)
+            result.corners.push_back({corner.id, corner.position, corner.position, corner.age, corner.on_background});
     }
     return result;
 }
@@ -232,6 +233,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
     result.corners.reserve(anchor.corners.corners.size());
     std::size_t at = 0;
     for (const TrackedCorner& corner : anchor.corners.corners) {
+        if (corner.sticks) continue;
         while (at < before.size() && before[at].first < corner.id) ++at;
         const bool known = at < before.size() && before[at].first == corner.id;
         result.corners.push_back({corner.id, known ? before[at].second : corner.position, corner.position, corner.age,
@@ -283,7 +285,7 @@ void Registrar::replenish(Anchor& anchor, StageTimes& times) {
     CornerSurroundings surroundings;
     surroundings.living = positionsOf(anchor.corners);
     for (const TrackedCorner& corner : anchor.corners.corners) {
-        if (corner.moves) surroundings.movers.push_back(corner.position);
+        if (corner.moves && !corner.sticks) surroundings.movers.push_back(corner.position);
     }
     surroundings.noise = anchor.noise;
     surroundings.margin = tracker_.margin();

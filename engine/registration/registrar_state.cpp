@@ -28,9 +28,10 @@ void transfer(Archive& archive, LocalTurn& turn) {
 template <class Archive>
 void transfer(Archive& archive, TrackedCorner& corner) {
     archive(corner.id, corner.position, corner.offset, corner.velocity, corner.drift, corner.turn, corner.patch_turn,
-            corner.position_variance, corner.residual, corner.age, corner.patch_age, corner.on_background,
-            corner.moves);
-    archive.require(usable(corner.position) && usable(corner.offset) && usable(corner.velocity) && corner.age >= 0,
+            corner.position_variance, corner.residual, corner.age, corner.patch_age, corner.on_background, corner.moves,
+            corner.held, corner.ground, corner.held_frames, corner.sticks);
+    archive.require(usable(corner.position) && usable(corner.offset) && usable(corner.velocity) &&
+                        usable(corner.held) && usable(corner.ground) && corner.age >= 0 && corner.held_frames >= 0,
                     "a corner that cannot be");
 }
 

@@ -24,9 +24,10 @@ bool whollyInImage(const OrientedBox& box, cv::Size image) {
 
 std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const OutlierRemovalOptions& options,
                                            const SceneScale& scale, cv::Size image) {
-    const double shortest = scale.px(options.min_length_m);
-    const double longest = scale.px(options.max_length_m);
-    const double widest = scale.px(options.max_width_m);
+    const SceneScale here = scale.at(box.centre);
+    const double shortest = here.px(options.min_length_m);
+    const double longest = here.px(options.max_length_m);
+    const double widest = here.px(options.max_width_m);
     if (!std::isfinite(box.area()) || box.area() < options.min_area_px)
         return BrokenLimit{"outliers.min_area", box.area(), options.min_area_px, false};
     if (options.inside_image && image.area() > 0 && !whollyInImage(box, image))
@@ -86,15 +87,16 @@ int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& option
 std::vector<Detection> removeOutliers(std::vector<Detection> detections, const FrameMotion& motion,
                                       const OutlierRemovalOptions& options, const SceneScale& scale) {
     const double density = cornerDensity(motion);
-    const double car = carArea(scale);
-    const auto needed = static_cast<std::size_t>(vectorsNeeded(motion, options, scale));
     SupportRule rule;
     rule.margin_px = options.vector_margin_px;
     rule.compare_velocity = options.compare_velocity;
     for (Detection& detection : detections) {
         if (detection.rejection != Rejection::none) continue;
         measureSupport(detection, motion, rule);
+        const SceneScale here = scale.at(detection.box.centre);
+        const auto needed = static_cast<std::size_t>(vectorsNeeded(motion, options, here));
         if (!(detection.score > 0)) {
+            const double car = carArea(here);
             // Boxes much smaller or larger than a car must not look surer or less sure for that alone.
             const double area = std::clamp(detection.box.area(), car / 2, car * 2);
             const double expected = std::max(1.0, density * area);

@@ -28,7 +28,7 @@ struct OutlierRemovalOptions {
     void describe(ParameterVisitor& visitor);
 };
 
-/// T_out in a frame of this density of corners.
+/// T_out in a frame of this density of corners. `scale`: that of the detection's place, SceneScale::at().
 int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& options, const SceneScale& scale);
 
 /// The first limit of size or place that a box breaks; nothing when it is possible. `image`: size of the picture;

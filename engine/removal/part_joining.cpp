@@ -24,7 +24,15 @@ struct Limits {
     double vehicle_length;
     double width;
     double silhouette_length;
-    double silhouette_gap;  ///< 0: silhouettes are not looked at
+    double silhouette_gap;  ///< 0: no vectors lie close enough for one silhouette
+
+    static Limits of(const PartJoiningOptions& options, const SceneScale& scale) {
+        const double gap = scale.px(options.part_silhouette_gap_m);
+        return {scale.px(options.part_car_length_m),        scale.px(options.part_length_m),
+                scale.px(options.part_vehicle_length_m),    std::max(4.0, scale.px(options.part_vehicle_width_m)),
+                scale.px(options.part_silhouette_length_m), gap > 0 ? std::max(kSmallestGap, gap) : 0};
+    }
+    double farthest() const { return std::max({vehicle_length, car_length, silhouette_length}); }
 };
 
 /// Whether the silhouette of one vehicle reaches from the middle of the one to the middle of the other: vectors that
@@ -70,8 +78,7 @@ std::optional<Joined> unionOfParts(const Detection& a, const Detection& b, const
     if (both.area() <= 0 || both.width > std::max(limits.width, widest)) return {};
     // Parts lie one behind the other: beside each other they are two vehicles, or one and its shadow.
     if (both.width > 1.5 * widest + 1) return {};
-    if (limits.silhouette_gap > 0 && both.length <= limits.silhouette_length &&
-        onOneSilhouette(a, b, motion, limits.silhouette_gap)) {
+    if (both.length <= limits.silhouette_length && onOneSilhouette(a, b, motion, limits.silhouette_gap)) {
         return Joined{both, limits.silhouette_length, "duplicates.part_silhouette_length"};
     }
     if (a.complete || b.complete) return {};
@@ -117,25 +124,21 @@ void PartJoiningOptions::describe(ParameterVisitor& visitor) {
 std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameMotion& motion,
                                  const PartJoiningOptions& options, const SceneScale& scale, RemovalTrace* trace) {
     if (!options.enabled) return detections;
-    const double gap = scale.px(options.part_silhouette_gap_m);
-    const Limits limits{
-        scale.px(options.part_car_length_m),        scale.px(options.part_length_m),
-        scale.px(options.part_vehicle_length_m),    std::max(4.0, scale.px(options.part_vehicle_width_m)),
-        scale.px(options.part_silhouette_length_m), gap > 0 ? std::max(kSmallestGap, gap) : 0};
-    const double farthest = std::max({limits.vehicle_length, limits.car_length, limits.silhouette_length});
     const auto worth = [&](std::size_t i, std::size_t k) -> std::optional<double> {
         const Detection& a = detections[i];
         const Detection& b = detections[k];
         if (a.rejection != Rejection::none || b.rejection != Rejection::none) return {};
         const cv::Point2d apart = a.box.centre - b.box.centre;
         const double distance = std::sqrt(apart.dot(apart));
-        if (!(distance < farthest) || !unionOfParts(a, b, motion, options, limits)) return {};
+        const Limits limits = Limits::of(options, scale.at((a.box.centre + b.box.centre) / 2));
+        if (!(distance < limits.farthest()) || !unionOfParts(a, b, motion, options, limits)) return {};
         return -distance;
     };
     BestPairs pairs(detections.size(), worth);
     while (const auto best = pairs.best()) {
         Detection* first = &detections[best->first];
         Detection* second = &detections[best->second];
+        const Limits limits = Limits::of(options, scale.at((first->box.centre + second->box.centre) / 2));
         const auto joined = unionOfParts(*first, *second, motion, options, limits);
         if (trace != nullptr) {
             trace->duplicates.push_back({static_cast<int>(second - detections.data()),

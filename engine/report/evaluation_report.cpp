@@ -35,8 +35,8 @@ void tellWhat(ReportPage& page, const RunEvaluation& e, const ReportOptions& opt
     fact("Video", run.sequence.path);
     fact("Image", std::to_string(run.sequence.size.width) + " × " + std::to_string(run.sequence.size.height) + " px, " +
                       fixedText(run.sequence.frame_rate_hz, 3) + " frames/s");
-    fact("Scale",
-         (run.scale.gsd_known ? "" : "not known; worked with ") + describe(run.scale.gsd_m_per_px, run.scale_basis));
+    fact("Scale", (run.scale.gsd_known ? "" : "not known; worked with ") +
+                      describe(run.scale, run.scale_basis, run.sequence.size));
     fact("Run", std::to_string(run.id) + (run.name.empty() ? "" : ", " + run.name) + ", frames " +
                     std::to_string(run.first_frame) + " to " + std::to_string(run.first_frame + run.frames_done - 1) +
                     ", started " + run.started_utc + ", Eyrie " + run.engine_version);

@@ -90,7 +90,7 @@ class Method {
             BoxRecord record;
             record.frame = found.motion.frame;
             record.box = detection.box;
-            record.score = detection.score;
+            record.score = shownScore(detection);
             record.velocity = detection.velocity;
             result_.detections[record.frame].push_back(record);
         }

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "detection/detector_table.h"
 #include "detection/roi_cutter.h"
+#include "removal/detection_probability.h"
 #include "tracking/tracker.h"
 
 namespace eyrie {
@@ -122,6 +123,7 @@ FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
     result.rois = known.rois;
     result.detections = removeDuplicates(known.found, result.motion, duplicatesFor(options), source_.scale);
     result.detections = removeOutliers(std::move(result.detections), result.motion, options.outliers, source_.scale);
+    if (looksThroughWindows(options.detection.method)) judgeDetections(result.detections, result.motion);
     return result;
 }
 

@@ -122,7 +122,7 @@ BoxesByFrame detectionBoxesOf(const RangeResult& result) {
             BoxRecord record;
             record.frame = frame;
             record.box = detection.box;
-            record.score = detection.score;
+            record.score = shownScore(detection);
             record.velocity = detection.velocity;
             boxes[frame].push_back(std::move(record));
         }

@@ -15,10 +15,11 @@ namespace eyrie {
 struct ReplaySource {
     ChainOptions options;
     SceneScale scale;
-    FrameIndex first_frame = 0;                                         ///< of the run
-    std::function<Frame(FrameIndex)> pixels;                            ///< throws Error where it cannot be read
-    std::function<std::optional<FrameMotion>(FrameIndex)> motion_of{};  ///< nothing: the run has no such frame
-    std::function<std::optional<FrameResult>(FrameIndex)> result_of{};  ///< all of a frame; for explanations only
+    FrameIndex first_frame = 0;                                          ///< of the run
+    std::function<Frame(FrameIndex)> pixels;                             ///< throws Error where it cannot be read
+    std::function<std::optional<FrameMotion>(FrameIndex)> motion_of{};   ///< nothing: the run has no such frame
+    std::function<std::optional<FrameResult>(FrameIndex)> result_of{};   ///< all of a frame; for explanations only
+    std::function<std::optional<TrackEvidence>(TrackId)> evidence_of{};  ///< what speaks for a track; the same
 };
 
 /// How many frames before play a part in what is found in one frame from given motion vectors.

@@ -80,10 +80,7 @@ ImageStacker::ImageStacker(const StackingOptions& options, const SceneScale& sca
 std::vector<ImageStacker::Placed> ImageStacker::placeVectors(const FrameMotion& motion,
                                                              const std::vector<MotionCluster>& clusters) const {
     std::vector<Placed> placed(motion.motion_vectors.size());
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-        const auto& vector = motion.motion_vectors[i];
-        placed[i] = {&vector, std::atan2(vector.velocity.y, vector.velocity.x), -1};
-    }
+    for (std::size_t i = 0; i < placed.size(); ++i) placed[i].vector = &motion.motion_vectors[i];
     // Single directions fluctuate; the cluster's is steadier and keeps edges sharp (§5.3).
     for (std::size_t c = 0; c < clusters.size(); ++c) {
         for (const int member : clusters[c].members) {

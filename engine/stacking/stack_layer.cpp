@@ -23,7 +23,7 @@ StackLayer::StackLayer(cv::Mat gray, const cv::Matx23d& image_from_stack, cv::Si
                   static_cast<std::size_t>(tilesAlong(area_.height)));
 }
 
-StackLayer::StackLayer(const cv::Mat& pixels) : StackLayer(pixels, cv::Matx23d(1, 0, 0, 0, 1, 0), pixels.size()) {
+StackLayer::StackLayer(const cv::Mat& pixels) : StackLayer(pixels, cv::Matx23d(), pixels.size()) {
     ready_ = true;
 }
 

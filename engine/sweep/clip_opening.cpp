@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "rerun/replay.h"
+#include "store/details/kept_details.h"
 
 namespace eyrie {
 
@@ -47,6 +48,8 @@ StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id) {
     stored.clip.size = run->sequence.size;
     stored.clip.scale = run->scale;
     std::tie(stored.range.first, stored.range.last) = coveredFrames(*run);
+    // Part of it is of no use: then all is found anew.
+    if (detailedFrames(project, run->id) < run->frames_done) return stored;
     for (FrameIndex i = stored.range.first; i <= stored.range.last; ++i) {
         std::optional<FrameResult> frame = store.frameResult(run->id, i);
         if (!frame)
@@ -69,7 +72,12 @@ void OpenedClips::add(StoredRun run, const ClipFrames::Open& open, const GroundT
     run.clip.ground_truth = truth.file.string();
     SweepInput input =
         openClip(run.clip, open, run.range, readGroundTruth(truth, project, run.record), wishes, options);
-    input.cache->useStoredMotion(run.options, std::move(run.motion));
+    if (run.motion.empty()) {
+        remarks.push_back("run " + std::to_string(run.record.id) +
+                          " keeps no motion vectors of all its frames (recording.details): they are found anew");
+    } else {
+        input.cache->useStoredMotion(run.options, std::move(run.motion));
+    }
     add(std::move(run.clip), std::move(input));
 }
 

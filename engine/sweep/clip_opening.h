@@ -16,7 +16,7 @@ struct StoredRun {
     RunRecord record;
     ChainOptions options;
     FrameRange range;
-    std::vector<FrameMotion> motion;
+    std::vector<FrameMotion> motion;  ///< empty where the run keeps no details of some frame
 };
 /// Throws Error(parameter) when the project has no such run, Error(project) when it has none.
 StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id = {});

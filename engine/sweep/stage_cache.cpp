@@ -28,7 +28,7 @@ BoxRecord recordOf(FrameIndex frame, const Detection& detection) {
     BoxRecord record;
     record.frame = frame;
     record.box = detection.box;
-    record.score = detection.score;
+    record.score = shownScore(detection);
     record.velocity = detection.velocity;
     return record;
 }

@@ -25,6 +25,11 @@ double completedSide(double seen, double known, bool low_cut, bool high_cut, dou
     return known;
 }
 
+/// Of an end of a box that a classifier took for a whole vehicle; `size`: of a size, px.
+double completeDeviation(double length, double size) {
+    return std::hypot(size / 2, kLengthStep * length / std::numbers::sqrt2);
+}
+
 /// The box of equal second moments with its axes along another heading.
 OrientedBox inHeading(const OrientedBox& box, double heading) {
     const double turn = turnBetween(heading, box.heading);
@@ -58,26 +63,31 @@ CompletedBox completeAtBorder(const OrientedBox& detection, double length, doubl
     return result;
 }
 
+MeasurementModel::Lengths::Lengths(const TrackerOptions& options, const SceneScale& here)
+    : position(std::hypot(options.position_noise_px, here.px(options.position_noise_m))),
+      car_length(here.px(options.car_length_m)),
+      car_width(here.px(options.car_width_m)),
+      size(std::hypot(options.size_noise_px, here.px(options.size_noise_m))),
+      velocity(here.pxPerFrame(options.velocity_noise_m_s)) {
+    process.acceleration = std::max(0.004, here.pxPerFrame(options.acceleration_m_s2) / here.frame_rate_hz);
+    process.position = 0.05;
+    process.size = std::max(0.01, here.px(options.size_rate_m));
+    process.heading = radiansFromDegrees(options.turn_rate_deg) / here.frame_rate_hz;
+}
+
 MeasurementModel::MeasurementModel(const TrackerOptions& options, const SceneScale& scale)
-    : position_(std::hypot(options.position_noise_px, scale.px(options.position_noise_m))),
+    : options_(options),
+      scale_(scale),
+      everywhere_(options, scale),
       position_floor_(options.position_noise_px),
-      car_length_(scale.px(options.car_length_m)),
-      car_width_(scale.px(options.car_width_m)),
       one_vehicle_(VehicleLimit::of(options, scale)),
-      size_(std::hypot(options.size_noise_px, scale.px(options.size_noise_m))),
       heading_(radiansFromDegrees(options.heading_noise_deg)),
-      velocity_(scale.pxPerFrame(options.velocity_noise_m_s)),
       velocity_floor_(options.velocity_noise_px),
       size_gate_(options.size_gate),
       slow_speed_sigmas_(options.slow_speed_sigmas),
       complete_at_border_(options.complete_at_border),
       adapt_size_(options.adapt_size),
-      measure_velocity_(options.measure_velocity) {
-    process_.acceleration = std::max(0.004, scale.pxPerFrame(options.acceleration_m_s2) / scale.frame_rate_hz);
-    process_.position = 0.05;
-    process_.size = std::max(0.01, scale.px(options.size_rate_m));
-    process_.heading = radiansFromDegrees(options.turn_rate_deg) / scale.frame_rate_hz;
-}
+      measure_velocity_(options.measure_velocity) {}
 
 void MeasurementModel::startFrame(cv::Size image, double background_speed_sigma) {
     image_ = image;
@@ -94,37 +104,39 @@ double MeasurementModel::headingDeviation(double speed) const {
     return std::hypot(heading_, std::atan2(sigma_, speed));
 }
 
-double MeasurementModel::velocityDeviation() const {
-    return std::hypot(std::max(velocity_floor_, sigma_), velocity_);
+double MeasurementModel::velocityDeviation(const Lengths& here) const {
+    return std::hypot(std::max(velocity_floor_, sigma_), here.velocity);
 }
 
 BoxMeasurement MeasurementModel::first(const Detection& detection) const {
+    const Lengths here = lengthsAt(detection.box.centre);
     BoxMeasurement m;
     m.box = detection.box;
-    m.along = m.across = position_;
+    m.along = m.across = here.position;
     if (!adapt_size_) {
-        m.length = m.width = size_;
+        m.length = m.width = here.size;
     } else if (detection.complete) {
-        const double end = completeDeviation(detection.box.length);
-        m.setEnds(end, end, size_ / 2, size_ / 2);
+        const double end = completeDeviation(detection.box.length, here.size);
+        m.setEnds(end, end, here.size / 2, here.size / 2);
     } else {
         // The first box is often a part of the object only, and either end may be missing.
         const double end =
-            std::hypot(size_ / 2, std::max(detection.box.length / 6, (car_length_ - detection.box.length) / 2));
+            std::hypot(here.size / 2, std::max(detection.box.length / 6, (here.car_length - detection.box.length) / 2));
         const double side =
-            std::hypot(size_ / 2, std::max(detection.box.width / 6, (car_width_ - detection.box.width) / 2));
+            std::hypot(here.size / 2, std::max(detection.box.width / 6, (here.car_width - detection.box.width) / 2));
         m.setEnds(end, end, side, side);
     }
     m.heading = headingDeviation(std::hypot(detection.velocity.x, detection.velocity.y));
     if (velocityKnown(detection)) {
         m.velocity = detection.velocity;  // where to begin, even if it is not measured
-        if (measure_velocity_) m.speed = velocityDeviation();
+        if (measure_velocity_) m.speed = velocityDeviation(here);
     }
     return m;
 }
 
 MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, const Detection& detection,
                                                   const OrientedBox& predicted, bool size_known) const {
+    const Lengths here = lengthsAt(predicted.centre);
     Update result;
     BoxMeasurement& m = result.measurement;
     const cv::Point2d velocity = detection.velocity;
@@ -140,7 +152,7 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, const 
     if (heading_known) m.heading = velocity_known ? headingDeviation(speed) : 2 * heading_;
     if (velocity_known && measure_velocity_) {
         m.velocity = velocity;
-        m.speed = velocityDeviation();
+        m.speed = velocityDeviation(here);
     }
 
     const double longer = m.box.length - predicted.length;
@@ -156,19 +168,19 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, const 
     // What lies outside the image cannot be measured.
     // Parts of one vehicle miss an end; a box that may hold several vehicles may as well be merged or fall apart.
     if (adapt_size_ && size_measured && !at_border && detection.complete) {
-        const double end = completeDeviation(m.box.length);
-        m.setEnds(end, end, size_ / 2, size_ / 2);
+        const double end = completeDeviation(m.box.length, here.size);
+        m.setEnds(end, end, here.size / 2, here.size / 2);
         result.by_ends = true;
     } else if (adapt_size_ && size_measured && !at_border && one_vehicle_.holds(predicted) &&
                one_vehicle_.holds(m.box)) {
-        measureEnds(predicted, result);
+        measureEnds(predicted, here.size, result);
     } else {
-        if (size_measured && !(completed.length_cut && longer <= 0)) m.length = size_;
-        if (size_measured && !(completed.width_cut && wider <= 0)) m.width = size_;
+        if (size_measured && !(completed.length_cut && longer <= 0)) m.length = here.size;
+        if (size_measured && !(completed.width_cut && wider <= 0)) m.width = here.size;
         // A box too short by d misses either end: its centre is off by up to d / 2.
         const bool as_good_as_any = comes_in || !adapt_size_;
-        m.along = as_good_as_any ? position_ : std::hypot(position_, longer / 2);
-        m.across = as_good_as_any ? position_ : std::hypot(position_, wider / 2);
+        m.along = as_good_as_any ? here.position : std::hypot(here.position, longer / 2);
+        m.across = as_good_as_any ? here.position : std::hypot(here.position, wider / 2);
     }
     const cv::Point2d along = m.box.direction();
     if (comes_in && completed.length_cut && longer > 0) {
@@ -182,14 +194,10 @@ MeasurementModel::Update MeasurementModel::update(const OrientedBox& box, const 
     return result;
 }
 
-double MeasurementModel::completeDeviation(double length) const {
-    return std::hypot(size_ / 2, kLengthStep * length / std::numbers::sqrt2);
-}
-
-void MeasurementModel::measureEnds(const OrientedBox& predicted, Update& update) const {
+void MeasurementModel::measureEnds(const OrientedBox& predicted, double size, Update& update) const {
     const OrientedBox& box = update.measurement.box;
     const cv::Point2d centre = predicted.toBox(box.centre);
-    const double noise = size_ / std::numbers::sqrt2;
+    const double noise = size / std::numbers::sqrt2;
     // An end that was not seen this time is still there; one that reaches further is new knowledge.
     const auto deviation = [&](double beyond) { return beyond >= 0 ? noise : std::hypot(noise, beyond); };
     const double front = centre.x + (box.length - predicted.length) / 2;
@@ -206,20 +214,21 @@ void MeasurementModel::measureEnds(const OrientedBox& predicted, Update& update)
 }
 
 BoxMeasurement MeasurementModel::reconstructed(const Reconstruction& reconstruction) const {
+    const Lengths here = lengthsAt(reconstruction.box.centre);
     BoxMeasurement m;
     m.box = reconstruction.box;
     m.along = m.across = position_floor_;
     if (measure_velocity_) {
         m.velocity = reconstruction.velocity;
-        m.speed = velocityDeviation();
+        m.speed = velocityDeviation(here);
     }
     if (reconstruction.heading_known) {
         m.heading = 2 * headingDeviation(std::hypot(reconstruction.velocity.x, reconstruction.velocity.y));
     }
     if (reconstruction.size_known) {
         // As good as any detection.
-        m.along = m.across = position_;
-        m.length = m.width = size_;
+        m.along = m.across = here.position;
+        m.length = m.width = here.size;
         m.heading /= 2;
     }
     return m;

@@ -52,30 +52,40 @@ class MeasurementModel {
     BoxMeasurement reconstructed(const Reconstruction& reconstruction) const;
     /// A place alone; size, heading and velocity are not measured.
     BoxMeasurement placed(const OrientedBox& box) const;
-    BoxProcessNoise processNoise() const { return process_; }
+    /// Of what is at a place of the picture.
+    BoxProcessNoise processNoise(cv::Point2d place) const { return lengthsAt(place).process; }
 
     /// Speed below which a velocity tells no direction in this frame, px/frame.
     double slowSpeed() const { return slow_speed_; }
-    /// Deviation of a detection's length and width, px.
-    double sizeDeviation() const { return size_; }
+    /// Deviation of a detection's length and width at a place, px.
+    double sizeDeviation(cv::Point2d place) const { return lengthsAt(place).size; }
     double backgroundSpeedSigma() const { return sigma_; }
 
  private:
+    /// What the options declare in metres, in pixels of a place.
+    struct Lengths {
+        Lengths(const TrackerOptions& options, const SceneScale& here);
+        BoxProcessNoise process;
+        double position;
+        double car_length;
+        double car_width;
+        double size;
+        double velocity;
+    };
+    Lengths lengthsAt(cv::Point2d place) const {
+        return scale_.slope.isFlat() ? everywhere_ : Lengths(options_, scale_.at(place));
+    }
     bool atBorder(const OrientedBox& box) const;
-    void measureEnds(const OrientedBox& predicted, Update& update) const;
-    double completeDeviation(double length) const;
+    void measureEnds(const OrientedBox& predicted, double size, Update& update) const;
     double headingDeviation(double speed) const;
-    double velocityDeviation() const;
+    double velocityDeviation(const Lengths& here) const;
 
-    BoxProcessNoise process_;
-    double position_ = 1;
+    TrackerOptions options_;
+    SceneScale scale_;
+    Lengths everywhere_;  ///< where the scale is the same everywhere
     double position_floor_ = 1;
-    double car_length_ = 0;
-    double car_width_ = 0;
     VehicleLimit one_vehicle_;
-    double size_ = 1;
     double heading_ = 0.1;
-    double velocity_ = 0.1;
     double velocity_floor_ = 0.05;
     double size_gate_ = 0;
     double slow_speed_sigmas_ = 5;

@@ -46,7 +46,7 @@ void StandingVehicles::lookAtPlaces(std::vector<Track>& tracks, const std::vecto
     }
 }
 
-void StandingVehicles::lookAround(Track& track, PictureWhenNeeded& picture) const {
+void StandingVehicles::lookAround(Track& track, PictureWhenNeeded& picture, double reach) const {
     track.recognised = false;
     if (options_.appearance == AppearanceUse::none) return;
     if (track.origin == StateOrigin::detected || track.origin == StateOrigin::reconstructed) {
@@ -64,7 +64,7 @@ void StandingVehicles::lookAround(Track& track, PictureWhenNeeded& picture) cons
         return;
     }
     if (!manager_.mayBeRecognised(track, model_.slowSpeed(), classified_)) return;
-    const auto seen = found(track, picture, track.filter.box(), std::max(kLeastReach, reach_));
+    const auto seen = found(track, picture, track.filter.box(), std::max(kLeastReach, reach));
     const double away = seen ? between(seen->centre, track.standstill.place.centre) : 0;
     manager_.countStandstill(track, seen ? std::optional(away) : std::nullopt, seen.value_or(track.filter.box()));
     track.recognised = seen && track.filter.update(model_.placed(*seen));

@@ -36,16 +36,16 @@ class PictureWhenNeeded {
 /// must outlive it; what is remembered is in the tracks.
 class StandingVehicles {
  public:
-    /// `reach`: px around the prediction in which a lost vehicle is looked for; `classified`: see TrackManager.
+    /// `classified`: see TrackManager.
     StandingVehicles(const TrackerOptions& options, const TrackManager& manager, const MeasurementModel& model,
-                     double reach, bool classified)
-        : options_(options), manager_(manager), model_(model), reach_(reach), classified_(classified) {}
+                     bool classified)
+        : options_(options), manager_(manager), model_(model), classified_(classified) {}
 
     /// Looks whether those that stand are still there, before detections are joined with tracks.
     void lookAtPlaces(std::vector<Track>& tracks, const std::vector<MovingBox>& detected, int frames,
                       PictureWhenNeeded& picture) const;
-    /// Looks for a track that has no evidence, after detections and vectors were.
-    void lookAround(Track& track, PictureWhenNeeded& picture) const;
+    /// Looks for a track that has no evidence, after detections and vectors were: `reach` px around its prediction.
+    void lookAround(Track& track, PictureWhenNeeded& picture, double reach) const;
 
  private:
     void keep(Track& track) const;
@@ -55,7 +55,6 @@ class StandingVehicles {
     const TrackerOptions& options_;
     const TrackManager& manager_;
     const MeasurementModel& model_;
-    double reach_;
     bool classified_;
 };
 

@@ -78,7 +78,8 @@ TrackManager::TrackManager(const TrackerOptions& o, const SceneScale& scale)
       max_supported_(framesOf(o.max_supported_s, scale)),
       supported_hits_(o.supported_hits),
       split_patience_(o.split_patience),
-      stop_speed_(scale.pxPerFrame(o.stop_speed_m_s)),
+      stop_speed_m_s_(o.stop_speed_m_s),
+      scale_(scale),
       min_visible_(o.min_visible),
       suppress_duplicates_(o.suppress_duplicates),
       duplicate_overlap_(o.duplicate_overlap),
@@ -106,8 +107,8 @@ void TrackManager::count(Track& track, double slow_speed) const {
 
     if (track.predicted_streak == 0) {
         track.stopped = false;
-    } else if (established(track) && stop_speed_ > 0) {
-        track.stopped = track.stopped || track.filter.speed() < std::max(stop_speed_, slow_speed);
+    } else if (established(track) && stop_speed_m_s_ > 0) {
+        track.stopped = track.stopped || track.filter.speed() < std::max(stopSpeedOf(track), slow_speed);
         if (track.stopped) track.filter.slowDown(kStopping);
     }
 }
@@ -131,15 +132,19 @@ bool TrackManager::mayBeRecognised(const Track& track, double slow_speed, bool c
     if (track.recognised_streak >= max_creeping_) return false;
     if (!hasDriven(track, classified)) return false;
     return appearance_ == AppearanceUse::lost || track.stopped ||
-           track.filter.speed() < std::max(stop_speed_, slow_speed);
+           track.filter.speed() < std::max(stopSpeedOf(track), slow_speed);
 }
 
 double TrackManager::reachOf(const OrientedBox& place) {
     return std::max(kSmallestReach, kStandingReach * place.length);
 }
 
-double TrackManager::fastestStart(double slow_speed) const {
-    return kFastestStart * std::max(stop_speed_, slow_speed);
+double TrackManager::stopSpeedOf(const Track& track) const {
+    return scale_.at(track.filter.box().centre).pxPerFrame(stop_speed_m_s_);
+}
+
+double TrackManager::fastestStart(cv::Point2d place, double slow_speed) const {
+    return kFastestStart * std::max(scale_.at(place).pxPerFrame(stop_speed_m_s_), slow_speed);
 }
 
 void TrackManager::countStandstill(Track& track, std::optional<double> away, const OrientedBox& found) const {
@@ -185,7 +190,7 @@ bool TrackManager::worthRemembering(const Track& track, double slow_speed, bool 
     if (appearance_ == AppearanceUse::none || track.status == TrackStatus::tentative || track.merged) return false;
     if (!hasDriven(track, classified)) return false;
     return appearance_ == AppearanceUse::lost ||
-           track.filter.speed() < kSoonStopped * std::max(stop_speed_, slow_speed);
+           track.filter.speed() < kSoonStopped * std::max(stopSpeedOf(track), slow_speed);
 }
 
 bool TrackManager::givesUpParts(const Track& track) const {

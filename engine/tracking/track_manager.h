@@ -34,7 +34,7 @@ class TrackManager {
     /// px from its place within which a detection may belong to a vehicle that is seen to stand there.
     static double reachOf(const OrientedBox& place);
     /// px/frame above which a detection cannot be of a vehicle that just stood.
-    double fastestStart(double slow_speed) const;
+    double fastestStart(cv::Point2d place, double slow_speed) const;
     /// Whether the track's size is known well enough to judge detections by it.
     bool established(const Track& track) const { return track.hits >= confirm_hits_; }
     /// Whether the track was in separate parts for so long that it must be several objects.
@@ -60,6 +60,8 @@ class TrackManager {
     int maxFailedFrames() const { return max_failed_; }
 
  private:
+    /// px/frame below which the track counts as stopped.
+    double stopSpeedOf(const Track& track) const;
     bool hasDriven(const Track& track, bool classified) const;
     bool alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b, cv::Point2d velocity_b,
                double slow_speed) const;
@@ -84,7 +86,8 @@ class TrackManager {
     int max_supported_;
     int supported_hits_;
     int split_patience_;
-    double stop_speed_;
+    double stop_speed_m_s_;
+    SceneScale scale_;
     double min_visible_;
     bool suppress_duplicates_;
     double duplicate_overlap_;

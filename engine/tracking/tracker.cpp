@@ -43,10 +43,11 @@ bool isCut(const Registration& registration) {
 }  // namespace
 
 Tracker::Tracker(const TrackerOptions& options, const SceneScale& scale)
-    : options_(options),
-      model_(options, checked(scale)),
-      manager_(options, scale),
-      gate_(std::max(options.distance_gate_px, scale.px(options.distance_gate_m))) {}
+    : options_(options), scale_(scale), model_(options, checked(scale)), manager_(options, scale) {}
+
+double Tracker::gateAt(cv::Point2d place) const {
+    return std::max(options_.distance_gate_px, scale_.at(place).px(options_.distance_gate_m));
+}
 
 void Tracker::reset() {
     tracks_.clear();
@@ -112,7 +113,7 @@ void Tracker::predict(const FrameMotion& motion) {
         const double area_before = track.filter.box().area();
         // After dropped frames that were filled by repeats the objects have moved on meanwhile.
         if (frozen_frames_ > 0) track.filter.smear(frozen_frames_ * track.filter.velocity());
-        track.filter.predict(map, model_.processNoise());
+        track.filter.predict(map, model_.processNoise(track.filter.box().centre));
         const double scale = std::sqrt(track.filter.box().area() / area_before);
         track.origin_place = map.apply(track.origin_place);
         OrientedBox& place = track.standstill.place;
@@ -147,7 +148,7 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     }
     ++frames_;
     PictureWhenNeeded seen(picture);
-    const StandingVehicles standing(options_, manager_, model_, gate_, classified_);
+    const StandingVehicles standing(options_, manager_, model_, classified_);
     standing.lookAtPlaces(tracks_, detected, frames_, seen);
     const std::vector<MovingBox> predicted = predictedBoxes();
     const OverlapMatrix matrix = overlapMatrix(detected, predicted, motion.image_size);
@@ -162,7 +163,7 @@ void Tracker::follow(const FrameMotion& motion, const std::vector<Detection>& de
     if (vectors_first) first_vectors = carried.associateByPrediction(tracks_, detected, association.used);
     for (std::size_t j = 0; j < tracks_.size(); ++j) {
         updateTrack(tracks_[j], association.tracks[j], found, carried);
-        standing.lookAround(tracks_[j], seen);
+        standing.lookAround(tracks_[j], seen, gateAt(tracks_[j].filter.box().centre));
         manager_.count(tracks_[j], model_.slowSpeed());
     }
     if (trace != nullptr) traceEnds(motion.image_size, *trace);
@@ -187,13 +188,14 @@ std::vector<MovingBox> Tracker::predictedBoxes() const {
     std::vector<MovingBox> boxes;
     for (const Track& track : tracks_) {
         MovingBox moving{track.filter.box(), track.filter.velocity(), 0, 0};
-        if (gate_ > 0) {
+        const double gate = gateAt(moving.box.centre);
+        if (gate > 0) {
             const cv::Point2d along = moving.box.direction();
-            moving.gate_along = gate_ + 2 * track.filter.positionDeviation(along);
-            moving.gate_across = gate_ + 2 * track.filter.positionDeviation({-along.y, along.x});
+            moving.gate_along = gate + 2 * track.filter.positionDeviation(along);
+            moving.gate_across = gate + 2 * track.filter.positionDeviation({-along.y, along.x});
         }
         if (track.standstill.certain) {
-            moving.fastest = manager_.fastestStart(model_.slowSpeed());
+            moving.fastest = manager_.fastestStart(moving.box.centre, model_.slowSpeed());
             // As long as the vehicle is seen at its place, what moves elsewhere is another one.
             if (track.standstill.agrees) moving.farthest = 2 * TrackManager::reachOf(track.standstill.place);
         }
@@ -227,7 +229,7 @@ void Tracker::traceAssociation(const OverlapMatrix& matrix, const FrameAssociati
                                const std::vector<MovingBox>& predicted, const std::vector<int>& positions,
                                TrackingTrace& trace) const {
     trace.min_overlap = options_.min_overlap;
-    trace.gate_px = gate_;
+    trace.gate_px = gateAt(scale_.slope.centre());
     const auto position = [&](int detection) { return positions[static_cast<std::size_t>(detection)]; };
     for (const BoxRelation& relation : matrix.relations()) {
         trace.relations.push_back({position(relation.detection), tracks_[static_cast<std::size_t>(relation.track)].id,
@@ -315,7 +317,7 @@ bool Tracker::updateByDetection(Track& track, const OrientedBox& box, const Dete
     }
     // The first boxes are often parts of the object: what was seen last counts half.
     if (options_.adapt_size && !manager_.established(track) && !update.by_ends)
-        track.filter.forgetSize(model_.sizeDeviation());
+        track.filter.forgetSize(model_.sizeDeviation(box.centre));
     track.growth_streak = update.grows ? track.growth_streak + 1 : 0;
     if (track.growth_streak >= kGrowthsToBelieve) {
         track.filter.loosenEnds(update.grows_front, update.grows_rear, update.grows_left, update.grows_right);

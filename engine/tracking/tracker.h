@@ -59,10 +59,13 @@ class Tracker {
                      std::vector<std::vector<AssociatedVector>> first_vectors, const std::vector<int>& positions,
                      TrackingTrace* trace);
 
+    /// px that a detection may lie from where a track at a place is expected; 0: no gate.
+    double gateAt(cv::Point2d place) const;
+
     TrackerOptions options_;
+    SceneScale scale_;
     MeasurementModel model_;
     TrackManager manager_;
-    double gate_ = 0;  ///< px
     std::vector<Track> tracks_;
     TrackId next_id_ = 1;
     int frozen_frames_ = 0;  ///< in a row, up to now

@@ -53,6 +53,7 @@ TEST(ChainOptions, theThesisPresetSwitchesEveryAdditionOff) {
 
 TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
     const std::vector<std::pair<std::string, std::string>> expected{
+        {"view.oblique", "false"},
         {"registration.max_corners", "50000"},
         {"registration.favour_movers", "false"},
         {"registration.feature_search", "false"},

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "store/project/project_file.h"
-#include "store/runs/comparison_store.h"
 #include "store/runs/run_store.h"
+#include "store/sweeps/comparison_store.h"
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"

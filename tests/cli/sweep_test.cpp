@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "store/project/project_file.h"
-#include "store/runs/sweep_store.h"
+#include "store/sweeps/sweep_store.h"
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"

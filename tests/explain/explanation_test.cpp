@@ -401,6 +401,38 @@ TEST(Explanation, trackLeftOutWhenTracksWereFinished) {
     EXPECT_THAT(told.sentence, HasSubstr("track 7 was guessed rather than detected"));
 }
 
+TEST(Explanation, whatSpeaksForATrackAndAgainstItIsTold) {
+    PlaceEvidence evidence = detectedPlace();
+    evidence.result.tracks = {stateAt(7, {100, 100}, TrackStatus::confirmed, StateOrigin::detected)};
+    TrackEvidence judged;
+    judged.detected = 0.9;
+    judged.looked_alike = 0.25;
+    judged.life_s = 4;
+    judged.flow_px = 2;
+    judged.flow_ratio = 0.2;
+    judged.alignment = 0.99;
+    judged.score = 0.91;
+    evidence.judged[7] = judged;
+    const auto stepWith = [&](const std::string& words) {
+        const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+        for (const ExplanationStep& step : told.steps)
+            if (step.text.find(words) != std::string::npos) return step;
+        return ExplanationStep{};
+    };
+    EXPECT_EQ(stepWith("probability of 0.91, at least").parameter, "finishing.min_score");
+    EXPECT_EQ(stepWith("probability of 0.91, at least").verdict, StepVerdict::passed);
+    EXPECT_THAT(stepWith("looked like a vehicle in 25 % of its detections").text, HasSubstr("speaks for a moving"));
+    EXPECT_THAT(stepWith("detected in 90 % of its frames").text, HasSubstr("speaks for a moving"));
+    EXPECT_THAT(stepWith("0.2 times as fast as the ground").text, HasSubstr("speaks against it, −"));
+    EXPECT_FALSE(stepWith("a standing thing would have to be 0.165 of the flight height tall").text.empty());
+
+    evidence.result.tracks.clear();
+    evidence.result.dropped = {{7, {{100, 100}, 18, 7, 0}, TrackDrop::unlikely, 0}};
+    evidence.judged[7].score = 0.01;
+    EXPECT_EQ(stepWith("probability of 0.01, at least").verdict, StepVerdict::failed);
+    EXPECT_FALSE(stepWith("detected in 90 % of its frames").text.empty());
+}
+
 TEST(Explanation, numbersArePlain) {
     EXPECT_EQ(explaining::numberText(0.1234), "0.123");
     EXPECT_EQ(explaining::numberText(12345.6), "12346");

@@ -49,6 +49,20 @@ class Fixture {
     std::map<FrameIndex, FrameResult> results_;
 };
 
+TEST(PlaceExplainer, tellsWhatSpeaksForTheTrackWhereTheRunKnows) {
+    Fixture run;
+    ReplaySource source = run.replaySource();
+    source.evidence_of = [](TrackId) {
+        return std::optional(TrackEvidence{.detected = 0.9, .life_s = 2, .score = 0.8});
+    };
+    PlaceExplainer explainer(std::move(source));
+    const auto told = explainer.explain(35, run.vehicle(0, 35), {});
+    ASSERT_TRUE(told && told->found);
+    EXPECT_TRUE(std::any_of(told->steps.begin(), told->steps.end(), [](const ExplanationStep& step) {
+        return step.stage == "score" && step.text.find("detected in 90 %") != std::string::npos;
+    }));
+}
+
 TEST(PlaceExplainer, tellsWhatWasFoundAndWhy) {
     Fixture run;
     PlaceExplainer explainer(run.replaySource());

@@ -14,7 +14,7 @@
 #include "store/labels/annotation_store.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_store.h"
-#include "store/runs/sweep_store.h"
+#include "store/sweeps/sweep_store.h"
 
 /// project_fuzz --project=FILE: bytes as changes of that project, each of six: place (3 bytes, little-endian), how many
 /// bytes from there (1), and what they become (2); then all of it is read. Of the project only the first frames are

@@ -58,7 +58,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"tracking", {"core", "imaging"}},
     {"peer", {"core", "motion", "tracking"}},
     {"evaluation", {"core"}},
-    {"exchange", {"core", "annotation", "events", "formats", "georeference", "io", "store"}},
+    {"exchange", {"core", "annotation", "events", "formats", "georeference", "io", "metadata", "store"}},
     {"scene", {"core", "io"}},
     {"store", {"core"}},
     {"rerun",
@@ -72,6 +72,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"report", {"core", "chain", "diagnosis", "evaluation", "events", "georeference", "io", "metadata", "store"}},
     {"scoring", {"core", "annotation", "evaluation", "formats", "io", "store"}},
     {"events", {"core", "annotation", "formats", "io", "store"}},
+    {"ground", {"core", "annotation", "events", "io"}},
     {"diagnosis", {"core", "chain", "rerun", "evaluation", "io", "motion", "scoring", "store"}},
 };
 
@@ -84,9 +85,9 @@ struct WindowRoom {
 const std::map<std::string, WindowRoom> allowed_in_window = {
     {"canvas", {{"widgets"}, {"core"}}},
     {"widgets", {{}, {"core", "store"}}},
-    {"session", {{"canvas"}, {"core", "chain", "rerun", "io", "scene", "store"}}},
+    {"session", {{"canvas"}, {"core", "chain", "imaging", "io", "rerun", "scene", "store"}}},
     {"workspace", {{"canvas", "widgets", "session"}, {"core"}}},
-    {"review", {{"canvas", "widgets", "session", "workspace"}, {"core", "chain", "events", "store"}}},
+    {"review", {{"canvas", "widgets", "session", "workspace"}, {"core", "chain", "events", "ground", "io", "store"}}},
     {"label",
      {{"canvas", "widgets", "session", "workspace"}, {"core", "annotation", "exchange", "formats", "io", "store"}}},
     {"tune", {{"canvas", "widgets", "session", "workspace"}, {}}},

@@ -46,7 +46,9 @@ TEST(BackgroundMining, FindsWhatLooksLikeAVehicleAndIsNone) {
     for (const double size : {1.0, 1.6}) {
         for (const double heading : {0.0, 0.7, -1.9}) {
             const LabelledImage image = barsAt({{90, 80}, {240, 180}}, heading, size);
+            const cv::Mat before = image.gray.clone();
             const SampleSet found = mineBackground(barModel(), {image}, {}, 50, 1);
+            EXPECT_EQ(cv::norm(image.gray, before, cv::NORM_INF), 0) << "searching changes no picture";
             ASSERT_FALSE(found.empty()) << heading;
             // The surest shows the whole second bar, upright: 9 × 21 px in the middle of the window.
             EXPECT_GT(brightShare(found[0].window(cv::Rect(5, 8, 6, 16))), 0.9) << heading;

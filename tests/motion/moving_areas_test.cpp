@@ -96,7 +96,7 @@ std::vector<MotionVector> inferred(const CarScene& scene, const FrameMotion& mot
         if (change) change(index, gray);
         areas.add({index, index * 40000, gray, {}}, panned(scene, index));
     }
-    return areas.infer(motion, kScale.pxPerFrame(1));
+    return areas.infer(motion, [](cv::Point2d) { return kScale.pxPerFrame(1); });
 }
 
 }  // namespace
@@ -181,10 +181,10 @@ TEST(MovingAreas, AreForgottenAtACut) {
         if (index == 8) registration.current_from_previous.from_frame = 3;
         areas.add({index, index * 40000, scene.draw(index), {}}, registration);
     }
-    EXPECT_THAT(areas.infer(starved(scene), 0.1), IsEmpty());
+    EXPECT_THAT(areas.infer(starved(scene), [](cv::Point2d) { return 0.1; }), IsEmpty());
     MovingAreas off({.enabled = false}, kScale);
     off.add({0, 0, scene.draw(0), {}}, panned(scene, 0));
-    EXPECT_THAT(off.infer(starved(scene), 0.1), IsEmpty());
+    EXPECT_THAT(off.infer(starved(scene), [](cv::Point2d) { return 0.1; }), IsEmpty());
 }
 
 struct AreaLimit {

@@ -105,6 +105,27 @@ TEST(OutlierRemoval, SaysWhichLimitIsBroken) {
     EXPECT_TRUE(broken(4, 2.4, thesis));
 }
 
+TEST(OutlierRemoval, LimitsInMetresAreThoseOfThePlace) {
+    SceneScale scale = kScale;
+    scale.slope = ScaleSlope::ofPicture({640, 480}, 0, 0.003);
+    const cv::Point2d above(100, 100);
+    const double factor = scale.slope.factorAt(above);
+    ASSERT_LT(factor, 0.6);
+    const auto lengthLimit = [&](double length) { return brokenSizeLimit({above, length, 7, 0}, {}, scale); };
+    EXPECT_FALSE(lengthLimit(119 * factor)) << "30 m are 120 px in the middle";
+    ASSERT_TRUE(lengthLimit(121 * factor));
+    EXPECT_NEAR(lengthLimit(121 * factor)->limit, 120 * factor, 1e-9);
+    // 9 vectors on a box: enough for a small car far away where 12 are needed near by.
+    FrameMotion motion = sparseMotion();
+    motion.corner_count = 200000;
+    fill(motion, {above, 20, 8, 0}, 9);
+    const auto rejection = [&](const SceneScale& of) {
+        return removeOutliers({detection(above.x, above.y, 18, 7)}, motion, {}, of)[0].rejection;
+    };
+    EXPECT_EQ(rejection(kScale), Rejection::outlier);
+    EXPECT_EQ(rejection(scale), Rejection::none);
+}
+
 TEST(OutlierRemoval, VectorsNeededGrowWithTheDensityWithinLimits) {
     const auto needed = [](int corners, const OutlierRemovalOptions& options) {
         FrameMotion motion = sparseMotion();

@@ -9,9 +9,9 @@
 #include "store/review/review_samples.h"
 #include "store/review/review_store.h"
 #include "store/review/seen_store.h"
-#include "store/runs/comparison_store.h"
-#include "store/runs/sweep_store.h"
 #include "store/samples.h"
+#include "store/sweeps/comparison_store.h"
+#include "store/sweeps/sweep_store.h"
 
 namespace eyrie::test {
 

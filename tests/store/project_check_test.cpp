@@ -111,11 +111,17 @@ TEST_F(CheckTest, FindsImpossibleValues) {
          {"UPDATE run SET gsd_m_per_px = 0", "UPDATE sequence SET frame_count = 2147483647",
           "UPDATE run SET state = 'asleep'", "UPDATE run SET scale_origin = 'perhaps'",
           "UPDATE run SET scale_origin = 'estimated'", "UPDATE run SET scale_uncertainty = 0.5",
-          "UPDATE run SET scale_vehicles = -1", "UPDATE frame SET width = -1 WHERE frame = 3",
-          "UPDATE motion_vectors SET data = x'0102' WHERE frame = 3",
+          "UPDATE run SET scale_vehicles = -1", "UPDATE run SET scale_growth_down = -1.5",
+          "UPDATE frame SET width = -1 WHERE frame = 3", "UPDATE motion_vectors SET data = x'0102' WHERE frame = 3",
           "UPDATE stationary_corners SET data = x'ff02' WHERE frame = 3",
           "UPDATE labelled_object SET keyframes = x'0901' WHERE id = 2",
-          "UPDATE detection SET rejection = 'so so' WHERE frame = 1", "UPDATE sweep_point SET figures = 'f = 1'"}) {
+          "UPDATE detection SET rejection = 'so so' WHERE frame = 1",
+          "UPDATE detection SET probability = 1.5 WHERE frame = 1",
+          "INSERT INTO track_evidence VALUES (1, 3, 0.5, 0.5, 1, 1, 1, 0, 7)",
+          "INSERT INTO doubtful_state SELECT run_id, frame, track_id, x, y, length, width, heading_rad, vx, vy, "
+          "'sure', "
+          "origin, age, hits, score FROM track_state LIMIT 1",
+          "UPDATE sweep_point SET figures = 'f = 1'"}) {
         std::filesystem::remove(path_);
         test::writeFullProject(path_);
         change(command);

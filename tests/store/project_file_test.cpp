@@ -120,7 +120,10 @@ TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
 
 TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
     test::writeSampleProject(path_, 2);
-    makeDatabase({"DROP VIEW v_zones",
+    makeDatabase({"DROP VIEW v_track_evidence",
+                  "DROP TABLE track_evidence",
+                  "DROP TABLE doubtful_state",
+                  "DROP VIEW v_zones",
                   "DROP TABLE zone",
                   "DROP VIEW v_verdicts",
                   "DROP VIEW v_bookmarks",
@@ -134,6 +137,9 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP VIEW v_track_states",
                   "DROP VIEW v_tracks",
                   "DROP VIEW v_runs",
+                  "ALTER TABLE run DROP COLUMN scale_growth_right",
+                  "ALTER TABLE run DROP COLUMN scale_growth_down",
+                  "ALTER TABLE detection DROP COLUMN probability",
                   "ALTER TABLE run DROP COLUMN scale_origin",
                   "ALTER TABLE run DROP COLUMN scale_uncertainty",
                   "ALTER TABLE run DROP COLUMN scale_vehicles",
@@ -143,6 +149,9 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "ALTER TABLE run DROP COLUMN removed_utc",
                   "DROP TABLE run_state",
                   "DROP TABLE unfinished_track_state",
+                  "ALTER TABLE frame DROP COLUMN details",
+                  "DROP TABLE unfinished_frame",
+                  "DROP TABLE control_point",
                   "DROP TABLE dropped_state",
                   "PRAGMA user_version = 5"});
     ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);

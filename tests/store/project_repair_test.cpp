@@ -138,6 +138,19 @@ TEST_F(RepairTest, ADamagedOriginOfAScaleDoesNotCostTheRun) {
     }
 }
 
+TEST_F(RepairTest, ADamagedSlopeOfAScaleDoesNotCostTheRun) {
+    for (const char* damage : {"scale_growth_down = 2", "scale_growth_right = 'steep'"}) {
+        test::writeBytes(path_, whole_);
+        SQLite::Database(path_.string(), SQLite::OPEN_READWRITE).exec(std::string("UPDATE run SET ") + damage);
+        const RepairReport report = repair(test::bytesOf(path_));
+        EXPECT_THAT(report.lost, testing::Contains("how the scale of run 1 changes over the picture")) << damage;
+        ProjectFile project = ProjectFile::open(fresh_);
+        const auto run = RunStore(project).run(1);
+        EXPECT_EQ(run->name, "first try") << damage;
+        EXPECT_TRUE(run->scale.slope.isFlat()) << damage;
+    }
+}
+
 TEST_F(RepairTest, AnythingAtTheBeginningOfTheFileCanBeLost) {
     for (const auto& [at, length] : std::vector<std::pair<std::size_t, std::size_t>>{{0, 16},
                                                                                      {16, 2},

@@ -97,7 +97,11 @@ TEST_F(RunStates, TakingUpUndoesFinishedTracks) {
     const auto before = rowsOf(path, run);
     ProjectFile project = ProjectFile::open(path);
     RunStateStore(project).keepTracks(run);
-    RunStore(project).replaceTrackStates(run, {}, {{2, {}}});
+    TracksOfRun tracks;
+    tracks.dropped = [](const TracksOfRun::DropVisitor& visitor) { visitor(2, {}); };
+    tracks.doubtful = [](const TracksOfRun::StateVisitor& visitor) { visitor(2, {}); };
+    tracks.evidence[1] = {};
+    RunStore(project).replaceTracks(run, tracks);
     EXPECT_NE(rowsOf(path, run), before);
     { const ResultWriter writer(path, run, 4); }
     EXPECT_EQ(rowsOf(path, run), before);

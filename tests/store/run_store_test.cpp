@@ -101,8 +101,11 @@ TEST_F(RunStoreTest, RunsKeepWhereTheirScaleComesFromAndHowSureItIs) {
         RunRecord run = sampleRun();
         run.scale = scale;
         run.scale_basis = basis;
+        run.scale.slope = ScaleSlope::ofPicture(run.sequence.size, -0.0004, 0.003);
         const ResultWriter writer(path_, run, {});
         EXPECT_EQ(store.run(writer.runId())->scale_basis, basis) << nameOf(basis.origin);
+        EXPECT_EQ(store.run(writer.runId())->scale.slope, run.scale.slope)
+            << "about the middle of the video's pictures";
     }
 }
 
@@ -311,6 +314,93 @@ TEST_F(RunStoreTest, WhatFinishingLeftOutIsReadWithItsFrame) {
     EXPECT_TRUE(store.frameResult(writer.runId(), 5)->dropped.empty());
     store.replaceTrackStates(writer.runId(), {}, {{5, small}});
     EXPECT_EQ(store.frameResult(writer.runId(), 5)->dropped.size(), 1U);
+}
+
+TEST_F(RunStoreTest, DoubtfulTracksAreReadApartFromTheResult) {
+    ProjectFile project = ProjectFile::create(path_);
+    ResultWriter writer(path_, sampleRun(), {{"finishing.min_score", "0.35"}});
+    for (const FrameResult& frame : twoTracks()) writer.write(frame);
+    const int run = writer.runId();
+    RunStore store(project);
+    EXPECT_EQ(store.scoreThreshold(run), 0) << "nothing was judged yet";
+    TrackState state = twoTracks().front().tracks.front();
+    state.id = 9;
+    state.status = TrackStatus::confirmed;
+    state.score = 0.25;
+    TracksOfRun tracks;
+    tracks.states = [&](const TracksOfRun::StateVisitor& visitor) {
+        TrackState kept = state;
+        kept.id = 1;
+        visitor(5, kept);
+    };
+    tracks.doubtful = [&](const TracksOfRun::StateVisitor& visitor) {
+        for (const FrameIndex frame : {4, 5}) visitor(frame, state);
+    };
+    TrackEvidence evidence;
+    evidence.detected = 0.5;
+    evidence.looked_alike = 0.125;
+    evidence.life_s = 2;
+    evidence.flow_px = 1.5;
+    evidence.flow_ratio = 0.75;
+    evidence.alignment = -0.25;
+    evidence.score = 0.25;
+    tracks.evidence[9] = evidence;
+    store.replaceTracks(run, tracks);
+
+    ASSERT_EQ(store.tracks(run).size(), 1U);
+    EXPECT_FALSE(store.tracks(run).front().doubtful);
+    EXPECT_EQ(store.frameResult(run, 5)->tracks.size(), 1U);
+    EXPECT_EQ(store.trackBoxes(run).at(5).size(), 1U);
+    ASSERT_EQ(store.doubtfulTracks(run).size(), 1U);
+    const TrackSummary doubtful = store.doubtfulTracks(run).front();
+    EXPECT_TRUE(doubtful.doubtful);
+    EXPECT_EQ(doubtful.id, 9);
+    EXPECT_EQ(doubtful.frames, 2);
+    EXPECT_EQ(doubtful.first_frame, 4);
+    EXPECT_EQ(doubtful.score, 0.25);
+    EXPECT_NEAR(doubtful.mean_length_px, state.box.length, 1e-9);
+    ASSERT_EQ(store.doubtfulStates(run, 5).size(), 1U);
+    EXPECT_EQ(store.doubtfulStates(run, 5).front().box.centre, state.box.centre);
+    EXPECT_TRUE(store.doubtfulStates(run, 6).empty());
+    EXPECT_EQ(store.doubtfulTrackStates(run, 9).size(), 2U);
+    EXPECT_EQ(store.doubtfulStatesUpTo(run, 5, 1).size(), 1U);
+    EXPECT_EQ(store.doubtfulBoxes(run).at(4).front().id, 9);
+    EXPECT_FALSE(store.evidence(run, 1));
+    const auto read = store.evidence(run, 9);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->detected, 0.5);
+    EXPECT_EQ(read->looked_alike, 0.125);
+    EXPECT_EQ(read->life_s, 2);
+    EXPECT_EQ(read->flow_px, 1.5);
+    EXPECT_EQ(read->flow_ratio, 0.75);
+    EXPECT_EQ(read->alignment, -0.25);
+    EXPECT_EQ(read->score, 0.25);
+    EXPECT_EQ(store.scoreThreshold(run), 0.35);
+
+    store.replaceTrackStates(run, {});
+    EXPECT_TRUE(store.doubtfulTracks(run).empty());
+    EXPECT_FALSE(store.evidence(run, 9));
+}
+
+TEST_F(RunStoreTest, ADetectionIsToldByItsProbabilityWhereItHasOne) {
+    ProjectFile project = ProjectFile::create(path_);
+    ResultWriter writer(path_, sampleRun(), {});
+    FrameResult frame = twoTracks().front();
+    Detection detection;
+    detection.box = {{50, 60}, 18, 7, 0};
+    detection.score = 1.7;
+    frame.detections = {detection, detection};
+    frame.detections.front().probability = 0.875;
+    writer.write(frame);
+    const RunStore store(project);
+    const auto read = store.frameResult(writer.runId(), frame.motion.frame)->detections;
+    ASSERT_EQ(read.size(), 2U);
+    EXPECT_EQ(read[0].probability, 0.875);
+    EXPECT_EQ(read[0].score, 1.7);
+    EXPECT_TRUE(std::isnan(read[1].probability));
+    const auto boxes = store.detectionBoxes(writer.runId()).at(frame.motion.frame);
+    EXPECT_EQ(boxes[0].score, 0.875);
+    EXPECT_EQ(boxes[1].score, 1.7);
 }
 
 TEST_F(RunStoreTest, ARemovedRunTakesEverythingOfItAndNothingElse) {

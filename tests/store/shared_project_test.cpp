@@ -10,8 +10,8 @@
 #include "store/health/file_check.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_lock.h"
-#include "store/runs/sweep_store.h"
 #include "store/samples.h"
+#include "store/sweeps/sweep_store.h"
 #include "support/child.h"
 #include "support/temporary_folder.h"
 

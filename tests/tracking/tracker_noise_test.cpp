@@ -33,7 +33,7 @@ BoxMeasurement measured(const TrackerOptions& options) {
 }
 
 BoxProcessNoise processOf(const TrackerOptions& options) {
-    return MeasurementModel(options, kQuarterMetre).processNoise();
+    return MeasurementModel(options, kQuarterMetre).processNoise({});
 }
 
 }  // namespace

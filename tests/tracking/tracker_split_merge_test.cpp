@@ -200,6 +200,16 @@ TEST(TrackerSplitMerge, thesisRebuildsATrackFromTheVectorsOfItsFirstDetection) {
     for (const TrackState& state : states) EXPECT_EQ(state.origin, StateOrigin::reconstructed);
 }
 
+TEST(TrackerSplitMerge, thesisGivesANewcomerItsVectorsBesideKnownTracks) {
+    const MovingScene scene = twoCars();
+    Tracker tracker(TrackerOptions::thesis(), scene.scale);
+    for (int frame = 0; frame < 5; ++frame) tracker.next(scene.motion(frame), {scene.detection(0, frame)});
+    tracker.next(scene.motion(5), scene.detections(5));  // the other car is seen for the first time
+    const auto states = tracker.next(scene.motion(6), {});
+    ASSERT_EQ(states.size(), 2U);
+    EXPECT_EQ(states[1].origin, StateOrigin::reconstructed);
+}
+
 TEST(TrackerSplitMerge, storedSizesGrowWithTheZoom) {
     MovingScene scene = twoCars();
     for (auto& object : scene.objects) object.start.x += 150;

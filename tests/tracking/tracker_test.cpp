@@ -347,13 +347,13 @@ TEST(MeasurementModel, sizesMayBeMeasuredAllAlike) {
         detection.velocity = {2, 0};
         detection.complete = complete;
         const BoxMeasurement first = model.first(detection);
-        EXPECT_DOUBLE_EQ(first.length, model.sizeDeviation());
-        EXPECT_DOUBLE_EQ(first.width, model.sizeDeviation());
+        EXPECT_DOUBLE_EQ(first.length, model.sizeDeviation({}));
+        EXPECT_DOUBLE_EQ(first.width, model.sizeDeviation({}));
         EXPECT_EQ(first.along_with_length, 0);
         EXPECT_EQ(first.speed, BoxMeasurement::kUnknown);
         EXPECT_EQ(first.velocity, cv::Point2d(2, 0)) << "the track starts with it";
         const auto update = model.update(detection.box, detection, known, true);
-        EXPECT_DOUBLE_EQ(update.measurement.length, model.sizeDeviation());
+        EXPECT_DOUBLE_EQ(update.measurement.length, model.sizeDeviation({}));
         EXPECT_DOUBLE_EQ(update.measurement.along, first.along);
         EXPECT_DOUBLE_EQ(update.measurement.across, first.across);
         EXPECT_EQ(update.measurement.along_with_length, 0);
@@ -377,7 +377,7 @@ TEST(MeasurementModel, aFirstBoxSmallerThanACarMayMissHalfOfWhatItLacks) {
     const SceneScale scale{0.25, 25, true};  // a car is 18 × 7.2 px
     MeasurementModel model({}, scale);
     model.startFrame({640, 480}, 0.02);
-    const double noise = model.sizeDeviation() / 2;
+    const double noise = model.sizeDeviation({}) / 2;
     const auto sizeOf = [&](double length, double width) {
         Detection detection;
         detection.box = {{100, 100}, length, width, 0};

@@ -156,6 +156,20 @@ void VideoView::setRotation(double radians) {
     transformWasChanged();
 }
 
+void VideoView::setGround(const std::optional<QTransform>& ground_from_image) {
+    if (!ground_from_image && !transform_.onGround()) return;
+    const bool was_on_ground = transform_.onGround();
+    const QPointF looked_at = transform_.imageFromView({width() / 2.0, height() / 2.0});
+    transform_.setGround(ground_from_image);
+    if (transform_.onGround() && was_on_ground)
+        transform_.keepInView();
+    else if (transform_.fitted())
+        transform_.fit();
+    else
+        transform_.centreOn(looked_at);
+    transformWasChanged();
+}
+
 QPointF VideoView::anchor() const {
     const QPointF cursor = mapFromGlobal(QPointF(QCursor::pos()));
     if (underMouse() && rect().contains(cursor.toPoint())) return cursor;
@@ -240,8 +254,15 @@ void VideoView::paintBadge(QPainter& painter) const {
 void VideoView::paintImage(QPainter& painter) const {
     if (frame_.image.isNull()) {
         if (transform_.imageSize().isEmpty()) return;
-        painter.setTransform(transform_.turn(), true);
-        painter.fillRect(transform_.imageRect(), kMissingPicture);
+        painter.setTransform(transform_.drawing(), true);
+        painter.fillRect(QRectF(QPointF(-0.5, -0.5), QSizeF(transform_.imageSize())), kMissingPicture);
+        painter.resetTransform();
+        return;
+    }
+    if (transform_.onGround()) {
+        painter.setRenderHint(QPainter::SmoothPixmapTransform, !transform_.sharp());
+        painter.setTransform(transform_.drawing(), true);
+        painter.drawImage(QPointF(-0.5, -0.5), frame_.image);
         painter.resetTransform();
         return;
     }
@@ -325,8 +346,12 @@ void VideoView::mouseReleaseEvent(QMouseEvent* event) {
     if (!was_click || !frame_.result || tool_ != nullptr) return;
     const double margin = kHitMargin / transform_.scale();
     const QPointF point = transform_.imageFromView(event->position());
-    emit trackClicked(settings_.isVisible(TrackLayer::kKind) ? trackAt(*frame_.result, settings_.style(), point, margin)
-                                                             : std::nullopt);
+    std::optional<TrackId> clicked;
+    if (settings_.isVisible(TrackLayer::kKind)) {
+        clicked = trackAt(frame_.result->tracks, settings_.style(), point, margin);
+        if (!clicked) clicked = trackAt(frame_.doubtful, settings_.style(), point, margin);
+    }
+    emit trackClicked(clicked);
     emit placeClicked(point, margin);
 }
 

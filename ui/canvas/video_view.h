@@ -60,6 +60,9 @@ class VideoView : public QWidget {
     void centreOn(QPointF image_point);
     /// Turns the picture clockwise around the middle of the canvas, radians; 0 is as filmed.
     void setRotation(double radians);
+    /// Lays the frame shown on the ground, so that this stands still from frame to frame (ViewTransform::setGround());
+    /// the view goes on with it where the picture would leave it. To be given with every frame.
+    void setGround(const std::optional<QTransform>& ground_from_image);
 
     /// The canvas as it is painted, for pictures of it.
     QImage picture() const;

@@ -22,7 +22,8 @@ struct ViewFrame {
     QImage image;                               ///< null when the picture could not be read
     std::shared_ptr<const FrameResult> result;  ///< null when the run has no such frame
     SceneScale scale;                           ///< of the run that the result is of
-    std::vector<Trail> trails;                  ///< ascending track id
+    std::vector<TrackState> doubtful;  ///< of tracks that only their score kept out of the result; ascending id
+    std::vector<Trail> trails;         ///< ascending track id
     std::vector<BoxRecord> ground_truth;
     bool evaluated = false;             ///< the frame was compared with ground truth
     std::vector<VerdictMark> verdicts;  ///< what came of it

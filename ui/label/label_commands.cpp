@@ -143,7 +143,7 @@ void LabelCommands::bindNudges() {
                                  if (parts_.labels.selected()) {
                                      const ViewTransform& shown = parts_.around.canvas.transform();
                                      // As the picture lies on screen.
-                                     const QPointF moved = shown.imageVector(by) * shown.scale();
+                                     const QPointF moved = shown.imageVector(by, {}) * shown.scale();
                                      parts_.editor.nudge(moved.x(), moved.y());
                                      parts_.tool.showNudged();
                                  } else if (by.x() != 0) {

@@ -6,6 +6,7 @@
 #include <QPainter>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
 #include "core/geometry/angle.h"
 #include "review/track_inspector.h"
@@ -39,6 +40,35 @@ TrackClass classOfTrack(const ProjectSession& session, TrackId track) {
     const auto& tracks = session.runData()->tracks;
     const auto found = std::find_if(tracks.begin(), tracks.end(), [track](const auto& one) { return one.id == track; });
     return found == tracks.end() ? TrackClass::unknown : found->track_class;
+}
+
+/// The score of a track and what became of it: "0.12, below 0.2: left out of the result".
+QString scoreOfTrack(const ProjectSession& session, TrackId track) {
+    if (!session.runData()) return {};
+    for (const TrackSummary& summary : session.runData()->tracks) {
+        if (summary.id != track) continue;
+        const QString score = numberText(summary.score, 2);
+        return summary.doubtful ? QObject::tr("%1, below %2: left out of the result")
+                                      .arg(score, numberText(session.runData()->score_threshold, 2))
+                                : score;
+    }
+    return {};
+}
+
+/// How likely the detection in a track's box is a moving vehicle.
+QString detectionText(const FrameResult& result, const OrientedBox& box) {
+    const Detection* best = nullptr;
+    double most = 0;
+    for (const Detection& detection : result.detections) {
+        if (detection.rejection != Rejection::none) continue;
+        const double shared = overlap(detection.box, box);
+        if (shared <= most) continue;
+        most = shared;
+        best = &detection;
+    }
+    if (best == nullptr) return QObject::tr("none here");
+    if (std::isnan(best->probability)) return QObject::tr("score %1").arg(numberText(best->score, 2));
+    return QObject::tr("%1 by this frame alone").arg(numberText(best->probability, 2));
 }
 
 }  // namespace
@@ -101,6 +131,7 @@ InspectorPanel::InspectorPanel(ProjectSession& session, QWidget* parent) : QWidg
     connect(&session_, &ProjectSession::trackStatesRead, this,
             [this](TrackId track, const std::vector<TrackFrame>& states) {
                 track_->showTrack(track, states, session_.scale(), classOfTrack(session_, track));
+                track_->showScore(scoreOfTrack(session_, track));
                 track_->setCurrentFrame(session_.currentFrame());
             });
     connect(track_, &TrackInspector::frameActivated, &session_, &ProjectSession::goToFrame);
@@ -128,8 +159,10 @@ void InspectorPanel::showChip() {
     const ViewFrame& frame = session_.viewFrame();
     const TrackState* shown = nullptr;
     if (frame.result)
-        for (const TrackState& state : frame.result->tracks)
-            if (state.id == session_.selectedTrack()) shown = &state;
+        for (const auto* states : {&frame.result->tracks, &frame.doubtful})
+            for (const TrackState& state : *states)
+                if (state.id == session_.selectedTrack()) shown = &state;
+    track_->showDetection(shown != nullptr ? detectionText(*frame.result, shown->box) : QString());
     if (shown != nullptr)
         chip_->show(frame.image, shown->box);
     else

@@ -46,7 +46,7 @@ QString unregisteredText(const RunCounts& counts) {
 }  // namespace
 
 QString scaleText(const RunRecord& run) {
-    return QString::fromStdString(describe(run.scale.gsd_m_per_px, run.scale_basis));
+    return QString::fromStdString(describe(run.scale, run.scale_basis, run.sequence.size));
 }
 
 QString whyNoTracks(const RunFacts& facts) {

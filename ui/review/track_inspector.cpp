@@ -64,6 +64,7 @@ TrackInspector::TrackInspector(QWidget* parent)
     stack_->addWidget(page);
 
     class_ = addLine(tr("Class"));
+    score_ = addLine(tr("Score"));
     life_ = addLine(tr("Life"));
     speed_ = addLine(tr("Mean speed"));
     size_ = addLine(tr("Mean size"));
@@ -73,6 +74,7 @@ TrackInspector::TrackInspector(QWidget* parent)
     heading_ = addLine(tr("Heading"));
     speed_now_ = addLine(tr("Speed"));
     size_now_ = addLine(tr("Size"));
+    detection_ = addLine(tr("Detection"));
     origin_counts_->setTextFormat(Qt::RichText);
 
     connect(origins_, &OriginBar::frameActivated, this, &TrackInspector::frameActivated);
@@ -85,6 +87,10 @@ QLabel* TrackInspector::addLine(const QString& name) {
     value->setWordWrap(true);
     form_->addRow(name, value);
     return value;
+}
+
+void TrackInspector::showOrDash(QLabel* label, const QString& text) {
+    label->setText(text.isEmpty() ? QStringLiteral("–") : text);
 }
 
 void TrackInspector::activate(bool last) {
@@ -128,10 +134,12 @@ void TrackInspector::showWhole() {
     std::array<int, 4> origins{};
     bool confirmed = false;
     for (const TrackFrame& state : states_) {
-        speed += speedOf(state.state) / count;
-        fastest = std::max(fastest, speedOf(state.state));
-        length += state.state.box.length / count;
-        width += state.state.box.width / count;
+        // In pixels of the middle of the picture, where they are to become metres of an oblique view.
+        const double factor = scale_.gsd_known ? scale_.slope.factorAt(state.state.box.centre) : 1;
+        speed += speedOf(state.state) / factor / count;
+        fastest = std::max(fastest, speedOf(state.state) / factor);
+        length += state.state.box.length / factor / count;
+        width += state.state.box.width / factor / count;
         ++origins[static_cast<std::size_t>(state.state.origin)];
         confirmed = confirmed || state.state.status != TrackStatus::tentative;
     }
@@ -170,8 +178,9 @@ void TrackInspector::showNow() {
     now_->setText(QString::fromLatin1(nameOf(state.status)) + QStringLiteral(", ") + shownName(state.origin));
     position_->setText(tr("%1, %2 px").arg(numberText(state.box.centre.x, 1), numberText(state.box.centre.y, 1)));
     heading_->setText(tr("%1°").arg(numberText(degreesFromRadians(state.box.heading), 0)));
-    speed_now_->setText(speedText(speedOf(state), scale_));
-    size_now_->setText(sizeText(state.box.length, state.box.width, scale_));
+    const SceneScale here = scale_.at(state.box.centre);
+    speed_now_->setText(speedText(speedOf(state), here));
+    size_now_->setText(sizeText(state.box.length, state.box.width, here));
 }
 
 QString TrackInspector::text() const {

@@ -24,6 +24,10 @@ class TrackInspector : public QWidget {
 
     /// `states` ascend by frame. A track without states shows as nothing.
     void showTrack(TrackId track, std::vector<TrackFrame> states, const SceneScale& scale, TrackClass track_class);
+    /// The track's probability of being a moving vehicle, in words, and that of what was detected there in the present
+    /// frame; empty: not known.
+    void showScore(const QString& score) { showOrDash(score_, score); }
+    void showDetection(const QString& probability) { showOrDash(detection_, probability); }
     void setCurrentFrame(FrameIndex frame);
     void clear();
     TrackId track() const { return track_; }
@@ -36,6 +40,7 @@ class TrackInspector : public QWidget {
 
  private:
     QLabel* addLine(const QString& name);
+    static void showOrDash(QLabel* label, const QString& text);
     void showWhole();
     void showNow();
     void activate(bool last);
@@ -51,6 +56,7 @@ class TrackInspector : public QWidget {
     OriginBar* origins_;
     QLabel* title_;
     QLabel* class_;
+    QLabel* score_;
     QLabel* life_;
     QLabel* speed_;
     QLabel* size_;
@@ -60,6 +66,7 @@ class TrackInspector : public QWidget {
     QLabel* heading_;
     QLabel* speed_now_;
     QLabel* size_now_;
+    QLabel* detection_;
 };
 
 }  // namespace eyrie::ui

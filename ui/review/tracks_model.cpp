@@ -52,13 +52,13 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
         case life_column:
             return numberText(secondsOf(track), 1);
         case speed_column:
-            return numberText(shownSpeed(track.mean_speed_px, scale_), scale_.gsd_known ? 1 : 2);
+            return numberText(shownSpeed(track.mean_speed_px, scale_.at(track.place)), scale_.gsd_known ? 1 : 2);
         case length_column:
-            return numberText(shownLength(track.mean_length_px, scale_), 1);
+            return numberText(shownLength(track.mean_length_px, scale_.at(track.place)), 1);
         case width_column:
-            return numberText(shownLength(track.mean_width_px, scale_), 1);
+            return numberText(shownLength(track.mean_width_px, scale_.at(track.place)), 1);
         case status_column:
-            return track.confirmed ? tr("confirmed") : tr("tentative");
+            return track.doubtful ? tr("left out") : track.confirmed ? tr("confirmed") : tr("tentative");
         case score_column:
             return numberText(track.score, 2);
         case class_column:

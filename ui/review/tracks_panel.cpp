@@ -7,6 +7,7 @@
 #include <QTableView>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "review/tracks/filter_chips.h"
 #include "widgets/empty_state.h"
@@ -35,7 +36,8 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     sensitivity_->setAccessibleName(tr("Sensitivity"));
     sensitivity_->setToolTip(
         tr("Sensitivity: on the left, only tracks that are surely moving vehicles are listed and drawn; on the far "
-           "right, all tracks."));
+           "right, all tracks, those that the run left out for their score, too. Exports and events keep to the score "
+           "that the run asks for."));
     count_->setToolTip(tr("Tracks listed, of all tracks"));
     toolRow()->addWidget(sensitivity_);
     auto* narrowing = new QHBoxLayout;
@@ -63,12 +65,27 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     setTentativeShown(false);
 }
 
+void TracksPanel::setThreshold(double score) {
+    const auto placeOf = [this](double threshold) {
+        return sensitivity_->maximum() - static_cast<int>(std::lround(threshold * 100));
+    };
+    const bool untouched = sensitivity_->value() == placeOf(threshold_);
+    threshold_ = score;
+    if (untouched) sensitivity_->setValue(placeOf(score));
+}
+
 double TracksPanel::minScore() const {
     return 1 - sensitivity_->value() / 100.0;
 }
 
+bool TracksPanel::isOfTheRun(const TrackSummary& track) const {
+    // What the run left out counts once it is asked for.
+    if (track.doubtful) return track.score >= minScore();
+    return tentative_->isChecked() || track.confirmed;
+}
+
 bool TracksPanel::isListed(const TrackSummary& track) const {
-    return (tentative_->isChecked() || track.confirmed) && track.score >= minScore() &&
+    return isOfTheRun(track) && track.score >= minScore() &&
            chips_->filter().holds(track, tracks_->scale(), doings_.get());
 }
 
@@ -82,8 +99,7 @@ void TracksPanel::filterTracks() {
 
 QString TracksPanel::countText() const {
     int all = 0;
-    for (int row = 0; row < tracks_->rowCount(); ++row)
-        all += tentative_->isChecked() || tracks_->recordAt(row)->confirmed ? 1 : 0;
+    for (int row = 0; row < tracks_->rowCount(); ++row) all += isOfTheRun(*tracks_->recordAt(row)) ? 1 : 0;
     const int listed = table()->model()->rowCount();
     return all == 1 ? tr("%1 of 1 track").arg(listed) : tr("%1 of %2 tracks").arg(listed).arg(all);
 }
@@ -105,7 +121,7 @@ QString TracksPanel::hiddenText() const {
 
 void TracksPanel::showHidden() {
     chips_->clear();
-    sensitivity_->setValue(sensitivity_->maximum());
+    sensitivity_->setValue(sensitivity_->maximum() - static_cast<int>(std::lround(threshold_ * 100)));
 }
 
 void TracksPanel::setTentativeShown(bool shown) {

@@ -36,6 +36,9 @@ class TracksPanel : public TablePanel {
     void setCommands(TrackListCommands commands) { commands_ = std::move(commands); }
     /// Whether tracks that were never confirmed are listed; at first they are not.
     void setTentativeShown(bool shown);
+    /// Tracks of a lower score are no part of the result of the run that is listed: there the slider stands until
+    /// somebody moves it.
+    void setThreshold(double score);
     /// How unsure tracks may be that are listed, 0 … 100 %: at 100 all are, at 40 those with a score of 0.6 or more.
     QSlider* sensitivity() const { return sensitivity_; }
     /// What narrows the list further, by speed, life, length, score, direction, events and zones.
@@ -56,6 +59,7 @@ class TracksPanel : public TablePanel {
 
  private:
     void activate(int track, int column);
+    bool isOfTheRun(const TrackSummary& track) const;
     bool isListed(const TrackSummary& track) const;
     void filterTracks();
     void showCount();
@@ -65,6 +69,7 @@ class TracksPanel : public TablePanel {
     QToolButton* tentative_;
     QSlider* sensitivity_;
     QLabel* count_;
+    double threshold_ = 0;
     FilterChips* chips_;
     std::shared_ptr<const DoingsByTrack> doings_;
 };

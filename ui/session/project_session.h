@@ -115,6 +115,9 @@ class ProjectSession : public QObject {
     /// 0 without a video.
     FrameIndex lastFrame() const { return video_ ? std::max(0, video_->frame_count - 1) : 0; }
     const ViewFrame& viewFrame() const { return view_frame_; }
+    /// How pictures are shown, not what is found in them. Live ones are shown as they are.
+    const PictureLook& pictureLook() const { return look_; }
+    void setPictureLook(const PictureLook& look);
     void goToFrame(FrameIndex frame);
     void step(int frames);
     void togglePlay();
@@ -221,6 +224,7 @@ class ProjectSession : public QObject {
     FrameIndex current_frame_ = 0;
     int direction_ = 1;
     ViewFrame view_frame_;
+    PictureLook look_;
     std::optional<TrackId> selected_track_;
     bool following_ = false;
     QTimer list_refresh_;  ///< reads what runs, here or in other programs, add to the project

@@ -325,6 +325,13 @@ void ProjectSession::request() {
     if (video_) loader_.request(current_frame_, running() ? 0 : direction_);
 }
 
+void ProjectSession::setPictureLook(const PictureLook& look) {
+    if (look == look_) return;
+    look_ = look;
+    loader_.setLook(look);
+    request();
+}
+
 void ProjectSession::frameLoaded(const ViewFrame& frame) {
     if (following_) return;  // the live picture is newer
     view_frame_ = frame;

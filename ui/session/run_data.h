@@ -14,7 +14,8 @@ struct RunData {
     RunRecord record;
     std::vector<std::pair<std::string, std::string>> parameters;
     std::vector<FrameSummary> frames;  ///< ascending frames
-    std::vector<TrackSummary> tracks;  ///< ascending id
+    std::vector<TrackSummary> tracks;  ///< ascending id; also those that only their score kept out of the result
+    double score_threshold = 0;        ///< below which these are; 0 where tracks have no score
     RunFacts facts;
 };
 

@@ -21,9 +21,17 @@
 #include "canvas/video_view.h"
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
+#include "review/card/card_dock.h"
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
+#include "review/events/events_panel.h"
+#include "review/mosaic/mosaic_panel.h"
+#include "review/mosaic/mosaic_view.h"
 #include "review/tracks_panel.h"
+#include "review/watch/seen_watch.h"
+#include "review/watch/steady_watch.h"
+#include "review/watch/watch_commands.h"
+#include "review/watch/watched_ground.h"
 #include "tune/compare/live_preview.h"
 #include "tune/inspect/inspection.h"
 #include "tune/inspect/stacks_panel.h"
@@ -32,6 +40,7 @@
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "window/bars/overlay_button.h"
+#include "window/bars/picture_button.h"
 #include "window/bars/run_bar.h"
 #include "window/bars/status_fields.h"
 #include "window/bars/transport_bar.h"
@@ -58,6 +67,14 @@ constexpr int kStyleCache_kB = 2048;
 constexpr int kLeastLabelRows_px = 68;
 constexpr int kMostLabelRows_px = 118;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
+
+/// Whether the run found motion in a frame, but kept none of it.
+bool keptTracksOnly(const ViewFrame& frame, const RunData* run) {
+    if (!frame.result || run == nullptr || !frame.result->motion.motion_vectors.empty()) return false;
+    const auto found = std::lower_bound(run->frames.begin(), run->frames.end(), frame.index,
+                                        [](const FrameSummary& one, FrameIndex index) { return one.frame < index; });
+    return found != run->frames.end() && found->frame == frame.index && found->motion_vectors > 0;
+}
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
@@ -82,6 +99,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         const auto& found = events_->review().found();
         review_->tracks().setDoings(found ? found->doings : nullptr);
     });
+    buildWatching();
     event_report_ = new EventReport({session_, *events_, *messages_, *this});
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
@@ -154,6 +172,7 @@ void MainWindow::buildToolBar() {
     bar->addAction(actions_->fit);
     bar->addAction(actions_->one_to_one);
     bar->addWidget(new OverlayButton(overlays_, *actions_));
+    bar->addWidget(new PictureButton(session_, *actions_));
     bar->addSeparator();
     for (QAction* action : actions_->workspace) bar->addAction(action);
     connect(run_bar_, &RunBar::editingDone, this, &MainWindow::focusCanvas);
@@ -197,11 +216,32 @@ void MainWindow::buildWorkspaces() {
             docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
         labelling_->setActive(kind == WorkspaceKind::label);
         events_->setActive(kind != WorkspaceKind::label);
+        watching_->setActive(kind != WorkspaceKind::label);
+        steady_->setActive(kind != WorkspaceKind::label);
         // Zones are drawn and tracks narrowed by what they did, whichever list is in front.
         if (kind == WorkspaceKind::review) events_->review().setWanted();
         evaluation_->enterWorkspace(kind);
+        showPicture();
     });
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
+}
+
+void MainWindow::buildWatching() {
+    ground_ = new WatchedGround(this);
+    whenAny(
+        events_, ground_, [this] { ground_->setRun(events_->review().tracks()); }, &EventsDock::tracksRead);
+    steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
+    watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
+    seen_ = new SeenWatch(
+        session_, *canvas_, *this, [this](std::optional<double> share) { events_->panel().showSeen(share); }, this);
+    card_ = new CardDock({session_, *docks_, *events_, *ground_});
+    mosaic_ = new MosaicPanel({session_, overlays_, *ground_});
+    docks_->add(DockId::mosaic, tr("Mosaic"), mosaic_);
+    docks_->watch(DockId::mosaic, mosaic_, [this](bool visible) { mosaic_->setLookedAt(visible); });
+    bindCommands(this, {{actions_->show_mosaic, [this] {
+                             docks_->raise(DockId::mosaic);
+                             mosaic_->view().setFocus();
+                         }}});
 }
 
 void MainWindow::buildEvaluation() {
@@ -273,9 +313,11 @@ void MainWindow::showPicture() {
     const ViewFrame& frame = session_.viewFrame();
     canvas_->setFrame(frame);
     // An empty picture of a run may not look as if nothing was found there.
-    const bool missing = !frame.result && session_.currentRun() && !session_.running();
-    if (std::exchange(told_missing_, missing) != missing)
-        canvas_->setBadge(missing ? tr("Not processed in this run") : QString());
+    QString missing;
+    if (!frame.result && session_.currentRun() && !session_.running()) missing = tr("Not processed in this run");
+    if (workspaces_->current() == WorkspaceKind::tune && keptTracksOnly(frame, session_.runData().get()))
+        missing = tr("Only the tracks of this frame were kept (recording.details)");
+    if (std::exchange(told_missing_, !missing.isEmpty()) || !missing.isEmpty()) canvas_->setBadge(missing);
     evaluation_->showMarks();
 }
 
@@ -287,6 +329,7 @@ void MainWindow::enableActions() {
             if (section.actions.contains(actions_->play) || section.actions.contains(actions_->fit))
                 action->setEnabled(has_video);
     actions_->full_screen->setEnabled(true);
+    steady_->enableActions();
     for (QAction* action : actions_->workspace) action->setEnabled(true);
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);

@@ -12,6 +12,7 @@ class QStackedWidget;
 
 namespace eyrie::ui {
 
+class CardDock;
 class DockRegistry;
 class EvaluationDocks;
 class EventReport;
@@ -20,15 +21,20 @@ class Inspection;
 class LabelTimeline;
 class LabelWorkspace;
 class MessageBar;
+class MosaicPanel;
 class OpenedFiles;
 class ReviewDocks;
 class RunBar;
 class RunGuard;
+class SeenWatch;
 class StatusFields;
+class SteadyWatch;
 class TimelineView;
 class TransportBar;
 class Tuning;
 class VideoView;
+class WatchCommands;
+class WatchedGround;
 class WelcomePanel;
 class WindowActions;
 class WindowCommands;
@@ -59,6 +65,11 @@ class MainWindow : public QMainWindow {
     Workspaces& workspaces() { return *workspaces_; }
     LabelWorkspace& labelling() { return *labelling_; }
     EventsDock& events() { return *events_; }
+    WatchedGround& ground() { return *ground_; }
+    CardDock& card() { return *card_; }
+    MosaicPanel& mosaic() { return *mosaic_; }
+    SeenWatch& seen() { return *seen_; }
+    WatchCommands& watching() { return *watching_; }
     EventReport& eventReport() { return *event_report_; }
     EvaluationDocks& evaluation() { return *evaluation_; }
     Tuning& tuning() { return *tuning_; }
@@ -75,6 +86,7 @@ class MainWindow : public QMainWindow {
     void buildMenus();
     void buildToolBar();
     void buildEvaluation();
+    void buildWatching();
     void buildWorkspaces();
     void wireCanvas();
     void wireSession();
@@ -108,6 +120,12 @@ class MainWindow : public QMainWindow {
     DockRegistry* docks_;
     ReviewDocks* review_;
     EventsDock* events_;
+    WatchedGround* ground_;
+    SteadyWatch* steady_;
+    WatchCommands* watching_;
+    SeenWatch* seen_;
+    MosaicPanel* mosaic_;
+    CardDock* card_;
     EventReport* event_report_;
     EvaluationDocks* evaluation_;
     Tuning* tuning_;

@@ -55,6 +55,10 @@ const char* nameOf(DockId id) {
             return "object";
         case DockId::object_chips:
             return "object_chips";
+        case DockId::mosaic:
+            return "mosaic";
+        case DockId::card:
+            return "card";
     }
     return "";
 }
@@ -68,7 +72,7 @@ struct Columns {
 Columns columnsOf(WorkspaceKind workspace) {
     switch (workspace) {
         case WorkspaceKind::review:
-            return {{DockId::events, DockId::tracks, DockId::runs}, {DockId::inspector}};
+            return {{DockId::events, DockId::tracks, DockId::runs}, {DockId::card, DockId::inspector, DockId::mosaic}};
         case WorkspaceKind::label:
             return {{DockId::objects}, {DockId::object, DockId::object_chips}};
         case WorkspaceKind::tune:
@@ -76,7 +80,7 @@ Columns columnsOf(WorkspaceKind workspace) {
     }
     return {{DockId::runs, DockId::tracks, DockId::events, DockId::evaluation, DockId::errors, DockId::sweeps},
             {DockId::inspector, DockId::stages, DockId::stacks, DockId::parameters, DockId::why, DockId::stage_times,
-             DockId::statistics}};
+             DockId::statistics, DockId::card, DockId::mosaic}};
 }
 
 }  // namespace

@@ -29,9 +29,11 @@ enum class DockId {
     sweeps,
     objects,
     object,
-    object_chips
+    object_chips,
+    mosaic,
+    card
 };
-inline constexpr int kDockCount = 16;
+inline constexpr int kDockCount = 18;
 
 constexpr std::array<DockId, kDockCount> allDocks() {
     std::array<DockId, kDockCount> ids{};

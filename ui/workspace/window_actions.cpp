@@ -74,6 +74,13 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     faster = add(tr("Faster"), {nullptr, {QKeySequence(tr(">"))}});
     loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(tr("Shift+Space"))}}, false);
 
+    only_moving = addToggle(tr("Play only where something &moves"),
+                            {"media-skip-forward",
+                             {QKeySequence(tr("Ctrl+Space"))},
+                             QT_TR_NOOP("Leap over stretches in which nothing drives; what could not be searched is "
+                                        "played")},
+                            false);
+
     addEvents();
 
     section(tr("Evaluat&ion"));
@@ -93,6 +100,38 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     one_to_one = add(tr("Actual size (1:1)"), {"zoom-original", {QKeySequence(Qt::Key_0)}});
     zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
+    steady = addToggle(tr("&Hold the ground still"),
+                       {nullptr,
+                        {QKeySequence(tr("Shift+G"))},
+                        QT_TR_NOOP("Lay every frame on the ground as this one shows it: only what moves, moves")},
+                       false);
+    // The key has the same meaning in Label.
+    follow_object = addToggle(tr("Keep the object centred"),
+                              {nullptr,
+                               {QKeySequence(Qt::Key_S)},
+                               QT_TR_NOOP("Follow the selected vehicle: in the middle, heading up, and near")},
+                              false);
+    measure = addToggle(tr("&Measure"),
+                        {nullptr,
+                         {QKeySequence(tr("Ctrl+M"))},
+                         QT_TR_NOOP("Click two places: how far, and between two frames how fast")},
+                        false);
+    even_picture = addToggle(tr("&Even out the contrast"),
+                             {nullptr,
+                              {QKeySequence(tr("Ctrl+H"))},
+                              QT_TR_NOOP("Shows what lies in the dark or in haze; changes no result")},
+                             false);
+    show_mosaic =
+        add(tr("M&osaic of the ground"),
+            {nullptr,
+             {QKeySequence(tr("Ctrl+Shift+M"))},
+             QT_TR_NOOP("All ground that was seen, with the ways over it; a click tells what happened there")});
+    snapshot =
+        add(tr("&Save what is seen…"),
+            {"camera-photo", {QKeySequence(Qt::Key_F12)}, QT_TR_NOOP("The view with all overlays, as a PNG file")});
+    snapshot_plain =
+        add(tr("Save the &picture alone…"),
+            {nullptr, {QKeySequence(tr("Shift+F12"))}, QT_TR_NOOP("The whole frame without overlays, as a PNG file")});
     deselect = add(tr("Clear the selection"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
     why = add(tr("&Why?"), {"help-contextual",
                             {QKeySequence(tr("Shift+W"))},

@@ -28,8 +28,9 @@ class WindowActions : public QObject {
     QAction *open_video, *open_folder, *open_project, *save_as, *save_copy, *restore_state, *demo, *quit;
     QAction *run, *stop, *continue_run, *follow, *restore_run;
     QAction *play, *step_back, *step_on, *jump_back, *jump_on, *first, *last, *go_to_frame, *shuttle_back,
-        *shuttle_stop, *shuttle_on, *slower, *faster, *loop;
-    QAction *fit, *one_to_one, *zoom_in, *zoom_out, *full_screen, *deselect;
+        *shuttle_stop, *shuttle_on, *slower, *faster, *loop, *only_moving;
+    QAction *fit, *one_to_one, *zoom_in, *zoom_out, *steady, *follow_object, *measure, *even_picture, *snapshot,
+        *snapshot_plain, *show_mosaic, *full_screen, *deselect;
     QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
     QAction *next_event, *previous_event, *next_open_event, *relevant, *not_relevant, *unsure, *take_back, *star, *note,
         *undo_verdict, *redo_verdict, *draw_zone, *draw_line;

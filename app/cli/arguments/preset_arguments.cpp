@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iterator>
 
 #include "core/error.h"
 #include "io/tables/preset_file.h"
@@ -30,7 +31,19 @@ ChainOptions PresetArguments::options() const {
 }
 
 void PresetArguments::applySettings(ChainOptions& options) const {
-    cli::applySettings(describeOf(options), settings);
+    std::vector<std::string> of_chain;
+    std::copy_if(settings.begin(), settings.end(), std::back_inserter(of_chain),
+                 [](const std::string& setting) { return !isOfRecording(setting); });
+    cli::applySettings(describeOf(options), of_chain);
+    recording();  // what is wrong with it is told now
+}
+
+RecordingOptions PresetArguments::recording() const {
+    RecordingOptions options;
+    std::vector<std::string> of_recording;
+    std::copy_if(settings.begin(), settings.end(), std::back_inserter(of_recording), isOfRecording);
+    cli::applySettings(describeOf(options), of_recording);
+    return options;
 }
 
 void applySettings(const Describe& describe, const std::vector<std::string>& settings) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "chain/chain_options.h"
+#include "store/details/recording_options.h"
 
 namespace CLI {
 class App;
@@ -19,6 +20,8 @@ struct PresetArguments {
     void addTo(CLI::App& command);
     /// Throws Error(parameter | input).
     ChainOptions options() const;
+    /// What of a run is kept, by --set recording.…. The same.
+    RecordingOptions recording() const;
     /// Only what --set says. Throws Error(parameter).
     void applySettings(ChainOptions& options) const;
 };

@@ -21,7 +21,7 @@
 #include "io/atomic_file.h"
 #include "rerun/method_run.h"
 #include "scoring/scoring.h"
-#include "store/runs/comparison_store.h"
+#include "store/sweeps/comparison_store.h"
 
 namespace eyrie::cli {
 namespace {

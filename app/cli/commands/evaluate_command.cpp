@@ -43,6 +43,7 @@ struct EvaluateArguments {
 struct Result {
     BoxesByFrame boxes;
     std::string name;
+    BoxesByFrame doubtful;  ///< of tracks that only their score kept out of the result; for the score curve
     std::optional<RunRecord> run;
     std::vector<Registration> registrations;
 };
@@ -61,6 +62,7 @@ Result readResult(const EvaluateArguments& arguments) {
     result.boxes = arguments.detections ? store.detectionBoxes(id) : store.trackBoxes(id);
     result.name =
         arguments.project + ", run " + std::to_string(id) + (arguments.detections ? ", detections" : ", tracks");
+    if (!arguments.detections && !arguments.score_curve.empty()) result.doubtful = store.doubtfulBoxes(id);
     if (!arguments.homographies.empty()) result.registrations = store.registrations(id);
     return result;
 }
@@ -110,7 +112,10 @@ void writeErrors(const EvaluateArguments& arguments, const Scoring& scoring, con
 void writeScoreCurve(const EvaluateArguments& arguments, const Scoring& scoring, const Result& result) {
     EvaluationOptions options = scoring.options;
     if (!arguments.evaluation.overlaps.empty()) options.overlap = arguments.evaluation.overlaps.front();
-    writeFileAtomically(arguments.score_curve, scoreCurveCsv(scoreCurve(scoring.truth.boxes, result.boxes, options)));
+    BoxesByFrame boxes = result.boxes;
+    for (const auto& [frame, doubtful] : result.doubtful)
+        boxes[frame].insert(boxes[frame].end(), doubtful.begin(), doubtful.end());
+    writeFileAtomically(arguments.score_curve, scoreCurveCsv(scoreCurve(scoring.truth.boxes, boxes, options)));
 }
 
 GroundTruth readTruth(const EvaluateArguments& arguments, const Result& result) {
@@ -179,7 +184,7 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
                         "detail and box of the middle frame that shows it");
     command->add_option("--score-curve", arguments->score_curve,
                         "Write precision, recall and f-score at the first T_ov over the score that a box must have to "
-                        "this CSV file; tracks dropped for their score (finishing.min_score) are not in it");
+                        "this CSV file; of a run also for tracks that only their score (finishing.min_score) kept out");
     arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] {

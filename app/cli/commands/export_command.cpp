@@ -17,8 +17,10 @@
 #include "core/error.h"
 #include "exchange/project_labels.h"
 #include "exchange/project_world.h"
+#include "exchange/vmti_export.h"
 #include "store/database/snapshot.h"
 #include "store/labels/annotation_store.h"
+#include "store/review/control_points.h"
 
 namespace eyrie::cli {
 namespace {
@@ -87,10 +89,37 @@ bool tellsWorld(const std::string& format) {
                        [&](const LabelFormatInfo& info) { return info.name == format && info.tells_world; });
 }
 
+/// Not a format of labels: it needs the video, and is one.
+constexpr char kVmti[] = "vmti";
+
+/// Tracks of a run in a copy of its video.
+void exportVmti(const ExportArguments& arguments, ProjectFile& project, const RunRecord& run) {
+    const RunStore store(project);
+    arguments.outputs.check({{arguments.out, FileKind::video}}, {run.sequence.path, arguments.project});
+    const InterruptGuard interrupt;
+    const auto video = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
+    LabelStream labels = labelStreamOf(store, run, arguments.detections);
+    labels.about.world = trackWorldOf(store, run, video.get(), startOf(arguments.start), interrupt.token(),
+                                      readControlPoints(project, run.sequence.id));
+    const VmtiReport report = writeVmti(labels, *video, arguments.out, {}, interrupt.token());
+    std::printf("%s: a copy of %s with %d VMTI sets of %d targets\n", arguments.out.c_str(), run.sequence.path.c_str(),
+                report.frames, report.targets);
+    std::printf("  times       %s\n", report.clock_origin.c_str());
+    std::printf("  places      %s\n",
+                report.place_origin.empty() ? labels.about.world->no_place.c_str() : report.place_origin.c_str());
+    if (report.without_place > 0 && !report.place_origin.empty())
+        std::printf("  note        %d targets have no place\n", report.without_place);
+    if (report.without_stamp > 0)
+        std::printf("  note        %d frames are left out: their pictures have no stamp in the video\n",
+                    report.without_stamp);
+    std::printf("  note        written after what is publicly known of ST 0903.5; not checked against a validator\n");
+}
+
 void exportRun(const ExportArguments& arguments, ProjectFile& project) {
     const RunStore store(project);
     const RunRecord run = chosenRun(store, arguments.project, arguments.run);
     const Snapshot unchanging(project);
+    if (arguments.format == kVmti) return exportVmti(arguments, project, run);
     LabelStream labels = labelStreamOf(store, run, arguments.detections);
     const InterruptGuard interrupt;
     std::unique_ptr<FrameSource> pixels;
@@ -101,12 +130,15 @@ void exportRun(const ExportArguments& arguments, ProjectFile& project) {
             // Boxes can be written without it; what needs times or places on the earth says so.
             if (interrupt.token().stop_requested()) throw;
         }
-        labels.about.world = trackWorldOf(store, run, pixels.get(), startOf(arguments.start), interrupt.token());
+        labels.about.world = trackWorldOf(store, run, pixels.get(), startOf(arguments.start), interrupt.token(),
+                                          readControlPoints(project, run.sequence.id));
     }
     writeAndTell(arguments, labels, labels.about, run.sequence.path);
 }
 
 void exportLabels(const ExportArguments& arguments) {
+    if (arguments.format == kVmti && (!arguments.from.empty() || arguments.labels))
+        throw Error(ErrorKind::parameter, "vmti is written of runs: give --project and, if need be, --run");
     if (!arguments.from.empty()) return exportFile(arguments);
     ProjectFile project = openForReading(arguments.project);
     if (arguments.labels) return exportAnnotations(arguments, project);
@@ -131,7 +163,7 @@ void addExportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--start", arguments->start, kStartHelp)->needs(project);
     command->add_option("--from", arguments->from, "File or folder of labels to convert")->excludes(project);
     addLabelOptions(*command, arguments->from_labels, "--from-format", "--from-columns");
-    command->add_option("--format", arguments->format, "One of " + formatNames(true))->required();
+    command->add_option("--format", arguments->format, "One of " + formatNames(true) + ", " + kVmti)->required();
     command->add_option("--out", arguments->out, "File, or folder for formats with a text file per image")->required();
     command->add_option("--columns", arguments->options.columns, "Columns of your own table, for format columns");
     command->add_option("--out-first-frame", arguments->options.first_frame_number,

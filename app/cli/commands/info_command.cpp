@@ -13,7 +13,7 @@
 #include "store/health/file_check.h"
 #include "store/labels/annotation_store.h"
 #include "store/runs/run_store.h"
-#include "store/runs/sweep_store.h"
+#include "store/sweeps/sweep_store.h"
 
 namespace eyrie::cli {
 namespace {
@@ -59,7 +59,9 @@ Json factsOf(RunStore& store, const RunRecord& run) {
     facts["scale_origin"] = nameOf(run.scale_basis.origin);
     facts["scale_uncertainty"] = run.scale_basis.uncertainty ? Json(*run.scale_basis.uncertainty) : Json(nullptr);
     facts["scale_vehicles"] = run.scale_basis.vehicles;
-    facts["scale"] = describe(run.scale.gsd_m_per_px, run.scale_basis);
+    facts["scale_growth_right_per_px"] = run.scale.slope.right_per_px;
+    facts["scale_growth_down_per_px"] = run.scale.slope.down_per_px;
+    facts["scale"] = describe(run.scale, run.scale_basis, run.sequence.size);
     int confirmed = 0;
     for (const TrackSummary& track : store.tracks(run.id)) confirmed += track.confirmed ? 1 : 0;
     facts["tracks"] = confirmed;

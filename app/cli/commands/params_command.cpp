@@ -54,6 +54,8 @@ void addParamsCommand(CLI::App& app, int&) {
     command->callback([arguments] {
         ChainOptions options = arguments->preset.options();
         auto parameters = listParameters(describeOf(options));
+        RecordingOptions recording = arguments->preset.recording();
+        for (Parameter& parameter : listParameters(describeOf(recording))) parameters.push_back(std::move(parameter));
         EventOptions events;
         for (Parameter& parameter : listParameters(describeOf(events))) parameters.push_back(std::move(parameter));
         ReviewOptions review;

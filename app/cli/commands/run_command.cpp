@@ -16,11 +16,13 @@
 #include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/live_command.h"
 #include "cli/reports/console_progress.h"
 #include "cli/reports/run_report.h"
 #include "core/error.h"
 #include "core/project_name.h"
 #include "io/folder.h"
+#include "io/live/live_stream.h"
 #include "io/tables/box_csv.h"
 #include "io/tables/number_text.h"
 #include "io/video/video_writer.h"
@@ -39,6 +41,7 @@ struct RunArguments {
     std::string detections_csv;
     std::string annotated;
     std::string timing;
+    LiveArguments live;
     bool resume = false;
     std::optional<int> run_id;
     bool preset_given = false;
@@ -181,7 +184,7 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     planned.scale_basis = basis;
     planned.name = arguments.name;
     ConsoleObserver console(arguments, video);
-    RunRecorder recorder(project, planned, options, &console);
+    RunRecorder recorder(project, planned, options, &console, arguments.preset.recording());
     EndedRun ended;
     ended.summary =
         ChainRun(options, scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
@@ -275,9 +278,29 @@ void checkOutputs(const RunArguments& arguments, const std::filesystem::path& pr
                   {video, arguments.preset.preset});
 }
 
+int runLive(const RunArguments& arguments) {
+    if (arguments.resume || !arguments.annotated.empty() || !arguments.detections_csv.empty() ||
+        !arguments.timing.empty())
+        throw Error(ErrorKind::parameter,
+                    "--resume, --annotated, --detections and --timing are of no use with a live source; run over its "
+                    "recording afterwards");
+    LiveArguments live = arguments.live;
+    live.address = arguments.input;
+    live.project = arguments.project;
+    live.video = arguments.video;
+    live.preset = arguments.preset;
+    live.name = arguments.name;
+    live.tracks_csv = arguments.tracks_csv;
+    live.quiet = arguments.quiet;
+    arguments.outputs.check({growingProject(arguments.project), {arguments.tracks_csv, FileKind::text}},
+                            {arguments.preset.preset});
+    return runLiveCommand(live);
+}
+
 int run(const RunArguments& arguments) {
     arguments.video.check();
     arguments.preset.options();
+    if (isLiveAddress(arguments.input)) return runLive(arguments);
     if (arguments.input.empty() && !(arguments.resume && !arguments.project.empty())) {
         throw Error(ErrorKind::parameter,
                     "INPUT is missing: name a video, a folder of images or a scene; --resume can do with --project");
@@ -340,8 +363,8 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("run", "Find and follow the moving vehicles of a video and store them in a project");
     command->add_option("input", arguments->input,
-                        "A video file, a folder of images, or scene:NAME for a built-in scene; with --resume and "
-                        "--project it may be left out");
+                        "A video file, a folder of images, scene:NAME for a built-in scene, or the address of a live "
+                        "source (udp://, rtsp://, srt:// …); with --resume and --project it may be left out");
     command->add_option(
         "--project", arguments->project,
         "Project file; made when it does not exist, else a run is added (default: INPUT's name in this folder)");
@@ -356,6 +379,17 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     command->add_option("--detections", arguments->detections_csv, "Write the detections as CSV");
     command->add_option("--annotated", arguments->annotated, "Write the video with all results drawn in (mp4)");
     command->add_option("--timing", arguments->timing, "Write median times per stage as JSON");
+    command->add_option("--seconds", arguments->live.seconds,
+                        "Live source: end after so long (default: Ctrl-C ends it)");
+    command->add_option("--wait", arguments->live.wait_s, "Live source: seconds to wait for its first picture")
+        ->check(CLI::Range(0.5, 3600.0))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--give-up", arguments->live.give_up_s,
+            "Live source: seconds without a picture after which it has ended; until then it is connected to again")
+        ->check(CLI::Range(0.5, 1e6))
+        ->capture_default_str();
     arguments->outputs.addTo(*command);
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, command, &exit_code] {

@@ -33,8 +33,8 @@ std::string speedText(const SceneScale& scale, double px_per_frame) {
                            : formatted("%.2f px/frame", px_per_frame);
 }
 
-std::string scaleText(const RunFacts& facts) {
-    const std::string scale = describe(facts.gsd_m_per_px, facts.scale_basis);
+std::string scaleText(const RunFacts& facts, const SceneScale& in_picture, cv::Size picture) {
+    const std::string scale = describe(in_picture, facts.scale_basis, picture);
     switch (facts.scale_basis.origin) {
         case ScaleOrigin::given:
         case ScaleOrigin::metadata:
@@ -90,9 +90,9 @@ std::string estimateText(const ScaleEstimate& estimate) {
 
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,
                         const std::vector<TrackSummary>& tracks, const std::filesystem::path& project) {
-    std::string text =
-        formatted("%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(), video.size.width,
-                  video.size.height, video.frame_count, video.frame_rate_hz, scaleText(facts).c_str());
+    std::string text = formatted("%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(),
+                                 video.size.width, video.size.height, video.frame_count, video.frame_rate_hz,
+                                 scaleText(facts, run.scale, video.size).c_str());
     text += formatted("Run %d %s: %d of %d frames in %s (%.1f frames/s)", run.id, nameOf(summary.outcome),
                       summary.frames_done, summary.frames_total, clockText(summary.seconds).c_str(),
                       summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0);
@@ -106,7 +106,9 @@ std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunS
         ++confirmed;
         two_wheelers += track.track_class == TrackClass::two_wheeler;
         persons += track.track_class == TrackClass::person;
-        speed += track.mean_speed_px;
+        // In pixels of the middle of the picture, where the view is oblique.
+        speed +=
+            run.scale.gsd_known ? track.mean_speed_px / run.scale.slope.factorAt(track.place) : track.mean_speed_px;
     }
     text += formatted("Vehicles followed: %d", confirmed);
     if (confirmed > 0) text += formatted(", mean speed %s", speedText(run.scale, speed / confirmed).c_str());

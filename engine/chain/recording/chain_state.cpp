@@ -12,7 +12,7 @@
 namespace eyrie {
 namespace {
 
-constexpr std::uint32_t kFormat = 5;  ///< counts up with every change of what any stage keeps
+constexpr std::uint32_t kFormat = 6;  ///< counts up with every change of what any stage keeps
 
 /// What must be the same for a state to be of use.
 std::string conditions(const ChainOptions& options, const SceneScale& scale) {
@@ -22,7 +22,9 @@ std::string conditions(const ChainOptions& options, const SceneScale& scale) {
     double gsd = scale.gsd_m_per_px;
     double rate = scale.frame_rate_hz;
     bool known = scale.gsd_known;
-    writer(gsd, rate, known);
+    double right = scale.slope.right_per_px;
+    double down = scale.slope.down_per_px;
+    writer(gsd, rate, known, right, down);
     return text + writer.bytes();
 }
 
@@ -87,6 +89,7 @@ void TrackHalf::transfer(Archive& archive) {
     if (difference_) archive(*difference_);
     if (stacker_) archive(*stacker_);
     archive(tracker_);
+    if (scores_) archive(*scores_);
 }
 
 template void WaitingMotion::transfer(StateWriter&);

@@ -17,14 +17,21 @@ const std::filesystem::path& prepared(const std::filesystem::path& project) {
     return project;
 }
 
+std::vector<std::pair<std::string, std::string>> storedParameters(const ChainOptions& options,
+                                                                  const RecordingOptions& recording) {
+    auto values = parameterValues(options);
+    for (auto& changed : recording.changed()) values.push_back(std::move(changed));
+    return values;
+}
+
 }  // namespace
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
-                         ChainObserver* also)
+                         ChainObserver* also, const RecordingOptions& recording)
     : project_(prepared(project)),
       options_(options),
       scale_(run.scale),
-      writer_(project, std::move(run), parameterValues(options)),
+      writer_(project, std::move(run), storedParameters(options, recording)),
       also_(also) {}
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also)
@@ -77,9 +84,12 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_,
                                               {vectors_at, classifiedVehicles(options_, vehicles_at)});
     RunStateStore(project).keepTracks(writer_.runId());
-    store.replaceTracks(
-        writer_.runId(), [&](const StateVisitor& visitor) { finished.visit(visitor); },
-        [&](const DropVisitor& visitor) { finished.visitDropped(followed, visitor); });
+    TracksOfRun tracks;
+    tracks.states = [&](const StateVisitor& visitor) { finished.visit(visitor); };
+    tracks.dropped = [&](const DropVisitor& visitor) { finished.visitDropped(followed, visitor); };
+    tracks.doubtful = [&](const StateVisitor& visitor) { finished.visitDoubtful(visitor); };
+    tracks.evidence = finished.evidence;
+    store.replaceTracks(writer_.runId(), tracks);
     if (state == RunState::finished) writer_.finish(state, summary.message);
     return store.run(writer_.runId()).value();
 }

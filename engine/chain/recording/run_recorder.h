@@ -6,6 +6,7 @@
 
 #include "chain/chain_run.h"
 #include "chain/recording/run_resume.h"
+#include "store/details/recording_options.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_store.h"
 
@@ -17,8 +18,9 @@ class RunRecorder : public ChainObserver {
  public:
     /// Creates the project when it does not exist, and a run in it. `run` needs sequence, scale, preset, name and
     /// planned frames. `also`, if given, sees every frame after it was stored; it must outlive the recorder.
+    /// `recording`: what of each frame is kept; a run that is gone on with keeps to what was said at its beginning.
     RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
-                ChainObserver* also = nullptr);
+                ChainObserver* also = nullptr, const RecordingOptions& recording = {});
     /// Goes on with a run that ended early: its frames stay until each is done again.
     RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also = nullptr);
 

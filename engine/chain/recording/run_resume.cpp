@@ -7,6 +7,7 @@
 #include "chain/recording/chain_state.h"
 #include "chain/recording/run_recorder.h"
 #include "core/error.h"
+#include "store/details/recording_options.h"
 #include "store/runs/run_state_store.h"
 
 namespace eyrie {
@@ -63,7 +64,8 @@ ResumeObstacle resumeObstacle(const RunStore& store, const RunRecord& run) {
     if (run.state == RunState::finished) return ResumeObstacle::finished;
     if (run.live) return ResumeObstacle::live;
     if (run.engine_version != engineVersion()) return ResumeObstacle::other_engine;
-    const auto stored = store.parameters(run.id);
+    auto stored = store.parameters(run.id);
+    std::erase_if(stored, [](const auto& parameter) { return isOfRecording(parameter.first); });
     if (stored != parameterValues(storedOptions(stored))) return ResumeObstacle::other_parameters;
     return ResumeObstacle::none;
 }

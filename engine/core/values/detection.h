@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <opencv2/core/types.hpp>
 #include <string>
 #include <vector>
@@ -25,6 +27,13 @@ struct Detection {
     std::vector<int> vectors;    ///< indices into FrameMotion::motion_vectors of those that make or lie in the box
     Rejection rejection = Rejection::none;
     bool complete = false;  ///< the box of a whole vehicle (classifier); other boxes may lack or join parts
+    /// That it is a vehicle that moves, 0 … 1; NaN where it was not judged: rejected, or no classifier takes part.
+    double probability = std::numeric_limits<double>::quiet_NaN();
 };
+
+/// What results tell of it: its probability where it has one.
+inline double shownScore(const Detection& detection) {
+    return std::isnan(detection.probability) ? detection.score : detection.probability;
+}
 
 }  // namespace eyrie

@@ -74,4 +74,19 @@ std::string describe(double gsd_m_per_px, const ScaleBasis& basis) {
     return significant(gsd_m_per_px, digits) + " m/px, " + describe(basis);
 }
 
+std::string describe(const SceneScale& scale, const ScaleBasis& basis, cv::Size picture) {
+    if (scale.slope.isFlat()) return describe(scale.gsd_m_per_px, basis);
+    const int digits = isKnownScale(basis.origin) ? kDigitsOfKnown : kDigitsOfGuess;
+    const auto at = [&](double x, double y) { return significant(scale.at({x, y}).gsd_m_per_px, kDigitsOfGuess); };
+    const double middle_x = (picture.width - 1) / 2.0;
+    const double middle_y = (picture.height - 1) / 2.0;
+    const bool tilted =
+        std::abs(scale.slope.down_per_px) * picture.height >= std::abs(scale.slope.right_per_px) * picture.width;
+    const std::string edges =
+        tilted ? at(middle_x, 0) + " at its upper edge, " + at(middle_x, picture.height - 1) + " at its lower edge"
+               : at(0, middle_y) + " at its left edge, " + at(picture.width - 1, middle_y) + " at its right edge";
+    return significant(scale.gsd_m_per_px, digits) + " m/px in the middle of an oblique view (" + edges + "), " +
+           describe(basis);
+}
+
 }  // namespace eyrie

@@ -1,16 +1,25 @@
 #pragma once
 
+#include "core/values/scale_slope.h"
+
 namespace eyrie {
 
 /// The smallest and the largest ground sampling distance that a person may give, metres per pixel.
 inline constexpr double kSmallestGsd = 0.001;
 inline constexpr double kLargestGsd = 100;
 
-/// Turns physical lengths and speeds into pixels, once, where a stage is built.
+/// Turns physical lengths and speeds into pixels. What a stage measures at a place it asks of the scale there, `at()`;
+/// what it needs once for the whole picture is that of the picture's centre.
 struct SceneScale {
-    double gsd_m_per_px = 0.25;  ///< ground sampling distance, metres per pixel, > 0
+    double gsd_m_per_px = 0.25;  ///< ground sampling distance at the slope's centre, metres per pixel, > 0
     double frame_rate_hz = 25;   ///< frames per second, > 0
     bool gsd_known = false;      ///< false: `gsd_m_per_px` is an assumption; do not show metres or km/h
+    ScaleSlope slope = {};       ///< flat unless the view is known to be oblique
+
+    /// The scale at a place of the picture, as a scale that is the same everywhere.
+    SceneScale at(cv::Point2d place) const {
+        return {gsd_m_per_px / slope.factorAt(place), frame_rate_hz, gsd_known, {}};
+    }
 
     double px(double metres) const { return metres / gsd_m_per_px; }
     double metres(double px) const { return px * gsd_m_per_px; }

@@ -41,7 +41,7 @@ cv::Mat superpixelSegments(const MotionRoi& roi, const SceneScale& scale, double
 
 cv::Mat watershedSegments(const MotionRoi& roi, double smoothing_px) {
     if (tooSmall(roi.image)) return oneSegment(roi.image);
-    cv::Mat smooth = roi.image;
+    cv::Mat smooth = roi.image.clone();
     if (smoothing_px > 0) cv::GaussianBlur(roi.image, smooth, {}, smoothing_px);
     cv::Mat gradient;
     simpleGradient(smooth, gradient);

@@ -33,11 +33,12 @@ std::vector<double> thresholdsOf(const BoxesByFrame& result, std::size_t most) {
 }  // namespace
 
 std::vector<ScorePoint> scoreCurve(const BoxesByFrame& truth, const BoxesByFrame& result,
-                                   const EvaluationOptions& options, std::size_t most) {
+                                   const EvaluationOptions& options, std::size_t most, const std::stop_token& stop) {
     check(options);
     std::vector<ScorePoint> curve;
     BoxesByFrame kept = result;
     for (const double threshold : thresholdsOf(result, most)) {
+        if (stop.stop_requested()) break;
         std::set<int> ids;
         for (auto& [frame, boxes] : kept) {
             std::erase_if(boxes, [&](const BoxRecord& box) { return box.score < threshold; });

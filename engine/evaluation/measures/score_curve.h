@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "core/labels/box_record.h"
@@ -18,9 +19,11 @@ struct ScorePoint {
 /// Precision and recall over the score: a point for every distinct score of the result, ascending, so that the first
 /// one is the whole result; none for an empty one. Of more than `most` scores, at least 2, so many are taken, the
 /// lowest and the highest among them, with about the same number of boxes between them. A track whose states have
-/// different scores loses those below. Throws as evaluate() does, and Error(input) where a score is not a number.
+/// different scores loses those below. Once `stop` is requested the rest is left out. Throws as evaluate() does, and
+/// Error(input) where a score is not a number.
 std::vector<ScorePoint> scoreCurve(const BoxesByFrame& truth, const BoxesByFrame& result,
-                                   const EvaluationOptions& options, std::size_t most = 100);
+                                   const EvaluationOptions& options, std::size_t most = 100,
+                                   const std::stop_token& stop = {});
 
 /// Where the f-score is largest; the lowest threshold of several, null for an empty curve.
 const ScorePoint* bestPoint(const std::vector<ScorePoint>& curve);

@@ -1,10 +1,9 @@
 #include "events/ground/ground_stretches.h"
 
-#include <array>
-#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "core/geometry/homography_jacobian.h"
+#include "core/geometry/sound_map.h"
 
 namespace eyrie {
 namespace {
@@ -19,7 +18,7 @@ GroundStretches::GroundStretches(const Footage& footage) : footage_(footage) {
         const bool connected = !stretches_.empty() && footage.camera.connects(frame - 1, frame);
         std::optional<Homography> to_reference;
         if (connected) to_reference = footage.camera.map(frame, stretches_.back().first_frame);
-        if (!to_reference || !isSound(to_reference->matrix)) {
+        if (!to_reference || !isSoundMap(to_reference->matrix, footage.image_size, kMostUnlike)) {
             GroundStretch next{frame, frame, footage.scale.gsd_m_per_px, !connected, true};
             if (connected) {
                 const GroundStretch& before = stretches_.back();
@@ -34,18 +33,6 @@ GroundStretches::GroundStretches(const Footage& footage) : footage_(footage) {
         stretch_of_.push_back(static_cast<int>(stretches_.size()) - 1);
         reference_from_image_.push_back(to_reference->matrix);
     }
-}
-
-bool GroundStretches::isSound(const cv::Matx33d& m) const {
-    const double right = footage_.image_size.width - 1;
-    const double bottom = footage_.image_size.height - 1;
-    const std::array<cv::Point2d, 4> corners{{{0, 0}, {right, 0}, {right, bottom}, {0, bottom}}};
-    for (const cv::Point2d& corner : corners) {
-        if (m(2, 0) * corner.x + m(2, 1) * corner.y + m(2, 2) <= 0) return false;
-        const double scale = HomographyJacobian(m, corner).scale();
-        if (!(scale < kMostUnlike && scale > 1 / kMostUnlike)) return false;
-    }
-    return true;
 }
 
 const GroundStretch* GroundStretches::of(FrameIndex frame) const {

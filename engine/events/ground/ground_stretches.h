@@ -56,7 +56,6 @@ class GroundStretches {
     const cv::Matx33d& map(FrameIndex frame) const {
         return reference_from_image_[static_cast<std::size_t>(frame - footage_.first_frame)];
     }
-    bool isSound(const cv::Matx33d& reference_from_image) const;
 
     const Footage& footage_;
     std::vector<GroundStretch> stretches_;

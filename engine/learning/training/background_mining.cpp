@@ -47,11 +47,12 @@ UprightImage uprightImage(const cv::Mat& gray, const OrientedBox& typical, doubl
     UprightImage upright;
     upright.image_from_upright = {right.x * across, -ahead.x * along, origin.x,
                                   right.y * across, -ahead.y * along, origin.y};
-    cv::Mat smooth = gray;
+    cv::Mat smooth;
     const double coarser = std::max(across, along);
+    // Not into a Mat that shares the picture's pixels: it is searched in other directions, and windows are cut from it.
     if (coarser > 1.3) cv::GaussianBlur(gray, smooth, {}, 0.4 * coarser);
-    cv::warpAffine(smooth, upright.gray, upright.image_from_upright, size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
-                   cv::BORDER_REPLICATE);
+    cv::warpAffine(smooth.empty() ? gray : smooth, upright.gray, upright.image_from_upright, size,
+                   cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
     return upright;
 }
 

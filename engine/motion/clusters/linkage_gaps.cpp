@@ -15,7 +15,8 @@ const MotionVector& vectorAt(const std::vector<MotionVector>& vectors, int index
 
 }  // namespace
 
-LinkageGap gapBetween(const MotionVector& a, const MotionVector& b, const Linkage& linkage) {
+LinkageGap gapBetween(const MotionVector& a, const MotionVector& b, const Linkage& everywhere) {
+    const Linkage linkage = everywhere.at((cv::Point2d(a.position) + cv::Point2d(b.position)) / 2);
     const cv::Point2d apart = cv::Point2d(b.position) - cv::Point2d(a.position);
     const cv::Point2d mean = (cv::Point2d(a.velocity) + cv::Point2d(b.velocity)) / 2;
     const cv::Point2d change = cv::Point2d(b.velocity) - cv::Point2d(a.velocity);

@@ -34,6 +34,14 @@ MotionCluster summarise(const FrameMotion& motion, std::vector<int> members, dou
     return cluster;
 }
 
+/// Mean place of motion vectors.
+cv::Point2d middleOf(const FrameMotion& motion, const std::vector<int>& members) {
+    cv::Point2d sum(0, 0);
+    for (const int member : members)
+        sum += cv::Point2d(motion.motion_vectors[static_cast<std::size_t>(member)].position);
+    return sum / std::max(1.0, static_cast<double>(members.size()));
+}
+
 /// The half axis of the ellipse that a gap uses up most.
 const char* nearestLimit(const LinkageGap& gap, const Linkage& linkage) {
     return gap.aside / linkage.across > gap.ahead / linkage.along ? "clustering.across" : "clustering.along";
@@ -46,8 +54,8 @@ MotionClustering::MotionClustering(const MotionClusteringOptions& options, const
 
 Linkage MotionClustering::linkageFor(double background_speed_sigma) const {
     Linkage linkage;
-    linkage.along = std::max({scale_.px(options_.along_m), options_.min_distance_px, 1e-3});
-    linkage.across = std::max({scale_.px(options_.across_m), options_.min_distance_px, 1e-3});
+    linkage.slope = scale_.slope;
+    linkage.reach(scale_.px(options_.along_m), scale_.px(options_.across_m), std::max(options_.min_distance_px, 1e-3));
     const double noise =
         std::min(options_.velocity_noise_factor * background_speed_sigma, options_.velocity_noise_limit_px);
     linkage.velocity_floor = std::max(options_.velocity_floor_px, noise);
@@ -55,10 +63,11 @@ Linkage MotionClustering::linkageFor(double background_speed_sigma) const {
     return linkage;
 }
 
-int MotionClustering::minMembersFor(const FrameMotion& motion) const {
+int MotionClustering::minMembersFor(const FrameMotion& motion, cv::Point2d place) const {
     const double image_area = static_cast<double>(motion.image_size.area());
     if (image_area <= 0 || options_.min_density_share <= 0) return options_.min_members;
-    const double car_area = kCarArea / (scale_.gsd_m_per_px * scale_.gsd_m_per_px);
+    const double gsd = scale_.at(place).gsd_m_per_px;
+    const double car_area = kCarArea / (gsd * gsd);
     const double expected = motion.corner_count / image_area * car_area;
     const double wanted =
         std::min(std::round(options_.min_density_share * expected), static_cast<double>(options_.max_min_members));
@@ -70,8 +79,9 @@ std::vector<MotionClustering::Piece> MotionClustering::split(const FrameMotion& 
                                                              ClusteringTrace* trace) const {
     const std::vector<int>& whole = group.members;
     const MotionCluster cluster = summarise(motion, whole, options_.margin_px);
-    const double widest = scale_.px(options_.split_width_m) + kSplitMargin;
-    const double longest = scale_.px(options_.split_length_m) + kSplitMargin;
+    const SceneScale here = scale_.at(cluster.box.centre);
+    const double widest = here.px(options_.split_width_m) + kSplitMargin;
+    const double longest = here.px(options_.split_length_m) + kSplitMargin;
     const bool too_wide = options_.split_width_m > 0 && cluster.box.width > widest;
     const bool too_long = options_.split_length_m > 0 && cluster.box.length > longest;
     std::vector<Piece> result;
@@ -124,8 +134,9 @@ std::vector<int> MotionClustering::linked(const FrameMotion& motion) const {
 
 TracedGroup MotionClustering::checkSize(const MotionCluster& cluster) const {
     TracedGroup checked;
-    const double max_length = scale_.px(options_.max_length_m);
-    const double max_width = scale_.px(options_.max_width_m);
+    const SceneScale here = scale_.at(cluster.box.centre);
+    const double max_length = here.px(options_.max_length_m);
+    const double max_width = here.px(options_.max_width_m);
     if (!std::isfinite(cluster.box.length + cluster.box.heading)) {
         checked.refusal = ClusterRefusal::not_finite;
     } else if (max_length > 0 && cluster.box.length > max_length) {
@@ -143,14 +154,18 @@ std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion, 
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         members[static_cast<std::size_t>(numbers[i])].push_back(static_cast<int>(i));
     }
-    const int needed = minMembersFor(motion);
-    const auto min_members = static_cast<std::size_t>(needed);
-    const char* const needed_parameter =
-        needed > options_.min_members ? "clustering.min_density_share" : "clustering.min_members";
-    if (trace != nullptr) *trace = {{}, needed, needed_parameter};
+    const auto parameterOf = [&](int needed) {
+        return needed > options_.min_members ? "clustering.min_density_share" : "clustering.min_members";
+    };
+    const int needed_at_centre = minMembersFor(motion);
+    if (trace != nullptr) *trace = {{}, needed_at_centre, parameterOf(needed_at_centre)};
     const Linkage linkage = linkageFor(motion.background_speed_sigma);
     std::vector<MotionCluster> clusters;
     for (std::vector<int>& group : members) {
+        const cv::Point2d place = middleOf(motion, group);
+        const int needed = scale_.slope.isFlat() ? needed_at_centre : minMembersFor(motion, place);
+        const auto min_members = static_cast<std::size_t>(needed);
+        const char* const needed_parameter = parameterOf(needed);
         if (group.size() < min_members) {
             const auto size = static_cast<double>(group.size());
             if (trace != nullptr)
@@ -169,7 +184,7 @@ std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion, 
             if (trace != nullptr) trace->groups.push_back(std::move(checked));
             continue;
         }
-        for (Piece& piece : split(motion, {std::move(group)}, linkage, min_members, kSplitSteps, trace)) {
+        for (Piece& piece : split(motion, {std::move(group)}, linkage.at(place), min_members, kSplitSteps, trace)) {
             if (trace != nullptr) {
                 const auto size = static_cast<double>(piece.members.size());
                 trace->groups.push_back({piece.members, static_cast<int>(clusters.size()), ClusterRefusal::none, size,
@@ -182,7 +197,7 @@ std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion, 
 }
 
 LinkageGap MotionClustering::gapOutside(const FrameMotion& motion, const std::vector<int>& group) const {
-    const Linkage linkage = linkageFor(motion.background_speed_sigma);
+    const Linkage linkage = linkageFor(motion.background_speed_sigma).at(middleOf(motion, group));
     LinkageGap gap = smallestGapOutside(motion.motion_vectors, group, linkage);
     const double distance = gap.aside / linkage.across > gap.ahead / linkage.along ? linkage.across : linkage.along;
     if (gap.distance <= 1)
@@ -197,7 +212,7 @@ LinkageGap MotionClustering::gapOutside(const FrameMotion& motion, const std::ve
 }
 
 LinkageGap MotionClustering::gapInside(const FrameMotion& motion, const std::vector<int>& group) const {
-    const Linkage linkage = linkageFor(motion.background_speed_sigma);
+    const Linkage linkage = linkageFor(motion.background_speed_sigma).at(middleOf(motion, group));
     LinkageGap gap = largestGapInside(motion.motion_vectors, group, linkage);
     gap.parameter = gap.distance > 1 ? "clustering.roof_length" : nearestLimit(gap, linkage);
     return gap;
@@ -226,6 +241,7 @@ ClusteringVerdict MotionClustering::verdictOn(const std::vector<int>& here, cons
     verdict.value = farthest->value;
     verdict.limit = farthest->limit;
     verdict.parameter = farthest->parameter;
+    if (verdict.refusal == ClusterRefusal::too_few) verdict.needed = static_cast<int>(farthest->limit);
     // Neighbours that would have made it enough point to the linkage.
     if (verdict.refusal == ClusterRefusal::too_few && verdict.here >= verdict.needed) {
         verdict.refusal = ClusterRefusal::not_linked;

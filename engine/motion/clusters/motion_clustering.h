@@ -53,8 +53,9 @@ class MotionClustering {
 
     /// The linkage used for a frame with this background noise (px/frame).
     Linkage linkageFor(double background_speed_sigma) const;
-    /// Smallest cluster accepted in a frame.
-    int minMembersFor(const FrameMotion& motion) const;
+    /// Smallest cluster accepted at a place of a frame; without one, at the centre of the scale's slope.
+    int minMembersFor(const FrameMotion& motion, cv::Point2d place) const;
+    int minMembersFor(const FrameMotion& motion) const { return minMembersFor(motion, scale_.slope.centre()); }
 
  private:
     /// Part of a group that was split, or a whole group.

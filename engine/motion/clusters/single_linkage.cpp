@@ -17,7 +17,36 @@ bool finite(const MotionVector& v) {
 
 }  // namespace
 
+void Linkage::reach(double along_px, double across_px, double smallest_px) {
+    smallest = smallest_px;
+    // Elsewhere the scale may be so much finer that what is too small at the centre is not.
+    along = slope.isFlat() ? std::max(along_px, smallest) : along_px;
+    across = slope.isFlat() ? std::max(across_px, smallest) : across_px;
+}
+
+Linkage Linkage::at(cv::Point2d place) const {
+    Linkage here = *this;
+    here.slope = {};
+    if (slope.isFlat()) return here;
+    const double factor = slope.factorAt(place);
+    here.along = std::max(smallest, along * factor);
+    here.across = std::max(smallest, across * factor);
+    return here;
+}
+
+double Linkage::reachAmong(const std::vector<MotionVector>& vectors) const {
+    if (slope.isFlat()) return std::max(along, across);
+    double reach = std::max({smallest, std::min(along, across) * ScaleSlope::kLeast, 1e-3});
+    for (const MotionVector& vector : vectors) {
+        if (!finite(vector)) continue;
+        const Linkage here = at(vector.position);
+        reach = std::max({reach, here.along, here.across});
+    }
+    return reach;
+}
+
 bool Linkage::joins(const MotionVector& a, const MotionVector& b) const {
+    if (!slope.isFlat()) return at((cv::Point2d(a.position) + cv::Point2d(b.position)) / 2).joins(a, b);
     const double dx = static_cast<double>(b.position.x) - a.position.x;
     const double dy = static_cast<double>(b.position.y) - a.position.y;
     const double reach = std::max(along, across);
@@ -45,7 +74,7 @@ std::vector<cv::Point2f> positionsOf(const std::vector<MotionVector>& vectors) {
 
 std::vector<int> singleLinkage(const std::vector<MotionVector>& vectors, const Linkage& linkage) {
     UnionFind sets(vectors.size());
-    const NeighbourGrid grid(positionsOf(vectors), std::max(linkage.along, linkage.across));
+    const NeighbourGrid grid(positionsOf(vectors), linkage.reachAmong(vectors));
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         if (!finite(vectors[i])) continue;
         grid.around(vectors[i].position, [&](std::size_t j) {

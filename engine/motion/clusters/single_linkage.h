@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/values/motion_vector.h"
+#include "core/values/scale_slope.h"
 
 namespace eyrie {
 
@@ -12,7 +13,15 @@ struct Linkage {
     double across = 5;             ///< px, half axis across it; > 0
     double velocity_floor = 0.04;  ///< px/frame, velocities may always differ by this
     double velocity_share = 0.05;  ///< … or by this share of the mean speed
+    double smallest = 0;           ///< px below which no half axis falls where the slope makes it smaller
+    ScaleSlope slope = {};         ///< the half axes are those at its centre
 
+    /// Sets both half axes, px at the slope's centre, with the smallest that either may be anywhere.
+    void reach(double along_px, double across_px, double smallest_px);
+    /// The linkage at a place, as one that is the same everywhere.
+    Linkage at(cv::Point2d place) const;
+    /// The farthest that any two of the vectors may lie apart, px.
+    double reachAmong(const std::vector<MotionVector>& vectors) const;
     bool joins(const MotionVector& a, const MotionVector& b) const;
 };
 

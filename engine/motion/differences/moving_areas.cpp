@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -66,10 +67,18 @@ cv::Matx33d forHalves(const cv::Matx33d& map) {
     return whole_from_half.inv() * map * whole_from_half;
 }
 
+cv::Point2d middleOf(const cv::Rect& bounds) {
+    return cv::Point2d(bounds.x + (bounds.width - 1) / 2.0, bounds.y + (bounds.height - 1) / 2.0);
+}
+
+std::array<cv::Point2d, 4> cornersOf(cv::Size size) {
+    return {cv::Point2d(0, 0), cv::Point2d(size.width, 0), cv::Point2d(0, size.height),
+            cv::Point2d(size.width, size.height)};
+}
+
 /// Whether a map over several frames keeps the whole picture on one side of the horizon and somewhere near.
 bool isSane(const Homography& map, cv::Size size) {
-    for (const cv::Point2d& corner : {cv::Point2d(0, 0), cv::Point2d(size.width, 0), cv::Point2d(0, size.height),
-                                      cv::Point2d(size.width, size.height)}) {
+    for (const cv::Point2d& corner : cornersOf(size)) {
         const double w = map.matrix(2, 0) * corner.x + map.matrix(2, 1) * corner.y + map.matrix(2, 2);
         if (!(w > 0.2)) return false;
         const cv::Point2d at = map.apply(corner);
@@ -92,7 +101,13 @@ cv::Mat partOf(const cv::Mat& earlier, const Homography& earlier_from_newest, co
     return shown;
 }
 
-std::vector<DifferingArea> areasOf(const cv::Mat& binary, int fewest_pixels, double longest) {
+/// Sizes between which the areas at a place of the halved picture are looked at.
+struct AreaLimits {
+    int fewest_pixels;
+    double longest;  ///< px
+};
+
+std::vector<DifferingArea> areasOf(const cv::Mat& binary, const std::function<AreaLimits(cv::Point2d)>& limits_at) {
     cv::Mat labels;
     cv::Mat stats;
     cv::Mat centroids;
@@ -101,8 +116,9 @@ std::vector<DifferingArea> areasOf(const cv::Mat& binary, int fewest_pixels, dou
     for (int label = 1; label < count; ++label) {
         const cv::Rect bounds(stats.at<int>(label, cv::CC_STAT_LEFT), stats.at<int>(label, cv::CC_STAT_TOP),
                               stats.at<int>(label, cv::CC_STAT_WIDTH), stats.at<int>(label, cv::CC_STAT_HEIGHT));
-        if (stats.at<int>(label, cv::CC_STAT_AREA) < fewest_pixels) continue;
-        if (std::hypot(bounds.width, bounds.height) > longest) continue;
+        const AreaLimits limits = limits_at(middleOf(bounds));
+        if (stats.at<int>(label, cv::CC_STAT_AREA) < limits.fewest_pixels) continue;
+        if (std::hypot(bounds.width, bounds.height) > limits.longest) continue;
         DifferingArea area;
         area.bounds = bounds;
         for (int y = bounds.y; y < bounds.br().y; ++y) {
@@ -232,17 +248,20 @@ std::vector<DifferingArea> MovingAreas::differingAreas() const {
     cv::min(difference, earlier_difference, difference);
     const double threshold = std::max(options_.area_noise_factor * noiseOf(difference), options_.area_contrast);
     const cv::Mat differs = (difference > threshold) & in_before & in_long_before;
-    const double half_px_per_m = scale_.px(1) / 2;
-    const int fewest =
-        std::max(options_.area_min_size_px / 4, cvRound(options_.area_min_size_m2 * half_px_per_m * half_px_per_m));
-    return areasOf(differs, fewest, scale_.px(options_.area_max_length_m) / 2);
+    return areasOf(differs, [&](cv::Point2d half) -> AreaLimits {
+        const SceneScale here = scale_.at(2 * half);
+        const double half_px_per_m = here.px(1) / 2;
+        const int fewest = cvRound(options_.area_min_size_m2 * half_px_per_m * half_px_per_m);
+        return {std::max(options_.area_min_size_px / 4, fewest), here.px(options_.area_max_length_m) / 2};
+    });
 }
 
 std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, double min_correlation) const {
     const cv::Rect bounds = grownBounds(area);
     const std::vector<cv::Point> pixels = grownPixels(area, bounds);
     const cv::Mat before = partOf(frames_.picture(gap_), frames_.pathTo(gap_), bounds);
-    const int reach = std::clamp(static_cast<int>(std::ceil(scale_.pxPerFrame(kMaxSpeed) * gap_)), 4, kLongestReach);
+    const double fastest = scale_.at(middleOf(bounds)).pxPerFrame(kMaxSpeed);
+    const int reach = std::clamp(static_cast<int>(std::ceil(fastest * gap_)), 4, kLongestReach);
     const auto on = matchArea(pixels, before, frames_.newest(), bounds.tl(), reach);
     if (!on || on->correlation < min_correlation) return std::nullopt;
     const cv::Point2d shift = on->shift - cv::Point2d(bounds.tl());
@@ -257,14 +276,22 @@ std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, doubl
     return shift;
 }
 
-std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double min_speed) {
+std::optional<double> MovingAreas::correlationNeeded(const FrameMotion& motion, cv::Point2d place) const {
+    const double corners_on_car = cornersOnCar(motion, scale_.at(place));
+    if (corners_on_car >= options_.area_max_corners) return std::nullopt;
+    return corners_on_car < options_.area_few_corners ? options_.area_min_correlation : options_.area_sure_correlation;
+}
+
+std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion,
+                                             const std::function<double(cv::Point2d)>& min_speed) {
     std::vector<MotionVector> inferred;
     if (!options_.enabled || frames_.count() < 2 * gap_) return inferred;
-    const double corners_on_car = cornersOnCar(motion, scale_);
-    if (corners_on_car >= options_.area_max_corners) return inferred;
-    const double min_correlation =
-        corners_on_car < options_.area_few_corners ? options_.area_min_correlation : options_.area_sure_correlation;
     const cv::Size size = frames_.newest().size();
+    // Linear over the picture, so that corners suffice everywhere where they do at its four.
+    const auto corners = cornersOf(size);
+    if (std::none_of(corners.begin(), corners.end(),
+                     [&](cv::Point2d corner) { return correlationNeeded(motion, corner).has_value(); }))
+        return inferred;
     for (const int back : {gap_, 2 * gap_}) {
         const Homography path = frames_.pathTo(back);
         if (!isSane(path, size) || !isSane(path.inverse(), size)) return inferred;
@@ -275,13 +302,16 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double m
     cv::parallel_for_(cv::Range(0, static_cast<int>(areas.size())), [&](const cv::Range& range) {
         for (int i = range.start; i < range.end; ++i) {
             const auto at = static_cast<std::size_t>(i);
-            const auto shift = shiftOf(areas[at], min_correlation);
-            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift_px, min_speed * gap_))
+            const cv::Point2d place = middleOf(grownBounds(areas[at]));
+            const auto min_correlation = correlationNeeded(motion, place);
+            if (!min_correlation) continue;
+            const auto shift = shiftOf(areas[at], *min_correlation);
+            if (shift &&
+                std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift_px, min_speed(place) * gap_))
                 shifts[at] = shift;
         }
     });
 
-    const double spacing = std::max(kVectorSpacingPx, scale_.px(kVectorSpacing));
     for (std::size_t i = 0; i < areas.size(); ++i) {
         if (!shifts[i]) continue;
         const cv::Point2d velocity = *shifts[i] / gap_;
@@ -294,6 +324,8 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion, double m
                 ++known;
         }
         if (known >= kEnough) continue;
+        const double spacing =
+            std::max(kVectorSpacingPx, scale_.at(middleOf(grownBounds(areas[i]))).px(kVectorSpacing));
         for (const cv::Point2d& p : spread(areas[i], spacing))
             inferred.push_back({next_id_++, p + *shifts[i], velocity, 0});
     }

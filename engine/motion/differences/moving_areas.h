@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <vector>
@@ -51,8 +52,8 @@ class MovingAreas {
     void add(const Frame& frame, const Registration& registration);
     void clear() { frames_.clear(); }
     /// Vectors in the areas of the newest frame, with ids above those of all corners and silhouettes, and of age 0;
-    /// none where corners suffice. `motion` is what is known of the frame already. `min_speed` in px/frame.
-    std::vector<MotionVector> infer(const FrameMotion& motion, double min_speed);
+    /// none where corners suffice. `motion` is what is known of the frame already. `min_speed`: px/frame at a place.
+    std::vector<MotionVector> infer(const FrameMotion& motion, const std::function<double(cv::Point2d)>& min_speed);
 
     /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
     /// same options.
@@ -63,6 +64,8 @@ class MovingAreas {
     /// Where the newest picture, the one before and the one long before differ, as seen in the newest, at the places
     /// of the one before.
     std::vector<DifferingArea> differingAreas() const;
+    /// Lowest correlation that an area at a place of a frame needs; nothing where corners suffice.
+    std::optional<double> correlationNeeded(const FrameMotion& motion, cv::Point2d place) const;
     /// px from the picture before to the newest, over the ground; nothing where the area is not one thing that moves.
     std::optional<cv::Point2d> shiftOf(const DifferingArea& area, double min_correlation) const;
 

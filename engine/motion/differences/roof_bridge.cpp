@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kMoreAlike = 0.5;  ///< of the velocity difference that links neighbours
 constexpr double kExpected = 0.4;  ///< standing corners in the gap, were it road like its surroundings; fewer: no proof
-constexpr double kVehicleEnd = 1.5;  ///< px: corners of the road next to a vehicle lie this close to its own
+constexpr double kThinnestStrip = 1;  ///< px
+constexpr double kVehicleEnd = 1.5;   ///< px: corners of the road next to a vehicle lie this close to its own
 
 /// Whether something hides the road between two places: no corner stands there though the surroundings have enough
 /// that one might be expected. Where the ground has hardly any corners, as at night, their absence says nothing.
@@ -46,8 +47,9 @@ std::vector<int> joinAcrossRoofs(const FrameMotion& motion, const Linkage& linka
     across_roof.velocity_floor *= kMoreAlike;
     across_roof.velocity_share *= kMoreAlike;
     const std::vector<cv::Point2f> positions = positionsOf(vectors);
-    const NeighbourGrid grid(positions, std::max(across_roof.along, across_roof.across));
-    const NeighbourGrid standing(motion.stationary_corners, bridge.length);
+    const NeighbourGrid grid(positions, across_roof.reachAmong(vectors));
+    const double most = std::max(1.0, across_roof.reachAmong(vectors) / std::max(bridge.length, across_roof.across));
+    const NeighbourGrid standing(motion.stationary_corners, bridge.length * most);
 
     UnionFind sets(vectors.size());
     std::vector<int> first(vectors.size(), -1);
@@ -62,7 +64,9 @@ std::vector<int> joinAcrossRoofs(const FrameMotion& motion, const Linkage& linka
             const int a = static_cast<int>(i);
             const int b = static_cast<int>(j);
             if (b <= a || sets.root(a) == sets.root(b) || !across_roof.joins(vectors[i], vectors[j])) return;
-            if (roadIsHidden(motion.stationary_corners, standing, positions[i], positions[j], bridge)) sets.join(a, b);
+            const double factor = linkage.slope.factorAt(vectors[i].position);
+            const RoofBridge here{bridge.length * factor, std::max(bridge.half_width * factor, kThinnestStrip)};
+            if (roadIsHidden(motion.stationary_corners, standing, positions[i], positions[j], here)) sets.join(a, b);
         });
     }
     return sets.numbers();

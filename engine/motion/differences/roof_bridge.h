@@ -9,8 +9,8 @@ namespace eyrie {
 
 /// How far a plain roof may reach between two motion vectors.
 struct RoofBridge {
-    double length = 20;     ///< px along the motion
-    double half_width = 2;  ///< px, of the strip between the two vectors that must be free of standing corners
+    double length = 20;     ///< px along the motion, at the centre of the linkage's slope
+    double half_width = 2;  ///< px, of the strip between the two vectors that must be free of standing corners; there
 };
 
 /// Long vehicles with plain roofs carry corners at the front and at the rear only, farther apart than two cars one

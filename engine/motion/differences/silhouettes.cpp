@@ -247,13 +247,14 @@ std::vector<MotionVector> Silhouettes::infer(const std::vector<MotionVector>& ve
 std::vector<cv::Point2d> Silhouettes::outlineAround(const VectorGroup& group, const std::vector<cv::Point2d>& corners,
                                                     const Past& past) const {
     const double speed = std::hypot(group.velocity.x, group.velocity.y);
-    if (corners.size() < kFewestCorners || !(speed >= scale_.pxPerFrame(options_.silhouette_min_speed_m_s))) return {};
-    const double max_length = scale_.px(options_.silhouette_max_length_m);
-    const double max_width = scale_.px(options_.silhouette_max_width_m) + kTolerancePx;
-    const double ahead = kFrontPx + scale_.px(kFrontM);
+    const SceneScale here = scale_.at(group.box.centre);
+    if (corners.size() < kFewestCorners || !(speed >= here.pxPerFrame(options_.silhouette_min_speed_m_s))) return {};
+    const double max_length = here.px(options_.silhouette_max_length_m);
+    const double max_width = here.px(options_.silhouette_max_width_m) + kTolerancePx;
+    const double ahead = kFrontPx + here.px(kFrontM);
     // Longer than what is allowed, to see what is too long.
-    const Lattice lattice(group, std::max(1.0, scale_.px(kCell)), ahead, ahead + max_length + 2 * kTolerancePx,
-                          group.box.width / 2 + scale_.px(kAsideM) + 1);
+    const Lattice lattice(group, std::max(1.0, here.px(kCell)), ahead, ahead + max_length + 2 * kTolerancePx,
+                          group.box.width / 2 + here.px(kAsideM) + 1);
     const cv::Mat& now = frames_.newest();
     const cv::Rect image(0, 0, now.cols, now.rows);
     const auto is_vehicle = [&](Lattice::Cell cell) {

@@ -26,9 +26,7 @@ double length(cv::Point2d v) {
 
 IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, const SceneScale& scale)
     : options_(options),
-      min_speed_(std::max(scale.pxPerFrame(options.min_speed_m_s), options.min_speed_px)),
-      slow_min_speed_(std::max(scale.pxPerFrame(options.slow_min_speed_m_s), options.min_speed_px)),
-      max_speed_(scale.gsd_known ? scale.pxPerFrame(options.max_speed_m_s) : 0),
+      scale_(scale),
       shadow_test_(options.shadow, scale),
       shadow_owners_(options.shadow, scale),
       local_background_(options.local_background, scale),
@@ -108,6 +106,13 @@ cv::Point2d IndependentMotion::presentVelocity(std::size_t corner, cv::Point2d n
     return mean + trust * change;
 }
 
+IndependentMotion::SpeedLimits IndependentMotion::limitsAt(cv::Point2d place) const {
+    const SceneScale here = scale_.at(place);
+    return {std::max(here.pxPerFrame(options_.min_speed_m_s), options_.min_speed_px),
+            std::max(here.pxPerFrame(options_.slow_min_speed_m_s), options_.min_speed_px),
+            here.gsd_known ? here.pxPerFrame(options_.max_speed_m_s) : 0};
+}
+
 double IndependentMotion::speedLimit(double min_speed, double sigma) const {
     return std::max(min_speed, options_.sigma_factor * sigma);
 }
@@ -134,16 +139,17 @@ CornerVerdict IndependentMotion::verdictOn(const Corner& corner, const Measured&
         else
             verdict.parameter = min_speed > options_.min_speed_px ? name : "motion.min_speed_px";
     };
-    take(measured, min_speed_, "motion.min_speed");
-    if (options_.find_slow) take(slow, slow_min_speed_, "motion.slow_min_speed");
+    const SpeedLimits limits = limitsAt(corner.current);
+    take(measured, limits.least, "motion.min_speed");
+    if (options_.find_slow) take(slow, limits.least_slow, "motion.slow_min_speed");
     verdict.fate = CornerFate::slow;
     if (young) {
         verdict.fate = CornerFate::young;
         verdict.parameter = "motion.min_age";
-    } else if (max_speed_ > 0 && verdict.speed > max_speed_) {
+    } else if (limits.most > 0 && verdict.speed > limits.most) {
         verdict.fate = CornerFate::too_fast;
         verdict.parameter = "motion.max_speed";
-        verdict.limit = max_speed_;
+        verdict.limit = limits.most;
     }
     return verdict;
 }
@@ -192,7 +198,8 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     if (options_.parallax.enabled) {
         for (std::size_t i = 0; i < corners.size(); ++i) {
             // Slower than what counts as moving: else vehicles that go one way would vote, too.
-            const bool below = measured[i].baseline > 0 && length(measured[i].velocity) < min_speed_;
+            const bool below =
+                measured[i].baseline > 0 && length(measured[i].velocity) < limitsAt(corners[i].current).least;
             if (corners[i].on_background && below && measured[i].baseline >= options_.baseline / 2)
                 parallax_test_.add(corners[i].current, measured[i].velocity);
         }
@@ -200,16 +207,17 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Corner& corner = corners[i];
+        const SpeedLimits limits = limitsAt(corner.current);
         const auto moves = [&](const Measured& m, double min_speed) {
             if (m.baseline == 0 || corner.age < options_.min_age) return false;
             const double speed = length(m.velocity);
-            if (max_speed_ > 0 && speed > max_speed_) return false;
+            if (limits.most > 0 && speed > limits.most) return false;
             return speed >= speedLimit(min_speed, noise.sigma(m.baseline));
         };
         const Measured* found = nullptr;
-        if (moves(measured[i], min_speed_)) {
+        if (moves(measured[i], limits.least)) {
             found = &measured[i];
-        } else if (options_.find_slow && moves(slow[i], slow_min_speed_)) {
+        } else if (options_.find_slow && moves(slow[i], limits.least_slow)) {
             found = &slow[i];
         }
         const bool parallax = found != nullptr && parallax_test_.explains(corner.current, found->velocity);
@@ -234,7 +242,8 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     std::vector<char> looks_like_shadow = shadowLooks(frame, motion.motion_vectors);
     inferRoofs(motion, looks_like_shadow);
     if (options_.shadow.enabled) leaveOutShadows(motion, looks_like_shadow, verdicts);
-    const std::vector<MotionVector> starved = areas_.infer(motion, min_speed_);
+    const std::vector<MotionVector> starved =
+        areas_.infer(motion, [this](cv::Point2d place) { return limitsAt(place).least; });
     motion.motion_vectors.insert(motion.motion_vectors.end(), starved.begin(), starved.end());
 }
 

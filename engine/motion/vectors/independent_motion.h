@@ -65,15 +65,20 @@ class IndependentMotion {
     void inferRoofs(FrameMotion& motion, std::vector<char>& looks_like_shadow);
     void sortCorners(const RegisteredFrame& registered, const Frame& frame, FrameMotion& motion,
                      CornerVerdicts* verdicts);
+    /// Speeds that the options declare in m/s, at a place, px/frame.
+    struct SpeedLimits {
+        double least;
+        double least_slow;
+        double most;  ///< 0: none
+    };
+    SpeedLimits limitsAt(cv::Point2d place) const;
     /// What the speed over `measured.baseline` frames must reach, and which parameter says so.
     double speedLimit(double min_speed, double sigma) const;
     CornerVerdict verdictOn(const Corner& corner, const Measured& measured, const Measured& slow,
                             const BackgroundNoise& noise) const;
 
     IndependentMotionOptions options_;
-    double min_speed_;
-    double slow_min_speed_;
-    double max_speed_;  ///< px/frame, 0: none
+    SceneScale scale_;
     ShadowTest shadow_test_;
     ShadowOwners shadow_owners_;
     LocalBackground local_background_;

@@ -11,8 +11,10 @@ namespace {
 
 constexpr std::size_t kOwnerVectors = 4;
 constexpr double kOwnerVelocityShare = 0.05;
-constexpr double kOwnerAlike = 2.5;  ///< shadow and owner may differ by this many times what members may
-constexpr double kOwnMargin = 0.5;   ///< px; dark corners within the owner's box are its own
+constexpr double kOwnerAlike = 2.5;     ///< shadow and owner may differ by this many times what members may
+constexpr double kShadowLinkage = 1.2;  ///< m, linkage distance of shadows
+constexpr double kReachMargin = 1;      ///< px by which a shadow may reach farther
+constexpr double kOwnMargin = 0.5;      ///< px; dark corners within the owner's box are its own
 
 double distanceTo(const OrientedBox& box, cv::Point2d point) {
     const cv::Point2d in_box = box.toBox(point);
@@ -32,11 +34,7 @@ bool standsApart(const VectorGroup& shadow, const VectorGroup& owner, const std:
 }  // namespace
 
 ShadowOwners::ShadowOwners(const ShadowTestOptions& options, const SceneScale& scale)
-    : scale_(scale),
-      reach_(scale.px(options.shadow_reach_m) + 1),
-      owner_length_(scale.px(options.shadow_owner_length_m)),
-      owner_width_(scale.px(options.shadow_owner_width_m)),
-      shadow_linkage_(std::max(kSmallestLinkage, scale.px(1.2))) {}
+    : options_(options), scale_(scale) {}
 
 std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vectors,
                                             const std::vector<char>& looks_like_shadow, double background_speed_sigma,
@@ -52,18 +50,20 @@ std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vec
     Linkage linkage = vehicleLinkage(scale_, background_speed_sigma, kOwnerVelocityShare);
     std::vector<VectorGroup> owners = groupVectors(vectors, lit, linkage);
     std::erase_if(owners, [&](const VectorGroup& group) {
-        return group.members.size() < kOwnerVectors || group.box.length < owner_length_ ||
-               group.box.width < owner_width_;
+        const SceneScale here = scale_.at(group.box.centre);
+        return group.members.size() < kOwnerVectors || group.box.length < here.px(options_.shadow_owner_length_m) ||
+               group.box.width < here.px(options_.shadow_owner_width_m);
     });
-    linkage.along = linkage.across = shadow_linkage_;
+    linkage.reach(scale_.px(kShadowLinkage), scale_.px(kShadowLinkage), kSmallestLinkage);
     for (const VectorGroup& shadow : groupVectors(vectors, dark, linkage)) {
         for (const VectorGroup& owner : owners) {
             const cv::Point2d apart = shadow.velocity - owner.velocity;
             const double speed = std::hypot(owner.velocity.x, owner.velocity.y);
             const double allowed = std::max(linkage.velocity_floor, linkage.velocity_share * speed);
             if (std::hypot(apart.x, apart.y) > kOwnerAlike * allowed) continue;
+            const double reach = scale_.at(owner.box.centre).px(options_.shadow_reach_m) + kReachMargin;
             const bool within = std::all_of(shadow.members.begin(), shadow.members.end(), [&](int member) {
-                return distanceTo(owner.box, vectors[static_cast<std::size_t>(member)].position) <= reach_;
+                return distanceTo(owner.box, vectors[static_cast<std::size_t>(member)].position) <= reach;
             });
             if (!within || (lit_up_to && standsApart(shadow, owner, vectors, lit_up_to))) continue;
             for (const int member : shadow.members) {

@@ -24,11 +24,8 @@ class ShadowOwners {
                                   double background_speed_sigma, const LitUpTo& lit_up_to = {}) const;
 
  private:
+    ShadowTestOptions options_;
     SceneScale scale_;
-    double reach_;           ///< px
-    double owner_length_;    ///< px, shortest box of vectors that owns a shadow
-    double owner_width_;     ///< px
-    double shadow_linkage_;  ///< px, linkage distance of shadows
 };
 
 }  // namespace eyrie

@@ -15,8 +15,8 @@ constexpr double kNoiseLimit = 0.06;     ///< px/frame; noise beyond this is not
 
 Linkage vehicleLinkage(const SceneScale& scale, double background_speed_sigma, double velocity_share) {
     Linkage linkage;
-    linkage.along = std::max(kSmallestLinkage, scale.px(kAlong));
-    linkage.across = std::max(kSmallestLinkage, scale.px(kAcross));
+    linkage.slope = scale.slope;
+    linkage.reach(scale.px(kAlong), scale.px(kAcross), kSmallestLinkage);
     linkage.velocity_floor = std::max(kVelocityFloor, std::min(background_speed_sigma, kNoiseLimit));
     linkage.velocity_share = velocity_share;
     return linkage;

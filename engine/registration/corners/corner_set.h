@@ -26,7 +26,11 @@ struct TrackedCorner {
     int patch_age = 0;            ///< frames since its surrounding was stored
     int slot = 0;                 ///< where patch and surrounding are stored
     bool on_background = false;
-    bool moves = false;  ///< its drift stands out from that of the background
+    bool moves = false;        ///< its drift stands out from that of the background
+    cv::Point2f held{0, 0};    ///< px in the picture where it has stayed since …
+    cv::Point2f ground{0, 0};  ///< … and where the ground that was there then is now
+    int held_frames = 0;
+    bool sticks = false;  ///< it belongs to the picture, not to the ground: dirt, vignette, compression
 };
 
 /// The tracked corners of one picture, ascending in id, with their patches. A value: copies are independent.

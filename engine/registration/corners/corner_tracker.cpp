@@ -20,6 +20,11 @@ constexpr double kNoiseResidual = 5;
 /// From this age on a corner's mean motion tells whether it moves by itself.
 constexpr int kSettledAge = 4;
 constexpr float kMovingPx = 0.3F;
+/// A corner that stays so near to its place in the picture, px, for so many frames, while the ground goes so far, px,
+/// belongs to the picture. A vehicle that the camera follows wanders farther.
+constexpr float kHeldPx = 1.5F;
+constexpr int kHeldFrames = 24;
+constexpr float kGroundGonePx = 12;
 
 int oddWindow(double px) {
     const int odd = static_cast<int>(std::lround((px - 1) / 2)) * 2 + 1;
@@ -28,6 +33,21 @@ int oddWindow(double px) {
 
 float squareOf(cv::Point2f d) {
     return d.x * d.x + d.y * d.y;
+}
+
+/// Notes for how long a corner has stayed where it is in the picture. `map`: of the ground into the new picture.
+void noteStay(TrackedCorner& corner, cv::Point2f position, const cv::Matx33d& map, int frames) {
+    if (corner.age == 0) corner.held = corner.ground = corner.position;
+    if (squareOf(position - corner.held) > kHeldPx * kHeldPx) {
+        corner.held = corner.ground = position;
+        corner.held_frames = 0;
+        corner.sticks = false;
+        return;
+    }
+    corner.ground = PointJacobian(map, corner.ground).point;
+    corner.held_frames += frames;
+    corner.sticks = corner.sticks || (corner.held_frames >= kHeldFrames &&
+                                      squareOf(corner.ground - corner.held) > kGroundGonePx * kGroundGonePx);
 }
 
 /// The turn so far, followed by that of one more step.
@@ -187,6 +207,13 @@ void TrackingOptions::describe(ParameterVisitor& visitor) {
          ""});
     declare.real("registration.patch_deformation", patch_deformation_px, 0.01, 5,
                  {"px", "The patch is turned and scaled with the picture whenever this moves its border by more.", ""});
+    declare.flag(
+        "registration.leave_out_stuck", leave_out_stuck,
+        {"",
+         "Corners that stay where they are in the picture while the ground moves away under them (dirt on the "
+         "lens, vignette, compression) count neither as ground nor as moving. What the camera follows to a pixel and a "
+         "half is left out, too.",
+         ""});
 }
 
 CornerTracker::CornerTracker(const TrackingOptions& options, const SceneScale& scale)
@@ -249,6 +276,7 @@ Correspondences CornerTracker::correspondences(const CornerSet& set, const std::
     for (int i = 0; i < set.size(); ++i) {
         if (!found[std::size_t(i)].found) continue;
         const TrackedCorner& corner = set.corners[std::size_t(i)];
+        if (corner.sticks) continue;
         ++usable;
         standing += corner.age < kSettledAge || squareOf(corner.drift) < moving;
         in_cell[std::size_t(cellOf(corner.position))] += 1;
@@ -270,7 +298,8 @@ Correspondences CornerTracker::correspondences(const CornerSet& set, const std::
         const TrackedCorner& corner = set.corners[std::size_t(i)];
         const TrackedPosition& now = found[std::size_t(i)];
         double weight = 0;
-        const bool stands = !trust_drift || corner.age < kSettledAge || squareOf(corner.drift) < moving;
+        const bool stands =
+            !corner.sticks && (!trust_drift || corner.age < kSettledAge || squareOf(corner.drift) < moving);
         if (now.found && stands) {
             const double variance = 2 * noise * noise * double(now.position_variance);
             const double crowd = double(usual) / double(in_cell[std::size_t(cellOf(corner.position))]);
@@ -307,6 +336,7 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
             const cv::Point2f drift = map.vector(corner.drift);
             corner.drift = drift + share * (velocity - drift);
             corner.on_background = squareOf(shift) <= background;
+            if (options_.leave_out_stuck) noteStay(corner, now.position, fit.matrix, frames);
             corner.position = now.position;
             corner.offset = now.offset;
             corner.residual = now.residual;

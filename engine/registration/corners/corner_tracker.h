@@ -20,6 +20,7 @@ struct TrackingOptions {
     double max_jerk_px = 0.5;
     int patch_life = 100;
     double patch_deformation_px = 0.08;
+    bool leave_out_stuck = false;
 
     void describe(ParameterVisitor& visitor);
 };
@@ -57,7 +58,8 @@ class CornerTracker {
                                        const cv::Matx33d& to_from, double noise, int frames) const;
 
     /// The found corners as correspondences for the homography, index by index with the set. Weight 0: not found, or
-    /// known to move by itself; noisy corners weigh less, and so do those in crowded parts of the picture.
+    /// known to move by itself or to stick to the picture; noisy corners weigh less, and so do those in crowded parts
+    /// of the picture.
     Correspondences correspondences(const CornerSet& set, const std::vector<TrackedPosition>& found, cv::Size image,
                                     double noise) const;
 

@@ -225,7 +225,7 @@ bool turnPatch(const std::int16_t* surrounding, int window, const LocalTurn& pre
                std::int16_t* samples) {
     const LocalTurn& t = present_from_stored;
     const float determinant = t.xx * t.yy - t.xy * t.yx;
-    if (!(determinant > 0.25F && determinant < 4)) return false;
+    if (!(determinant > 0 && determinant < 4)) return false;
     const float xx = t.yy / determinant;
     const float xy = -t.xy / determinant;
     const float yx = -t.yx / determinant;

@@ -16,7 +16,7 @@ std::string secondsText(double seconds) {
 
 std::string scaleText(const ReviewReportInput& input) {
     const RunRecord& run = input.reviewed.run;
-    std::string text = describe(run.scale.gsd_m_per_px, run.scale_basis);
+    std::string text = describe(run.scale, run.scale_basis, run.sequence.size);
     if (!run.scale.gsd_known) text = "not known; the search worked with " + text + ", and no speeds in km/h are told";
     return text + (input.scale_remark.empty() ? "" : "; " + input.scale_remark);
 }

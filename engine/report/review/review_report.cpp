@@ -10,6 +10,7 @@
 #include "metadata/metadata_scale.h"
 #include "report/report_parts.h"
 #include "report/review/review_parts.h"
+#include "store/review/control_points.h"
 #include "store/review/seen_store.h"
 
 namespace eyrie {
@@ -205,10 +206,15 @@ ReviewReportInput gatherReviewReport(ProjectFile& project, const RunRecord& run,
     input.parameters = RunStore(project).parameters(run.id);
     input.seen = seenBy(project, run.sequence.id);
     const Footage& footage = input.reviewed.tracks.footage;
-    VideoWorld video = videoWorldOf(
-        pixels,
-        {footage.image_size, footage.first_frame, footage.last_frame, footage.scale.frame_rate_hz, {}, footage.camera},
-        start_utc_us, stop);
+    VideoWorld video = videoWorldOf(pixels,
+                                    {footage.image_size,
+                                     footage.first_frame,
+                                     footage.last_frame,
+                                     footage.scale.frame_rate_hz,
+                                     {},
+                                     footage.camera,
+                                     readControlPoints(project, run.sequence.id)},
+                                    start_utc_us, stop);
     input.clock = std::move(video.clock);
     input.places = std::move(video.places);
     if (video.metadata) input.scale_remark = remarkOnScale(run, video.metadata->timeline(), *pixels);

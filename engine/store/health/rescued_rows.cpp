@@ -91,6 +91,15 @@ std::vector<std::string> mendScaleOrigins(SQLite::Database& database) {
     return lost;
 }
 
+std::vector<std::string> mendScaleSlopes(SQLite::Database& database) {
+    const std::string broken = "NOT (" + fittingScaleSlope() + ")";
+    std::vector<std::string> lost;
+    for (const std::string& id : textsOf(database, "SELECT id FROM run WHERE " + broken + " ORDER BY id"))
+        lost.push_back("how the scale of run " + id + " changes over the picture");
+    database.exec("UPDATE run SET scale_growth_right = 0, scale_growth_down = 0 WHERE " + broken);
+    return lost;
+}
+
 std::vector<std::string> dropImpossibleRows(SQLite::Database& database) {
     addRowFunctions(database);
     std::vector<std::string> lost;

@@ -14,6 +14,9 @@ namespace eyrie {
 /// Runs that say something impossible about where their scale comes from tell what those tell that kept nothing of it.
 std::vector<std::string> mendScaleOrigins(SQLite::Database& database);
 
+/// Runs whose scale changes over the picture in an impossible way are of one scale.
+std::vector<std::string> mendScaleSlopes(SQLite::Database& database);
+
 /// Deletes rows that no writer wrote.
 std::vector<std::string> dropImpossibleRows(SQLite::Database& database);
 

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include "store/details/squeezed_bytes.h"
 #include "store/labels/packed_labels.h"
 #include "store/project/sequence_rows.h"
 #include "store/review/packed_review.h"
@@ -81,6 +82,8 @@ void addRowFunctions(SQLite::Database& database) {
                                 nullptr, nullptr);
     };
     add("are_motion_vectors", answerReadable<unpackMotionVectors>);
+    add("are_squeezed_vectors", answerReadable<unsqueezeMotionVectors>);
+    add("are_squeezed_boxes", answerReadable<unsqueezeBoxes>);
     add("octets", answerOctets);
     add("are_points", answerReadable<unpackPoints>);
     add("are_indices", answerReadable<unpackIndices>);
@@ -97,6 +100,11 @@ std::string fittingScaleOrigin() {
            " AND (CASE WHEN gsd_known THEN 1 ELSE 0 END) = (scale_origin IN ('given', 'metadata'))"
            " AND (scale_uncertainty IS NULL OR scale_uncertainty BETWEEN 1 AND 1e9)"
            " AND typeof(scale_vehicles) = 'integer' AND scale_vehicles BETWEEN 0 AND 2147483647";
+}
+
+std::string fittingScaleSlope() {
+    static_assert(ScaleSlope::kSteepest == 1);
+    return "scale_growth_right BETWEEN -1 AND 1 AND scale_growth_down BETWEEN -1 AND 1";
 }
 
 std::vector<RowRule> rowRules() {
@@ -118,6 +126,7 @@ std::vector<RowRule> rowRules() {
              areShort("name, started_utc, engine_version, preset, message"),
          "range, scale or state of a run is impossible"},
         {"run", fittingScaleOrigin(), "where the scale of a run comes from, or how sure it is, is impossible", 12},
+        {"run", fittingScaleSlope(), "how the scale of a run changes over the picture is impossible", 14},
         {"frame",
          frame + " AND width" + kPixels + " AND height" + kPixels + " AND corner_count >= 0 AND " +
              isOneOf("registration_state", stored::kRegistrationStates),
@@ -131,6 +140,8 @@ std::vector<RowRule> rowRules() {
         {"roi", frame, "frame of a search area is impossible"},
         {"detection", frame + " AND are_indices(vectors) AND " + isOneOf("rejection", stored::kRejections),
          "a detection cannot be read"},
+        {"detection", "(probability IS NULL OR probability BETWEEN 0 AND 1)",
+         "probability of a detection is impossible", 16},
         {"track", range + " AND last_frame >= first_frame AND frames > 0", "life of a track is impossible"},
         {"track_state",
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
@@ -140,6 +151,18 @@ std::vector<RowRule> rowRules() {
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
              isOneOf("origin", stored::kStateOrigins),
          "state of a track is impossible"},
+        {"frame", "details IN (0, 1)", "whether details of a frame were kept is no answer", 15},
+        {"unfinished_frame", frame + " AND are_squeezed_vectors(vectors) AND are_squeezed_boxes(vehicles)",
+         "what finishing needs of a frame cannot be read", 15},
+        {"doubtful_state",
+         frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
+             isOneOf("origin", stored::kStateOrigins),
+         "state of a doubtful track is impossible"},
+        {"track_evidence",
+         areNumbers("flow_px, flow_ratio") +
+             " AND detected BETWEEN 0 AND 1 AND looked_alike BETWEEN 0 AND 1 AND life_s BETWEEN 0 AND 1e300 AND "
+             "alignment BETWEEN -1.001 AND 1.001 AND score BETWEEN 0 AND 1",
+         "what speaks for a track is impossible"},
         {"run_state", frame, "state of a run is impossible"},
         {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),
          "a state left out of a track is impossible"},
@@ -167,6 +190,10 @@ std::vector<RowRule> rowRules() {
          "id BETWEEN 1 AND 2147483647 AND " + in_video + " AND " + areNumbers("seconds") +
              " AND (x IS NULL) = (y IS NULL) AND " + areShort("note, person, when_utc"),
          "a bookmark cannot be read", 11},
+        {"control_point",
+         in_video + " AND x BETWEEN -1e6 AND 1e6 AND y BETWEEN -1e6 AND 1e6 AND latitude_deg BETWEEN -90 AND 90 AND "
+                    "longitude_deg BETWEEN -180 AND 180",
+         "a control point is not on the earth", 15},
         {"zone",
          "id BETWEEN 1 AND 2147483647 AND " + in_video + " AND name <> '' AND colour BETWEEN -1 AND 16777215 AND " +
              "is_zone(shape, points) AND " + isOneOf("shape", stored::kZoneShapes) + " AND " +

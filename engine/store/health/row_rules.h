@@ -22,6 +22,8 @@ std::vector<RowRule> rowRules();
 
 /// The condition of the rule about where the scale of a run comes from: what breaks it costs less than the run.
 std::string fittingScaleOrigin();
+/// The same for how the scale changes over the picture.
+std::string fittingScaleSlope();
 
 /// Gives a connection the functions that the rules use: whether packed bytes can be unpacked.
 void addRowFunctions(SQLite::Database& database);

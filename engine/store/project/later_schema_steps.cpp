@@ -258,4 +258,94 @@ FROM zone JOIN sequence ON sequence.id = zone.sequence_id;
 )sql");
 }
 
+// How metres per pixel change over an oblique view: growth of pixels per metre for a pixel to the right and downwards,
+// relative to those in the middle of the picture, where the GSD holds.
+void addScaleSlopes(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE run ADD COLUMN scale_growth_right REAL NOT NULL DEFAULT 0;
+ALTER TABLE run ADD COLUMN scale_growth_down REAL NOT NULL DEFAULT 0;
+DROP VIEW IF EXISTS v_runs;
+CREATE VIEW v_runs AS
+SELECT run.id AS run, sequence.path AS video, run.name, run.started_utc, run.state, run.first_frame, run.last_frame,
+    run.frame_rate_hz, CASE WHEN run.gsd_known THEN run.gsd_m_per_px END AS gsd_m_per_px, run.scale_origin,
+    run.scale_growth_right, run.scale_growth_down
+FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE run.removed_utc = '';
+)sql");
+}
+
+// Runs may keep what is behind their tracks of some frames only; until such a run is finished, what finishing needs of
+// the others lies aside. Places that a person found on the earth.
+void addKeptDetails(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE frame ADD COLUMN details INTEGER NOT NULL DEFAULT 1;
+CREATE TABLE unfinished_frame (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    vectors BLOB NOT NULL,
+    vehicles BLOB NOT NULL,
+    UNIQUE (run_id, frame)
+);
+CREATE TABLE control_point (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    x REAL NOT NULL, y REAL NOT NULL,
+    latitude_deg REAL NOT NULL, longitude_deg REAL NOT NULL
+);
+CREATE INDEX control_point_of_sequence ON control_point (sequence_id);
+DROP VIEW IF EXISTS v_frames;
+CREATE VIEW v_frames AS
+SELECT frame.run_id AS run, frame.frame, frame.time_us / 1e6 AS seconds, frame.registration_state AS registration,
+    frame.reason, frame.picture, frame.corner_count AS corners, frame.motion_vector_count AS motion_vectors,
+    frame.detection_count AS detections, frame.track_count AS tracks, frame.details
+FROM frame JOIN v_runs ON v_runs.run = frame.run_id;
+)sql");
+}
+
+// What speaks for each track, those that only their score kept out of the result, and how likely a detection is a
+// vehicle.
+void addEvidence(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE track_evidence (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    track_id INTEGER NOT NULL,
+    detected REAL NOT NULL,
+    looked_alike REAL NOT NULL,
+    life_s REAL NOT NULL,
+    flow_px REAL NOT NULL,
+    flow_ratio REAL NOT NULL,
+    alignment REAL NOT NULL,
+    score REAL NOT NULL,
+    PRIMARY KEY (run_id, track_id)
+) WITHOUT ROWID;
+CREATE TABLE doubtful_state (
+    run_id INTEGER NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+    frame INTEGER NOT NULL,
+    track_id INTEGER NOT NULL,
+    x REAL, y REAL, length REAL, width REAL, heading_rad REAL,
+    vx REAL, vy REAL,
+    status TEXT NOT NULL,
+    origin TEXT NOT NULL,
+    age INTEGER NOT NULL,
+    hits INTEGER NOT NULL,
+    score REAL,
+    PRIMARY KEY (run_id, frame, track_id)
+) WITHOUT ROWID;
+ALTER TABLE detection ADD COLUMN probability REAL;
+DROP VIEW IF EXISTS v_detections;
+CREATE VIEW v_detections AS
+SELECT detection.run_id AS run, detection.frame, detection.number, detection.x, detection.y,
+    detection.length AS length_px, detection.width AS width_px,
+    detection.heading_rad * 57.29577951308232
+        + CASE WHEN detection.heading_rad < 0 THEN 360 ELSE 0 END AS heading_deg,
+    detection.score, detection.rejection, detection.probability
+FROM detection JOIN v_runs ON v_runs.run = detection.run_id;
+CREATE VIEW v_track_evidence AS
+SELECT track_evidence.run_id AS run, track_evidence.track_id AS track, track_evidence.detected,
+    track_evidence.looked_alike, track_evidence.life_s, track_evidence.flow_px, track_evidence.flow_ratio,
+    track_evidence.alignment, track_evidence.score
+FROM track_evidence JOIN v_runs ON v_runs.run = track_evidence.run_id;
+)sql");
+}
+
 }  // namespace eyrie::schema

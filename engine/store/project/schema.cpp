@@ -15,10 +15,12 @@
 namespace eyrie::schema {
 namespace {
 
-constexpr std::array kMigrations{
-    addRuns,          addLabels,    addComparisonsAndCompleteBoxes, addSweeps, addPresets, addDroppedStates,
-    addRemovalOfRuns, addRunStates, addRegistrationFaults,          addViews,  addReview,  addScaleOrigins,
-    addZones};
+constexpr std::array kMigrations{addRuns,          addLabels,      addComparisonsAndCompleteBoxes,
+                                 addSweeps,        addPresets,     addDroppedStates,
+                                 addRemovalOfRuns, addRunStates,   addRegistrationFaults,
+                                 addViews,         addReview,      addScaleOrigins,
+                                 addZones,         addScaleSlopes, addKeptDetails,
+                                 addEvidence};
 
 }  // namespace
 

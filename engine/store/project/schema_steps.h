@@ -21,5 +21,8 @@ void addViews(SQLite::Database& database);
 void addReview(SQLite::Database& database);
 void addScaleOrigins(SQLite::Database& database);
 void addZones(SQLite::Database& database);
+void addScaleSlopes(SQLite::Database& database);
+void addKeptDetails(SQLite::Database& database);
+void addEvidence(SQLite::Database& database);
 
 }  // namespace eyrie::schema

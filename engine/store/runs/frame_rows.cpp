@@ -24,12 +24,31 @@ std::string frameColumns() {
         "run_id, frame, time_us, width, height, registration_state, reason, picture, reason_count, "
         "reason_of, from_frame, to_frame, "
         "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, motion_vector_count, "
-        "detection_count, track_count, background_speed_sigma";
+        "detection_count, track_count, background_speed_sigma, details";
     for (const char* stage : stored::kStageColumns) columns += std::string(", ") + stage;
     return columns;
 }
 
 }  // namespace
+
+std::string insertState(const std::string& table) {
+    return insertInto(table, std::string("run_id, frame, ") + kTrackStateColumns);
+}
+
+void writeState(SQLite::Statement& statement, int run_id, FrameIndex frame, const TrackState& state) {
+    RowWriter(statement)
+        .integer(run_id)
+        .integer(frame)
+        .integer(state.id)
+        .box(state.box)
+        .point(state.velocity)
+        .word(stored::kTrackStatuses, state.status)
+        .word(stored::kStateOrigins, state.origin)
+        .integer(state.age)
+        .integer(state.hits)
+        .real(state.score)
+        .run();
+}
 
 TrackRows::TrackRows(SQLite::Database& database)
     : track_(database, insertInto("track",
@@ -40,9 +59,7 @@ TrackRows::TrackRows(SQLite::Database& database)
                            "frames = frames + 1, confirmed = max(confirmed, excluded.confirmed), "
                            "speed_sum = speed_sum + excluded.speed_sum, length_sum = length_sum + "
                            "excluded.length_sum, width_sum = width_sum + excluded.width_sum"),
-      state_(database, insertInto("track_state",
-                                  "run_id, frame, track_id, x, y, length, width, heading_rad, vx, vy, status, origin, "
-                                  "age, hits, score")),
+      state_(database, insertState("track_state")),
       forget_states_(database, "DELETE FROM track_state WHERE run_id = ? AND frame = ?"),
       forget_tracks_(database,
                      "DELETE FROM track WHERE run_id = ?1 AND frames = 1 AND id IN (SELECT track_id FROM track_state "
@@ -65,18 +82,7 @@ void TrackRows::insert(int run_id, FrameIndex frame, const TrackState& state) {
         .real(state.box.length)
         .real(state.box.width)
         .run();
-    RowWriter(state_)
-        .integer(run_id)
-        .integer(frame)
-        .integer(state.id)
-        .box(state.box)
-        .point(state.velocity)
-        .word(stored::kTrackStatuses, state.status)
-        .word(stored::kStateOrigins, state.origin)
-        .integer(state.age)
-        .integer(state.hits)
-        .real(state.score)
-        .run();
+    writeState(state_, run_id, frame, state);
 }
 
 void TrackRows::erase(int run_id, FrameIndex frame) {
@@ -94,14 +100,16 @@ FrameRows::FrameRows(SQLite::Database& database)
       roi_(database, insertInto("roi", "run_id, frame, number, x, y, length, width, heading_rad")),
       detection_(database, insertInto("detection",
                                       "run_id, frame, number, x, y, length, width, heading_rad, vx, vy, score, "
-                                      "cluster, rejection, vectors, complete")),
+                                      "cluster, rejection, vectors, complete, probability")),
+      unfinished_(database),
       tracks_(database) {
-    for (const char* table : {"frame", "motion_vectors", "stationary_corners", "roi", "motion_cluster", "detection"}) {
+    for (const char* table :
+         {"frame", "motion_vectors", "stationary_corners", "roi", "motion_cluster", "detection", "unfinished_frame"}) {
         forget_.emplace_back(database, std::string("DELETE FROM ") + table + " WHERE run_id = ? AND frame = ?");
     }
 }
 
-void FrameRows::insert(int run_id, const FrameResult& result) {
+void FrameRows::insert(int run_id, const FrameResult& result, bool details) {
     const FrameMotion& motion = result.motion;
     const FrameIndex frame = motion.frame;
     const Homography& homography = motion.registration.current_from_previous;
@@ -128,10 +136,21 @@ void FrameRows::insert(int run_id, const FrameResult& result) {
         .integer(summary.motion_vectors)
         .integer(summary.detections)
         .integer(summary.tracks)
-        .real(motion.background_speed_sigma);
+        .real(motion.background_speed_sigma)
+        .integer(details ? 1 : 0);
     for (const float ms : result.stage_ms) row.real(static_cast<double>(ms));
     row.run();
+    if (details) {
+        insertDetails(run_id, result);
+    } else {
+        unfinished_.insert(run_id, result);
+    }
+    for (const TrackState& state : result.tracks) tracks_.insert(run_id, frame, state);
+}
 
+void FrameRows::insertDetails(int run_id, const FrameResult& result) {
+    const FrameMotion& motion = result.motion;
+    const FrameIndex frame = motion.frame;
     const Bytes vectors = packMotionVectors(motion.motion_vectors);
     RowWriter(vectors_).integer(run_id).integer(frame).bytes(vectors).run();
     const Bytes corners = packPoints(motion.stationary_corners);
@@ -167,9 +186,9 @@ void FrameRows::insert(int run_id, const FrameResult& result) {
             .word(stored::kRejections, detection.rejection)
             .bytes(members)
             .integer(detection.complete ? 1 : 0)
+            .real(detection.probability)
             .run();
     }
-    for (const TrackState& state : result.tracks) tracks_.insert(run_id, frame, state);
 }
 
 void FrameRows::erase(int run_id, FrameIndex frame) {

@@ -2,9 +2,11 @@
 
 #include <SQLiteCpp/Statement.h>
 
+#include <string>
 #include <vector>
 
 #include "core/values/frame_result.h"
+#include "store/details/unfinished_frames.h"
 #include "store/runs/run_store.h"
 
 namespace SQLite {
@@ -12,6 +14,13 @@ class Database;
 }
 
 namespace eyrie {
+
+/// "INSERT INTO table (…) VALUES (…)" for tables like `track_state`, and what binds a row of it and runs it.
+std::string insertState(const std::string& table);
+void writeState(SQLite::Statement& statement, int run_id, FrameIndex frame, const TrackState& state);
+
+/// Writes what TracksOfRun tells beyond states and what was left out; nothing of the run may be there.
+void insertDoubtful(SQLite::Database& database, int run_id, const TracksOfRun& tracks);
 
 /// Adds the states of one frame to a run's tracks, and keeps the sums in table `track` that summaries are read from.
 class TrackRows {
@@ -35,18 +44,21 @@ class TrackRows {
 class FrameRows {
  public:
     explicit FrameRows(SQLite::Database& database);
-    /// Throws SQLite::Exception; then the caller's transaction must be rolled back.
-    void insert(int run_id, const FrameResult& result);
+    /// Without `details`, what is behind the tracks is put aside until the run is finished (UnfinishedFrames). Throws
+    /// SQLite::Exception; then the caller's transaction must be rolled back.
+    void insert(int run_id, const FrameResult& result, bool details);
     /// Leaves nothing of a frame, there or not. The same errors.
     void erase(int run_id, FrameIndex frame);
 
  private:
+    void insertDetails(int run_id, const FrameResult& result);
     SQLite::Statement frame_;
     SQLite::Statement vectors_;
     SQLite::Statement corners_;
     SQLite::Statement cluster_;
     SQLite::Statement roi_;
     SQLite::Statement detection_;
+    UnfinishedFrames unfinished_;
     TrackRows tracks_;
     std::vector<SQLite::Statement> forget_;  ///< one for each table but those of tracks
 };

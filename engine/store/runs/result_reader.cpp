@@ -3,10 +3,12 @@
 
 #include <map>
 
-#include "core/error.h"
-#include "core/parameter.h"
 #include "store/database/rows.h"
+#include "store/details/kept_details.h"
+#include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
+#include "store/runs/box_of_state.h"
+#include "store/runs/class_rule.h"
 #include "store/runs/of_run.h"
 #include "store/runs/run_store.h"
 
@@ -27,30 +29,20 @@ std::vector<TrackFrame> readStates(SQLite::Statement& statement) {
     return states;
 }
 
-/// How a run tells classes: its scale and its limits. A run of before there were any has the defaults.
-struct ClassRule {
-    SceneScale scale;
-    TrackClassOptions limits;
-
-    TrackClass of(const TrackSummary& track) const {
-        return classOf({track.frames, track.mean_length_px, track.mean_width_px, track.mean_speed_px}, scale, limits);
+/// Where each track was on the whole.
+std::map<TrackId, cv::Point2d> meanPlaces(SQLite::Database& database, int run_id) {
+    SQLite::Statement statement(database,
+                                "SELECT track_id, avg(x), avg(y) FROM track_state WHERE run_id = ? GROUP BY track_id");
+    statement.bind(1, run_id);
+    std::map<TrackId, cv::Point2d> places;
+    while (statement.executeStep()) {
+        RowReader row(statement);
+        const TrackId track = row.integer();
+        cv::Point2d& place = places[track];
+        place.x = row.real();
+        place.y = row.real();
     }
-};
-
-ClassRule classRuleOf(const RunStore& store, int run_id) {
-    ClassRule rule;
-    const std::optional<RunRecord> run = store.run(run_id);
-    if (!run) return rule;
-    rule.scale = run->scale;
-    for (const auto& [name, value] : store.parameters(run_id)) {
-        if (!name.starts_with("classes.")) continue;
-        try {
-            setParameter(describeOf(rule.limits), name, value);
-        } catch (const Error&) {
-            // Another version wrote it; the default holds, as for all parameters of a run.
-        }
-    }
-    return rule;
+    return places;
 }
 
 /// Reads every row of `query`, whose first two parameters are the run and the frame.
@@ -68,11 +60,12 @@ std::vector<Item> readItems(SQLite::Database& database, const std::string& query
     return items;
 }
 
-std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, FrameIndex frame) {
+/// `details`: whether the run kept what is behind the tracks of the frame.
+std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, FrameIndex frame, bool& details) {
     std::string query =
         "SELECT time_us, width, height, registration_state, reason, picture, reason_count, reason_of, from_frame, "
         "to_frame, "
-        "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, background_speed_sigma";
+        "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, background_speed_sigma, details";
     for (const char* stage : stored::kStageColumns) query += std::string(", ") + stage;
     SQLite::Statement statement(database, query + " FROM frame WHERE run_id = ? AND frame = ?");
     statement.bind(1, run_id);
@@ -96,6 +89,7 @@ std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, 
     homography.rms_px = row.real();
     motion.corner_count = row.integer();
     motion.background_speed_sigma = row.real();
+    details = row.integer() != 0;
     for (float& ms : result.stage_ms) ms = static_cast<float>(row.real());
     return result;
 }
@@ -137,8 +131,8 @@ std::vector<MotionCluster> readClusters(SQLite::Database& database, int run_id, 
 std::vector<Detection> readDetections(SQLite::Database& database, int run_id, FrameIndex frame, std::size_t vectors) {
     return readItems<Detection>(
         database,
-        "SELECT x, y, length, width, heading_rad, vx, vy, score, cluster, rejection, vectors, complete "
-        "FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
+        "SELECT x, y, length, width, heading_rad, vx, vy, score, cluster, rejection, vectors, complete, "
+        "probability FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
         run_id, frame, [&](RowReader& row) {
             Detection detection;
             detection.box = row.box();
@@ -148,6 +142,7 @@ std::vector<Detection> readDetections(SQLite::Database& database, int run_id, Fr
             detection.rejection = row.word(stored::kRejections);
             detection.vectors = readIndices(row, vectors);
             detection.complete = row.integer() != 0;
+            detection.probability = row.real();
             return detection;
         });
 }
@@ -171,10 +166,12 @@ std::vector<DroppedState> readDropped(SQLite::Database& database, int run_id, Fr
 std::vector<TrackSummary> RunStore::tracks(int run_id) const {
     const ClassRule rule = classRuleOf(*this, run_id);
     return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
+        std::map<TrackId, cv::Point2d> places;
+        if (!rule.scale.slope.isFlat()) places = meanPlaces(project_.database(), run_id);
         SQLite::Statement statement(project_.database(),
                                     "SELECT id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
                                     "width_sum, ifnull((SELECT score FROM track_state WHERE track_state.run_id = "
-                                    "track.run_id AND frame = first_frame AND track_id = track.id), 0) "
+                                    "track.run_id AND frame = last_frame AND track_id = track.id), 0) "
                                     "FROM track WHERE run_id = ? ORDER BY id");
         statement.bind(1, run_id);
         std::vector<TrackSummary> tracks;
@@ -191,6 +188,8 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
             track.mean_length_px = row.real() / track.frames;
             track.mean_width_px = row.real() / track.frames;
             track.score = row.real();
+            const auto place = places.find(track.id);
+            if (place != places.end()) track.place = place->second;
             track.track_class = rule.of(track);
             tracks.push_back(track);
         }
@@ -241,14 +240,8 @@ void RunStore::visitTrackBoxes(int run_id, const BoxVisitor& visitor) const {
                                                              "ORDER BY frame, track_id");
         statement.bind(1, run_id);
         visitStates(statement, [&](FrameIndex frame, const TrackState& state) {
-            BoxRecord record;
-            record.frame = frame;
-            record.id = state.id;
-            record.box = state.box;
+            BoxRecord record = boxOf(frame, state);
             if (const auto known = classes.find(state.id); known != classes.end()) record.object_class = known->second;
-            record.score = state.score;
-            record.velocity = state.velocity;
-            record.origin = nameOf(state.origin);
             visitor(frame, record);
         });
     });
@@ -262,6 +255,7 @@ BoxesByFrame RunStore::trackBoxes(int run_id) const {
 
 std::vector<OrientedBox> RunStore::vehicleBoxes(int run_id, FrameIndex frame) const {
     return guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
+        if (auto aside = UnfinishedFrames::vehicles(project_.database(), run_id, frame)) return std::move(*aside);
         SQLite::Statement statement(project_.database(),
                                     "SELECT x, y, length, width, heading_rad FROM detection WHERE run_id = ? AND "
                                     "frame = ? AND rejection = 'none' AND complete ORDER BY number");
@@ -274,9 +268,11 @@ std::vector<OrientedBox> RunStore::vehicleBoxes(int run_id, FrameIndex frame) co
 }
 
 void RunStore::visitDetectionBoxes(int run_id, const BoxVisitor& visitor) const {
+    if (const std::optional<RunRecord> whole = run(run_id)) needDetails(project_, *whole);
     guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(),
-                                    "SELECT frame, x, y, length, width, heading_rad, vx, vy, score FROM detection "
+                                    "SELECT frame, x, y, length, width, heading_rad, vx, vy, "
+                                    "coalesce(probability, score) FROM detection "
                                     "WHERE run_id = ? AND rejection = 'none' ORDER BY frame, number");
         statement.bind(1, run_id);
         while (statement.executeStep()) {
@@ -304,11 +300,14 @@ std::optional<FrameResult> RunStore::frameResult(int run_id, FrameIndex frame) c
         SQLite::Database& database = project_.database();
         // One view of the file for all tables, whatever a writer does meanwhile.
         SQLite::Transaction view(database, SQLite::TransactionBehavior::DEFERRED);
-        std::optional<FrameResult> result = readFrameRow(database, run_id, frame);
+        bool details = true;
+        std::optional<FrameResult> result = readFrameRow(database, run_id, frame, details);
         if (!result) return std::nullopt;
         FrameMotion& motion = result->motion;
-        motion.motion_vectors = readPacked(database, "motion_vectors", run_id, frame, unpackMotionVectors);
-        motion.stationary_corners = readPacked(database, "stationary_corners", run_id, frame, unpackPoints);
+        if (details) {
+            motion.motion_vectors = readPacked(database, "motion_vectors", run_id, frame, unpackMotionVectors);
+            motion.stationary_corners = readPacked(database, "stationary_corners", run_id, frame, unpackPoints);
+        }
         result->clusters = readClusters(database, run_id, frame, motion.motion_vectors.size());
         result->rois = readItems<OrientedBox>(database,
                                               "SELECT x, y, length, width, heading_rad FROM roi WHERE run_id = ? AND "
@@ -328,6 +327,7 @@ std::vector<MotionVector> RunStore::motionVectors(int run_id, FrameIndex frame) 
     const std::string doing =
         "reading the motion vectors of frame " + std::to_string(frame) + " of run " + std::to_string(run_id);
     return guarded(project_.path(), doing, [&] {
+        if (auto aside = UnfinishedFrames::vectors(project_.database(), run_id, frame)) return std::move(*aside);
         return readPacked(project_.database(), "motion_vectors", run_id, frame, unpackMotionVectors);
     });
 }

@@ -8,6 +8,8 @@
 
 #include "core/utc_time.h"
 #include "store/database/rows.h"
+#include "store/details/recording_options.h"
+#include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/frame_rows.h"
 #include "store/runs/run_lock.h"
@@ -20,8 +22,9 @@ int storeRun(SQLite::Database& database, const RunRecord& run) {
     SQLite::Statement statement(
         database,
         "INSERT INTO run (sequence_id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, "
-        "frame_rate_hz, scale_origin, scale_uncertainty, scale_vehicles, first_frame, last_frame, state, message) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        "frame_rate_hz, scale_origin, scale_uncertainty, scale_vehicles, scale_growth_right, scale_growth_down, "
+        "first_frame, last_frame, state, message) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     const ScaleBasis basis = agreeing(run.scale_basis, run.scale);
     RowWriter(statement)
         .integer(run.sequence.id)
@@ -35,6 +38,8 @@ int storeRun(SQLite::Database& database, const RunRecord& run) {
         .word(stored::kScaleOrigins, basis.origin)
         .real(basis.uncertainty.value_or(std::numeric_limits<double>::quiet_NaN()))
         .integer(basis.vehicles)
+        .real(run.scale.slope.right_per_px)
+        .real(run.scale.slope.down_per_px)
         .integer(run.first_frame)
         .integer(run.last_frame)
         .word(stored::kRunStates, run.state)
@@ -77,6 +82,8 @@ struct ResultWriter::Implementation {
     std::optional<Taken> taken;  ///< by the last frame
     std::unique_ptr<FileLock> lock;
     int run_id = 0;
+    RecordingOptions recording;
+    FrameIndex first = 0, last = 0;  ///< planned
     FrameIndex replaced_up_to = -1;  ///< frames up to here may be stored already
 };
 
@@ -85,6 +92,9 @@ ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
     : implementation_(std::make_unique<Implementation>(project)) {
     SQLite::Database& database = implementation_->project.database();
     const std::filesystem::path& path = implementation_->project.path();
+    implementation_->recording = RecordingOptions::among(parameters);
+    implementation_->first = run.first_frame;
+    implementation_->last = run.last_frame;
     for (const RunRecord& earlier : RunStore(implementation_->project).runs()) {
         if (earlier.state == RunState::running) clearRunLock(path, earlier.id);
     }
@@ -110,6 +120,12 @@ ResultWriter::ResultWriter(const std::filesystem::path& project, int run_id, Fra
     }
     implementation_->lock = std::move(attempt.lock);
     implementation_->run_id = run_id;
+    const RunStore store(implementation_->project);
+    implementation_->recording = RecordingOptions::among(store.parameters(run_id));
+    if (const auto run = store.run(run_id)) {
+        implementation_->first = run->first_frame;
+        implementation_->last = run->last_frame;
+    }
     implementation_->replaced_up_to = RunStateStore(implementation_->project).takeUp(run_id, last);
 }
 
@@ -128,7 +144,9 @@ float ResultWriter::write(const FrameResult& result) {
         if (result.motion.frame <= implementation_->replaced_up_to) {
             implementation_->rows.erase(implementation_->run_id, result.motion.frame);
         }
-        implementation_->rows.insert(implementation_->run_id, result);
+        implementation_->rows.insert(implementation_->run_id, result,
+                                     implementation_->recording.keepsDetailsOf(
+                                         result.motion.frame, implementation_->first, implementation_->last));
         implementation_->storeTime();
         transaction.commit();
     });
@@ -151,12 +169,13 @@ void ResultWriter::finish(RunState state, const std::string& message) {
         RowWriter(statement).word(stored::kRunStates, state).text(message).integer(implementation_->run_id).run();
         implementation_->storeTime();
         if (state == RunState::finished) {
-            for (const char* table : {"run_state", "unfinished_track_state"}) {
+            for (const char* table : {"run_state", "unfinished_track_state", "unfinished_frame"}) {
                 SQLite::Statement rest(database, std::string("DELETE FROM ") + table + " WHERE run_id = ?");
                 RowWriter(rest).integer(implementation_->run_id).run();
             }
         }
         transaction.commit();
+        if (state == RunState::finished) giveBackSpace(database);
     });
 }
 

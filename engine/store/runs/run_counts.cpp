@@ -47,6 +47,7 @@ RunCounts countRun(ProjectFile& project, int run_id) {
         RunCounts counts;
         countFrames(database, run_id, counts);
         counts.any_detection =
+            counts.detections > 0 ||
             number(database, "SELECT EXISTS (SELECT 1 FROM detection WHERE run_id = ?)", run_id) != 0;
         counts.tracks = number(database, "SELECT count(*) FROM track WHERE run_id = ? AND confirmed <> 0", run_id);
         counts.dropped_tracks = number(

@@ -31,8 +31,8 @@ void claim(ProjectFile& project, int run_id, FrameIndex last) {
 
 /// What tables and lists sum up of the tracks.
 void sumUpTracks(SQLite::Database& database, int run_id) {
-    runFor(database, "DELETE FROM dropped_state WHERE run_id = ?", run_id);
-    runFor(database, "DELETE FROM track WHERE run_id = ?", run_id);
+    for (const char* table : {"dropped_state", "doubtful_state", "track_evidence", "track"})
+        runFor(database, std::string("DELETE FROM ") + table + " WHERE run_id = ?", run_id);
     runFor(database,
            "INSERT INTO track SELECT run_id, track_id, min(frame), max(frame), count(*), max(status <> 'tentative'), "
            "sum(sqrt(vx * vx + vy * vy)), sum(length), sum(width) FROM track_state WHERE run_id = ? GROUP BY track_id",

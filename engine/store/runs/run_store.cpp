@@ -7,6 +7,7 @@
 
 #include "core/utc_time.h"
 #include "store/database/rows.h"
+#include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/frame_rows.h"
 #include "store/runs/of_run.h"
@@ -25,6 +26,10 @@ void check(const RunRecord& run) {
     const auto& uncertainty = run.scale_basis.uncertainty;
     if (uncertainty && !(*uncertainty >= 1 && *uncertainty <= kMostUncertain))
         refuse("an impossible uncertainty of its scale");
+    const ScaleSlope& slope = run.scale.slope;
+    if (!(std::abs(slope.right_per_px) <= ScaleSlope::kSteepest &&
+          std::abs(slope.down_per_px) <= ScaleSlope::kSteepest))
+        refuse("an impossible slope of its scale");
     if (run.scale_basis.vehicles < 0) refuse("an impossible number of vehicles that its scale rests on");
     if (run.first_frame < 0 || run.last_frame > kLastFrame) refuse("frames outside every video");
     checkSequence(run.sequence);
@@ -51,6 +56,8 @@ RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& pro
     run.scale.gsd_known = row.integer() != 0;
     run.scale.frame_rate_hz = row.real();
     run.scale_basis = agreeing(readBasis(row), run.scale);
+    const double growth_right = row.real();
+    const double growth_down = row.real();
     run.first_frame = row.integer();
     run.last_frame = row.integer();
     run.state = row.word(stored::kRunStates);
@@ -59,6 +66,8 @@ RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& pro
     run.sequence.path = row.text();
     run.sequence.size.width = row.integer();
     run.sequence.size.height = row.integer();
+    if (growth_right != 0 || growth_down != 0)
+        run.scale.slope = ScaleSlope::ofPicture(run.sequence.size, growth_right, growth_down);
     run.sequence.frame_count = row.integer();
     run.sequence.frame_rate_hz = row.real();
     run.frames_done = row.integer();
@@ -76,7 +85,9 @@ std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, 
     SQLite::Statement statement(
         project.database(),
         "SELECT run.id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, run.frame_rate_hz, "
-        "scale_origin, scale_uncertainty, scale_vehicles, first_frame, last_frame, state, message, sequence.id, path, "
+        "scale_origin, scale_uncertainty, scale_vehicles, scale_growth_right, scale_growth_down, first_frame, "
+        "last_frame, "
+        "state, message, sequence.id, path, "
         "width, height, frame_count, "
         "sequence.frame_rate_hz, (SELECT count(*) FROM frame WHERE frame.run_id = run.id) "
         "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE " +
@@ -230,16 +241,17 @@ std::vector<Registration> RunStore::registrations(int run_id) const {
 
 void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
                                   const std::vector<std::pair<FrameIndex, DroppedState>>& dropped) {
-    const auto all = [&](const StateVisitor& visitor) {
+    TracksOfRun tracks;
+    tracks.states = [&](const StateVisitor& visitor) {
         for (const TrackFrame& state : states) visitor(state.frame, state.state);
     };
-    replaceTracks(run_id, all, [&](const DropVisitor& visitor) {
+    tracks.dropped = [&](const TracksOfRun::DropVisitor& visitor) {
         for (const auto& [frame, state] : dropped) visitor(frame, state);
-    });
+    };
+    replaceTracks(run_id, tracks);
 }
 
-void RunStore::replaceTracks(int run_id, const std::function<void(const StateVisitor&)>& states,
-                             const std::function<void(const DropVisitor&)>& dropped) {
+void RunStore::replaceTracks(int run_id, const TracksOfRun& tracks) {
     guarded(project_.path(), "replacing the tracks" + ofRun(run_id), [&] {
         SQLite::Database& database = project_.database();
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
@@ -251,7 +263,7 @@ void RunStore::replaceTracks(int run_id, const std::function<void(const StateVis
         SQLite::Statement left_out(database,
                                    "INSERT OR REPLACE INTO dropped_state (run_id, frame, track_id, x, y, length, "
                                    "width, heading_rad, reason, beside) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-        dropped([&](FrameIndex frame, const DroppedState& state) {
+        tracks.dropped([&](FrameIndex frame, const DroppedState& state) {
             RowWriter(left_out)
                 .integer(run_id)
                 .integer(frame)
@@ -261,10 +273,18 @@ void RunStore::replaceTracks(int run_id, const std::function<void(const StateVis
                 .integer(state.beside)
                 .run();
         });
-        removeFrom("track_state");
+        // Of frames without details nobody can ask why; what was left out at all is still to be counted.
+        SQLite::Statement thin(
+            database,
+            "DELETE FROM dropped_state WHERE run_id = ?1 AND frame IN (SELECT frame FROM frame WHERE "
+            "run_id = ?1 AND details = 0) AND (track_id, frame) NOT IN (SELECT track_id, min(frame) "
+            "FROM dropped_state WHERE run_id = ?1 GROUP BY track_id)");
+        RowWriter(thin).integer(run_id).run();
+        for (const char* table : {"doubtful_state", "track_evidence", "track_state"}) removeFrom(table);
         removeFrom("track");
         TrackRows rows(database);
-        states([&](FrameIndex frame, const TrackState& state) { rows.insert(run_id, frame, state); });
+        tracks.states([&](FrameIndex frame, const TrackState& state) { rows.insert(run_id, frame, state); });
+        insertDoubtful(database, run_id, tracks);
         SQLite::Statement counts(database,
                                  "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE "
                                  "track_state.run_id = frame.run_id AND track_state.frame = frame.frame AND "
@@ -314,8 +334,9 @@ std::optional<RunRecord> RunStore::lastRemoved() const {
 }
 
 void RunStore::purgeRemoved() {
-    guarded(project_.path(), "deleting removed runs",
-            [&] { project_.database().exec("DELETE FROM run WHERE removed_utc <> ''"); });
+    guarded(project_.path(), "deleting removed runs", [&] {
+        if (project_.database().exec("DELETE FROM run WHERE removed_utc <> ''") > 0) giveBackSpace(project_.database());
+    });
 }
 
 void RunStore::refuseUnchanged(int run_id) const {

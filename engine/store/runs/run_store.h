@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "core/values/frame_result.h"
 #include "core/values/scale_basis.h"
 #include "core/values/scene_scale.h"
+#include "core/values/track_evidence.h"
 #include "store/project/project_file.h"
 
 namespace eyrie {
@@ -78,7 +80,9 @@ struct TrackSummary {
     double mean_speed_px = 0;  ///< px/frame relative to the ground
     double mean_length_px = 0;
     double mean_width_px = 0;
-    double score = 0;  ///< of its first state; in a result the same in all: the probability of a vehicle that moves
+    cv::Point2d place{0, 0};  ///< mean of its boxes' centres, where the run's scale differs over the picture
+    double score = 0;       ///< of its last state; in a result the same in all: the probability of a vehicle that moves
+    bool doubtful = false;  ///< only its score kept it out of the result
     TrackClass track_class = TrackClass::unknown;  ///< by its size and speed so far and the run's limits
 };
 
@@ -86,6 +90,18 @@ struct TrackSummary {
 struct TrackFrame {
     FrameIndex frame = 0;
     TrackState state;
+};
+
+/// The tracks of a run that was finished. States are handed, ordered by frame, to a visitor one by one.
+struct TracksOfRun {
+    using StateVisitor = std::function<void(FrameIndex, const TrackState&)>;
+    using DropVisitor = std::function<void(FrameIndex, const DroppedState&)>;
+    using States = std::function<void(const StateVisitor&)>;
+    States states = [](const StateVisitor&) {};
+    /// What was left out; only this one may still read the present states of the run meanwhile.
+    std::function<void(const DropVisitor&)> dropped = [](const DropVisitor&) {};
+    States doubtful = [](const StateVisitor&) {};  ///< tracks that only their score kept out of the result
+    std::map<TrackId, TrackEvidence> evidence;     ///< of these and of those of the result
 };
 
 /// Reads, and where said changes, the runs of a project. Throws Error(project) for contents that no writer wrote, a run
@@ -115,8 +131,20 @@ class RunStore {
     std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;  ///< ascending frames
     std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame,
                                             int trail) const;  ///< states of frames (frame − trail, frame], for trails
+    /// Tracks that only their score kept out of the result (`finishing.min_score`), ascending id, and their states in a
+    /// frame, of one of them, or for trails. Nothing else here tells of them.
+    std::vector<TrackSummary> doubtfulTracks(int run_id) const;
+    std::vector<TrackState> doubtfulStates(int run_id, FrameIndex frame) const;
+    std::vector<TrackFrame> doubtfulTrackStates(int run_id, TrackId track) const;
+    BoxesByFrame doubtfulBoxes(int run_id) const;
+    std::vector<TrackFrame> doubtfulStatesUpTo(int run_id, FrameIndex frame, int trail) const;
+    /// What speaks for a track, of the result or left out; nothing where no classifier took part.
+    std::optional<TrackEvidence> evidence(int run_id, TrackId track) const;
+    /// The score below which tracks of the run are doubtful; 0 where tracks have no score.
+    double scoreThreshold(int run_id) const;
     /// Every state of every track, one by one, ordered by frame, then track.
-    void visitTrackStates(int run_id, const std::function<void(FrameIndex, const TrackState&)>& visitor) const;
+    using StateVisitor = TracksOfRun::StateVisitor;
+    void visitTrackStates(int run_id, const StateVisitor& visitor) const;
     /// The run's result as boxes: every state of the confirmed tracks with the word of the track's class, or the kept
     /// detections (id and class empty).
     BoxesByFrame trackBoxes(int run_id) const;
@@ -129,12 +157,8 @@ class RunStore {
     /// tracks of a run are finished).
     void replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
                             const std::vector<std::pair<FrameIndex, DroppedState>>& dropped = {});
-    /// The same with states one by one: `states` hands them to the visitor it is given, ordered by frame, and `dropped`
-    /// what was left out; only that one may still read the present states of the run meanwhile.
-    using StateVisitor = std::function<void(FrameIndex, const TrackState&)>;
-    using DropVisitor = std::function<void(FrameIndex, const DroppedState&)>;
-    void replaceTracks(int run_id, const std::function<void(const StateVisitor&)>& states,
-                       const std::function<void(const DropVisitor&)>& dropped);
+    /// The same with all that is known of them.
+    void replaceTracks(int run_id, const TracksOfRun& tracks);
     void rename(int run_id, const std::string& name);
     /// Takes a run out of all lists; it can be brought back until it is purged. Throws Error(project) naming the
     /// program that writes the run at this moment.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "store/project/project_file.h"
-#include "store/runs/sweep_store.h"
+#include "store/sweeps/sweep_store.h"
 #include "sweep/plan/sweep_plan.h"
 #include "sweep/results/sweep_figures.h"
 #include "sweep/sweep_runner.h"

@@ -209,7 +209,7 @@ double median(std::vector<double> values) {
 VehicleLimit VehicleLimit::of(const TrackerOptions& options, const SceneScale& scale) {
     if (!(options.one_vehicle_factor > 0)) return {};
     return {options.one_vehicle_factor * scale.px(options.car_length_m) + kBoxMargin,
-            options.one_vehicle_factor * scale.px(options.car_width_m) + kBoxMargin};
+            options.one_vehicle_factor * scale.px(options.car_width_m) + kBoxMargin, kBoxMargin, scale.slope};
 }
 
 FrameAssociation associateDetections(const OverlapMatrix& matrix, const std::vector<MovingBox>& detections,

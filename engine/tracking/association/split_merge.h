@@ -43,11 +43,17 @@ struct FrameAssociation {
 
 /// Length and width, px, of a box that holds one vehicle at most; 0: unknown.
 struct VehicleLimit {
-    double length = 0;
-    double width = 0;
+    double length = 0;  ///< at the slope's centre
+    double width = 0;   ///< there
+    double margin = 0;  ///< px in both that do not depend on the scale
+    ScaleSlope slope = {};
     /// The usual car of the options times `one_vehicle_factor`, and what gradients widen a box by.
     static VehicleLimit of(const TrackerOptions& options, const SceneScale& scale);
-    bool holds(const OrientedBox& box) const { return box.length <= length && box.width <= width; }
+    bool holds(const OrientedBox& box) const {
+        if (slope.isFlat()) return box.length <= length && box.width <= width;
+        const double factor = slope.factorAt(box.centre);
+        return box.length <= (length - margin) * factor + margin && box.width <= (width - margin) * factor + margin;
+    }
 };
 
 /// Recognises split, merged and missed detections and pairs the others one to one at the largest total overlap

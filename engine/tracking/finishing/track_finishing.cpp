@@ -147,8 +147,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
         "finishing.standing_height", standing_height, 0, 0.9,
         {"",
          "A track that goes along the camera's flow no faster than a standing thing of this share of the flight "
-         "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped. 0: "
-         "never.",
+         "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped; in "
+         "oblique views also one that moves just as such a thing would that the camera passes or circles. 0: never.",
          ""});
     declare.real(
         "finishing.standing_depth", standing_depth, 0, 0.9,
@@ -217,6 +217,12 @@ VectorsAt vectorsIn(const VectorsByFrame& kept) {
     return askFor(kept);
 }
 
+cv::Point2d middleOf(const TrackPath& path) {
+    cv::Point2d sum(0, 0);
+    for (const auto& [frame, state] : path.states) sum += cv::Point2d(state.box.centre);
+    return sum / static_cast<double>(std::max<std::size_t>(path.states.size(), 1));
+}
+
 void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards) {
     // Not by insert, which would hold twice as much from then on.
     std::vector<TimedPathState> states;
@@ -255,7 +261,9 @@ void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visito
     }
 }
 
-void FinishedTracks::visit(const StateVisitor& visitor) const {
+namespace {
+
+void visitPaths(const std::vector<TrackPath>& paths, const StateVisitor& visitor) {
     visitByFrame(paths, [&](FrameIndex frame, const TrackPath& path, const PathState& found) {
         TrackState state;
         state.id = path.id;
@@ -268,6 +276,24 @@ void FinishedTracks::visit(const StateVisitor& visitor) const {
         state.score = found.score;
         visitor(frame, state);
     });
+}
+
+void confirm(std::vector<TrackPath>& paths) {
+    for (TrackPath& path : paths) {
+        for (auto& [frame, state] : path.states) {
+            if (state.status == TrackStatus::tentative) state.status = TrackStatus::confirmed;
+        }
+    }
+}
+
+}  // namespace
+
+void FinishedTracks::visit(const StateVisitor& visitor) const {
+    visitPaths(paths, visitor);
+}
+
+void FinishedTracks::visitDoubtful(const StateVisitor& visitor) const {
+    visitPaths(doubtful, visitor);
 }
 
 void FinishedTracks::visitDropped(const StatesOfRun& states, const DropVisitor& visitor) const {
@@ -291,7 +317,8 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
             std::erase_if(path.states,
                           [](const TimedPathState& s) { return s.second.status == TrackStatus::tentative; });
         }
-        if (options.trim_predicted) trimPredictedEnd(path, ground, scale.pxPerFrame(options.stop_speed_m_s));
+        if (options.trim_predicted)
+            trimPredictedEnd(path, ground, scale.at(middleOf(path)).pxPerFrame(options.stop_speed_m_s));
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);
@@ -311,13 +338,9 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     if (judged) dropStanding(paths, ground, looks, options, drops);
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
-    if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, drops);
-
-    for (TrackPath& path : paths) {
-        for (auto& [frame, state] : path.states) {
-            if (state.status == TrackStatus::tentative) state.status = TrackStatus::confirmed;
-        }
-    }
+    if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, finished);
+    confirm(paths);
+    confirm(finished.doubtful);
     return finished;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <opencv2/core/types.hpp>
 #include <unordered_map>
 #include <unordered_set>
@@ -15,6 +16,7 @@
 #include "core/values/ids.h"
 #include "core/values/motion_vector.h"
 #include "core/values/scene_scale.h"
+#include "core/values/track_evidence.h"
 #include "core/values/track_state.h"
 
 namespace eyrie {
@@ -141,9 +143,16 @@ struct FinishedTracks {
     std::vector<TrackPath> paths;
     std::vector<DroppedPath> dropped;
     std::unordered_set<TrackId> unconfirmed;  ///< left out, too: tracks that were never confirmed
+    /// Those of `dropped` that only their score kept out of the result, as they would be in it.
+    std::vector<TrackPath> doubtful;
+    /// What speaks for the tracks of the result, for the doubtful ones and for those that could stand; none where no
+    /// classifier takes part.
+    std::map<TrackId, TrackEvidence> evidence;
 
     /// All states, ordered by frame, then id.
     void visit(const StateVisitor& visitor) const;
+    /// The same of the doubtful tracks.
+    void visitDoubtful(const StateVisitor& visitor) const;
     /// All that was left out, in any order. `states`: what finishing was given; there those that were never confirmed
     /// are looked up again, since most of what is left out is of that kind.
     void visitDropped(const StatesOfRun& states, const DropVisitor& visitor) const;

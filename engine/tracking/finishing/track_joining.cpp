@@ -33,8 +33,9 @@ class Joiner {
     Joiner(const GroundMotion& ground, const FinishingOptions& options, const SceneScale& scale)
         : ground_(ground),
           max_gap_(static_cast<int>(std::lround(std::min(options.join_gap_s * scale.frame_rate_hz, 1e6)))),
-          distance_(std::max(options.join_distance_px, scale.px(options.join_distance_m))),
-          acceleration_(scale.pxPerFrame(kAcceleration) / scale.frame_rate_hz) {}
+          least_distance_(options.join_distance_px),
+          distance_m_(options.join_distance_m),
+          scale_(scale) {}
 
     /// Above 0 when `later` continues `earlier`, the more the better.
     double worth(const TrackPath& earlier, const TrackPath& later) const {
@@ -46,6 +47,9 @@ class Joiner {
         const auto expected = ground_.carried(movingOf(last->second), end, later.firstFrame(), true);
         if (!expected) return 0;
         const MovingState found = movingOf(later.states.front().second);
+        const SceneScale here = scale_.at(found.box.centre);
+        const double allowed = std::max(least_distance_, here.px(distance_m_));
+        const double acceleration = here.pxPerFrame(kAcceleration) / here.frame_rate_hz;
 
         const double area_ratio = found.box.area() / expected->box.area();
         if (!(area_ratio <= kSizeRatio && area_ratio * kSizeRatio >= 1)) return 0;
@@ -58,10 +62,10 @@ class Joiner {
         }
         const cv::Point2d faster = found.velocity - expected->velocity;
         const double speed_allowed =
-            std::max(kJoinedSpeedFloor, kJoinedSpeedShare * std::max(speed, found_speed)) + acceleration_ * gap;
+            std::max(kJoinedSpeedFloor, kJoinedSpeedShare * std::max(speed, found_speed)) + acceleration * gap;
         const double speed_cost = std::hypot(faster.x, faster.y) / speed_allowed;
         const cv::Point2d apart = found.box.centre - expected->box.centre;
-        const double distance_cost = std::hypot(apart.x, apart.y) / (distance_ + acceleration_ * gap * gap / 2);
+        const double distance_cost = std::hypot(apart.x, apart.y) / (allowed + acceleration * gap * gap / 2);
         if (!(speed_cost <= 1 && distance_cost <= 1)) return 0;
         return 2.5 - speed_cost - distance_cost;
     }
@@ -101,8 +105,9 @@ class Joiner {
  private:
     const GroundMotion& ground_;
     int max_gap_;
-    double distance_;
-    double acceleration_;
+    double least_distance_;  ///< px
+    double distance_m_;
+    SceneScale scale_;
 };
 
 }  // namespace

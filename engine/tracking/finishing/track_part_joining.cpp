@@ -54,7 +54,7 @@ struct Whole {
 };
 
 /// How two tracks make one vehicle: they drive right behind each other as if fixed. Nothing if they do not.
-std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, const SceneScale& scale) {
+std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, const SceneScale& everywhere) {
     Whole whole;
     std::vector<double> along, across, gaps, parts, lengths, widths;
     double travelled = 0;
@@ -73,6 +73,7 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
         whole.of_leader.add(state.box, both);
         whole.of_other.add(part, both);
     });
+    const SceneScale scale = everywhere.at(middleOf(other));
     const auto frames = static_cast<double>(along.size());
     const auto shorter = static_cast<double>(std::min(leader.states.size(), other.states.size()));
     if (frames < std::max(5.0, kSharedSeconds * scale.frame_rate_hz) || frames < kPartOfShorter * shorter) return {};

@@ -22,6 +22,9 @@ using PathVisitor = std::function<void(FrameIndex, const TrackPath&, const PathS
 /// All states, ordered by frame, then the tracks' ids.
 void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visitor);
 
+/// Where a track is on the whole: the mean of its boxes' centres. Of at least one state.
+cv::Point2d middleOf(const TrackPath& path);
+
 /// Puts earlier states, the latest first, before those of a path.
 void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards);
 
@@ -67,9 +70,11 @@ void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const S
 void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
                   const FinishingOptions& options, DropList& dropped);
 
-/// Gives every state the probability that its track is a vehicle that moves, and drops tracks below `min_score`.
+/// Gives every state the probability that its track is a vehicle that moves, and drops tracks below `min_score`, which
+/// are told as `finished.doubtful`, too. What speaks for each, and for those that could stand, goes to
+/// `finished.evidence`.
 void scoreTracks(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks, double min_score,
-                 const SceneScale& scale, DropList& dropped);
+                 const SceneScale& scale, FinishedTracks& finished);
 
 /// Follows tracks back in time by the motion vectors in their boxes, by at most `frames`: where a vehicle starts slowly
 /// or hardly stands out, single vectors show it long before there are enough for a detection.

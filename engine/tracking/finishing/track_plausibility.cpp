@@ -28,15 +28,17 @@ double quantileOf(std::vector<double> values, double share) {
     return *at;
 }
 
-bool tooSmall(const TrackPath& path, double length, double width) {
+/// `length`, `width`: limits in m.
+bool tooSmall(const TrackPath& path, double length, double width, const SceneScale& scale) {
     std::vector<double> lengths;
     std::vector<double> widths;
     for (const auto& [frame, state] : path.states) {
-        lengths.push_back(state.box.length);
-        widths.push_back(state.box.width);
+        const double factor = scale.slope.factorAt(state.box.centre);
+        lengths.push_back(state.box.length / factor);
+        widths.push_back(state.box.width / factor);
     }
-    return quantileOf(std::move(lengths), kSizeQuantile) < length ||
-           quantileOf(std::move(widths), kSizeQuantile) < width;
+    return quantileOf(std::move(lengths), kSizeQuantile) < scale.px(length) ||
+           quantileOf(std::move(widths), kSizeQuantile) < scale.px(width);
 }
 
 /// How two tracks lie on each other in the frames they share.
@@ -54,9 +56,14 @@ double sharedBy(const OrientedBox& a, const OrientedBox& b, double widest) {
     return wider > widest ? overlap(a, b) : containment(a, b);
 }
 
-Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
+double widestAt(cv::Point2d place, const SceneScale& scale) {
+    return scale.at(place).px(kWidestVehicle) + kPlaceMargin;
+}
+
+Sharing sharingOf(const TrackPath& a, const TrackPath& b, const SceneScale& scale) {
     Sharing sharing;
     forSharedFrames(a, b, [&](const MovingState& one, const MovingState& other) {
+        const double widest = widestAt(one.box.centre, scale);
         sharing.share += sharedBy(one.box, other.box, widest);
         sharing.too_wide += std::max(one.box.width, other.box.width) > widest;
         const cv::Point2d offset = one.box.toBox(other.box.centre);
@@ -70,9 +77,9 @@ Sharing sharingOf(const TrackPath& a, const TrackPath& b, double widest) {
 
 /// Whether the two keep their places to each other as if fixed, for so long that they are parts of one vehicle or it
 /// and its shadow.
-bool areFixed(const Sharing& sharing, const SceneScale& scale) {
-    if (2 * sharing.too_wide > sharing.frames || sharing.frames < kFixedSeconds * scale.frame_rate_hz) return false;
-    const double loose = scale.px(kFixedLoose) + kFixedLoosePx;
+bool areFixed(const Sharing& sharing, const SceneScale& here) {
+    if (2 * sharing.too_wide > sharing.frames || sharing.frames < kFixedSeconds * here.frame_rate_hz) return false;
+    const double loose = here.px(kFixedLoose) + kFixedLoosePx;
     return spreadOf(sharing.ahead) <= loose && spreadOf(sharing.aside) <= loose;
 }
 
@@ -96,10 +103,10 @@ void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options
                   DropList& dropped) {
     if (!hasMetricLimits(scale)) return;
     const double share = scale.gsd_known ? 1 : kEstimatedShare;
-    const double length = share * scale.px(options.min_length_m);
-    const double width = share * scale.px(options.min_width_m);
+    const double length = share * options.min_length_m;
+    const double width = share * options.min_width_m;
     std::erase_if(paths, [&](TrackPath& path) {
-        if (!tooSmall(path, length, width)) return false;
+        if (!tooSmall(path, length, width, scale)) return false;
         drop(path, TrackDrop::too_small, dropped);
         return true;
     });
@@ -118,7 +125,6 @@ void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const S
 
 void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale, DropList& dropped) {
     if (!(max_sharing < 1)) return;
-    const double widest = scale.px(kWidestVehicle) + kPlaceMargin;
     std::vector<std::size_t> order(paths.size());
     std::vector<int> strength;
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -135,10 +141,11 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
                 weaker.firstFrame() > stronger.lastFrame()) {
                 continue;
             }
-            const Sharing sharing = sharingOf(stronger, weaker, widest);
+            const Sharing sharing = sharingOf(stronger, weaker, scale);
             const auto shorter = static_cast<double>(std::min(stronger.states.size(), weaker.states.size()));
             if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
-            const bool fixed = sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scale);
+            const bool fixed =
+                sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scale.at(middleOf(weaker)));
             if (fixed && sharing.share > kFixedShare * max_sharing) {
                 drop(weaker, TrackDrop::shares_place, dropped, stronger.id);
                 continue;

@@ -40,19 +40,25 @@ std::array<double, kFigures> figuresOf(const TrackEvidence& e) {
 
 }  // namespace
 
-TrackEvidence evidenceOf(const TrackPath& path, int looks, const GroundMotion& ground, const SceneScale& scale) {
+TrackEvidence evidenceOf(const TrackTally& tally, const std::optional<FlowComparison>& motion, double frame_rate_hz) {
     TrackEvidence evidence;
-    const int detected = path.statesOf(StateOrigin::detected);
-    const auto states = std::max(1.0, static_cast<double>(path.states.size()) - path.statesOf(StateOrigin::standing));
-    evidence.detected = detected / states;
-    evidence.looked_alike = static_cast<double>(looks) / std::max(1, detected);
-    evidence.life_s = states / scale.frame_rate_hz;
-    if (const auto compared = comparedWithFlow(path, ground)) {
-        evidence.flow_px = compared->flow;
-        evidence.flow_ratio = compared->ratio;
-        evidence.alignment = compared->alignment;
+    const double states = std::max(1, tally.states);
+    evidence.detected = tally.detected / states;
+    evidence.looked_alike = static_cast<double>(tally.looked_alike) / std::max(1, tally.detected);
+    evidence.life_s = states / frame_rate_hz;
+    if (motion) {
+        evidence.flow_px = motion->flow;
+        evidence.flow_ratio = motion->ratio;
+        evidence.alignment = motion->alignment;
     }
+    evidence.score = probabilityOf(evidence);
     return evidence;
+}
+
+TrackEvidence evidenceOf(const TrackPath& path, int looks, const GroundMotion& ground, const SceneScale& scale) {
+    const int states = static_cast<int>(path.states.size()) - path.statesOf(StateOrigin::standing);
+    return evidenceOf({states, path.statesOf(StateOrigin::detected), looks}, comparedWithFlow(path, ground),
+                      scale.frame_rate_hz);
 }
 
 double probabilityOf(const TrackEvidence& evidence) {
@@ -62,15 +68,34 @@ double probabilityOf(const TrackEvidence& evidence) {
     return 1 / (1 + std::exp(-sum));
 }
 
+ScoreParts partsOf(const TrackEvidence& evidence) {
+    const auto figures = figuresOf(evidence);
+    const auto part = [&](std::size_t i) { return kWeights[i] * figures[i]; };
+    const double usual = kWeights[1] * kUsualShare;
+    ScoreParts parts;
+    parts.detected = part(1) - usual + part(9);
+    parts.looks = part(0) + usual + part(2) + part(3) + part(8);
+    parts.life = part(4);
+    parts.motion = part(5) + part(6) + part(7);
+    return parts;
+}
+
 void scoreTracks(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks, double min_score,
-                 const SceneScale& scale, DropList& dropped) {
-    std::erase_if(paths, [&](TrackPath& path) {
+                 const SceneScale& scale, FinishedTracks& finished) {
+    const auto scored = [&](TrackPath& path) {
         const auto found = looks.find(path.id);
-        const int count = found == looks.end() ? 0 : found->second;
-        const double score = probabilityOf(evidenceOf(path, count, ground, scale));
-        for (auto& [frame, state] : path.states) state.score = static_cast<float>(score);
-        if (score >= min_score) return false;
-        drop(path, TrackDrop::unlikely, dropped);
+        const TrackEvidence evidence = evidenceOf(path, found == looks.end() ? 0 : found->second, ground, scale);
+        for (auto& [frame, state] : path.states) state.score = static_cast<float>(evidence.score);
+        finished.evidence[path.id] = evidence;
+        return evidence.score;
+    };
+    for (DroppedPath& stands : finished.dropped) {
+        if (stands.why == TrackDrop::could_stand) scored(stands.path);
+    }
+    std::erase_if(paths, [&](TrackPath& path) {
+        if (scored(path) >= min_score) return false;
+        finished.doubtful.push_back(path);
+        drop(path, TrackDrop::unlikely, finished.dropped);
         return true;
     });
 }

@@ -1,18 +1,22 @@
 #pragma once
 
+#include <array>
+
+#include "core/values/track_evidence.h"
+#include "tracking/finishing/flow_comparison.h"
 #include "tracking/ground_motion.h"
 
 namespace eyrie {
 
-/// What speaks for a track to be a vehicle that moves, and against it, gathered along its life.
-struct TrackEvidence {
-    double detected = 0;      ///< share of its states that were detected, apart from those in which it stands
-    double looked_alike = 0;  ///< share of its detected states in which the classifier took it for a whole vehicle
-    double life_s = 0;        ///< s, without those in which it stands
-    double flow_px = 0;       ///< px/frame by which the ground moved through the picture there; 0: not known
-    double flow_ratio = 0;    ///< own motion over the ground, to that
-    double alignment = 0;     ///< cosine of the angle between both; −1: it sticks to the image
+/// How often a track was seen, in frames.
+struct TrackTally {
+    int states = 0;  ///< without those in which it stands
+    int detected = 0;
+    int looked_alike = 0;  ///< detected states in which the classifier took it for a whole vehicle
 };
+
+/// The evidence with its score. `motion`: nothing where it is not known.
+TrackEvidence evidenceOf(const TrackTally& tally, const std::optional<FlowComparison>& motion, double frame_rate_hz);
 
 /// `looks`: detected states in which the classifier took it for a vehicle.
 TrackEvidence evidenceOf(const TrackPath& path, int looks, const GroundMotion& ground, const SceneScale& scale);
@@ -20,5 +24,16 @@ TrackEvidence evidenceOf(const TrackPath& path, int looks, const GroundMotion& g
 /// Probability that a track of this evidence is a vehicle that moves. A logistic regression over ten figures of the
 /// evidence, learned by tests/learn_track_score from real clips and rendered scenes; see docs/figures.md.
 double probabilityOf(const TrackEvidence& evidence);
+
+/// By how much each kind of evidence speaks for a vehicle that moves (above 0) or against it, in log-odds: the score is
+/// 1 / (1 + exp(−sum)).
+struct ScoreParts {
+    double looks = 0;  ///< how often it looked like a vehicle, and what is thought of a track of which nothing is known
+    double detected = 0;  ///< how often it was detected, beside a usual share
+    double life = 0;      ///< how long it lived, beside .9 s
+    double motion = 0;    ///< its own motion beside the camera's
+    double sum() const { return looks + detected + life + motion; }
+};
+ScoreParts partsOf(const TrackEvidence& evidence);
 
 }  // namespace eyrie

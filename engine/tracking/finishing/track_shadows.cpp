@@ -40,9 +40,10 @@ Beside besideOf(const TrackPath& vehicle, const TrackPath& other) {
     return beside;
 }
 
-bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneScale& scale) {
+bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneScale& everywhere) {
     if (shadow.firstFrame() > vehicle.lastFrame() || vehicle.firstFrame() > shadow.lastFrame()) return false;
     const Beside beside = besideOf(vehicle, shadow);
+    const SceneScale scale = everywhere.at(middleOf(shadow));
     const auto frames = static_cast<double>(beside.along.size());
     if (frames < std::max(1.0, kShortest * scale.frame_rate_hz)) return false;
     if (frames < kOfShadow * static_cast<double>(shadow.states.size())) return false;

@@ -1,4 +1,5 @@
 #include "tracking/finishing/flow_comparison.h"
+#include "tracking/finishing/implied_height.h"
 #include "tracking/finishing/track_paths.h"
 
 namespace eyrie {
@@ -6,6 +7,10 @@ namespace {
 
 constexpr double kLeastFlow = 0.2;  ///< px/frame; below that the camera does not move enough to tell
 constexpr double kAlongFlow = 0.8;  ///< cosine of the angle to the flow
+constexpr double kOblique = 0.8;    ///< cosine from straight down: only oblique views tell the camera's way surely
+constexpr double kLeastHeight = 0.03;
+constexpr double kLeastMoved = 4;   ///< px in a window
+constexpr double kMostRest = 0.15;  ///< of that: what a standing thing does not explain
 
 /// A thing that rises to `height` of the flight height moves this much of the ground's own motion more than the ground.
 double parallaxAt(double height) {
@@ -22,12 +27,23 @@ bool movesLikeStanding(const TrackPath& path, const GroundMotion& ground, const 
     return above || below || never_moved;
 }
 
+/// Whether a track moves just as a thing of no more than `standing_height` would that stands where the camera passes.
+/// That is so exact an account that it also outweighs what looks like a vehicle.
+bool movesAsPassed(const TrackPath& path, const GroundMotion& ground, const FinishingOptions& options) {
+    if (options.standing_height <= 0) return false;
+    const auto implied = impliedHeightOf(path, ground);
+    return implied && implied->oblique < kOblique && implied->moved > kLeastMoved &&
+           implied->rest < kMostRest * implied->moved && implied->height > kLeastHeight &&
+           implied->height < options.standing_height;
+}
+
 }  // namespace
 
 void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
                   const FinishingOptions& options, DropList& dropped) {
     std::erase_if(paths, [&](TrackPath& path) {
-        if (looks.contains(path.id) || !movesLikeStanding(path, ground, options)) return false;
+        const bool alike = !looks.contains(path.id) && movesLikeStanding(path, ground, options);
+        if (!alike && !movesAsPassed(path, ground, options)) return false;
         drop(path, TrackDrop::could_stand, dropped);
         return true;
     });

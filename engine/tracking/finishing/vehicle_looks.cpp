@@ -16,6 +16,10 @@ bool isAt(const OrientedBox& vehicle, const OrientedBox& box) {
 
 }  // namespace
 
+bool looksLikeOneOf(const std::vector<OrientedBox>& vehicles, const OrientedBox& box) {
+    return std::any_of(vehicles.begin(), vehicles.end(), [&](const OrientedBox& v) { return isAt(v, box); });
+}
+
 VehicleLooks lookedLikeVehicle(const std::vector<TrackPath>& paths, const BoxesAt& vehicles_at) {
     VehicleLooks looks;
     std::optional<FrameIndex> asked;
@@ -26,8 +30,7 @@ VehicleLooks lookedLikeVehicle(const std::vector<TrackPath>& paths, const BoxesA
             asked = frame;
             vehicles = vehicles_at(frame);
         }
-        if (std::any_of(vehicles.begin(), vehicles.end(), [&](const OrientedBox& v) { return isAt(v, state.box); }))
-            ++looks[path.id];
+        if (looksLikeOneOf(vehicles, state.box)) ++looks[path.id];
     });
     return looks;
 }

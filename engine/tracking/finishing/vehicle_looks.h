@@ -11,6 +11,9 @@ namespace eyrie {
 /// were are left out.
 using VehicleLooks = std::map<TrackId, int>;
 
+/// Whether one of the boxes that a classifier took for whole vehicles lies at a box.
+bool looksLikeOneOf(const std::vector<OrientedBox>& vehicles, const OrientedBox& box);
+
 /// Asks for each frame once.
 VehicleLooks lookedLikeVehicle(const std::vector<TrackPath>& paths, const BoxesAt& vehicles_at);
 

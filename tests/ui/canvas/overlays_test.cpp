@@ -207,11 +207,11 @@ class OverlaysTest : public QObject {
         tentative->tracks.push_back(track(5, TrackStatus::tentative));
         showOnly(TrackLayer::kKind);
         settings_.setTentativeTracks(false);
-        QVERIFY(!trackAt(*tentative, settings_.style(), {200, 150}, 0));
+        QVERIFY(!trackAt(tentative->tracks, settings_.style(), {200, 150}, 0));
         const QImage hidden = paint(tentative);
         settings_.setTentativeTracks(true);
         QVERIFY(hidden != paint(tentative));
-        QVERIFY(trackAt(*tentative, settings_.style(), {200, 150}, 0));
+        QVERIFY(trackAt(tentative->tracks, settings_.style(), {200, 150}, 0));
         settings_.setTentativeTracks(false);
     }
 
@@ -223,10 +223,10 @@ class OverlaysTest : public QObject {
         const QImage shown = paint(result);
         settings_.setMinScore(0.7);
         QVERIFY(shown != paint(result));
-        QVERIFY(!trackAt(*result, settings_.style(), {200, 150}, 0));
+        QVERIFY(!trackAt(result->tracks, settings_.style(), {200, 150}, 0));
         settings_.setMinScore(0.6);
         QCOMPARE(paint(result), shown);
-        QVERIFY(trackAt(*result, settings_.style(), {200, 150}, 0));
+        QVERIFY(trackAt(result->tracks, settings_.style(), {200, 150}, 0));
         settings_.setMinScore(0);
     }
 
@@ -278,9 +278,9 @@ class OverlaysTest : public QObject {
         FrameResult result;
         result.tracks = {track(1, TrackStatus::confirmed), track(2, TrackStatus::confirmed)};
         result.tracks[1].box = {{205, 152}, 10, 6, 0};
-        QCOMPARE(trackAt(result, settings_.style(), {205, 152}, 0), std::optional<TrackId>(2));
-        QCOMPARE(trackAt(result, settings_.style(), {180, 145}, 0), std::optional<TrackId>(1));
-        QVERIFY(!trackAt(result, settings_.style(), {20, 20}, 0));
+        QCOMPARE(trackAt(result.tracks, settings_.style(), {205, 152}, 0), std::optional<TrackId>(2));
+        QCOMPARE(trackAt(result.tracks, settings_.style(), {180, 145}, 0), std::optional<TrackId>(1));
+        QVERIFY(!trackAt(result.tracks, settings_.style(), {20, 20}, 0));
     }
 
     void theColourBlindPaletteIsAnother() {

@@ -128,9 +128,62 @@ class ViewTransformTest : public QObject {
         transform.panBy({10, -4});
         compare(transform.viewFromImage(before), {160, 496});
         transform.setRotation(std::numbers::pi / 2);  // clockwise: what pointed right points down
-        const QPointF along = transform.viewVector({1, 0});
+        const QPointF along = transform.viewVector({1, 0}, {});
         QVERIFY(std::abs(along.x()) < 1e-9 && along.y() > 0);
         compare(transform.turn().map(transform.unturnedFromImage(somewhere)), transform.viewFromImage(somewhere));
+    }
+
+    void onTheGroundPlacesMapThereAndBackAndAreDrawnWhereTheyLie() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        t.setRotation(0.4);
+        t.setGround(QTransform(1.1, 0.2, 2e-4, -0.1, 0.9, 1e-4, 30, -12, 1));
+        QVERIFY(t.onGround());
+        for (const QPointF p : {QPointF(0, 0), QPointF(639, 479), QPointF(12.25, 300.75)}) {
+            compare(t.imageFromView(t.viewFromImage(p)), p);
+            compare(t.drawing().map(p), t.viewFromImage(p));
+            // Small ways go where their ends go.
+            const QPointF way(1e-4, -2e-4);
+            compare(t.viewVector(way, p), t.viewFromImage(p + way) - t.viewFromImage(p));
+            compare(t.imageVector(t.viewVector({3, 5}, p), p), {3, 5});
+            const QPointF right = t.viewVector({1, 0}, p);
+            QVERIFY(std::abs(t.turnAt(p) - std::atan2(right.y(), right.x())) < 1e-9);
+        }
+        t.setGround(std::nullopt);
+        QVERIFY(!t.onGround());
+        compare(t.drawing().map(QPointF(3, 4)), t.viewFromImage({3, 4}));
+    }
+
+    void theGroundStandsStillWhileThePictureMovesOverIt() {
+        ViewTransform t = shown({640, 480}, {640, 480});
+        const auto at = [&](double way) {
+            t.setGround(QTransform::fromTranslate(way, 0));  // the camera has moved right
+            return t.viewFromImage({200 - way, 100});        // what stands at 200 of the ground
+        };
+        const QPointF before = at(0);
+        QVERIFY(!t.keepInView());
+        compare(at(50), before);
+        QVERIFY(!t.keepInView());
+        // Where the picture would leave the view, it goes on with it.
+        compare(at(300), before);
+        QVERIFY(t.keepInView());
+        const double shift = t.viewFromImage({-100, 100}).x() - before.x();
+        QVERIFY(shift < -200 && shift > -300);
+        QVERIFY(!t.keepInView());
+        // A part that is looked at closely stands still for as long as the picture shows it.
+        ViewTransform near = shown({640, 480}, {640, 480});
+        near.setZoomAround({320, 240}, 8);
+        near.setGround(QTransform::fromTranslate(200, 0));
+        QVERIFY(!near.keepInView());
+        near.setGround(QTransform::fromTranslate(500, 0));
+        QVERIFY(near.keepInView());
+    }
+
+    void fittedOnTheGroundAllOfThePictureIsSeen() {
+        ViewTransform t = shown({640, 480}, {640, 480});
+        t.setGround(QTransform().translate(900, -40).rotate(30).scale(2, 2));
+        t.fit();
+        for (const QPointF p : {QPointF(0, 0), QPointF(639, 0), QPointF(639, 479), QPointF(0, 479)})
+            QVERIFY(QRectF(-1, -1, 642, 482).contains(t.viewFromImage(p)));
     }
 
     void visibleImageEndsAtTheImage() {

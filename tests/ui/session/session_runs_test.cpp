@@ -72,6 +72,7 @@ class SessionRunsTest : public QObject {
         auto door = std::make_shared<Door>();
         ProjectSession session;
         QVERIFY(openAndWait(session, test::sceneUnderTest(200, [door](FrameIndex f) { door->pass(f); })));
+        session.settings().options.view.oblique = false;  // which reads elsewhere, too
         door->closeFrom(20);
         QSignalSpy finished(&session, &ProjectSession::runFinished);
         session.startRun();
@@ -96,6 +97,7 @@ class SessionRunsTest : public QObject {
             ProjectSession session;
             QVERIFY(openAndWait(session, test::sceneUnderTest(500, [door](FrameIndex f) { door->pass(f); })));
             project = session.project();
+            session.settings().options.view.oblique = false;  // which reads elsewhere, too
             door->closeFrom(30);
             session.startRun();
             QVERIFY(QTest::qWaitFor([&] { return !session.runs().empty() && session.runs().back().frames_done >= 15; },
@@ -115,6 +117,7 @@ class SessionRunsTest : public QObject {
         auto door = std::make_shared<Door>();
         ProjectSession session;
         QVERIFY(openAndWait(session, test::sceneUnderTest(120, [door](FrameIndex f) { door->pass(f); })));
+        session.settings().options.view.oblique = false;  // which reads elsewhere, too
         door->closeFrom(40);
         session.startRun();
         QVERIFY(session.following());
@@ -230,6 +233,7 @@ class SessionRunsTest : public QObject {
         auto door = std::make_shared<Door>();
         ProjectSession session;
         QVERIFY(openAndWait(session, test::sceneUnderTest(200, [door](FrameIndex f) { door->pass(f); })));
+        session.settings().options.view.oblique = false;  // which reads elsewhere, too
         door->closeFrom(20);
         session.startRun();
         QVERIFY(QTest::qWaitFor([&] { return !session.runs().empty() && session.runs().back().frames_done >= 10; },
@@ -250,7 +254,8 @@ class SessionRunsTest : public QObject {
         ProjectSession session;
         QVERIFY(openAndWait(session, test::sceneUnderTest(60, [door](FrameIndex f) { door->pass(f); })));
         QVERIFY(shows(session, 0));
-        door->closeFrom(40);  // its picture takes its time
+        session.settings().options.view.oblique = false;  // which reads elsewhere, too
+        door->closeFrom(40);                              // its picture takes its time
         session.goToFrame(50);
         QCOMPARE(session.currentFrame(), 50);
         QCOMPARE(session.shownFrame(), 0);

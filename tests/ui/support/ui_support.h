@@ -49,7 +49,7 @@ inline cv::Mat sceneFrame(int index, cv::Size size = {240, 180}) {
         cv::normalize(noise, noise, 40, 150, cv::NORM_MINMAX);
         return noise;
     }();
-    cv::Mat frame = ground({20 + index, 30, size.width, size.height}).clone();
+    cv::Mat frame = ground({20 + index % 600, 30, size.width, size.height}).clone();
     for (int vehicle = 0; vehicle < 2; ++vehicle) {
         const int left = 20 + 3 * index + 70 * vehicle;
         const cv::Rect body(left, 50 + 60 * vehicle, 22, 11);

@@ -5,6 +5,7 @@
 #include <QTableWidget>
 #include <QTest>
 #include <QThread>
+#include <cmath>
 #include <fstream>
 
 #include "canvas/layers/track_layer.h"
@@ -73,6 +74,7 @@ class EvaluationTest : public QObject {
                     state.id = id;
                     state.box = box;
                     state.status = TrackStatus::confirmed;
+                    state.score = id == 9 ? 0.1 : 0.9;
                     result.tracks.push_back(state);
                 };
                 if (frame < 12 || better) track(frame < 8 || better ? 1 : 3, truth(0, frame));
@@ -151,6 +153,13 @@ class EvaluationTest : public QObject {
         QCOMPARE(panel.counts().data().places.size(), static_cast<std::size_t>(kFrames));
         QCOMPARE(panel.counts().data().series[1].values[15], 1.0);
         QVERIFY(panel.counts().data().text().startsWith(QStringLiteral("frame\tfound\tmissed\tfalse\n")));
+        // Without the false track, which has the lowest score, nothing is false and as much is found.
+        QVERIFY(waitFor([&] { return panel.scoreCurve().data().places.size() == 2; }));
+        const LineData& curve = panel.scoreCurve().data();
+        QCOMPARE(curve.places[0], curve.places[1]);
+        QCOMPARE(curve.series[0].values[0], 1.0);
+        QVERIFY(curve.series[0].values[1] < 0.95);
+        QVERIFY(std::abs(curve.series[2].values[0] - 0.9) < 1e-9);
     }
 
     void everyErrorIsListedWithItsCause() {

@@ -130,6 +130,32 @@ class TablesTest : public QObject {
         QCOMPARE(panel.countText(), QStringLiteral("2 of 3 tracks"));
     }
 
+    void whatARunLeftOutForItsScoreIsASlideAway() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        std::vector<TrackSummary> tracks{sampleTrack(1), sampleTrack(2)};
+        for (TrackSummary& track : tracks) track.confirmed = true;
+        tracks[0].score = 0.9;
+        tracks[1].score = 0.12;
+        tracks[1].doubtful = true;
+        double min_score = -1;
+        panel.setCommands({.use_min_score = [&](double score) { min_score = score; }});
+        panel.setThreshold(0.2);
+        model.setTracks(tracks, {});
+        QCOMPARE(panel.sensitivity()->value(), 80);
+        QVERIFY(std::abs(min_score - 0.2) < 1e-9);
+        QCOMPARE(panel.countText(), QStringLiteral("1 of 1 track"));
+        panel.sensitivity()->setValue(90);
+        QCOMPARE(panel.table()->model()->rowCount(), 2);
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 2 tracks"));
+        QCOMPARE(model.index(1, TracksModel::status_column).data().toString(), QStringLiteral("left out"));
+        panel.setThreshold(0.3);
+        QCOMPARE(panel.sensitivity()->value(), 90);  // somebody moved it
+        panel.sensitivity()->setValue(70);
+        panel.setThreshold(0);
+        QCOMPARE(panel.sensitivity()->value(), 100);
+    }
+
     void theSelectionSurvivesNewContentsWithoutBeingTold() {
         TracksModel model;
         TracksPanel panel(&model);

@@ -146,6 +146,7 @@ class WindowFilesTest : public QObject {
             });
         };
         QVERIFY(counter(QStringLiteral("0")));
+        window.session().settings().options.view.oblique = false;  // which reads elsewhere, too
         door->closeFrom(30);
         window.session().goToFrame(60);
         QCOMPARE(window.canvas().frame().index, 0);
@@ -183,6 +184,7 @@ class WindowFilesTest : public QObject {
         auto door = std::make_shared<Door>();
         MainWindow window;
         QVERIFY(opensMedia(window, test::sceneUnderTest(60, [door](FrameIndex f) { door->pass(f); })));
+        window.session().settings().options.view.oblique = false;  // which reads elsewhere, too
         door->closeFrom(20);
         window.actions().run->trigger();
         QVERIFY(waitFor(
@@ -206,6 +208,7 @@ class WindowFilesTest : public QObject {
         auto door = std::make_shared<Door>();
         MainWindow window;
         QVERIFY(opensMedia(window, test::sceneUnderTest(200, [door](FrameIndex f) { door->pass(f); })));
+        window.session().settings().options.view.oblique = false;  // which reads elsewhere, too
         door->closeFrom(20);
         window.actions().run->trigger();
         QVERIFY(waitFor(

@@ -93,7 +93,8 @@ void appendHeading(QVector<QLineF>& lines, const OrientedBox& box, const ViewTra
     if (!view.contains(from)) return;
     const cv::Point2d direction = box.direction();
     const double length = std::clamp(box.length * transform.scale() * 0.25, 5.0, 14.0);
-    const QPointF ahead = transform.viewVector({direction.x, direction.y}) / transform.scale();
+    QPointF ahead = transform.viewVector({direction.x, direction.y}, {box.centre.x, box.centre.y});
+    ahead /= std::hypot(ahead.x(), ahead.y());
     lines.append({from, from + ahead * length});
 }
 

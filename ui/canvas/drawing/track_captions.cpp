@@ -19,6 +19,12 @@ bool isShown(const TrackState& state, const OverlayScene& scene) {
     return isShown(state, scene.style) || scene.selected_track == state.id;
 }
 
+void visitShown(const OverlayScene& scene, const std::function<void(const TrackState&)>& visitor) {
+    for (const auto* states : {&scene.result.tracks, &scene.frame.doubtful})
+        for (const TrackState& state : *states)
+            if (isShown(state, scene)) visitor(state);
+}
+
 void paintTrackCaptions(QPainter& painter, const OverlayScene& scene,
                         const std::function<QString(const TrackState&)>& text_of) {
     struct Labelled {
@@ -27,13 +33,12 @@ void paintTrackCaptions(QPainter& painter, const OverlayScene& scene,
     };
     std::vector<Labelled> labelled;
     std::vector<QRectF> objects;
-    for (const TrackState& state : scene.result.tracks) {
-        if (!isShown(state, scene)) continue;
+    visitShown(scene, [&](const TrackState& state) {
         const QRectF object = uprightInView(state.box, scene.transform);
-        if (!object.intersects(scene.view)) continue;
+        if (!object.intersects(scene.view)) return;
         labelled.push_back({&state, object});
         objects.push_back(object);
-    }
+    });
     // The order decides who is left out in a crowd: the selected one never, then the older (lower) id stays, so that
     // labels do not flicker from frame to frame.
     std::stable_partition(labelled.begin(), labelled.end(),

@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 
+#include "canvas/layers/score_layer.h"
 #include "canvas/layers/speed_layer.h"
 #include "canvas/layers/stages/cluster_layer.h"
 #include "canvas/layers/stages/corner_layer.h"
@@ -57,6 +58,8 @@ const std::vector<OverlayRow>& overlayTable() {
         row<TrackLayer>(QT_TRANSLATE_NOOP("Overlay", "&Tracks"), Qt::Key_T, true, false, true,
                         paletteColour<&Colours::track>),
         row<SpeedLayer>(QT_TRANSLATE_NOOP("Overlay", "S&peeds of tracks"), Qt::Key_6, false, false, false,
+                        paletteColour<&Colours::track>),
+        row<ScoreLayer>(QT_TRANSLATE_NOOP("Overlay", "Scores of trac&ks"), Qt::Key_7, false, false, false,
                         paletteColour<&Colours::track>),
         row<ImageStackLayer>(QT_TRANSLATE_NOOP("Overlay", "Image &stacks"), Qt::Key_S, false, false, false,
                              paletteColour<&Colours::stack>),

@@ -9,7 +9,7 @@ namespace eyrie::ui {
 
 void SpeedLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     paintTrackCaptions(painter, scene, [&](const TrackState& state) {
-        return shortSpeedText(std::hypot(state.velocity.x, state.velocity.y), scene.frame.scale);
+        return shortSpeedText(std::hypot(state.velocity.x, state.velocity.y), scene.frame.scale.at(state.box.centre));
     });
 }
 

@@ -7,6 +7,17 @@
 
 namespace eyrie::ui {
 
+namespace {
+
+/// Null where there is none; `states` by ascending id.
+const TrackState* stateOf(const std::vector<TrackState>& states, TrackId id) {
+    const auto found = std::lower_bound(states.begin(), states.end(), id,
+                                        [](const TrackState& state, TrackId wanted) { return state.id < wanted; });
+    return found != states.end() && found->id == id ? &*found : nullptr;
+}
+
+}  // namespace
+
 void TrackLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     if (scene.style.trails) paintTrails(painter, scene);
     paintBoxes(painter, scene);
@@ -20,9 +31,9 @@ void TrackLayer::paintTrails(QPainter& painter, const OverlayScene& scene) const
     QVector<QLineF> steps[kSteps];
     QVector<QLineF> selected;
     for (const Trail& trail : scene.frame.trails) {
-        const auto state = std::lower_bound(scene.result.tracks.begin(), scene.result.tracks.end(), trail.id,
-                                            [](const TrackState& s, TrackId id) { return s.id < id; });
-        if (state == scene.result.tracks.end() || state->id != trail.id || !isShown(*state, scene)) continue;
+        const TrackState* state = stateOf(scene.result.tracks, trail.id);
+        if (state == nullptr) state = stateOf(scene.frame.doubtful, trail.id);
+        if (state == nullptr || !isShown(*state, scene)) continue;
         const size_t count = trail.points.size();
         for (size_t i = 1; i < count; ++i) {
             const QPointF from = scene.transform.viewFromImage(QPointF(trail.points[i - 1].x, trail.points[i - 1].y));
@@ -46,8 +57,7 @@ void TrackLayer::paintBoxes(QPainter& painter, const OverlayScene& scene) const 
     QVector<QLineF> tentative;
     QVector<QLineF> selected;
     Qt::PenStyle selected_style = Qt::SolidLine;
-    for (const TrackState& state : scene.result.tracks) {
-        if (!isShown(state, scene)) continue;
+    visitShown(scene, [&](const TrackState& state) {
         const bool is_selected = scene.selected_track == state.id;
         if (is_selected && state.status == TrackStatus::coasting) selected_style = Qt::DashLine;
         QVector<QLineF>& lines = is_selected                              ? selected
@@ -56,7 +66,7 @@ void TrackLayer::paintBoxes(QPainter& painter, const OverlayScene& scene) const 
                                                                           : seen;
         appendBox(lines, state.box, scene.transform, scene.view);
         appendHeading(lines, state.box, scene.transform, scene.view);
-    }
+    });
     const OverlayColours& colours = scene.style.colours;
     QColor faint = colours.track;
     faint.setAlphaF(0.6F);
@@ -67,11 +77,11 @@ void TrackLayer::paintBoxes(QPainter& painter, const OverlayScene& scene) const 
                    {colours.selected_track, colours.edge, scene.style.line_width + 1.4, selected_style});
 }
 
-std::optional<TrackId> trackAt(const FrameResult& result, const OverlayStyle& style, QPointF image_point,
+std::optional<TrackId> trackAt(std::span<const TrackState> states, const OverlayStyle& style, QPointF image_point,
                                double margin) {
     std::optional<TrackId> hit;
     double smallest_area = 0;
-    for (const TrackState& state : result.tracks) {
+    for (const TrackState& state : states) {
         if (!isShown(state, style)) continue;
         if (!state.box.contains({image_point.x(), image_point.y()}, margin)) continue;
         if (hit && state.box.area() >= smallest_area) continue;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "canvas/layers/overlay_layer.h"
 
 namespace eyrie::ui {
@@ -17,7 +19,7 @@ class TrackLayer : public OverlayLayer {
 };
 
 /// The track whose box lies under an image point, the smallest if several do; `margin` px around boxes count as hit.
-std::optional<TrackId> trackAt(const FrameResult& result, const OverlayStyle& style, QPointF image_point,
+std::optional<TrackId> trackAt(std::span<const TrackState> states, const OverlayStyle& style, QPointF image_point,
                                double margin);
 
 }  // namespace eyrie::ui

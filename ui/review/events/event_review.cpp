@@ -312,6 +312,14 @@ bool EventReview::setNote(std::size_t position, const QString& note) {
     return apply(edit, {position});
 }
 
+bool EventReview::setTags(std::size_t position, const QString& tags) {
+    if (!mayJudge()) return false;
+    const ReviewEdit edit = changeVerdicts(
+        judgedAt({position}), [&tags](Verdict& verdict) { verdict.tags = tagsOf(tags.toStdString()); },
+        tr("Change tags").toStdString(), whoJudges(), [this] { return store_->newVerdictId(); });
+    return apply(edit, {position});
+}
+
 void EventReview::undo() {
     goBack([this] { return store_->undo(); });
 }

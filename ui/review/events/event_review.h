@@ -84,6 +84,8 @@ class EventReview : public QObject {
     bool judge(const std::vector<std::size_t>& positions, Judgement judgement);
     bool setStarred(const std::vector<std::size_t>& positions, bool starred);
     bool setNote(std::size_t position, const QString& note);
+    /// "gate 3, lorry".
+    bool setTags(std::size_t position, const QString& tags);
     void undo();
     void redo();
     bool canUndo() const { return store_ && !store_->readOnly() && store_->canUndo(); }

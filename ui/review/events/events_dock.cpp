@@ -72,6 +72,7 @@ EventReviewAnswers EventsDock::reviewAnswers() {
                 if (zones_ == nullptr) return;
                 zones_->showZones();
                 enableActions();
+                emit tracksRead();
             },
         .go_back_to =
             [this](const std::vector<std::size_t>& places) {
@@ -244,6 +245,21 @@ void EventsDock::show(int id) {
         parts_.session.selectTrack(std::nullopt);
     parts_.session.goToFrame(found.frameAt(*place));
     if (event != nullptr) bringIntoView(QPointF(event->place.x, event->place.y));
+    tell_shown_(id);
+}
+
+void EventsDock::writeNote(int id, const QString& note) {
+    if (const auto place = placeOf(id)) review_->setNote(*place, note);
+}
+
+void EventsDock::writeTags(int id, const QString& tags) {
+    if (const auto place = placeOf(id)) review_->setTags(*place, tags);
+}
+
+QString EventsDock::tagsOn(int id) const {
+    const auto place = placeOf(id);
+    const Verdict* verdict = place ? review_->verdictAt(*place) : nullptr;
+    return verdict == nullptr ? QString() : QString::fromStdString(tagText(verdict->tags));
 }
 
 void EventsDock::bringIntoView(QPointF place) {

@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QPointF>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -53,10 +54,18 @@ class EventsDock : public QObject {
     void setActive(bool active);
     /// Shows an event: its frame, its track, its place.
     void show(int id);
+    /// Who is told which event a person chose.
+    void setEventShown(std::function<void(int id)> tell) { tell_shown_ = std::move(tell); }
+    void writeNote(int id, const QString& note);
+    /// "gate 3, lorry".
+    void writeTags(int id, const QString& tags);
+    QString tagsOn(int id) const;
 
  signals:
     /// Other events are listed, or none.
     void eventsShown();
+    /// The tracks of the run were read, or are those of none: EventReview::tracks().
+    void tracksRead();
 
  private:
     void bindCommands();
@@ -84,6 +93,7 @@ class EventsDock : public QObject {
     DelayedCall marks_due_;
     std::shared_ptr<const StoredTracks> listed_run_;  ///< whose events have their ids
     bool active_ = true;
+    std::function<void(int id)> tell_shown_ = [](int) {};
 };
 
 }  // namespace eyrie::ui

@@ -185,6 +185,12 @@ void EventsPanel::showCounts(std::size_t left) {
     showHeader();
 }
 
+void EventsPanel::showSeen(std::optional<double> share) {
+    if (share == seen_) return;
+    seen_ = share;
+    showHeader();
+}
+
 QString EventsPanel::headerText() const {
     const int all = events_->rowCount();
     int judged = 0;
@@ -196,6 +202,7 @@ QString EventsPanel::headerText() const {
     }
     if (all == 0) return {};
     QString text = tr("%1 of %2 judged").arg(judged).arg(all);
+    if (seen_) text += tr(" · %1 % of the time seen").arg(static_cast<int>(100 * *seen_));
     if (listed < all) text += tr(" · %1 of %2 shown").arg(listed).arg(all);
     if (left_ > 0)
         text += left_ == 1 ? tr(" · 1 verdict without an event") : tr(" · %1 verdicts without an event").arg(left_);
@@ -204,9 +211,10 @@ QString EventsPanel::headerText() const {
 
 void EventsPanel::showHeader() {
     header_->setText(headerText());
-    header_->setToolTip(left_ > 0 ? tr("Verdicts on this video for which this run, with these limits, has no event. "
-                                       "They are kept.")
-                                  : QString());
+    QStringList tips;
+    if (seen_) tips << tr("Seen is what was shown at four times the speed or slower, with the window in front.");
+    if (left_ > 0) tips << tr("Verdicts on this video for which this run, with these limits, has no event, are kept.");
+    header_->setToolTip(tips.join(QLatin1Char('\n')));
 }
 
 // ---- going ----------------------------------------------------------------------------------------------------------

@@ -45,7 +45,9 @@ class EventsPanel : public TablePanel {
 
     /// Counts kinds and verdicts anew; `left`: verdicts without an event in this run.
     void showCounts(std::size_t left);
-    /// "214 of 380 judged" and "38 of 380 shown".
+    /// The share of the run's frames that was watched, 0 … 1; nothing: not known.
+    void showSeen(std::optional<double> share);
+    /// "214 of 380 judged", "61 % of the time seen" and "38 of 380 shown".
     QString headerText() const;
     /// Whether an event is listed by kind and verdict; words in the filter line are not asked.
     bool isListed(const EventEntry& entry) const;
@@ -93,6 +95,7 @@ class EventsPanel : public TablePanel {
     QToolButton* limits_button_ = nullptr;
     QToolButton* zones_button_ = nullptr;
     std::size_t left_ = 0;
+    std::optional<double> seen_;
 };
 
 }  // namespace eyrie::ui

@@ -127,11 +127,11 @@ TrackFilter TrackFilter::fromJson(const QJsonObject& json) {
 double valueOf(const TrackSummary& track, TrackQuality quality, const SceneScale& scale) {
     switch (quality) {
         case TrackQuality::speed:
-            return shownSpeed(track.mean_speed_px, scale);
+            return shownSpeed(track.mean_speed_px, scale.at(track.place));
         case TrackQuality::life:
             return scale.frame_rate_hz > 0 ? (track.last_frame - track.first_frame + 1) / scale.frame_rate_hz : 0;
         case TrackQuality::size:
-            return shownLength(track.mean_length_px, scale);
+            return shownLength(track.mean_length_px, scale.at(track.place));
         case TrackQuality::score:
             return track.score;
         default:

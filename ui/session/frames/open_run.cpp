@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "store/details/kept_details.h"
 
 namespace eyrie::ui {
 
@@ -28,12 +29,17 @@ ReplaySource OpenRun::source(std::function<void(FrameIndex)> about_to_read) {
         if (about_to_read) about_to_read(frame);
         return pictures_->read(frame, false);
     };
-    source.motion_of = [this](FrameIndex frame) -> std::optional<FrameMotion> {
+    const auto result = [this](FrameIndex frame) {
+        if (!hasDetails(project_, run_id_, frame)) needDetails(project_, record());
+        return this->result(frame);
+    };
+    source.motion_of = [result](FrameIndex frame) -> std::optional<FrameMotion> {
         auto stored = result(frame);
         if (!stored) return std::nullopt;
         return std::move(stored->motion);
     };
-    source.result_of = [this](FrameIndex frame) { return result(frame); };
+    source.result_of = result;
+    source.evidence_of = [this](TrackId track) { return store_.evidence(run_id_, track); };
     return source;
 }
 

@@ -21,8 +21,8 @@ void Playback::setTimes(std::vector<std::int64_t> times_us) {
 void Playback::play(FrameIndex frame) {
     if (clock_.frameCount() < 2) return;
     const FrameIndex last = clock_.frameCount() - 1;
-    if (speed_ > 0 && frame >= last) frame = 0;
-    if (speed_ < 0 && frame <= 0) frame = last;
+    const FrameIndex begin = speed_ > 0 ? 0 : last;
+    if (frame == last - begin || !nextToPlay(frame)) frame = begin;
     clock_.start(frame, speed_, now());
     const bool was_playing = playing();
     timer_.start(0);
@@ -47,18 +47,32 @@ void Playback::jumped(FrameIndex frame) {
     if (playing()) clock_.start(frame, speed_, now());
 }
 
+std::optional<FrameIndex> Playback::nextToPlay(FrameIndex frame) const {
+    if (!spans_) return frame;
+    if (speed_ > 0) {
+        const auto span = std::find_if(spans_->begin(), spans_->end(), [&](auto& each) { return each.last >= frame; });
+        return span == spans_->end() ? std::nullopt : std::optional(std::max(span->first, frame));
+    }
+    const auto span = std::find_if(spans_->rbegin(), spans_->rend(), [&](auto& each) { return each.first <= frame; });
+    return span == spans_->rend() ? std::nullopt : std::optional(std::min(span->last, frame));
+}
+
 void Playback::tick() {
     const std::int64_t time = now();
-    if (clock_.ended(time)) {
-        if (!looping_) {
-            emit frameDue(clock_.frameAt(time));
-            emit playingChanged(false);
-            return;
-        }
-        clock_.start(speed_ > 0 ? 0 : clock_.frameCount() - 1, speed_, time);
+    std::optional<FrameIndex> due = clock_.ended(time) ? std::nullopt : nextToPlay(clock_.frameAt(time));
+    if (due && *due != clock_.frameAt(time)) clock_.start(*due, speed_, time);
+    if (!due && looping_) {
+        due = nextToPlay(speed_ > 0 ? 0 : clock_.frameCount() - 1);
+        if (due) clock_.start(*due, speed_, time);
+    }
+    if (!due) {
+        // The end of the video is shown; of stretches, it was.
+        if (!spans_) emit frameDue(clock_.frameAt(time));
+        emit playingChanged(false);
+        return;
     }
     timer_.start(static_cast<int>((clock_.untilNext(time) + 999) / 1000));
-    emit frameDue(clock_.frameAt(time));
+    emit frameDue(*due);
 }
 
 }  // namespace eyrie::ui

@@ -3,7 +3,10 @@
 #include <QElapsedTimer>
 #include <QObject>
 #include <QTimer>
+#include <optional>
+#include <vector>
 
+#include "core/review/seen_frames.h"
 #include "session/frames/playback_clock.h"
 
 namespace eyrie::ui {
@@ -27,6 +30,11 @@ class Playback : public QObject {
     bool looping() const { return looping_; }
     void setLooping(bool looping) { looping_ = looping; }
 
+    /// Plays these frames alone, merged spans, and leaps over what lies between; nothing: all. Frames that are asked
+    /// for otherwise are shown all the same.
+    void setSpans(std::optional<std::vector<FrameSpan>> spans) { spans_ = std::move(spans); }
+    const std::optional<std::vector<FrameSpan>>& spans() const { return spans_; }
+
     /// Plays from `frame`; from the other end when it is the last one in that direction.
     void play(FrameIndex frame);
     void pause();
@@ -42,6 +50,8 @@ class Playback : public QObject {
 
  private:
     void tick();
+    /// The first frame from here on, in the direction it plays, that is to be played; nothing when none follows.
+    std::optional<FrameIndex> nextToPlay(FrameIndex frame) const;
     std::int64_t now() const { return steady_.nsecsElapsed() / 1000; }
 
     PlaybackClock clock_;
@@ -49,6 +59,7 @@ class Playback : public QObject {
     QTimer timer_;
     double speed_ = 1;
     bool looping_ = false;
+    std::optional<std::vector<FrameSpan>> spans_;
 };
 
 }  // namespace eyrie::ui

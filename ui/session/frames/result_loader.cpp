@@ -51,6 +51,8 @@ class ResultLoader::Worker {
         if (run) frames_ = std::make_unique<StoredFrames>(run->project, run->run_id, trail_length);
     }
 
+    void setLook(const PictureLook& look) { look_ = look; }
+
     void load(FrameIndex frame, int direction, const BackgroundTask& task) {
         ViewFrame view;
         view.index = frame;
@@ -65,7 +67,8 @@ class ResultLoader::Worker {
             if (has_picture) {
                 view.time_us = pictures_->timeOf(frame);
                 const auto picture = pictures_->get(frame);
-                view.image = imageForDisplay(picture->colour.empty() ? picture->gray : picture->colour);
+                view.image =
+                    imageForDisplay(withLook(picture->colour.empty() ? picture->gray : picture->colour, look_));
             }
         } catch (const std::exception& error) {
             report(frame, error, task);
@@ -91,6 +94,7 @@ class ResultLoader::Worker {
     ResultLoader& owner_;
     std::unique_ptr<FrameCache> pictures_;
     std::unique_ptr<StoredFrames> frames_;
+    PictureLook look_;
 };
 
 ResultLoader::ResultLoader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
@@ -119,6 +123,10 @@ void ResultLoader::useRun(std::optional<RunReference> run, int trail_length) {
     query_.post([worker = worker_.get(), run = std::move(run),
                  trail_length](const BackgroundTask&) { worker->useRun(run, trail_length); },
                 [this](const QString& message) { emit frameFailed(-1, message); });
+}
+
+void ResultLoader::setLook(const PictureLook& look) {
+    query_.post([worker = worker_.get(), look](const BackgroundTask&) { worker->setLook(look); });
 }
 
 void ResultLoader::request(FrameIndex frame, int direction) {

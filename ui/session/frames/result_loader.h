@@ -7,6 +7,7 @@
 #include <stop_token>
 
 #include "canvas/view_frame.h"
+#include "imaging/picture_look.h"
 #include "session/background/background_query.h"
 #include "session/project/media.h"
 
@@ -42,6 +43,8 @@ class ResultLoader : public QObject {
     void closeMedia();
     /// Results come from this run from now on; nothing: pictures only.
     void useRun(std::optional<RunReference> run, int trail_length);
+    /// How pictures are shown, from the next request on.
+    void setLook(const PictureLook& look);
     /// Answers with frameLoaded(), unless a newer request comes first. `direction` −1, 0 or 1 says what to read ahead.
     void request(FrameIndex frame, int direction);
 

@@ -1,5 +1,7 @@
 #include "session/frames/stored_frames.h"
 
+#include <algorithm>
+
 #include "session/frames/trail_history.h"
 
 namespace eyrie::ui {
@@ -34,6 +36,7 @@ void StoredFrames::addTo(ViewFrame& frame) {
     if (!frame.result) return;
     if (frame.image.isNull()) frame.time_us = frame.result->motion.time_us;
     frame.scale = scale_;
+    frame.doubtful = store_.doubtfulStates(run_id_, frame.index);
     frame.trails = trails(frame.index);
 }
 
@@ -71,7 +74,15 @@ std::vector<Trail> StoredFrames::trails(FrameIndex frame) {
         step = {};
     };
     FrameIndex current = -1;
-    for (const TrackFrame& state : store_.trackStatesUpTo(run_id_, frame, trail_length_)) {
+    std::vector<TrackFrame> states = store_.trackStatesUpTo(run_id_, frame, trail_length_);
+    const auto doubtful = store_.doubtfulStatesUpTo(run_id_, frame, trail_length_);
+    const auto kept = static_cast<std::ptrdiff_t>(states.size());
+    states.insert(states.end(), doubtful.begin(), doubtful.end());
+    std::inplace_merge(states.begin(), states.begin() + kept, states.end(),
+                       [](const TrackFrame& a, const TrackFrame& b) {
+                           return std::pair(a.frame, a.state.id) < std::pair(b.frame, b.state.id);
+                       });
+    for (const TrackFrame& state : states) {
         for (; current >= 0 && current < state.frame; ++current) finish(current);
         current = state.frame;
         step.centres.emplace_back(state.state.id, cv::Point2f(state.state.box.centre));

@@ -14,6 +14,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "tune/evaluate/evaluation_choices.h"
 #include "tune/evaluate/evaluation_wording.h"
@@ -95,7 +97,11 @@ QWidget* EvaluationPanel::buildResult() {
     tracked_->setFixedHeight(110);
     counts_ = new LineChart;
     ratios_ = new LineChart;
-    for (LineChart* chart : {counts_, ratios_}) chart->setFixedHeight(190);
+    score_curve_ = new LineChart;
+    score_curve_->setToolTip(
+        tr("Precision over recall as the score that a track must have grows, from right to left. Tracks that the run "
+           "left out for their score are counted; the line is where its own threshold lies (finishing.min_score)."));
+    for (LineChart* chart : {counts_, ratios_, score_curve_}) chart->setFixedHeight(190);
     report_ = new QToolButton;
     report_->setText(tr("Report…"));
     report_->setToolTip(tr("Write everything as one HTML or PDF file (Ctrl+Shift+R)"));
@@ -114,6 +120,7 @@ QWidget* EvaluationPanel::buildResult() {
     rows->addWidget(table_);
     rows->addWidget(counts_);
     rows->addWidget(ratios_);
+    rows->addWidget(score_curve_);
     rows->addLayout(report);
     rows->addStretch(1);
     auto* scroll = new QScrollArea;
@@ -148,6 +155,7 @@ void EvaluationPanel::refresh() {
         if (!evaluation_.working()) {
             showTable();
             showCurves();
+            askForScoreCurve();
         }
         pages_->setCurrentIndex(1);
         return;
@@ -238,6 +246,41 @@ void EvaluationPanel::showCurves() {
     ratios_->setData(std::move(ratios));
     counts_->setMarker(session_.currentFrame());
     ratios_->setMarker(session_.currentFrame());
+}
+
+void EvaluationPanel::askForScoreCurve() {
+    const auto& evaluation = evaluation_.evaluation();
+    if (std::exchange(curve_of_, evaluation) == evaluation) return;
+    score_curve_->hide();
+    query_.ask([this, evaluation, project = session_.project()](const BackgroundTask& task) {
+        ProjectFile opened = ProjectFile::open(project, ProjectFile::Mode::read_only);
+        auto curve = scoreCurveOf(*evaluation, RunStore(opened), task.stop());
+        task.tell([this, curve = std::move(curve)] { showScoreCurve(curve); });
+    });
+}
+
+void EvaluationPanel::showScoreCurve(const std::vector<ScorePoint>& curve) {
+    score_curve_->setVisible(curve.size() > 1);
+    if (curve.size() < 2) return;
+    LineData chart;
+    chart.place_label = tr("recall");
+    chart.value_label = tr("share, score");
+    chart.top = 1.02;
+    chart.series = {
+        {tr("precision"), kFalseColour, {}}, {tr("f-score"), kFoundColour, {}}, {tr("score"), kMissedColour, {}}};
+    const double threshold = session_.runData() ? session_.runData()->score_threshold : 0;
+    std::optional<double> there;
+    // Thresholds ascend, so recall falls: the axis wants it the other way round.
+    for (auto point = curve.rbegin(); point != curve.rend(); ++point) {
+        const double recall = std::max(point->detection.recall, chart.places.empty() ? 0 : chart.places.back());
+        chart.places.push_back(recall);
+        chart.series[0].values.push_back(point->detection.precision);
+        chart.series[1].values.push_back(point->detection.f_score);
+        chart.series[2].values.push_back(point->threshold);
+        if (point->threshold >= threshold) there = recall;
+    }
+    score_curve_->setData(std::move(chart));
+    if (there) score_curve_->setMarker(*there);
 }
 
 void EvaluationPanel::copyTable() const {

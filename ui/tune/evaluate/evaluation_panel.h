@@ -2,6 +2,7 @@
 
 #include <QWidget>
 #include <functional>
+#include <memory>
 #include <utility>
 
 #include "tune/evaluate/evaluation_session.h"
@@ -43,6 +44,8 @@ class EvaluationPanel : public QWidget {
     const QTableWidget& table() const { return *table_; }
     LineChart& counts() { return *counts_; }
     LineChart& ratios() { return *ratios_; }
+    /// Precision over recall, as the score that a track must have grows.
+    LineChart& scoreCurve() { return *score_curve_; }
     TrackedBar& tracked() { return *tracked_; }
     void showReportProgress(double share);
     /// Takes this file as the ground truth.
@@ -54,6 +57,8 @@ class EvaluationPanel : public QWidget {
     void refresh();
     void showTable();
     void showCurves();
+    void askForScoreCurve();
+    void showScoreCurve(const std::vector<ScorePoint>& curve);
     void copyTable() const;
 
     ProjectSession& session_;
@@ -68,8 +73,11 @@ class EvaluationPanel : public QWidget {
     TrackedBar* tracked_;
     LineChart* counts_;
     LineChart* ratios_;
+    LineChart* score_curve_;
+    std::shared_ptr<const RunEvaluation> curve_of_;
     QToolButton* report_;
     QProgressBar* report_progress_;
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "store/details/kept_details.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_store.h"
 
@@ -90,6 +91,7 @@ void VectorLifetimesReader::read(const RunReference& run) {
         const RunStore store(project);
         const auto record = store.run(run.run_id);
         if (!record) return;
+        needDetails(project, *record);
         auto counter = std::make_shared<VectorLifeCounter>();
         for (FrameIndex frame = record->first_frame; frame < record->first_frame + record->frames_done; ++frame) {
             if (task.stop().stop_requested()) return;

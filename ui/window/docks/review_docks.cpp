@@ -133,6 +133,7 @@ void ReviewDocks::explainNoTracks() {
 
 void ReviewDocks::showTracks() {
     explainNoTracks();
+    tracks_->setThreshold(session_.runData() ? session_.runData()->score_threshold : 0);
     tracks_model_->setTracks(session_.runData() ? session_.runData()->tracks : std::vector<TrackSummary>(),
                              session_.scale());
     tracks_->selectId(session_.selectedTrack().value_or(0));

@@ -30,7 +30,7 @@ void ImageStackLayer::paint(QPainter& painter, const OverlayScene& scene) const 
         drawEdgedDots(painter, dots, kDotSize, colour, scene.style.colours.edge);
         const QPointF centre = scene.transform.viewFromImage(QPointF(stack.position.x, stack.position.y));
         if (!scene.view.contains(centre)) continue;
-        const double heading = stack.heading + scene.transform.rotation();
+        const double heading = stack.heading + scene.transform.turnAt({stack.position.x, stack.position.y});
         const QPointF ahead(std::cos(heading) * kArm, std::sin(heading) * kArm);
         const QPointF aside(-ahead.y(), ahead.x());
         drawEdgedLines(painter, {{centre - ahead, centre + ahead * 1.8}, {centre - aside, centre + aside}},

@@ -18,7 +18,8 @@ void VectorLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     heads.reserve(static_cast<qsizetype>(vectors.size()));
     for (const MotionVector& vector : vectors) {
         const QPointF from = scene.transform.viewFromImage(QPointF(vector.position.x, vector.position.y));
-        const QPointF along = scene.transform.viewVector(QPointF(vector.velocity.x, vector.velocity.y)) * factor;
+        const QPointF along = factor * scene.transform.viewVector(QPointF(vector.velocity.x, vector.velocity.y),
+                                                                  QPointF(vector.position.x, vector.position.y));
         if (!scene.view.contains(from) && !scene.view.contains(from + along)) continue;
         if (vector.isInferred()) {
             inferred.append(from);

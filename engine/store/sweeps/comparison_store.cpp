@@ -1,4 +1,4 @@
-#include "store/runs/comparison_store.h"
+#include "store/sweeps/comparison_store.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tracking/finishing/track_finishing.h"
 
@@ -150,6 +151,42 @@ TEST(TrackScore, DropsTheCloudAndKeepsTheCar) {
         EXPECT_EQ(state.id, 2);
         EXPECT_EQ(state.why, TrackDrop::unlikely);
     }
+}
+
+TEST(TrackScore, IsTheSumOfWhatSpeaksForATrackAndAgainstIt) {
+    TrackEvidence evidence = vehicle();
+    for (const double detected : {0.2, 0.6, 1.0}) {
+        for (const double looked_alike : {0.0, 0.5}) {
+            evidence.detected = detected;
+            evidence.looked_alike = looked_alike;
+            EXPECT_NEAR(1 / (1 + std::exp(-partsOf(evidence).sum())), probabilityOf(evidence), 1e-12);
+            EXPECT_EQ(partsOf(evidence).looks < 0, looked_alike == 0);
+            EXPECT_EQ(partsOf(evidence).detected > 0.1, detected > 0.6);
+        }
+    }
+}
+
+TEST(TrackScore, TellsWhatSpokeForEachTrackAndKeepsTheDoubtfulOnes) {
+    CarAndCloud scene;
+    const StatesOfRun states = [&](const StateVisitor& visitor) {
+        for (const auto& [frame, state] : scene.states) visitor(frame, state);
+    };
+    const FinishedTracks finished =
+        finishRun(states, GroundMotion(scene.motion), {}, kScale, {{}, BoxesAt(CarAndCloud::car)});
+    ASSERT_EQ(finished.doubtful.size(), 1U);
+    EXPECT_EQ(finished.doubtful.front().id, 2);
+    EXPECT_EQ(finished.evidence.size(), 2U);
+    EXPECT_GT(finished.evidence.at(1).score, 0.9);
+    EXPECT_GT(finished.evidence.at(1).looked_alike, 0.9);
+    EXPECT_LT(finished.evidence.at(2).score, FinishingOptions().min_score);
+    EXPECT_LT(finished.evidence.at(2).alignment, -0.9);
+    int doubtful = 0;
+    finished.visitDoubtful([&](FrameIndex, const TrackState& state) {
+        ++doubtful;
+        EXPECT_EQ(state.id, 2);
+        EXPECT_NEAR(state.score, finished.evidence.at(2).score, 1e-6);
+    });
+    EXPECT_GT(doubtful, 50);
 }
 
 TEST(TrackScore, IsTheSameInAllStatesOfATrack) {

@@ -1,4 +1,4 @@
-#include "store/runs/sweep_store.h"
+#include "store/sweeps/sweep_store.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <array>
+#include <opencv2/core/utility.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "chain/chain.h"
+#include "chain/scale_estimation.h"
+#include "chain/scale_slope_fit.h"
+#include "core/error.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kSlopeFrames = 34;             ///< of a stretch
+constexpr std::array kLooks{17, 25, 33};     ///< frames of a stretch in which is looked; vehicles moved on in between
+constexpr double kWidestRange = 3.5;         ///< factor by which the scale may be finer or coarser anywhere
+constexpr std::size_t kPlentyOfVotes = 100;  ///< with which no other stretch is looked at
+
+/// What votes in one frame.
+std::vector<ScaleVote> votesIn(const Frame& frame, const FrameMotion& motion, const MotionClustering& clustering,
+                               const ScaleLooker& looker, const ScaleRange& scales) {
+    const std::vector<MotionCluster> clusters = clustering.cluster(motion);
+    std::vector<std::vector<ScaleVote>> votes(clusters.size());
+    // Written by index, so that the result does not depend on the number of threads.
+    cv::parallel_for_(cv::Range(0, static_cast<int>(clusters.size())), [&](const cv::Range& part) {
+        for (int i = part.start; i < part.end; ++i) {
+            const MotionCluster& cluster = clusters[static_cast<std::size_t>(i)];
+            std::vector<cv::Point2f> places;
+            for (const int member : cluster.members)
+                places.push_back(motion.motion_vectors[static_cast<std::size_t>(member)].position);
+            votes[static_cast<std::size_t>(i)] = looker.votesOn(frame.gray, cluster.box, places, scales);
+        }
+    });
+    std::vector<ScaleVote> given;
+    for (const auto& vote : votes) {
+        given.insert(given.end(), vote.begin(), vote.end());
+    }
+    return given;
+}
+
+/// What votes from a frame on.
+std::vector<ScaleVote> votesFrom(FrameSource& source, FrameIndex first, FrameIndex last, const ChainOptions& options,
+                                 const SceneScale& scale, const ScaleLooker& looker, const std::stop_token& stop) {
+    std::vector<ScaleVote> votes;
+    MotionHalf motion_half(options, scale);
+    const MotionClustering clustering(options.clustering, scale);
+    const ScaleRange scales{scale.gsd_m_per_px / kWidestRange, scale.gsd_m_per_px * kWidestRange};
+    for (int i = 0; i < kSlopeFrames && first + i <= last && !stop.stop_requested(); ++i) {
+        Frame frame;
+        try {
+            frame = source.read(first + i, false);
+        } catch (const Error&) {
+            break;  // the run will come to this frame and report it
+        }
+        StageTimes times{};
+        const FrameMotion motion = motion_half.next(frame, times);
+        if (std::find(kLooks.begin(), kLooks.end(), i) == kLooks.end()) continue;
+        const std::vector<ScaleVote> found = votesIn(frame, motion, clustering, looker, scales);
+        votes.insert(votes.end(), found.begin(), found.end());
+    }
+    return votes;
+}
+
+}  // namespace
+
+ScaleSlope estimateSlope(FrameSource& source, FrameRange range, const ChainOptions& options, const SceneScale& scale,
+                         const std::stop_token& stop) {
+    const FrameIndex end = source.info().frame_count - 1;
+    const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
+    if (range.first < 0 || range.first > last) return {};
+    std::optional<ScaleLooker> looker;
+    try {
+        looker.emplace(options.detection.sliding_window);
+    } catch (const Error&) {
+        return {};  // a run that needs the classifier says so itself
+    }
+    std::vector<ScaleVote> votes;
+    const FrameIndex farthest = std::max(range.first, last - kSlopeFrames + 1);
+    FrameIndex looked_to = range.first - 1;
+    for (const FrameIndex first : {range.first, range.first + (farthest - range.first) / 2, farthest}) {
+        if (first <= looked_to || votes.size() >= kPlentyOfVotes || stop.stop_requested()) continue;
+        looked_to = first + kSlopeFrames - 1;
+        const std::vector<ScaleVote> found = votesFrom(source, first, last, options, scale, *looker, stop);
+        votes.insert(votes.end(), found.begin(), found.end());
+    }
+    return stop.stop_requested() ? ScaleSlope{} : fitSlope(votes, source.info().size, scale.gsd_m_per_px);
+}
+
+}  // namespace eyrie

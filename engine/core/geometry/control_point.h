@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/geometry/local_plane.h"
+#include "core/values/ids.h"
+
+namespace eyrie {
+
+/// A place that a person found in a picture and on the earth.
+struct ControlPoint {
+    FrameIndex frame = 0;
+    cv::Point2d px;  ///< in that frame
+    GeoPoint place;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,129 @@
+#include "io/live/live_recording.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/error.h"
+
+namespace eyrie {
+namespace {
+
+constexpr AVRational kLiveMicrosecond{1, 1'000'000};
+constexpr std::int64_t kLiveOrigin_us = 1'000'000;  ///< room for stamps before the first picture
+constexpr std::int64_t kClockJump_us = 10'000'000;  ///< the clock of the sender was set
+
+}  // namespace
+
+void LiveRecording::CloseRecording::operator()(AVFormatContext* context) const {
+    if (context->pb != nullptr) avio_closep(&context->pb);
+    avformat_free_context(context);
+}
+
+LiveRecording::LiveRecording(std::filesystem::path path) : path_(std::move(path)) {
+    AVFormatContext* raw = nullptr;
+    const std::string url = "file:" + path_.string();
+    if (const int made = avformat_alloc_output_context2(&raw, nullptr, "mpegts", url.c_str()); made < 0) fail(made);
+    muxer_.reset(raw);
+    muxer_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
+    if (const int opened = avio_open(&muxer_->pb, url.c_str(), AVIO_FLAG_WRITE); opened < 0) fail(opened);
+}
+
+LiveRecording::~LiveRecording() {
+    try {
+        finish();
+    } catch (const std::exception&) {
+        // finish() is there for those who want to know
+    }
+}
+
+void LiveRecording::fail(int reason) const {
+    throw Error(ErrorKind::output, path_.string() + ": the recording cannot be written (" + libav::errorText(reason) +
+                                       "); check that its folder may be written and that the disk has space");
+}
+
+void LiveRecording::begin(const AVFormatContext& demuxer, int video) {
+    const bool first = muxer_->nb_streams == 0;
+    places_.assign(demuxer.nb_streams, -1);
+    video_ = video;
+    waits_for_key_ = true;
+    shift_us_.reset();
+    std::vector<bool> taken(muxer_->nb_streams);
+    for (unsigned i = 0; i < demuxer.nb_streams; ++i) {
+        const AVCodecParameters& codec = *demuxer.streams[i]->codecpar;
+        if (first) {
+            if (codec.codec_id == AV_CODEC_ID_NONE) continue;
+            AVStream* track = avformat_new_stream(muxer_.get(), nullptr);
+            avcodec_parameters_copy(track->codecpar, &codec);
+            track->codecpar->codec_tag = 0;
+            track->time_base = {1, 90000};
+            places_[i] = track->index;
+            continue;
+        }
+        for (unsigned k = 0; k < muxer_->nb_streams && places_[i] < 0; ++k) {
+            if (taken[k] || muxer_->streams[k]->codecpar->codec_id != codec.codec_id) continue;
+            taken[k] = true;
+            places_[i] = static_cast<int>(k);
+        }
+    }
+    if (!first) return;
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "mpegts_copyts", "1", 0);
+    const int begun = avformat_write_header(muxer_.get(), &options);
+    av_dict_free(&options);
+    if (begun < 0) fail(begun);
+}
+
+void LiveRecording::shift(AVPacket& packet, AVRational tick, std::int64_t gap_us) {
+    const std::int64_t stamp = packet.dts != AV_NOPTS_VALUE ? packet.dts : packet.pts;
+    if (stamp == AV_NOPTS_VALUE) {  // the clock goes on by what is usual
+        packet.pts = packet.dts =
+            av_rescale_q(last_us_ + usual_step_us_ - shift_us_.value_or(0), kLiveMicrosecond, tick);
+    }
+    const bool picture = packet.stream_index == video_;
+    const std::int64_t now_us =
+        av_rescale_q(packet.dts != AV_NOPTS_VALUE ? packet.dts : packet.pts, tick, kLiveMicrosecond);
+    if (!shift_us_) {
+        const bool begins = last_us_ == 0;
+        shift_us_ = (begins ? kLiveOrigin_us : last_us_ + std::max(gap_us, usual_step_us_)) - now_us;
+    } else if (picture) {
+        const std::int64_t step = now_us + *shift_us_ - last_us_;
+        if (step <= 0 || step > kClockJump_us) *shift_us_ += usual_step_us_ - step;
+        if (step > 0 && step < kClockJump_us / 10) usual_step_us_ = step;
+    }
+    if (picture) last_us_ = now_us + *shift_us_;
+    const std::int64_t ticks = av_rescale_q(*shift_us_, kLiveMicrosecond, tick);
+    if (packet.pts != AV_NOPTS_VALUE) packet.pts += ticks;
+    if (packet.dts != AV_NOPTS_VALUE) packet.dts += ticks;
+}
+
+bool LiveRecording::write(AVPacket& packet, const AVFormatContext& demuxer, std::int64_t gap_us) {
+    const auto track = static_cast<std::size_t>(packet.stream_index);
+    if (track >= places_.size() || places_[track] < 0) return false;
+    const bool picture = packet.stream_index == video_;
+    if (waits_for_key_ && !(picture && (packet.flags & AV_PKT_FLAG_KEY) != 0)) return false;
+    waits_for_key_ = false;
+    const AVStream& source = *demuxer.streams[packet.stream_index];
+    shift(packet, source.time_base, gap_us);
+    AVPacket* copy = av_packet_clone(&packet);
+    if (copy == nullptr) fail(AVERROR(ENOMEM));
+    const libav::Packet owner(copy);
+    copy->stream_index = places_[track];
+    copy->pos = -1;
+    av_packet_rescale_ts(copy, source.time_base, muxer_->streams[copy->stream_index]->time_base);
+    const int written = av_interleaved_write_frame(muxer_.get(), copy);
+    // A packet of another track whose stamps go back is left out, as players would do.
+    if (written < 0 && (picture || written != AVERROR(EINVAL))) fail(written);
+    if (muxer_->pb->error < 0) fail(muxer_->pb->error);
+    return true;
+}
+
+void LiveRecording::finish() {
+    if (!muxer_) return;
+    const bool any = muxer_->nb_streams > 0;
+    int written = any ? av_write_trailer(muxer_.get()) : 0;
+    if (const int closed = avio_closep(&muxer_->pb); written >= 0) written = closed;
+    muxer_.reset();
+    if (written < 0) fail(written);
+}
+
+}  // namespace eyrie

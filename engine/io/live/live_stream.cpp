@@ -1,0 +1,309 @@
+#include "io/live/live_stream.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "core/error.h"
+#include "core/values/last_frame.h"
+#include "io/live/live_connection.h"
+#include "io/live/live_recording.h"
+#include "io/video/pixel_conversion.h"
+
+namespace eyrie {
+namespace {
+
+using LiveClock = std::chrono::steady_clock;
+
+constexpr double kBetweenAttempts_s = 0.5;
+constexpr std::array<const char*, 11> kLiveSchemes{"udp",  "rtp",   "rtsp", "rtsps", "srt", "tcp",
+                                                   "http", "https", "rtmp", "rtmps", "mmsh"};
+
+double liveSecondsSince(LiveClock::time_point start) {
+    return std::chrono::duration<double>(LiveClock::now() - start).count();
+}
+
+std::string liveSizeText(cv::Size size) {
+    return std::to_string(size.width) + "×" + std::to_string(size.height) + " px";
+}
+
+/// A frame that waits for the reader; one that was left out has no picture.
+struct WaitingFrame {
+    FrameIndex index = 0;
+    std::int64_t time_us = 0;
+    cv::Mat gray;
+};
+
+}  // namespace
+
+bool isLiveAddress(const std::string& input) {
+    const std::size_t end = input.find("://");
+    if (end == std::string::npos) return false;
+    const std::string scheme = input.substr(0, end);
+    return std::any_of(kLiveSchemes.begin(), kLiveSchemes.end(), [&](const char* known) { return scheme == known; });
+}
+
+std::string shownAddress(const std::string& address) {
+    const std::size_t begin = address.find("://");
+    const std::size_t end = begin == std::string::npos ? begin : address.find('/', begin + 3);
+    const std::size_t at = address.rfind('@', end);
+    // udp://@239.0.0.1 listens; a name and a password stand between.
+    if (begin == std::string::npos || at == std::string::npos || at <= begin + 3) return address;
+    return address.substr(0, begin + 3) + address.substr(at + 1);
+}
+
+/// What receives, on a thread of its own.
+struct LiveStream::Receiver {
+    Receiver(std::string from, LiveOptions wishes, std::stop_token stop)
+        : address(std::move(from)),
+          options(std::move(wishes)),
+          end_with_caller(std::move(stop), [this] { ending.request_stop(); }) {
+        thread = std::jthread([this] { work(); });
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [&] { return over || facts.frames > 0; });
+        if (facts.frames > 0) return;
+        lock.unlock();
+        thread.join();
+        if (error) std::rethrow_exception(error);
+        throw Error(ErrorKind::input, shownAddress(address) + ": ended before its first picture: " + facts.ended);
+    }
+    ~Receiver() { ending.request_stop(); }
+
+    void work() {
+        std::exception_ptr failure;
+        try {
+            receiveAll();
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        const std::scoped_lock lock(mutex);
+        error = failure;
+        over = true;
+        changed.notify_all();
+    }
+
+    void receiveAll() {
+        LiveRecording recording(options.recording);
+        auto connection = std::make_unique<LiveConnection>(address, options.connect_s, ending.get_token());
+        while (connection) {
+            recording.begin(connection->demuxer(), connection->video());
+            const bool goes_on = receive(*connection, recording);
+            connection.reset();
+            if (goes_on) connection = connectAgain();
+        }
+        recording.finish();
+    }
+
+    /// Null when it is given up, or no longer wanted.
+    std::unique_ptr<LiveConnection> connectAgain() {
+        std::string why;
+        while (!ending.stop_requested()) {
+            const double left = options.give_up_s - liveSecondsSince(last_packet);
+            if (left <= 0) {
+                endFor("nothing came for " + std::to_string(static_cast<int>(options.give_up_s)) + " s" +
+                       (why.empty() ? "" : " (" + why + ")"));
+                return nullptr;
+            }
+            try {
+                auto connection = std::make_unique<LiveConnection>(
+                    address, std::max(0.5, std::min(left, options.connect_s)), ending.get_token());
+                const std::scoped_lock lock(mutex);
+                ++facts.reconnects;
+                return connection;
+            } catch (const Error& refused) {
+                why = refused.what();
+            }
+            std::unique_lock lock(mutex);
+            changed.wait_for(lock, std::chrono::duration<double>(kBetweenAttempts_s),
+                             [&] { return ending.stop_requested(); });
+        }
+        return nullptr;
+    }
+
+    /// Answers whether to connect again.
+    bool receive(LiveConnection& connection, LiveRecording& recording) {
+        const AVStream& stream = connection.videoStream();
+        const AVCodec* decoder = avcodec_find_decoder(stream.codecpar->codec_id);
+        if (decoder == nullptr)
+            throw Error(ErrorKind::input, shownAddress(address) + ": there is no decoder for its codec (" +
+                                              avcodec_get_name(stream.codecpar->codec_id) + ")");
+        libav::Codec codec(avcodec_alloc_context3(decoder));
+        avcodec_parameters_to_context(codec.get(), stream.codecpar);
+        codec->thread_count = 1;  // a further thread would hold a further frame back
+        if (const int opened = avcodec_open2(codec.get(), decoder, nullptr); opened < 0)
+            throw Error(ErrorKind::input,
+                        shownAddress(address) + ": the decoder cannot be started (" + libav::errorText(opened) + ")");
+        tick = stream.time_base;
+        learnRate(stream);
+        const libav::Packet packet(av_packet_alloc());
+        while (!ending.stop_requested()) {
+            if (!connection.read(*packet, options.stall_s)) break;
+            const double gap = facts.frames > 0 ? liveSecondsSince(last_packet) : 0;
+            last_packet = LiveClock::now();
+            noteGap(gap);
+            const bool picture = packet->stream_index == connection.video();
+            const bool recorded =
+                recording.write(*packet, connection.demuxer(), static_cast<std::int64_t>(gap * 1'000'000));
+            const bool good = !recorded || !picture || decode(*codec, packet.get());
+            av_packet_unref(packet.get());
+            if (!good) return false;
+        }
+        // What the decoder holds back still counts: the recording has it.
+        return decode(*codec, nullptr) && !ending.stop_requested();
+    }
+
+    void learnRate(const AVStream& stream) {
+        if (info.frame_count > 0) return;
+        double rate = av_q2d(stream.avg_frame_rate.num > 0 ? stream.avg_frame_rate : stream.r_frame_rate);
+        if (options.frame_rate_hz > 0) rate = options.frame_rate_hz;
+        const std::scoped_lock lock(mutex);
+        info.path = std::filesystem::absolute(options.recording);
+        info.frame_count = kLastFrame + 1;
+        info.frame_rate_hz = rate > 1 && rate < 1000 ? rate : 25;
+        info.codec = avcodec_get_name(stream.codecpar->codec_id);
+        info.container = "mpegts";
+    }
+
+    void noteGap(double gap_s) {
+        const std::scoped_lock lock(mutex);
+        facts.longest_gap_s = std::max(facts.longest_gap_s, gap_s);
+    }
+
+    void endFor(const std::string& why) {
+        const std::scoped_lock lock(mutex);
+        facts.ended = why;
+    }
+
+    /// False when the stream cannot be gone on with.
+    bool decode(AVCodecContext& codec, const AVPacket* packet) {
+        if (avcodec_send_packet(&codec, packet) < 0) return true;  // damaged: the next ones may be better
+        const libav::Picture picture(av_frame_alloc());
+        while (avcodec_receive_frame(&codec, picture.get()) >= 0) {
+            const bool good = deliver(*picture);
+            av_frame_unref(picture.get());
+            if (!good) return false;
+        }
+        return true;
+    }
+
+    bool deliver(const AVFrame& picture) {
+        const cv::Size size(picture.width, picture.height);
+        if (facts.frames > 0 && size != info.size) {
+            endFor("the picture changed from " + liveSizeText(info.size) + " to " + liveSizeText(size) +
+                   " after frame " + std::to_string(facts.frames - 1) + "; start another run for it");
+            return false;
+        }
+        WaitingFrame frame;
+        const std::int64_t ticks = picture.best_effort_timestamp;
+        const std::int64_t usual = last_time_us + std::llround(1e6 / info.frame_rate_hz);
+        const std::int64_t stamp = ticks == AV_NOPTS_VALUE ? kNoStamp : av_rescale_q(ticks, tick, {1, 1'000'000});
+        if (!first_stamp_us && stamp != kNoStamp) first_stamp_us = stamp;
+        frame.time_us = stamp == kNoStamp ? usual : stamp - *first_stamp_us;
+        if (facts.frames > 0 && frame.time_us <= last_time_us) frame.time_us = usual;
+        last_time_us = frame.time_us;
+        const bool room = with_picture < options.waiting_frames || facts.frames == 0;
+        if (room) frame.gray = conversion.gray(picture);
+        const std::scoped_lock lock(mutex);
+        if (facts.frames == 0) info.size = size;
+        frame.index = facts.frames++;
+        if (room) {
+            ++with_picture;
+        } else {
+            ++facts.skipped;
+        }
+        waiting.push_back(std::move(frame));
+        changed.notify_all();
+        return true;
+    }
+
+    std::string address;
+    LiveOptions options;
+    std::stop_source ending;
+    std::stop_callback<std::function<void()>> end_with_caller;
+
+    mutable std::mutex mutex;  ///< of all below that both threads use
+    std::condition_variable changed;
+    VideoInfo info;
+    LiveFacts facts;  ///< written by the receiving thread alone
+    std::deque<WaitingFrame> waiting;
+    std::atomic<int> with_picture{0};  ///< of those waiting
+    bool over = false;
+    std::exception_ptr error;
+
+    // Of the receiving thread:
+    AVRational tick{1, 90000};
+    PixelConversion conversion;
+    LiveClock::time_point last_packet = LiveClock::now();
+    std::optional<std::int64_t> first_stamp_us;
+    std::int64_t last_time_us = 0;
+
+    // Of the reader:
+    WaitingFrame last;
+
+    std::jthread thread;  ///< last: it uses all of it
+};
+
+LiveStream::LiveStream(std::string address, LiveOptions options, std::stop_token stop)
+    : receiver_(std::make_unique<Receiver>(std::move(address), std::move(options), std::move(stop))) {}
+
+LiveStream::~LiveStream() = default;
+
+const VideoInfo& LiveStream::info() const {
+    return receiver_->info;
+}
+
+Frame LiveStream::read(FrameIndex index, bool) {
+    Receiver& receiver = *receiver_;
+    std::unique_lock lock(receiver.mutex);
+    receiver.changed.wait(lock, [&] { return receiver.over || !receiver.waiting.empty(); });
+    if (receiver.waiting.empty()) {
+        if (receiver.error) std::rethrow_exception(receiver.error);
+        throw StreamEnded{};
+    }
+    if (receiver.waiting.front().index != index)
+        throw Error(ErrorKind::internal, "a live stream was read out of order");
+    WaitingFrame next = std::move(receiver.waiting.front());
+    receiver.waiting.pop_front();
+    if (next.gray.empty()) {
+        next.gray = receiver.last.gray;
+    } else {
+        --receiver.with_picture;
+    }
+    receiver.last = next;
+    Frame frame;
+    frame.index = next.index;
+    frame.time_us = next.time_us;
+    frame.gray = std::move(next.gray);
+    return frame;
+}
+
+std::int64_t LiveStream::timeOf(FrameIndex index) const {
+    const std::scoped_lock lock(receiver_->mutex);
+    const WaitingFrame& last = receiver_->last;
+    return last.time_us + std::llround((index - last.index) * 1e6 / receiver_->info.frame_rate_hz);
+}
+
+double LiveStream::backlog() const {
+    return static_cast<double>(receiver_->with_picture) / std::max(1, receiver_->options.waiting_frames);
+}
+
+LiveFacts LiveStream::facts() const {
+    const std::scoped_lock lock(receiver_->mutex);
+    return receiver_->facts;
+}
+
+void LiveStream::finish() {
+    receiver_->ending.request_stop();
+    if (receiver_->thread.joinable()) receiver_->thread.join();
+}
+
+}  // namespace eyrie

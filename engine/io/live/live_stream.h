@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "io/video/frame_source.h"
+
+namespace eyrie {
+
+struct LiveOptions {
+    std::filesystem::path recording;  ///< what comes is written here as it is, as a transport stream; must end with .ts
+    double frame_rate_hz = 0;         ///< 0: what the stream says
+    double connect_s = 10;            ///< how long the first picture may take
+    double stall_s = 5;               ///< without any packet for so long, the connection is made anew
+    double give_up_s = 30;            ///< so long without success, the stream has ended
+    int waiting_frames = 50;          ///< that may wait for the reader; further ones are left out
+};
+
+/// What became of a stream so far.
+struct LiveFacts {
+    int frames = 0;      ///< received
+    int skipped = 0;     ///< of them, left out because the reader was behind
+    int reconnects = 0;  ///< successful ones
+    double longest_gap_s = 0;
+    std::string ended;  ///< why it ended, for people; empty: it goes on, or was ended by the reader
+};
+
+/// Thrown by reading a frame that a live source will never have, because it has ended.
+struct StreamEnded {};
+
+/// Whether an input is the address of a live source: rtsp://…, udp://…, srt://… and what else names a protocol of the
+/// net.
+bool isLiveAddress(const std::string& input);
+/// Without a password, for messages and files.
+std::string shownAddress(const std::string& address);
+
+/// Video that comes as it is made, from the first key frame on. A thread of its own receives, records and decodes;
+/// frames must be read in their order. A frame that was left out is answered by the picture before it, in the same
+/// memory, with its own number and time, so that numbers are those of the recording.
+class LiveStream : public FrameSource {
+ public:
+    /// Waits for the first picture. Throws Error(input) when none comes in time or the address is of no use,
+    /// Error(output) when the recording cannot be written. `stop` ends waiting as Error(input) "stopped".
+    LiveStream(std::string address, LiveOptions options, std::stop_token stop);
+    ~LiveStream() override;
+
+    /// `path` is the recording, `frame_count` as many as there may ever be.
+    const VideoInfo& info() const override;
+    /// Waits for the frame. Throws StreamEnded.
+    Frame read(FrameIndex index, bool with_colour) override;
+    /// Of frames that were read; an estimate for others.
+    std::int64_t timeOf(FrameIndex index) const override;
+
+    /// Share of the waiting frames that is used, 0 … 1. From any thread, as what follows.
+    double backlog() const;
+    LiveFacts facts() const;
+    /// Ends receiving and completes the recording; read() throws StreamEnded once all that came was read.
+    void finish();
+
+ private:
+    struct Receiver;
+    std::unique_ptr<Receiver> receiver_;
+};
+
+}  // namespace eyrie

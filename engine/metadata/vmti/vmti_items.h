@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+/// Numbers of ST 0903 that writing and reading share; inside of this folder only.
+namespace eyrie::vmti {
+
+inline constexpr std::array<std::uint8_t, 16> kKey{0x06, 0x0E, 0x2B, 0x34, 0x02, 0x0B, 0x01, 0x01,
+                                                   0x0E, 0x01, 0x03, 0x03, 0x06, 0x00, 0x00, 0x00};
+inline constexpr int kVersion = 5;  ///< ST 0903.5
+
+namespace item {
+inline constexpr std::uint32_t kChecksum = 1, kTime = 2, kSystem = 3, kVersionNumber = 4, kDetected = 5, kReported = 6,
+                               kFrameNumber = 7, kWidth = 8, kHeight = 9, kTargets = 101;
+}  // namespace item
+namespace target_item {
+inline constexpr std::uint32_t kCentre = 1, kTopLeft = 2, kBottomRight = 3, kConfidence = 5, kHistory = 6, kPlace = 17,
+                               kRow = 19, kColumn = 20, kTracker = 104;
+}  // namespace target_item
+namespace tracker_item {
+inline constexpr std::uint32_t kTrack = 1, kDetection = 2, kFirst = 3, kLast = 4, kVelocity = 10;
+}  // namespace tracker_item
+
+/// Ranges of IMAPB and the bytes they take.
+struct Range {
+    double low, high;
+    int bytes;
+};
+inline constexpr Range kLatitude{-90, 90, 4}, kLongitude{-180, 180, 4}, kHeightRange{-900, 19000, 2},
+    kSpeed{-900, 900, 2};
+
+}  // namespace eyrie::vmti

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <SQLiteCpp/Statement.h>
+
+#include <optional>
+#include <vector>
+
+#include "core/values/frame_result.h"
+
+namespace SQLite {
+class Database;
+}
+
+namespace eyrie {
+
+/// What finishing a run needs of the frames of which it keeps no details: motion vectors, and boxes of whole vehicles.
+/// There until the run is finished. The caller owns the transaction; `database` must outlive it.
+class UnfinishedFrames {
+ public:
+    explicit UnfinishedFrames(SQLite::Database& database);
+    void insert(int run_id, const FrameResult& result);
+
+    /// Nothing where the run has no such frame here.
+    static std::optional<std::vector<MotionVector>> vectors(SQLite::Database& database, int run_id, FrameIndex frame);
+    static std::optional<std::vector<OrientedBox>> vehicles(SQLite::Database& database, int run_id, FrameIndex frame);
+
+ private:
+    SQLite::Statement insert_;
+};
+
+/// Gives what was deleted back to the disk, where the project was made to do so (projects of schema 15 on); elsewhere
+/// the space is used again by what comes next. Does nothing while others keep it from working.
+void giveBackSpace(SQLite::Database& database);
+
+}  // namespace eyrie

@@ -1,0 +1,109 @@
+#include "chain/scale_slope_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "chain/scale_estimation.h"
+#include "support/moving_scene.h"
+#include "support/shared_data.h"
+
+namespace eyrie {
+namespace {
+
+const cv::Size kImage{1000, 600};
+constexpr double kGsd = 0.1;
+
+/// Votes all over the picture, of vehicles that differ by `spread` (of the logarithm) under a true slope.
+std::vector<ScaleVote> votesUnder(double right, double down, int count, double spread = 0.12, unsigned seed = 1) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> x(20, kImage.width - 20);
+    std::uniform_real_distribution<double> y(20, kImage.height - 20);
+    std::normal_distribution<double> off(0, spread);
+    const ScaleSlope slope = ScaleSlope::ofPicture(kImage, right, down);
+    std::vector<ScaleVote> votes;
+    for (int i = 0; i < count; ++i) {
+        const cv::Point2d place(x(random), y(random));
+        votes.push_back({place, kGsd / slope.factorAt(place) * std::exp(off(random)), 8});
+    }
+    return votes;
+}
+
+TEST(ScaleSlopeFit, FindsTheSlopeOfAnObliqueView) {
+    for (const double down : {0.0008, 0.0015, 0.0025}) {
+        const ScaleSlope found = fitSlope(votesUnder(0, down, 120), kImage, kGsd);
+        EXPECT_NEAR(found.down_per_px, down, 0.15 * down + 0.0001);
+        EXPECT_NEAR(found.right_per_px, 0, 0.00015);
+        EXPECT_EQ(found.centre(), cv::Point2d(499.5, 299.5));
+    }
+    EXPECT_NEAR(fitSlope(votesUnder(0, -0.0015, 120), kImage, kGsd).down_per_px, -0.0015, 0.0003) << "upside down";
+}
+
+TEST(ScaleSlopeFit, AHorizonThatIsNotLevelIsFoundToo) {
+    const ScaleSlope found = fitSlope(votesUnder(0.0005, 0.0015, 200), kImage, kGsd);
+    EXPECT_NEAR(found.right_per_px, 0.0005, 0.0002);
+    EXPECT_NEAR(found.down_per_px, 0.0015, 0.0003);
+}
+
+TEST(ScaleSlopeFit, ANadirViewIsFlatHoweverManyVehiclesVote) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        for (const int count : {15, 60, 300})
+            EXPECT_TRUE(fitSlope(votesUnder(0, 0, count, 0.25, seed), kImage, kGsd).isFlat()) << count << ", " << seed;
+    }
+}
+
+TEST(ScaleSlopeFit, PartsAndPairsOfCarsTellNothing) {
+    std::vector<ScaleVote> votes = votesUnder(0, 0.002, 120);
+    std::vector<ScaleVote> astray = votesUnder(0, 0, 60, 0.1, 2);
+    for (std::size_t i = 0; i < astray.size(); ++i) {
+        astray[i].gsd_m_per_px *= i % 2 == 0 ? 2.5 : 0.4;
+        votes.push_back(astray[i]);
+    }
+    EXPECT_NEAR(fitSlope(votes, kImage, kGsd).down_per_px, 0.002, 0.0004);
+}
+
+TEST(ScaleSlopeFit, TheMiddleNeedNotBeExactlyTheGivenScale) {
+    std::vector<ScaleVote> votes = votesUnder(0, 0.002, 120);
+    for (ScaleVote& vote : votes) vote.gsd_m_per_px *= 0.85;
+    EXPECT_NEAR(fitSlope(votes, kImage, kGsd).down_per_px, 0.002, 0.0004);
+}
+
+TEST(ScaleSlopeFit, FewVotesOrVotesInOnePlaceTellNoSlope) {
+    EXPECT_TRUE(fitSlope({}, kImage, kGsd).isFlat());
+    EXPECT_TRUE(fitSlope(votesUnder(0, 0.002, 11), kImage, kGsd).isFlat());
+    std::vector<ScaleVote> together = votesUnder(0, 0.002, 200);
+    for (ScaleVote& vote : together) vote.place = {500, 300 + (vote.place.y - 300) / 100};
+    EXPECT_TRUE(fitSlope(together, kImage, kGsd).isFlat());
+}
+
+TEST(SlopeEstimation, ARealObliqueViewHasASlopeAndARealNadirViewNone) {
+    EYRIE_NEED_SHARED_DATA("uavdt_m1303");
+    EYRIE_NEED_SHARED_DATA("collage_day");
+    const auto slopeOf = [](const char* folder, double gsd, double rate) {
+        const auto source = openSource(test::sharedData(folder));
+        return estimateSlope(*source, {}, ChainOptions{}, SceneScale{gsd, rate, true}, {});
+    };
+    // Labelled vehicles there grow by .28 % a pixel.
+    const ScaleSlope oblique = slopeOf("uavdt_m1303/img1", 0.08, 30);
+    EXPECT_NEAR(oblique.down_per_px, 0.0028, 0.0008);
+    EXPECT_NEAR(oblique.right_per_px, 0, 0.0005);
+    EXPECT_TRUE(slopeOf("collage_day/frames", 0.2, 25).isFlat());
+}
+
+TEST(SlopeEstimation, IsOnlyLookedForWhereAskedAndWhereTheScaleMeansSomething) {
+    EYRIE_NEED_SHARED_DATA("uavdt_m1303");
+    const auto source = openSource(test::sharedData("uavdt_m1303/img1"));
+    ChainOptions options;
+    setParameter(describeOf(options), "view.oblique", "false");
+    EXPECT_TRUE(chooseScale(*source, {}, options, 0.08, {}).slope.isFlat());
+    EXPECT_FALSE(builtInPreset("thesis").view.oblique) << "the thesis looks straight down";
+    options.view.oblique = true;
+    EXPECT_FALSE(chooseScale(*source, {}, options, 0.08, {}).slope.isFlat());
+    std::stop_source stopped;
+    stopped.request_stop();
+    EXPECT_TRUE(estimateSlope(*source, {}, options, SceneScale{0.08, 30, true}, stopped.get_token()).isFlat());
+}
+
+}  // namespace
+}  // namespace eyrie

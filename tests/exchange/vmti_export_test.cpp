@@ -1,0 +1,180 @@
+#include "exchange/vmti_export.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <opencv2/core.hpp>
+
+#include "core/error.h"
+#include "formats/track_world.h"
+#include "io/video/data_streams.h"
+#include "io/video/video_writer.h"
+#include "metadata/vmti/vmti_set.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kFilmFrames = 30;
+constexpr std::int64_t kFilmBegin = 1'700'000'000'000'000;
+
+struct PlacedFrame {
+    std::int64_t stamp_us;
+    int pictures_before;
+    vmti::Frame frame;
+};
+
+class VmtiExport : public testing::Test {
+ protected:
+    void film(const std::string& name, const VideoWriterOptions& options = {}) {
+        video_ = folder_ / name;
+        VideoWriter writer(video_, {160, 120}, options);
+        for (int i = 0; i < kFilmFrames; ++i) {
+            cv::Mat image(120, 160, CV_8UC3, cv::Scalar(90, 90, 90));
+            for (int x = 0; x < 160; ++x) image.col(x).setTo(cv::Scalar::all((x * 3 + 5 * i) % 200));
+            writer.write(image);
+        }
+        writer.finish();
+    }
+    /// One car in frames 5 … 9 and 12 … 20.
+    LabelStream car(bool times = true, bool places = false) {
+        LabelStream labels;
+        auto world = std::make_shared<TrackWorld>();
+        world->seconds = [](FrameIndex frame) { return frame / 25.0; };
+        if (times) {
+            world->utc_us = [](FrameIndex frame) { return kFilmBegin + 40'000 * std::int64_t{frame}; };
+            world->clock_origin = "given";
+        } else {
+            world->no_clock = "nobody said when";
+        }
+        if (places) {
+            world->place = [](FrameIndex, cv::Point2d px) -> std::optional<GeoPoint> {
+                return GeoPoint{48 - px.y * 1e-6, 11 + px.x * 1e-6};
+            };
+            world->place_origin = "made up";
+        }
+        labels.about.world = world;
+        labels.frames = [](const FrameVisitor& visit) {
+            for (FrameIndex frame = 5; frame <= 20; ++frame) {
+                if (frame == 10 || frame == 11) continue;
+                LabelBox box;
+                box.frame = frame;
+                box.id = 7;
+                box.box = {{20.0 + 3 * frame, 60}, 20, 10, 0};
+                box.score = 0.75;
+                box.velocity = {3, 0};
+                visit(frame, {box});
+            }
+        };
+        return labels;
+    }
+    VmtiReport copy(const LabelStream& labels) {
+        const auto source = openSource(video_, {.index_folder = folder_ / "index"});
+        return writeVmti(labels, *source, out_);
+    }
+    std::vector<PlacedFrame> setsOf(const std::filesystem::path& path) {
+        std::vector<PlacedFrame> frames;
+        std::map<int, klv::Splitter> splitters;
+        readDataStreams(path, [&](const DataPacket& packet) {
+            splitters[packet.stream].feed(packet.bytes, [&](const klv::Set& set) -> std::optional<klv::Fault> {
+                if (!vmti::isKey(set.key)) return std::nullopt;
+                PlacedFrame placed{packet.stamp_us, packet.pictures_before, {}};
+                int unreadable = 0;
+                const auto fault = vmti::read(set, placed.frame, unreadable);
+                EXPECT_EQ(unreadable, 0);
+                if (!fault) frames.push_back(placed);
+                return fault;
+            });
+        });
+        return frames;
+    }
+    test::TemporaryFolder folder_;
+    std::filesystem::path video_;
+    std::filesystem::path out_ = folder_ / "copy.ts";
+};
+
+TEST_F(VmtiExport, EveryFrameOfTheTracksHasASetAtTheTimeOfItsPicture) {
+    for (const char* name : {"film.ts", "film.mp4"}) {
+        film(name);
+        const VmtiReport report = copy(car(true, true));
+        EXPECT_EQ(report.frames, 16) << "with two empty ones between";
+        EXPECT_EQ(report.targets, 14);
+        const auto sets = setsOf(out_);
+        ASSERT_EQ(sets.size(), 16U) << name;
+        const auto copied = openSource(out_, {.index_folder = folder_ / "index"});
+        ASSERT_EQ(copied->info().frame_count, kFilmFrames) << name;
+        std::map<std::int64_t, std::int64_t> stamps;  // of the copy's frames by their time
+        for (const PictureStamp& picture : copied->pictureStamps()) stamps[picture.time_us] = picture.stamp_us;
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            const auto frame = static_cast<FrameIndex>(5 + i);
+            const vmti::Frame& set = sets[i].frame;
+            EXPECT_EQ(set.number, static_cast<unsigned>(frame));
+            EXPECT_EQ(set.utc_us, kFilmBegin + 40'000 * frame);
+            EXPECT_EQ(set.size, cv::Size(160, 120));
+            EXPECT_NEAR(static_cast<double>(sets[i].stamp_us), static_cast<double>(stamps.at(copied->timeOf(frame))),
+                        12)
+                << name << ", frame " << frame;
+            EXPECT_LE(sets[i].pictures_before, frame + 4) << "it comes before its picture, but for reordered ones";
+            if (frame == 10 || frame == 11) {
+                EXPECT_TRUE(set.targets.empty());
+                continue;
+            }
+            ASSERT_EQ(set.targets.size(), 1U);
+            const vmti::Target& target = set.targets[0];
+            EXPECT_EQ(target.id, 7U);
+            EXPECT_EQ(target.centre, cv::Point(20 + 3 * frame, 60));
+            EXPECT_EQ(target.top_left.x, 10 + 3 * frame) << "integers are the middles of pixels";
+            EXPECT_EQ(target.confidence_percent, 75);
+            EXPECT_EQ(target.seen_before, frame < 10 ? frame - 5 : frame - 7);
+            // A step of the code for longitudes is 2.4e-7.
+            EXPECT_NEAR(target.place->longitude_deg, 11 + (20 + 3 * frame) * 1e-6, 2.5e-7);
+            EXPECT_EQ(target.track, sets[0].frame.targets[0].track) << "one name for the whole track";
+            EXPECT_EQ(target.first_utc_us, kFilmBegin + 200'000);
+        }
+    }
+}
+
+TEST_F(VmtiExport, PicturesAreCopiedToTheBit) {
+    film("film.ts");
+    copy(car());
+    const auto before = openSource(video_, {.index_folder = folder_ / "index"});
+    const auto after = openSource(out_, {.index_folder = folder_ / "index"});
+    for (const FrameIndex frame : {0, 7, 29}) {
+        const cv::Mat a = before->read(frame, false).gray;
+        const cv::Mat b = after->read(frame, false).gray;
+        EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0) << frame;
+        EXPECT_EQ(before->timeOf(frame), after->timeOf(frame));
+    }
+}
+
+TEST_F(VmtiExport, WithoutTimesNothingIsWritten) {
+    film("film.ts");
+    try {
+        copy(car(false));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        EXPECT_THAT(error.what(), testing::HasSubstr("nobody said when"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
+TEST_F(VmtiExport, WhatNoTransportStreamCarriesIsRefusedAndNothingIsLeft) {
+    VideoWriterOptions lossless;
+    lossless.codec = "ffv1";
+    film("film.avi", lossless);
+    std::ofstream(out_) << "earlier";
+    try {
+        copy(car());
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("film.avi"));
+    }
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        files += entry.path().filename().string().find("copy.ts") != std::string::npos ? 1 : 0;
+    EXPECT_EQ(files, 1) << "no part beside it";
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,141 @@
+#include "georeference/control_fit.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "georeference/geo_reference.h"
+#include "georeference/video_world.h"
+
+namespace eyrie {
+namespace {
+
+const GeoPoint kMarket{48.137, 11.575};
+
+/// A view from aside: metres east and north of a pixel of frame 0, with a horizon far above the picture.
+const cv::Matx33d kOblique{0.5, 0.02, -50, 0.01, -0.6, 40, 0, 0.0004, 1};
+
+cv::Point2d onGround(cv::Point2d px) {
+    const cv::Vec3d at = kOblique * cv::Vec3d(px.x, px.y, 1);
+    return {at[0] / at[2], at[1] / at[2]};
+}
+
+ControlPoint control(FrameIndex frame, cv::Point2d px, cv::Point2d px_of_first, cv::Point2d astray = {0, 0}) {
+    return {frame, px, LocalPlane(kMarket).placeOf(onGround(px_of_first) + astray)};
+}
+
+/// The camera moves by 2 px a frame to the right, so that the ground moves to the left; no frame fits after `cut`.
+CameraMotion flightOver(int frames, int cut = -1) {
+    std::vector<Homography> steps;
+    for (int frame = 1; frame < frames; ++frame) {
+        if (frame == cut) continue;
+        Homography step;
+        step.from_frame = frame - 1;
+        step.to_frame = frame;
+        step.matrix(0, 2) = -2;
+        steps.push_back(step);
+    }
+    return CameraMotion(steps);
+}
+
+GeoFootage market(const std::vector<ControlPoint>& points, int cut = -1) {
+    GeoFootage footage;
+    footage.image_size = {200, 100};
+    footage.last_frame = 99;
+    footage.camera = flightOver(100, cut);
+    footage.control = points;
+    return footage;
+}
+
+std::vector<ControlPoint> corners() {
+    return {control(0, {10, 10}, {10, 10}), control(0, {190, 12}, {190, 12}), control(0, {185, 95}, {185, 95}),
+            control(0, {8, 90}, {8, 90})};
+}
+
+double metresBetween(const std::optional<GeoPoint>& found, cv::Point2d truth_px) {
+    if (!found) return 1e9;
+    const LocalPlane plane(kMarket);
+    return cv::norm(plane.metresOf(*found) - onGround(truth_px));
+}
+
+TEST(ControlFit, FourPointsLayEveryPixelOnTheEarth) {
+    const GeoReference places = GeoReference::byControl(market(corners()));
+    ASSERT_TRUE(places.known());
+    for (const cv::Point2d px : {cv::Point2d(0, 0), cv::Point2d(100, 50), cv::Point2d(199, 99), cv::Point2d(60, 80)})
+        EXPECT_LT(metresBetween(places.placeOf(0, px), px), 0.01);
+    EXPECT_THAT(places.origin(), testing::HasSubstr("4 control points placed by hand"));
+}
+
+TEST(ControlFit, TheRegistrationCarriesThemToOtherFrames) {
+    const GeoReference places = GeoReference::byControl(market(corners()));
+    // In frame 40 the ground of pixel (100, 50) of frame 0 lies 80 px to the left.
+    EXPECT_LT(metresBetween(places.placeOf(40, {20, 50}), {100, 50}), 0.01);
+    EXPECT_LT(metresBetween(places.placeOf(99, {100, 50}), {298, 50}), 0.05);
+}
+
+TEST(ControlFit, PointsOfSeveralFramesCountTogether) {
+    const std::vector<ControlPoint> spread{control(0, {10, 10}, {10, 10}), control(10, {170, 12}, {190, 12}),
+                                           control(20, {145, 95}, {185, 95}), control(30, {8, 90}, {68, 90})};
+    const GeoReference places = GeoReference::byControl(market(spread));
+    EXPECT_LT(metresBetween(places.placeOf(0, {100, 50}), {100, 50}), 0.05);
+}
+
+TEST(ControlFit, MorePointsAreFittedAndTheirErrorsAreTold) {
+    std::mt19937 dice(5);
+    std::normal_distribution<double> astray(0, 1);
+    std::vector<ControlPoint> points;
+    for (int i = 0; i < 40; ++i) {
+        const cv::Point2d px(5 + (i * 37) % 190, 5 + (i * 23) % 90);
+        points.push_back(control(0, px, px, {astray(dice), astray(dice)}));
+    }
+    const auto fits = fitControlPoints(points, {}, LocalPlane(kMarket));
+    ASSERT_EQ(fits.size(), 1U);
+    EXPECT_EQ(fits[0].points, 40);
+    EXPECT_NEAR(fits[0].rms_m, std::sqrt(2.0), 0.3) << "a metre east and a metre north";
+    const GeoReference places = GeoReference::byControl(market(points));
+    EXPECT_LT(metresBetween(places.placeOf(0, {100, 50}), {100, 50}), 0.7);
+}
+
+TEST(ControlFit, PointsOnALineOrTooFewSayNothingAndWhy) {
+    std::vector<std::string> why;
+    std::vector<ControlPoint> line;
+    for (int i = 0; i < 6; ++i)
+        line.push_back(control(0, {10.0 + 20 * i, 10.0 + 10 * i}, {10.0 + 20 * i, 10.0 + 10 * i}));
+    EXPECT_FALSE(GeoReference::byControl(market(line), &why).known());
+    ASSERT_EQ(why.size(), 1U);
+    EXPECT_THAT(why[0], testing::HasSubstr("lie on a line"));
+    why.clear();
+    std::vector<ControlPoint> three = corners();
+    three.pop_back();
+    EXPECT_FALSE(GeoReference::byControl(market(three), &why).known());
+    EXPECT_THAT(why.at(0), testing::HasSubstr("four are needed"));
+    const std::vector<ControlPoint> same(5, control(0, {10, 10}, {10, 10}));
+    EXPECT_FALSE(GeoReference::byControl(market(same)).known());
+    EXPECT_FALSE(GeoReference::byControl(market({})).known());
+}
+
+TEST(ControlFit, BeyondACutNothingIsKnownUnlessItHasPointsOfItsOwn) {
+    const GeoReference one = GeoReference::byControl(market(corners(), 50));
+    EXPECT_TRUE(one.placeOf(49, {100, 50}));
+    EXPECT_FALSE(one.placeOf(50, {100, 50}));
+    std::vector<ControlPoint> both = corners();
+    for (const ControlPoint& point : corners()) {
+        both.push_back(point);
+        both.back().frame = 60;
+    }
+    const GeoReference two = GeoReference::byControl(market(both, 50));
+    EXPECT_LT(metresBetween(two.placeOf(60, {100, 50}), {100, 50}), 0.01);
+}
+
+TEST(ControlFit, TheyCountWithoutAnyMetadata) {
+    const VideoWorld world = videoWorldOf(nullptr, market(corners()));
+    EXPECT_TRUE(world.places.known());
+    EXPECT_TRUE(world.no_places.empty());
+    std::vector<ControlPoint> three = corners();
+    three.pop_back();
+    EXPECT_THAT(videoWorldOf(nullptr, market(three)).no_places, testing::HasSubstr("four are needed"));
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,72 @@
+#include "ground/track_story.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "events/driven_tracks.h"
+
+namespace eyrie {
+namespace {
+
+StoredTracks drivenUnderACamera() {
+    test::DrivenTracks scene;
+    scene.camera = test::DrivenTracks::moving(0.2);
+    scene.drive({50, 60}, 0, {{8, 36, 36}, {4, 0, 0}, {8, 36, 36}});
+    StoredTracks run;
+    run.tracks = scene.tracks;
+    run.footage = scene.footage();
+    return run;
+}
+
+}  // namespace
+
+TEST(TrackStory, TellsSpeedsAndWaysOnTheGround) {
+    const StoredTracks run = drivenUnderACamera();
+    const GroundStretches ground(run.footage);
+    const auto story = storyOf(run, ground, 1, 100);
+    ASSERT_GT(story.size(), 400U);
+    for (const StoryPoint& point : story) {
+        const double t = point.frame / 25.0;
+        if ((t > 1 && t < 7) || (t > 13 && t < 19)) {
+            EXPECT_NEAR(point.speed, 10, 1) << point.frame;
+        }
+        if (t > 9 && t < 11) {
+            EXPECT_LT(point.speed, 1) << point.frame;
+        }
+        EXPECT_DOUBLE_EQ(point.seconds, t);
+        EXPECT_NEAR(point.length_px, 4.5 / 0.2, 5);
+    }
+    EXPECT_NEAR(cv::norm(story[175].at - story[25].at), 60, 2);
+    EXPECT_TRUE(storyOf(run, ground, 9, 100).empty());
+    EXPECT_TRUE(storyOf(run, ground, 1, 5000).empty());
+}
+
+TEST(TrackStory, FramesAroundAMomentAreSpreadEvenly) {
+    std::vector<StoryPoint> story;
+    for (int frame = 0; frame < 200; ++frame) story.push_back({frame, frame / 25.0, 0, {}, {}, 0});
+    const auto chosen = chosenAround(story, 100, 2, 2, 11);
+    ASSERT_EQ(chosen.size(), 11U);
+    EXPECT_EQ(chosen.front().frame, 50);
+    EXPECT_EQ(chosen[5].frame, 100);
+    EXPECT_EQ(chosen.back().frame, 150);
+    EXPECT_EQ(chosenAround(story, 0, 2, 0.1, 50).size(), 3U);
+    EXPECT_EQ(chosenAround(story, 999, 0, 0, 5).front().frame, 199);
+    EXPECT_TRUE(chosenAround({}, 3, 1, 1, 5).empty());
+    EXPECT_TRUE(chosenAround(story, 3, 1, 1, 0).empty());
+}
+
+TEST(TrackStory, AChipShowsThePlaceInItsMiddle) {
+    cv::Mat picture = cv::Mat::zeros(100, 100, CV_8UC1);
+    picture.at<uchar>(30, 70) = 200;
+    const cv::Mat chip = chipOf(picture, {70, 30}, 11, 11);
+    ASSERT_EQ(chip.size(), cv::Size(11, 11));
+    EXPECT_EQ(chip.at<uchar>(5, 5), 200);
+    EXPECT_EQ(cv::countNonZero(chip), 1);
+    EXPECT_EQ(chipOf(picture, {70, 30}, 10, 40).size(), cv::Size(40, 40));
+    EXPECT_EQ(cv::countNonZero(chipOf(picture, {-90, -90}, 20, 20)), 0);
+    EXPECT_TRUE(chipOf(cv::Mat(), {0, 0}, 20, 20).empty());
+    EXPECT_TRUE(chipOf(picture, {0, 0}, 0, 20).empty());
+}
+
+}  // namespace eyrie

@@ -1,0 +1,195 @@
+#include "io/live/live_stream.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <random>
+
+#include "io/numbered_video.h"
+#include "support/live_sender.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using test::LiveSender;
+using testing::HasSubstr;
+
+/// Waits are short, so that the tests are; machines that have much to do still get some seconds.
+class LiveStreams : public testing::Test {
+ protected:
+    std::filesystem::path film(const std::string& name, int frames, int first_number = 0, cv::Size size = {160, 64}) {
+        VideoWriterOptions options;
+        options.key_frame_distance = 10;
+        test::writeNumberedVideo(folder_ / name, frames, options, size, first_number);
+        return folder_ / name;
+    }
+    LiveOptions options() const {
+        LiveOptions options;
+        options.recording = folder_ / "recorded.ts";
+        options.connect_s = 10;
+        options.stall_s = 1;
+        options.give_up_s = 2;
+        return options;
+    }
+    std::string address() const { return "udp://127.0.0.1:" + std::to_string(port_); }
+    /// Reads to the end; the numbers that the pictures carry.
+    static std::vector<int> numbersOf(FrameSource& source) {
+        std::vector<int> numbers;
+        try {
+            for (FrameIndex frame = 0; frame < source.info().frame_count; ++frame)
+                numbers.push_back(test::numberIn(source.read(frame, false).gray));
+        } catch (const StreamEnded&) {
+        }
+        return numbers;
+    }
+    std::vector<int> recorded() const {
+        return numbersOf(*openSource(folder_ / "recorded.ts", {.index_folder = folder_ / "index"}));
+    }
+    test::TemporaryFolder folder_;
+    int port_ = test::freePort();
+};
+
+TEST_F(LiveStreams, FramesComeInOrderAndAreThoseOfTheRecording) {
+    const LiveSender sender(port_, {{film("a.ts", 60), 1.5, 0.3}});
+    LiveStream stream(address(), options(), {});
+    EXPECT_EQ(stream.info().size, cv::Size(160, 64));
+    EXPECT_NEAR(stream.info().frame_rate_hz, 25, 0.01);
+    const std::vector<int> numbers = numbersOf(stream);
+    ASSERT_GE(numbers.size(), 50U);
+    for (std::size_t i = 1; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], numbers[0] + static_cast<int>(i));
+    EXPECT_EQ(recorded(), numbers);
+    const LiveFacts facts = stream.facts();
+    EXPECT_EQ(facts.skipped, 0);
+    EXPECT_EQ(facts.frames, static_cast<int>(numbers.size()));
+    EXPECT_THAT(facts.ended, HasSubstr("nothing came"));
+}
+
+TEST_F(LiveStreams, AfterAStallItIsConnectedToAgainAndTheRecordingGoesOn) {
+    LiveOptions patient = options();
+    patient.give_up_s = 6;
+    const LiveSender sender(port_, {{film("a.ts", 40), 1, 0.3}, {film("b.ts", 40, 500), 1, 2}});
+    LiveStream stream(address(), patient, {});
+    const std::vector<int> numbers = numbersOf(stream);
+    const LiveFacts facts = stream.facts();
+    EXPECT_EQ(facts.reconnects, 1);
+    EXPECT_GT(facts.longest_gap_s, 1);
+    EXPECT_EQ(std::count(numbers.begin(), numbers.end(), 530), 1) << "frames after the stall";
+    EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
+    EXPECT_EQ(recorded(), numbers);
+}
+
+TEST_F(LiveStreams, ItsTimesRiseEvenWhereTheClockOfTheSenderIsSetBack) {
+    // The second film begins with the stamps of the first.
+    const LiveSender sender(port_, {{film("a.ts", 30), 0.7, 0.3}, {film("b.ts", 30, 100), 0.7}});
+    LiveStream stream(address(), options(), {});
+    std::int64_t last_us = -1;
+    try {
+        for (FrameIndex frame = 0;; ++frame) {
+            const Frame read = stream.read(frame, false);
+            EXPECT_EQ(read.index, frame);
+            EXPECT_GT(read.time_us, last_us);
+            EXPECT_LT(read.time_us, last_us + 1'000'000);
+            last_us = read.time_us;
+        }
+    } catch (const StreamEnded&) {
+    }
+    EXPECT_GT(last_us, 1'500'000);
+}
+
+TEST_F(LiveStreams, AReaderThatIsBehindGetsRepeatsInPlaceOfWhatWasLeftOut) {
+    LiveOptions narrow = options();
+    narrow.waiting_frames = 5;
+    const LiveSender sender(port_, {{film("a.ts", 60), 0.5, 0.3}});
+    LiveStream stream(address(), narrow, {});
+    while (stream.facts().ended.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(stream.backlog(), 1);
+    int repeats = 0;
+    cv::Mat last;
+    FrameIndex frame = 0;
+    try {
+        for (;; ++frame) {
+            const Frame read = stream.read(frame, false);
+            repeats += !last.empty() && read.gray.data == last.data ? 1 : 0;
+            last = read.gray;
+        }
+    } catch (const StreamEnded&) {
+    }
+    EXPECT_EQ(frame, stream.facts().frames);
+    EXPECT_GE(frame, 50);
+    EXPECT_EQ(repeats, stream.facts().skipped);
+    EXPECT_EQ(frame - repeats, 5);
+    EXPECT_EQ(recorded().size(), static_cast<std::size_t>(frame)) << "what was left out was recorded";
+}
+
+TEST_F(LiveStreams, APictureOfAnotherSizeEndsIt) {
+    const LiveSender sender(port_, {{film("a.ts", 30), 0.7, 0.3}, {film("b.ts", 30, 0, {320, 128}), 0.7, 0.1}});
+    LiveStream stream(address(), options(), {});
+    const std::vector<int> numbers = numbersOf(stream);
+    EXPECT_LE(numbers.size(), 31U);
+    EXPECT_THAT(stream.facts().ended, HasSubstr("changed from 160×64 px to 320×128 px"));
+}
+
+TEST_F(LiveStreams, WhatNeverAnswersIsToldInTime) {
+    LiveOptions brief = options();
+    brief.connect_s = 0.6;
+    const auto begin = std::chrono::steady_clock::now();
+    const std::string told = test::messageOf(ErrorKind::input, [&] { LiveStream(address(), brief, {}); });
+    EXPECT_THAT(told, HasSubstr("nothing that could be read came within 1 s"));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(8));
+    // Nobody listens on the port: refused at once, or not answered in time.
+    EXPECT_THAT(
+        test::messageOf(ErrorKind::input, [&] { LiveStream("tcp://127.0.0.1:" + std::to_string(port_), brief, {}); }),
+        HasSubstr("check the address"));
+}
+
+TEST_F(LiveStreams, NoiseIsNoVideo) {
+    std::mt19937 dice(3);
+    std::string noise(200'000, '\0');
+    for (char& byte : noise) byte = static_cast<char>(dice());
+    test::writeBytes(folder_ / "noise.ts", noise);
+    LiveOptions brief = options();
+    brief.connect_s = 1;
+    const LiveSender sender(port_, {{folder_ / "noise.ts", 0.5, 0.1}});
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { LiveStream(address(), brief, {}); }), HasSubstr(address()));
+}
+
+TEST_F(LiveStreams, ARecordingThatCannotBeWrittenIsTold) {
+    LiveOptions nowhere = options();
+    nowhere.recording = folder_ / "absent" / "recorded.ts";
+    EXPECT_THAT(test::messageOf(ErrorKind::output, [&] { LiveStream(address(), nowhere, {}); }),
+                HasSubstr("recording cannot be written"));
+}
+
+TEST_F(LiveStreams, EndingItKeepsWhatCame) {
+    const LiveSender sender(port_, {{film("a.ts", 200), 8, 0.3}});
+    std::stop_source stop;
+    LiveStream stream(address(), options(), stop.get_token());
+    std::vector<int> numbers;
+    try {
+        for (FrameIndex frame = 0;; ++frame) {
+            numbers.push_back(test::numberIn(stream.read(frame, false).gray));
+            if (frame == 20) stop.request_stop();
+        }
+    } catch (const StreamEnded&) {
+    }
+    EXPECT_GE(numbers.size(), 21U);
+    EXPECT_LT(numbers.size(), 150U);
+    stream.finish();
+    EXPECT_EQ(recorded(), numbers);
+}
+
+TEST(LiveAddresses, AreThoseOfTheNet) {
+    EXPECT_TRUE(isLiveAddress("udp://239.0.0.1:5000"));
+    EXPECT_TRUE(isLiveAddress("rtsp://camera/stream"));
+    EXPECT_FALSE(isLiveAddress("clip.mp4"));
+    EXPECT_FALSE(isLiveAddress("scene:demo"));
+    EXPECT_FALSE(isLiveAddress("file:///etc/passwd"));
+    EXPECT_FALSE(isLiveAddress("concat://a|b"));
+    EXPECT_EQ(shownAddress("rtsp://me:secret@camera:554/stream@1"), "rtsp://camera:554/stream@1");
+    EXPECT_EQ(shownAddress("udp://@239.0.0.1:5000"), "udp://@239.0.0.1:5000");
+    EXPECT_EQ(shownAddress("rtsp://camera/x"), "rtsp://camera/x");
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,48 @@
+#include "store/review/control_points.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/error.h"
+#include "store/health/project_check.h"
+#include "store/samples.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+TEST(ControlPoints, AreKeptWithTheirVideoAndReplacedWhole) {
+    const test::TemporaryFolder folder;
+    test::writeSampleProject(folder / "p.eyrie", 2);
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    EXPECT_TRUE(readControlPoints(project, 1).empty());
+    replaceControlPoints(project, 1, {{3, {10.5, -2}, {48.137154, 11.576124}}, {4, {1, 2}, {-90, 180}}});
+    replaceControlPoints(project, 1, {{3, {10.5, -2}, {48.137154, 11.576124}}, {0, {1, 2}, {-90, 180}}});
+    const auto points = readControlPoints(project, 1);
+    ASSERT_EQ(points.size(), 2U);
+    EXPECT_EQ(points[0].frame, 3);
+    EXPECT_EQ(points[0].px, cv::Point2d(10.5, -2));
+    EXPECT_EQ(points[0].place.latitude_deg, 48.137154);
+    EXPECT_EQ(points[1].place.longitude_deg, 180);
+    EXPECT_TRUE(checkProject(folder / "p.eyrie").healthy());
+}
+
+TEST(ControlPoints, WhatIsNotOnTheEarthIsRefusedAndFound) {
+    const test::TemporaryFolder folder;
+    test::writeSampleProject(folder / "p.eyrie", 2);
+    {
+        ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+        replaceControlPoints(project, 1, {{3, {10, 2}, {48, 11}}});
+        project.database().exec("UPDATE control_point SET latitude_deg = 91");
+        EXPECT_THROW(readControlPoints(project, 1), Error);
+    }
+    EXPECT_FALSE(checkProject(folder / "p.eyrie").healthy());
+    EXPECT_FALSE(isPossible({0, {0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0}}));
+    EXPECT_FALSE(isPossible({-1, {0, 0}, {0, 0}}));
+    EXPECT_TRUE(isPossible({0, {0, 0}, {0, 0}}));
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,327 @@
+#include <QLineEdit>
+#include <QListWidget>
+#include <QSlider>
+#include <QTest>
+#include <cmath>
+
+#include "canvas/video_view.h"
+#include "ground/followed_pose.h"
+#include "review/card/card_dock.h"
+#include "review/card/story_sketch.h"
+#include "review/events/event_review.h"
+#include "review/events/events_dock.h"
+#include "review/events/events_model.h"
+#include "review/events/events_panel.h"
+#include "review/mosaic/mosaic_panel.h"
+#include "review/mosaic/mosaic_view.h"
+#include "review/watch/measure_tool.h"
+#include "review/watch/seen_watch.h"
+#include "review/watch/watch_commands.h"
+#include "review/watch/watched_ground.h"
+#include "ui/session/session_support.h"
+#include "widgets/message_bar.h"
+#include "window/bars/picture_button.h"
+#include "window/main_window.h"
+#include "workspace/dock_registry.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+using test::kPatience_ms;
+
+namespace {
+
+constexpr FrameIndex kAnchor = 20;
+constexpr FrameIndex kLater = 40;
+constexpr double kDriftPerFrame = 1;  ///< px by which the ground of the scene goes left
+
+QPointF standing(FrameIndex frame) {
+    return {150.0 - kDriftPerFrame * (frame - kAnchor), 90};
+}
+
+}  // namespace
+
+/// How a person watches what a run found: steady, near, quickly, measuring.
+class WatchingTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+    std::unique_ptr<MainWindow> window_;
+
+    MainWindow& window() { return *window_; }
+    VideoView& canvas() { return window_->canvas(); }
+    const WindowActions& actions() { return window_->actions(); }
+    bool goTo(FrameIndex frame) {
+        window_->session().goToFrame(frame);
+        return test::shows(window_->session(), frame);
+    }
+    QPointF inView(QPointF image) { return canvas().transform().viewFromImage(image); }
+    void click(QPointF image) { QTest::mouseClick(&canvas(), Qt::LeftButton, {}, inView(image).toPoint()); }
+    QString measured() { return window_->watching().measureTool().text(); }
+    bool tells(const QString& words) {
+        const QStringList texts = window_->messages().texts();
+        return std::any_of(texts.begin(), texts.end(), [&](const QString& text) { return text.contains(words); });
+    }
+
+ private slots:
+    void initTestCase() {
+        home_ = std::make_unique<test::OwnHome>();
+        window_ = std::make_unique<MainWindow>();
+        window_->resize(1280, 720);
+        window_->show();
+        QVERIFY(QTest::qWaitForWindowActive(window_.get()));
+        QVERIFY(test::openAndWait(window_->session(), test::sceneUnderTest(60)));
+        QVERIFY(!actions().steady->isEnabled());  // nothing is known of the ground yet
+        QVERIFY(test::runAndWait(window_->session()));
+        QTRY_VERIFY_WITH_TIMEOUT(window_->ground().ground() != nullptr, kPatience_ms);
+    }
+    void cleanupTestCase() {
+        window_.reset();
+        home_.reset();
+    }
+    void init() {
+        QVERIFY(goTo(kAnchor));
+        canvas().fit();
+        canvas().setFocus();
+    }
+    void cleanup() {
+        actions().steady->setChecked(false);
+        actions().follow_object->setChecked(false);
+        actions().only_moving->setChecked(false);
+        window().watching().measureTool().end();
+        window().session().selectTrack(std::nullopt);
+    }
+
+    void theGroundStandsStillUntilItIsSwitchedOff() {
+        QTest::keyClick(&canvas(), Qt::Key_G, Qt::ShiftModifier);
+        QVERIFY(actions().steady->isChecked());
+        QTRY_VERIFY_WITH_TIMEOUT(window().ground().sheets() != nullptr, kPatience_ms);
+        QVERIFY(canvas().transform().onGround());
+        QCOMPARE(window().ground().sheets()->anchor(), kAnchor);
+        const QPointF before = inView(standing(kAnchor));
+        const double px = canvas().transform().scale();
+        QVERIFY(goTo(kLater));
+        QVERIFY(QLineF(inView(standing(kLater)), before).length() < 0.5 * px);
+        // The picture itself has moved over the ground, and places under the cursor are still those of the picture.
+        QVERIFY(QLineF(inView({0, 0}), inView({20, 0})).length() > 15 * px);
+        QVERIFY(QLineF(canvas().transform().imageFromView(before), standing(kLater)).length() < 0.5);
+        // The pixels as painted stand still, too.
+        const QImage later = canvas().picture();
+        QVERIFY(goTo(kLater - 5));
+        const QImage earlier = canvas().picture();
+        const QPoint place = inView(standing(kLater - 5)).toPoint();
+        int difference = 0;
+        for (int y = -12; y <= 12; ++y)
+            for (int x = -12; x <= 12; ++x)
+                difference +=
+                    std::abs(qGray(later.pixel(place + QPoint(x, y))) - qGray(earlier.pixel(place + QPoint(x, y))));
+        QVERIFY2(difference < 6 * 625, qPrintable(QString::number(difference / 625.0)));
+        QTest::keyClick(&canvas(), Qt::Key_G, Qt::ShiftModifier);
+        QVERIFY(!canvas().transform().onGround());
+        QVERIFY(QLineF(inView(standing(kLater - 5)), before).length() > 5 * px);
+    }
+
+    void aFollowedVehicleIsInTheMiddleWithItsHeadingUp() {
+        const auto& tracks = window().ground().ground()->run->tracks;
+        QVERIFY(!tracks.empty());
+        const EventTrack& track = tracks.front();
+        window().session().selectTrack(track.id);
+        const double before = canvas().transform().scale();
+        QTest::keyClick(&canvas(), Qt::Key_S);
+        QVERIFY(actions().follow_object->isChecked());
+        QVERIFY(canvas().transform().scale() > before);  // near enough to be seen
+        for (const bool steady : {false, true}) {
+            actions().steady->setChecked(steady);
+            if (steady) QTRY_VERIFY_WITH_TIMEOUT(window().ground().sheets() != nullptr, kPatience_ms);
+            for (const FrameIndex frame : {kAnchor + 2, kAnchor + 9}) {
+                QVERIFY(goTo(frame));
+                const auto pose = followedPose(track, frame, window().ground().ground()->run->footage.camera);
+                if (!pose) continue;
+                const QPointF centre(pose->centre.x, pose->centre.y);
+                QVERIFY(QLineF(inView(centre), QRectF(canvas().rect()).center()).length() < 2);
+                const QPointF ahead =
+                    canvas().transform().viewVector({std::cos(pose->heading), std::sin(pose->heading)}, centre);
+                QVERIFY(ahead.y() < 0 && std::abs(ahead.x()) < 0.02 * std::abs(ahead.y()));
+            }
+        }
+        QTest::keyClick(&canvas(), Qt::Key_S);
+        QCOMPARE(canvas().transform().rotation(), 0.0);
+        QVERIFY(canvas().transform().fitted());
+    }
+
+    void labellingHasTheCanvasToItself() {
+        actions().steady->setChecked(true);
+        QTRY_VERIFY_WITH_TIMEOUT(canvas().transform().onGround(), kPatience_ms);
+        actions().workspaceAction(WorkspaceKind::label)->trigger();
+        QVERIFY(!canvas().transform().onGround());
+        QVERIFY(!actions().steady->isEnabled());
+        QVERIFY(!actions().measure->isEnabled());
+        actions().workspaceAction(WorkspaceKind::review)->trigger();
+        QTRY_VERIFY_WITH_TIMEOUT(canvas().transform().onGround(), kPatience_ms);
+    }
+
+    void distancesAndSpeedsAreMeasuredOnTheGround() {
+        QTest::keyClick(&canvas(), Qt::Key_M, Qt::ControlModifier);
+        QVERIFY(actions().measure->isChecked());
+        QVERIFY(measured().contains(QStringLiteral("Click where to begin")));
+        click({60, 100});
+        click({120, 100});
+        QVERIFY2(measured().endsWith(QStringLiteral(" m")), qPrintable(measured()));
+        QVERIFY(std::abs(measured().section(QLatin1Char(' '), 0, 0).toDouble() - 15) < 0.4);  // 60 px at 0.25 m
+        // From one frame to another: what goes with the picture drives over this ground.
+        click({60, 120});
+        QVERIFY(goTo(kAnchor + 25));
+        click({60, 120});
+        // 25 px in a second at 0.25 m: 6.25 m/s.
+        QVERIFY2(measured().contains(QStringLiteral("km/h")), qPrintable(measured()));
+        const double speed = measured().section(QStringLiteral(": "), 1).section(QLatin1Char(' '), 0, 0).toDouble();
+        QVERIFY2(std::abs(speed - 22.5) < 1.5, qPrintable(measured()));
+        QTest::keyClick(&canvas(), Qt::Key_Escape);
+        QVERIFY(!actions().measure->isChecked());
+        QVERIFY(canvas().tool() == nullptr);
+    }
+
+    void onlyWhatMovesIsPlayedWhereSwitchedOn() {
+        QTest::keyClick(&canvas(), Qt::Key_Space, Qt::ControlModifier);
+        QVERIFY(actions().only_moving->isChecked());
+        QTRY_VERIFY_WITH_TIMEOUT(window().session().playback().spans().has_value(), kPatience_ms);
+        QVERIFY(!window().session().playback().spans()->empty());
+        QVERIFY(tells(QStringLiteral("Something moves")));
+        QTest::keyClick(&canvas(), Qt::Key_Space, Qt::ControlModifier);
+        QVERIFY(!window().session().playback().spans());
+    }
+
+    void picturesAreMadeBrighterAndEvenForTheEyeAlone() {
+        const auto mean = [&] {
+            const QImage grey = window().session().viewFrame().image.convertToFormat(QImage::Format_Grayscale8);
+            double sum = 0;
+            for (int y = 0; y < grey.height(); ++y)
+                for (int x = 0; x < grey.width(); ++x) sum += grey.constScanLine(y)[x];
+            return sum / grey.width() / grey.height();
+        };
+        auto* button = window().findChild<PictureButton*>();
+        QVERIFY(button != nullptr);
+        const double before = mean();
+        button->brightness()->setValue(20);
+        QTRY_VERIFY_WITH_TIMEOUT(mean() > before + 40, kPatience_ms);
+        button->brightness()->setValue(0);
+        QTRY_VERIFY_WITH_TIMEOUT(std::abs(mean() - before) < 0.5, kPatience_ms);
+        QTest::keyClick(&canvas(), Qt::Key_H, Qt::ControlModifier);
+        QVERIFY(window().session().pictureLook().even);
+        button->reset();
+        QVERIFY(window().session().pictureLook().plain());
+    }
+
+    void whatIsSeenIsSavedAndNeverOverAProject() {
+        const std::filesystem::path seen = *home_ / "seen.png";
+        window().watching().writeSnapshot(seen, SnapshotKind::as_seen);
+        QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(seen), kPatience_ms);
+        const QImage view(QString::fromStdString(seen.string()));
+        QCOMPARE(view.width(), canvas().width());  // a message above it may come or go meanwhile
+        QCOMPARE(view.text(QStringLiteral("Frame")), QString::number(kAnchor));
+        QCOMPARE(view.text(QStringLiteral("Video")), QStringLiteral("scene.mp4"));
+        const std::filesystem::path alone = *home_ / "alone.png";
+        window().watching().writeSnapshot(alone, SnapshotKind::alone);
+        QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(alone), kPatience_ms);
+        QCOMPARE(QImage(QString::fromStdString(alone.string())).size(), QSize(240, 180));
+        const auto project = window().session().project();
+        const auto size = std::filesystem::file_size(project);
+        window().watching().writeSnapshot(project, SnapshotKind::alone);
+        QTRY_VERIFY_WITH_TIMEOUT(tells(QString::fromStdString(project.filename().string())), kPatience_ms);
+        QVERIFY(std::filesystem::file_size(project) >= size);
+    }
+
+    void theMosaicTellsWhenAPlaceWasSeenAndWhoCrossedIt() {
+        QTest::keyClick(&canvas(), Qt::Key_M, Qt::ControlModifier | Qt::ShiftModifier);
+        MosaicPanel& panel = window().mosaic();
+        QTRY_VERIFY_WITH_TIMEOUT(panel.mosaic() != nullptr && panel.mosaic()->share == 1, kPatience_ms);
+        QCOMPARE(panel.mosaic()->pictures.size(), std::size_t(1));
+        const SheetPicture& sheet = panel.mosaic()->pictures.front();
+        // The camera went 59 px further.
+        QVERIFY(std::abs(sheet.image.width() - 299) <= 3 && std::abs(sheet.image.height() - 180) <= 3);
+        QVERIFY(!sheet.paths.empty());
+        // A place that a vehicle crosses, by the mouse: on its way.
+        const SheetPath& path = sheet.paths.front();
+        const FramePoint& there = path.points[path.points.size() / 2];
+        QTRY_VERIFY(panel.view().width() > 100);
+        QTest::mouseClick(&panel.view(), Qt::LeftButton, {},
+                          panel.view().viewFromSheet({there.at.x, there.at.y}).toPoint());
+        const auto row_with = [&](const QString& words) {
+            for (int row = 0; row < panel.list().count(); ++row)
+                if (panel.list().item(row)->text().contains(words)) return row;
+            return -1;
+        };
+        QTRY_VERIFY_WITH_TIMEOUT(row_with(QStringLiteral("seen")) == 0, kPatience_ms);
+        const QString name = QStringLiteral("track %1").arg(path.track);
+        QVERIFY(row_with(name) > 0);
+        // By the keyboard: into the list, and go.
+        panel.list().setFocus();
+        panel.list().setCurrentRow(row_with(name));
+        QTest::keyClick(&panel.list(), Qt::Key_Return);
+        QCOMPARE(window().session().selectedTrack(), std::optional<TrackId>(path.track));
+        QVERIFY(std::abs(window().session().currentFrame() - there.frame) < 12);
+        panel.list().clear();
+        panel.view().setFocus();
+        QTest::keyClick(&panel.view(), Qt::Key_Plus);
+        QTest::keyClick(&panel.view(), Qt::Key_Return);
+        QTRY_VERIFY_WITH_TIMEOUT(panel.list().count() > 0, kPatience_ms);
+    }
+
+    void theCardShowsTheEventInALoopWithItsSpeedAndNote() {
+        window().docks().raise(DockId::card);
+        EventsModel& model = window().events().model();
+        QTRY_VERIFY_WITH_TIMEOUT(model.rowCount() > 0, kPatience_ms);
+        int id = 0;
+        for (int row = 0; row < model.rowCount() && id == 0; ++row)
+            if (model.found()->eventAt(model.recordAt(row)->position) != nullptr) id = model.recordAt(row)->id;
+        QVERIFY(id != 0);
+        EventCard& card = window().card().card();
+        window().events().show(id);
+        QVERIFY(card.subject().has_value());
+        QCOMPARE(card.subject()->event, id);
+        QTRY_VERIFY_WITH_TIMEOUT(card.story() && card.story()->chips.size() > 3, kPatience_ms);
+        QCOMPARE(card.story()->chips.size(), card.story()->shown.size());
+        const std::size_t before = card.chip();
+        QTRY_VERIFY(card.chip() != before);
+        QVERIFY2(card.speed().figureText().contains(QStringLiteral("km/h")), qPrintable(card.speed().figureText()));
+        QVERIFY(card.way().figureText().endsWith(QStringLiteral(" m")));
+        // A click on the curve goes there.
+        QTest::mouseClick(&card.speed(), Qt::LeftButton, {}, QPoint(card.speed().width() - 3, 10));
+        QCOMPARE(window().session().currentFrame(), card.story()->points.back().frame);
+        card.note().setText(QStringLiteral("seen twice"));
+        QTest::keyClick(&card.note(), Qt::Key_Return);
+        QCOMPARE(model.recordAt(model.rowOf(id))->note, QStringLiteral("seen twice"));
+        window().actions().undo_verdict->trigger();
+        QCOMPARE(card.note().text(), QString());
+        card.tags().setText(QStringLiteral("lorry,  gate 3, lorry"));
+        QTest::keyClick(&card.tags(), Qt::Key_Return);
+        QCOMPARE(card.tags().text(), QStringLiteral("lorry, gate 3"));
+        // A track alone has a card without a note.
+        window().session().selectTrack(std::nullopt);
+        QVERIFY(!card.subject());
+        window().session().selectTrack(window().ground().ground()->run->tracks.back().id);
+        QVERIFY(card.subject()->event == 0 && !card.note().isVisible());
+    }
+
+    void whatWasWatchedIsCounted() {
+        const auto share = [&] {
+            const QString text = window().events().panel().headerText();
+            const int at = static_cast<int>(text.indexOf(QStringLiteral(" % of the time seen")));
+            return at < 0 ? -1 : text.left(at).section(QLatin1Char(' '), -1).toInt();
+        };
+        QTRY_VERIFY_WITH_TIMEOUT(window().events().review().state() == EventReview::State::found, kPatience_ms);
+        QVERIFY(goTo(0));
+        QTest::qWait(100);
+        window().session().playback().setSpeed(1, 0);
+        window().session().togglePlay();
+        QTRY_VERIFY_WITH_TIMEOUT(!window().session().playback().playing(), kPatience_ms);
+        window().seen().flush();
+        QTRY_VERIFY_WITH_TIMEOUT(share() > 0, kPatience_ms);
+        QVERIFY(share() <= 100);
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::WatchingTest)
+#include "watching_test.moc"

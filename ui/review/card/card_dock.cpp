@@ -1,0 +1,105 @@
+#include "review/card/card_dock.h"
+
+#include "review/card/story_sketch.h"
+#include "review/events/event_text.h"
+#include "review/events/events_dock.h"
+#include "review/events/events_model.h"
+#include "review/watch/watched_ground.h"
+#include "workspace/dock_registry.h"
+#include "workspace/session_reactions.h"
+
+namespace eyrie::ui {
+
+CardDock::CardDock(const CardParts& parts)
+    : QObject(&parts.docks),
+      parts_(parts),
+      card_(new EventCard),
+      loader_([this](const std::shared_ptr<const VehicleStory>& story) {
+          if (asked_ == story->wish) card_->setStory(story, parts_.session.scale());
+      }) {
+    parts_.docks.add(DockId::card, tr("Card"), card_);
+    parts_.docks.watch(DockId::card, card_, [this](bool visible) {
+        looked_at_ = visible;
+        askForStory();
+    });
+    card_->setCommands({
+        .go_to =
+            [this](FrameIndex frame) {
+                parts_.session.playback().pause();
+                parts_.session.goToFrame(frame);
+            },
+        .write_note = [this](int event, const QString& note) { parts_.events.writeNote(event, note); },
+        .write_tags = [this](int event, const QString& tags) { parts_.events.writeTags(event, tags); },
+    });
+    parts_.events.setEventShown([this](int id) { showEvent(id); });
+    whenAny(&parts_.events.model(), this, &CardDock::refreshEvent, &EventsModel::dataChanged, &EventsModel::modelReset);
+    whenAny(&parts_.ground, this, &CardDock::askForStory, &WatchedGround::changed);
+    followSession(parts_.session, this,
+                  {{SessionChange::selection, [this] { showSelection(); }},
+                   {SessionChange::picture, [this] { card_->setFrame(parts_.session.shownFrame()); }}});
+}
+
+std::optional<CardSubject> CardDock::subjectOf(int id) const {
+    EventsModel& model = parts_.events.model();
+    const EventEntry* entry = model.recordAt(model.rowOf(id));
+    const auto& found = model.found();
+    if (entry == nullptr || !found) return std::nullopt;
+    const Event* event = found->eventAt(entry->position);
+    QStringList words{eventKindText(*found, entry->position), eventClockText(*found, entry->position)};
+    if (event != nullptr) words << tr("track %1").arg(eventTracksText(*found, entry->position));
+    const QString figure = eventFigureText(*found, entry->position);
+    if (!figure.isEmpty()) words << figure;
+    CardSubject subject;
+    subject.title = words.join(QStringLiteral(" · "));
+    subject.event = id;
+    subject.note = entry->note;
+    subject.tags = parts_.events.tagsOn(id);
+    subject.track = event != nullptr && !event->tracks.empty() ? event->tracks.front() : 0;
+    subject.frame = found->frameAt(entry->position);
+    return subject;
+}
+
+void CardDock::showEvent(int id) {
+    show(subjectOf(id));
+}
+
+void CardDock::refreshEvent() {
+    if (!card_->subject() || card_->subject()->event == 0) return;
+    show(subjectOf(card_->subject()->event));
+}
+
+void CardDock::showSelection() {
+    const auto track = parts_.session.selectedTrack();
+    if (!track) {
+        show(std::nullopt);
+        return;
+    }
+    if (card_->subject() && card_->subject()->track == *track) return;
+    CardSubject subject;
+    subject.title = tr("Track %1").arg(*track);
+    subject.track = *track;
+    subject.frame = parts_.session.currentFrame();
+    show(subject);
+}
+
+void CardDock::show(const std::optional<CardSubject>& subject) {
+    card_->show(subject);
+    card_->setFrame(parts_.session.shownFrame());
+    askForStory();
+}
+
+void CardDock::askForStory() {
+    const auto& subject = card_->subject();
+    const auto& ground = parts_.ground.ground();
+    if (!looked_at_ || !subject || subject->track == 0 || !ground || !parts_.session.media()) {
+        loader_.cancel();
+        asked_.reset();
+        return;
+    }
+    const StoryWish wish{ground, *parts_.session.media(), subject->track, subject->frame};
+    if (asked_ == wish) return;
+    asked_ = wish;
+    loader_.ask(wish);
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <QObject>
+#include <optional>
+
+#include "review/card/event_card.h"
+
+namespace eyrie::ui {
+
+class DockRegistry;
+class EventsDock;
+class ProjectSession;
+class WatchedGround;
+
+/// What the card works on. All must outlive it.
+struct CardParts {
+    ProjectSession& session;
+    DockRegistry& docks;
+    EventsDock& events;
+    WatchedGround& ground;
+};
+
+/// The dock with the card: of the event that was chosen last, or of the track that is selected.
+class CardDock : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit CardDock(const CardParts& parts);
+
+    EventCard& card() { return *card_; }
+
+ private:
+    void showEvent(int id);
+    void showSelection();
+    void refreshEvent();
+    void show(const std::optional<CardSubject>& subject);
+    void askForStory();
+    std::optional<CardSubject> subjectOf(int event) const;
+
+    CardParts parts_;
+    EventCard* card_;
+    bool looked_at_ = false;
+    std::optional<StoryWish> asked_;
+    StoryLoader loader_;  ///< last: stops before the rest goes
+};
+
+}  // namespace eyrie::ui

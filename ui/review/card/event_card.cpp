@@ -1,0 +1,117 @@
+#include "review/card/event_card.h"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPixmap>
+#include <QStackedLayout>
+
+#include "review/card/story_sketch.h"
+#include "widgets/empty_state.h"
+#include "widgets/wiring.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr int kChipPeriod_ms = 120;
+constexpr int kLongestNote = 500;
+}  // namespace
+
+EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [this] { nextChip(); }) {
+    empty_ = new EmptyState;
+    empty_->setTexts(tr("Select an event or a track: its vehicle in a loop, its speed and its way are shown here."));
+    title_ = new QLabel;
+    title_->setWordWrap(true);
+    picture_ = new QLabel;
+    picture_->setFixedSize(StoryLoader::kChipSize, StoryLoader::kChipSize);
+    picture_->setAccessibleName(tr("The vehicle, two seconds before to two after"));
+    speed_ = new StorySketch(StorySketch::Kind::speed);
+    way_ = new StorySketch(StorySketch::Kind::way);
+    note_ = new QLineEdit;
+    note_->setMaxLength(kLongestNote);
+    note_->setPlaceholderText(tr("Note"));
+    note_->setAccessibleName(tr("Note"));
+    tags_ = new QLineEdit;
+    tags_->setMaxLength(kLongestNote);
+    tags_->setPlaceholderText(tr("Tags: gate 3, lorry"));
+    tags_->setAccessibleName(tr("Tags"));
+    auto* card = new QWidget;
+    auto* grid = new QGridLayout(card);
+    grid->setContentsMargins(6, 6, 6, 6);
+    grid->setSpacing(6);
+    grid->addWidget(title_, 0, 0, 1, 2);
+    grid->addWidget(picture_, 1, 0, Qt::AlignTop);
+    grid->addWidget(way_, 1, 1);
+    grid->addWidget(speed_, 2, 0, 1, 2);
+    grid->addWidget(note_, 3, 0, 1, 2);
+    grid->addWidget(tags_, 4, 0, 1, 2);
+    grid->setRowStretch(2, 1);
+    grid->setColumnStretch(1, 1);
+    stack_ = new QStackedLayout(this);
+    stack_->addWidget(empty_);
+    stack_->addWidget(card);
+    onFinished(
+        this,
+        [this] {
+            if (subject_ && subject_->event != 0 && note_->text() != subject_->note)
+                commands_.write_note(subject_->event, note_->text());
+        },
+        note_);
+    onFinished(
+        this,
+        [this] {
+            if (subject_ && subject_->event != 0 && tags_->text() != subject_->tags)
+                commands_.write_tags(subject_->event, tags_->text());
+        },
+        tags_);
+    for (StorySketch* sketch : {speed_, way_}) sketch->setGoTo([this](FrameIndex frame) { commands_.go_to(frame); });
+}
+
+EventCard::~EventCard() = default;
+
+void EventCard::show(const std::optional<CardSubject>& subject) {
+    if (subject == subject_) return;
+    const bool same = subject && subject_ && subject->track == subject_->track && subject->frame == subject_->frame;
+    subject_ = subject;
+    stack_->setCurrentIndex(subject ? 1 : 0);
+    if (!same) setStory(nullptr, {});
+    if (!subject) return;
+    title_->setText(subject->title);
+    note_->setVisible(subject->event != 0);
+    note_->setText(subject->note);
+    note_->setCursorPosition(0);
+    tags_->setVisible(subject->event != 0);
+    tags_->setText(subject->tags);
+}
+
+void EventCard::setStory(const std::shared_ptr<const VehicleStory>& story, const SceneScale& scale) {
+    if (story && (!subject_ || story->wish.track != subject_->track || story->wish.frame != subject_->frame)) return;
+    story_ = story;
+    speed_->setPoints(story ? story->points : std::vector<StoryPoint>(), scale);
+    way_->setPoints(story ? story->points : std::vector<StoryPoint>(), scale);
+    chip_ = 0;
+    if (!story_ || story_->chips.empty()) picture_->setPixmap({});
+}
+
+void EventCard::setFrame(FrameIndex frame) {
+    speed_->setMark(frame);
+    way_->setMark(frame);
+}
+
+void EventCard::nextChip() {
+    if (!story_ || story_->chips.empty()) return;
+    chip_ = (chip_ + 1) % story_->chips.size();
+    picture_->setPixmap(QPixmap::fromImage(story_->chips[chip_]));
+}
+
+void EventCard::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    loop_.start();
+}
+
+void EventCard::hideEvent(QHideEvent* event) {
+    QWidget::hideEvent(event);
+    loop_.stop();
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <QWidget>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "core/values/scene_scale.h"
+#include "ground/track_story.h"
+
+namespace eyrie::ui {
+
+/// Draws one view of a vehicle's story, small: how fast it was over time, or which way it drove over the ground. A mark
+/// stands at one moment. A click tells the frame there.
+class StorySketch : public QWidget {
+    Q_OBJECT
+
+ public:
+    enum class Kind { speed, way };
+
+    explicit StorySketch(Kind kind, QWidget* parent = nullptr);
+
+    /// What is done with the frame that was clicked at.
+    void setGoTo(std::function<void(FrameIndex)> go_to) { go_to_ = std::move(go_to); }
+    void setPoints(std::vector<StoryPoint> points, const SceneScale& scale);
+    /// The frame that is marked.
+    void setMark(FrameIndex frame);
+
+    /// "0 – 52 km/h" or "118 m"; empty without points.
+    QString figureText() const;
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override { return {60, 40}; }
+
+ protected:
+    void paintEvent(QPaintEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+
+ private:
+    /// Where the points lie in the widget.
+    QPolygonF line() const;
+    int nearest(QPointF place) const;
+
+    Kind kind_;
+    std::function<void(FrameIndex)> go_to_ = [](FrameIndex) {};
+    std::vector<StoryPoint> points_;
+    SceneScale scale_;
+    FrameIndex mark_ = -1;
+};
+
+}  // namespace eyrie::ui

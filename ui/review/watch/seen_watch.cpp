@@ -1,0 +1,87 @@
+#include "review/watch/seen_watch.h"
+
+#include <QEvent>
+#include <QWidget>
+#include <utility>
+
+#include "canvas/video_view.h"
+#include "session/project/person_name.h"
+#include "store/review/seen_store.h"
+#include "workspace/session_reactions.h"
+
+namespace eyrie::ui {
+
+namespace {
+constexpr int kWriteSeen_ms = 5000;
+}
+
+SeenWatch::SeenWatch(ProjectSession& session, VideoView& canvas, QWidget& window,
+                     std::function<void(std::optional<double>)> show_share, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      canvas_(canvas),
+      window_(window),
+      show_share_(std::move(show_share)),
+      due_(kWriteSeen_ms, [this] { flush(); }) {
+    clock_.start();
+    window_.installEventFilter(this);
+    whenAny(&canvas_, this, &SeenWatch::showFrame, &VideoView::frameGiven);
+    followSession(session_, this, {{{SessionChange::video, SessionChange::project, SessionChange::run_data}, [this] {
+                                        recorder_.interrupt(wallSeconds());
+                                        flush();
+                                    }}});
+    due_.start();
+}
+
+SeenWatch::~SeenWatch() = default;
+
+bool SeenWatch::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::WindowDeactivate || event->type() == QEvent::Close) {
+        recorder_.interrupt(wallSeconds());
+        flush();
+    }
+    return QObject::eventFilter(watched, event);
+}
+
+void SeenWatch::showFrame() {
+    const ViewFrame& frame = canvas_.frame();
+    if (!window_.isActiveWindow() || frame.image.isNull()) return;
+    recorder_.show(frame.index, static_cast<double>(frame.time_us) / 1e6, wallSeconds());
+}
+
+void SeenWatch::flush() {
+    std::vector<FrameSpan> seen = recorder_.take();
+    // What was seen belongs to the video that was shown meanwhile.
+    const std::filesystem::path project = std::exchange(project_, session_.project());
+    const int sequence = sequence_;
+    const RunRecord* run = session_.shownRun();
+    sequence_ = run != nullptr ? run->sequence.id : 0;
+    const FrameSpan searched_before = searched_;
+    searched_ = run != nullptr ? FrameSpan{run->first_frame, run->last_frame} : FrameSpan{0, -1};
+    if (sequence == 0) seen.clear();
+    if (sequence == 0 && sequence_ == 0) {
+        show_share_(std::nullopt);
+        return;
+    }
+    const bool nothing_new =
+        seen.empty() && sequence == sequence_ && project == project_ && searched_ == searched_before;
+    if (nothing_new) return;
+    query_.post(
+        [this, seen = std::move(seen), project, sequence, now = project_, shown = sequence_, searched = searched_,
+         person = personName().toStdString()](const BackgroundTask& task) {
+            if (!seen.empty() && !project.empty()) {
+                ProjectFile file = ProjectFile::open(project);
+                addSeen(file, sequence, person, seen);
+            }
+            if (shown == 0 || now.empty()) return;
+            ProjectFile file = ProjectFile::open(now, ProjectFile::Mode::read_only);
+            const double share = seenShare(seenByAnybody(file, shown), searched);
+            task.tell([this, shown, share] {
+                if (shown == sequence_) show_share_(share);
+            });
+        },
+        // A project that cannot be written can be watched all the same; nobody is troubled.
+        [this](const QString&) { show_share_(std::nullopt); });
+}
+
+}  // namespace eyrie::ui
