@@ -20,6 +20,14 @@ DuplicateRemovalOptions duplicatesFor(const ChainOptions& options) {
     return duplicates;
 }
 
+std::vector<Detection> removed(std::vector<Detection> detections, const FrameMotion& motion,
+                               const ChainOptions& options, const SceneScale& scale, RemovalTrace* trace) {
+    detections = removeDuplicates(std::move(detections), motion, duplicatesFor(options), scale, trace);
+    detections = removeOutliers(std::move(detections), motion, options.outliers, scale);
+    if (looksThroughWindows(options.detection.method)) judgeDetections(detections, motion);
+    return detections;
+}
+
 MotionHalf::MotionHalf(const ChainOptions& options, const SceneScale& scale)
     : registrar_(options.registration, scale), independent_motion_(options.motion, scale) {}
 
@@ -35,7 +43,6 @@ TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
       clustering_(options.clustering, scale),
       detector_(makeDetector(options.detection, scale)),
       tracker_(options.tracking, scale) {
-    options_.duplicates = duplicatesFor(options);
     if (options.difference.method != MotionMethod::vectors)
         difference_ = std::make_unique<DifferenceMotion>(options.difference, scale);
     if (looksThroughWindows(options.detection.method)) scores_.emplace(scale);
@@ -125,10 +132,7 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
     {
         const Stopwatch watch(times, Stage::removal);
         removal_ = {};
-        result.detections =
-            removeDuplicates(std::move(result.detections), result.motion, options_.duplicates, scale_, &removal_);
-        result.detections = removeOutliers(std::move(result.detections), result.motion, options_.outliers, scale_);
-        if (scores_) judgeDetections(result.detections, result.motion);
+        result.detections = removed(std::move(result.detections), result.motion, options_, scale_, &removal_);
     }
     if (stacker_) {
         const Stopwatch watch(times, Stage::stacking);

@@ -18,6 +18,11 @@ namespace eyrie {
 /// one stays; segments may be parts (Teutsch §5.5.1).
 DuplicateRemovalOptions duplicatesFor(const ChainOptions& options);
 
+/// The detections of a frame after duplicates and outliers were rejected (Teutsch §5.5), with their probability where a
+/// classifier takes part. `trace`, if given, receives which duplicates of what were found.
+std::vector<Detection> removed(std::vector<Detection> detections, const FrameMotion& motion,
+                               const ChainOptions& options, const SceneScale& scale, RemovalTrace* trace = nullptr);
+
 /// First half of the chain, pixels → motion vectors (Teutsch chapter 4). Frames must come in ascending order.
 class MotionHalf {
  public:

@@ -1,13 +1,14 @@
 #include "chain/scale_estimation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "chain/chain.h"
+#include "chain/look_progress.h"
+#include "chain/slope_estimation.h"
 #include "core/error.h"
 #include "detection/detector_table.h"
 
@@ -157,22 +158,11 @@ std::vector<Outcome> outcomesOf(FrameSource& source, FrameIndex first, FrameInde
     }
     SceneScale scale;
     scale.frame_rate_hz = frame_rate_hz;
-    RunProgress progress;
-    progress.estimating_scale = true;
-    progress.frames_total = kAssumptions * static_cast<int>(frames.size());
-    const auto begin = std::chrono::steady_clock::now();
-    const auto tell = [&] {
-        if (!told) return;
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-        ++progress.frames_done;
-        progress.frames_per_second = progress.frames_done / std::max(passed.count(), 1e-6);
-        progress.seconds_left = (progress.frames_total - progress.frames_done) / progress.frames_per_second;
-        told(progress);
-    };
+    LookProgress progress(told, kAssumptions * static_cast<int>(frames.size()));
     std::vector<Outcome> outcomes;
     for (int i = 0; i < kAssumptions; ++i) {
         scale.gsd_m_per_px = assumption(i);
-        outcomes.push_back(outcomeUnder(frames, looking, scale, stop, tell));
+        outcomes.push_back(outcomeUnder(frames, looking, scale, stop, [&] { progress.step(); }));
         if (stop.stop_requested()) return {};
     }
     return outcomes;
@@ -239,7 +229,7 @@ SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions
     // Where nothing is known of the scale, nothing looked like vehicles either. What knows its own scale is a rendered
     // scene, which is seen from above; its later frames are dear to come by.
     if (options.view.oblique && hasMetricLimits(scale) && !(source.info().gsd_m_per_px > 0))
-        scale.slope = estimateSlope(source, range, options, scale, stop);
+        scale.slope = estimateSlope(source, range, options, scale, stop, told);
     return scale;
 }
 

@@ -43,12 +43,6 @@ SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions
                        const std::stop_token& stop, const ScaleProgress& told = {},
                        std::optional<ScaleEstimate>* estimated = nullptr, std::string* why_not = nullptr);
 
-/// How the scale changes over the pictures of an oblique view: the classifier says at some places of up to three
-/// stretches of the video at what scale something that moves looks most like a vehicle, and fitSlope() makes of it what
-/// it can. Flat where no slope is sure, or where no classifier can be loaded. Takes about a second.
-ScaleSlope estimateSlope(FrameSource& source, FrameRange range, const ChainOptions& options, const SceneScale& scale,
-                         const std::stop_token& stop);
-
 /// Where a scale comes from that chooseScale() chose, with what it said about its estimate. A known one counts as
 /// given: that it is the metadata's only knows who took it from there.
 ScaleBasis basisOf(const SceneScale& scale, const std::optional<ScaleEstimate>& estimated);

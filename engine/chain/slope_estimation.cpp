@@ -1,3 +1,5 @@
+#include "chain/slope_estimation.h"
+
 #include <algorithm>
 #include <array>
 #include <opencv2/core/utility.hpp>
@@ -6,7 +8,7 @@
 #include <vector>
 
 #include "chain/chain.h"
-#include "chain/scale_estimation.h"
+#include "chain/look_progress.h"
 #include "chain/scale_slope_fit.h"
 #include "core/error.h"
 
@@ -14,6 +16,7 @@ namespace eyrie {
 namespace {
 
 constexpr int kSlopeFrames = 34;             ///< of a stretch
+constexpr int kStretches = 3;                ///< at most: start, middle and end
 constexpr std::array kLooks{17, 25, 33};     ///< frames of a stretch in which is looked; vehicles moved on in between
 constexpr double kWidestRange = 3.5;         ///< factor by which the scale may be finer or coarser anywhere
 constexpr std::size_t kPlentyOfVotes = 100;  ///< with which no other stretch is looked at
@@ -34,15 +37,14 @@ std::vector<ScaleVote> votesIn(const Frame& frame, const FrameMotion& motion, co
         }
     });
     std::vector<ScaleVote> given;
-    for (const auto& vote : votes) {
-        given.insert(given.end(), vote.begin(), vote.end());
-    }
+    for (const auto& of_cluster : votes) given.insert(given.end(), of_cluster.begin(), of_cluster.end());
     return given;
 }
 
 /// What votes from a frame on.
 std::vector<ScaleVote> votesFrom(FrameSource& source, FrameIndex first, FrameIndex last, const ChainOptions& options,
-                                 const SceneScale& scale, const ScaleLooker& looker, const std::stop_token& stop) {
+                                 const SceneScale& scale, const ScaleLooker& looker, const std::stop_token& stop,
+                                 LookProgress& progress) {
     std::vector<ScaleVote> votes;
     MotionHalf motion_half(options, scale);
     const MotionClustering clustering(options.clustering, scale);
@@ -56,6 +58,7 @@ std::vector<ScaleVote> votesFrom(FrameSource& source, FrameIndex first, FrameInd
         }
         StageTimes times{};
         const FrameMotion motion = motion_half.next(frame, times);
+        progress.step();
         if (std::find(kLooks.begin(), kLooks.end(), i) == kLooks.end()) continue;
         const std::vector<ScaleVote> found = votesIn(frame, motion, clustering, looker, scales);
         votes.insert(votes.end(), found.begin(), found.end());
@@ -66,7 +69,7 @@ std::vector<ScaleVote> votesFrom(FrameSource& source, FrameIndex first, FrameInd
 }  // namespace
 
 ScaleSlope estimateSlope(FrameSource& source, FrameRange range, const ChainOptions& options, const SceneScale& scale,
-                         const std::stop_token& stop) {
+                         const std::stop_token& stop, const ScaleProgress& told) {
     const FrameIndex end = source.info().frame_count - 1;
     const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
     if (range.first < 0 || range.first > last) return {};
@@ -79,10 +82,11 @@ ScaleSlope estimateSlope(FrameSource& source, FrameRange range, const ChainOptio
     std::vector<ScaleVote> votes;
     const FrameIndex farthest = std::max(range.first, last - kSlopeFrames + 1);
     FrameIndex looked_to = range.first - 1;
+    LookProgress progress(told, std::min(kStretches * kSlopeFrames, last - range.first + 1));
     for (const FrameIndex first : {range.first, range.first + (farthest - range.first) / 2, farthest}) {
         if (first <= looked_to || votes.size() >= kPlentyOfVotes || stop.stop_requested()) continue;
         looked_to = first + kSlopeFrames - 1;
-        const std::vector<ScaleVote> found = votesFrom(source, first, last, options, scale, *looker, stop);
+        const std::vector<ScaleVote> found = votesFrom(source, first, last, options, scale, *looker, stop, progress);
         votes.insert(votes.end(), found.begin(), found.end());
     }
     return stop.stop_requested() ? ScaleSlope{} : fitSlope(votes, source.info().size, scale.gsd_m_per_px);

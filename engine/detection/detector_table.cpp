@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "detection/detector_factory.h"
 #include "detection/motion_cluster_detector.h"
-#include "detection/scaled_detectors.h"
 #include "detection/segmenters/gradient_segmenter.h"
 #include "detection/sliding_window/sliding_window_detector.h"
 
@@ -98,13 +96,6 @@ const std::vector<DetectionMethod>& allDetectionMethods() {
         return methods;
     }();
     return all;
-}
-
-std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const SceneScale& scale) {
-    const auto make = kindOf(options.method).make;
-    if (scale.slope.isFlat()) return make(options, scale);
-    return std::make_unique<ScaledDetectors>(scale,
-                                             [options, make](const SceneScale& here) { return make(options, here); });
 }
 
 }  // namespace eyrie

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace eyrie {
 namespace {
@@ -11,25 +10,30 @@ constexpr double kScaleStep = 1.1;  ///< between neighbouring detectors: vehicle
 
 }  // namespace
 
-ScaledDetectors::ScaledDetectors(const SceneScale& scale, Make make) : scale_(scale), make_(std::move(make)) {
-    detectorOf(0);
-}
-
-const Detector& ScaledDetectors::detectorOf(int step) const {
-    const std::scoped_lock lock(mutex_);
-    std::unique_ptr<Detector>& detector = detectors_[static_cast<std::size_t>(step + kBelow)];
-    if (!detector) {
-        SceneScale here = scale_;
+ScaledDetectors::ScaledDetectors(const SceneScale& scale, const Make& make) : scale_(scale) {
+    int last = 0;
+    // Linear over the picture: the extremes lie at its corners.
+    for (const double x : {0.0, 2 * scale.slope.centre_x}) {
+        for (const double y : {0.0, 2 * scale.slope.centre_y}) {
+            first_ = std::min(first_, stepAt({x, y}));
+            last = std::max(last, stepAt({x, y}));
+        }
+    }
+    for (int step = first_; step <= last; ++step) {
+        SceneScale here = scale;
         here.slope = {};
         here.gsd_m_per_px /= std::pow(kScaleStep, step);
-        detector = make_(here);
+        detectors_.push_back(make(here));
     }
-    return *detector;
+}
+
+int ScaledDetectors::stepAt(cv::Point2d place) const {
+    return static_cast<int>(std::lround(std::log(scale_.slope.factorAt(place)) / std::log(kScaleStep)));
 }
 
 const Detector& ScaledDetectors::detectorFor(const MotionRoi& roi) const {
-    const double steps = std::log(scale_.slope.factorAt(roi.box.centre)) / std::log(kScaleStep);
-    return detectorOf(std::clamp(static_cast<int>(std::lround(steps)), -kBelow, kAbove));
+    const int last = static_cast<int>(detectors_.size()) - 1;
+    return *detectors_[static_cast<std::size_t>(std::clamp(stepAt(roi.box.centre) - first_, 0, last))];
 }
 
 std::vector<Detection> ScaledDetectors::detect(const MotionRoi& roi, DetectionTrace* trace) const {

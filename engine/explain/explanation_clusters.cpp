@@ -15,7 +15,7 @@ std::string gapText(const LinkageGap& gap, const Linkage& linkage, const Story& 
 void tellTooFew(Story& story, const ClusteringVerdict& verdict, const MotionClustering& clustering) {
     const FrameMotion& motion = story.evidence.result.motion;
     const ClusteringTrace& trace = story.evidence.clustering;
-    const Linkage linkage = clustering.linkageFor(motion.background_speed_sigma);
+    const Linkage linkage = clustering.linkageFor(motion.background_speed_sigma).at(story.evidence.area.centre);
     const std::size_t linked = verdict.group.size();
     const std::string needed = std::to_string(verdict.needed) + " are needed";
     story.fail("clustering", countText(linked, "motion vector is", "motion vectors are") + " linked here, " + needed,
@@ -73,7 +73,7 @@ void tellNoCluster(Story& story, const std::vector<int>& here, const MotionClust
 /// What held the vectors of a cluster together and what keeps the next one out.
 void tellLinks(Story& story, int cluster, const MotionClustering& clustering) {
     const FrameResult& result = story.evidence.result;
-    const Linkage linkage = clustering.linkageFor(result.motion.background_speed_sigma);
+    const Linkage linkage = clustering.linkageFor(result.motion.background_speed_sigma).at(story.evidence.area.centre);
     const std::vector<int>& members = result.clusters[static_cast<std::size_t>(cluster)].members;
     const LinkageGap inside = clustering.gapInside(result.motion, members);
     if (inside.other >= 0)
@@ -132,7 +132,8 @@ bool tellClusters(Story& story, std::vector<int>& clusters) {
             continue;
         }
         story.pass("clustering",
-                   vectors + " (" + std::to_string(story.evidence.clustering.needed) + " are needed), " + size,
+                   vectors + " (" + std::to_string(clustering.minMembersFor(result.motion, cluster.box.centre)) +
+                       " are needed), " + size,
                    "clustering.min_members");
         tellLinks(story, k, clustering);
     }

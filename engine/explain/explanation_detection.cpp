@@ -119,14 +119,15 @@ bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<i
 bool tellRemoval(Story& story, std::vector<int>& detections) {
     const PlaceEvidence& evidence = story.evidence;
     const auto& found = evidence.result.detections;
-    const int needed = vectorsNeeded(evidence.result.motion, story.options.outliers, story.here);
-    const bool by_density = needed > story.options.outliers.min_vectors;
-    const std::string count_parameter = by_density ? "outliers.min_density_share" : "outliers.min_vectors";
     std::vector<int> kept;
     std::string why;
     std::string parameter;
     for (const int index : detections) {
         const Detection& detection = found[static_cast<std::size_t>(index)];
+        const int needed =
+            vectorsNeeded(evidence.result.motion, story.options.outliers, story.scale.at(detection.box.centre));
+        const bool by_density = needed > story.options.outliers.min_vectors;
+        const std::string count_parameter = by_density ? "outliers.min_density_share" : "outliers.min_vectors";
         const std::string vectors = countText(detection.vectors.size(), "motion vector", "motion vectors") +
                                     " move with the box, " + std::to_string(needed) + " are needed";
         switch (detection.rejection) {

@@ -43,7 +43,7 @@ void tellRows(Story& story, const TrackingTrace& trace, const std::vector<int>& 
         if (!concerns) continue;
         const std::string text = "track " + std::to_string(track.id) + ": " + kindText(track.kind) +
                                  (row.empty() ? ", overlaps no detection" : ", overlaps " + row) + " (T_tov " +
-                                 numberText(trace.min_overlap) + ", gate " + numberText(trace.gate_px) + " px)";
+                                 numberText(trace.min_overlap) + ", gate " + numberText(track.gate_px) + " px)";
         if (track.kind == AssociationKind::missed)
             story.note("association", text, "tracking.min_overlap");
         else

@@ -24,7 +24,7 @@ struct Limits {
     double vehicle_length;
     double width;
     double silhouette_length;
-    double silhouette_gap;  ///< 0: no vectors lie close enough for one silhouette
+    double silhouette_gap;  ///< 0: silhouettes are not looked at
 
     static Limits of(const PartJoiningOptions& options, const SceneScale& scale) {
         const double gap = scale.px(options.part_silhouette_gap_m);
@@ -78,7 +78,8 @@ std::optional<Joined> unionOfParts(const Detection& a, const Detection& b, const
     if (both.area() <= 0 || both.width > std::max(limits.width, widest)) return {};
     // Parts lie one behind the other: beside each other they are two vehicles, or one and its shadow.
     if (both.width > 1.5 * widest + 1) return {};
-    if (both.length <= limits.silhouette_length && onOneSilhouette(a, b, motion, limits.silhouette_gap)) {
+    if (limits.silhouette_gap > 0 && both.length <= limits.silhouette_length &&
+        onOneSilhouette(a, b, motion, limits.silhouette_gap)) {
         return Joined{both, limits.silhouette_length, "duplicates.part_silhouette_length"};
     }
     if (a.complete || b.complete) return {};
@@ -124,13 +125,17 @@ void PartJoiningOptions::describe(ParameterVisitor& visitor) {
 std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameMotion& motion,
                                  const PartJoiningOptions& options, const SceneScale& scale, RemovalTrace* trace) {
     if (!options.enabled) return detections;
+    const Limits everywhere = Limits::of(options, scale.at(scale.slope.centre()));
+    const auto limitsFor = [&](const Detection& a, const Detection& b) {
+        return scale.slope.isFlat() ? everywhere : Limits::of(options, scale.at((a.box.centre + b.box.centre) / 2));
+    };
     const auto worth = [&](std::size_t i, std::size_t k) -> std::optional<double> {
         const Detection& a = detections[i];
         const Detection& b = detections[k];
         if (a.rejection != Rejection::none || b.rejection != Rejection::none) return {};
         const cv::Point2d apart = a.box.centre - b.box.centre;
         const double distance = std::sqrt(apart.dot(apart));
-        const Limits limits = Limits::of(options, scale.at((a.box.centre + b.box.centre) / 2));
+        const Limits limits = limitsFor(a, b);
         if (!(distance < limits.farthest()) || !unionOfParts(a, b, motion, options, limits)) return {};
         return -distance;
     };
@@ -138,7 +143,7 @@ std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameM
     while (const auto best = pairs.best()) {
         Detection* first = &detections[best->first];
         Detection* second = &detections[best->second];
-        const Limits limits = Limits::of(options, scale.at((first->box.centre + second->box.centre) / 2));
+        const Limits limits = limitsFor(*first, *second);
         const auto joined = unionOfParts(*first, *second, motion, options, limits);
         if (trace != nullptr) {
             trace->duplicates.push_back({static_cast<int>(second - detections.data()),

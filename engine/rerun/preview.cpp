@@ -121,9 +121,7 @@ FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
     }
     result.clusters = known.clusters;
     result.rois = known.rois;
-    result.detections = removeDuplicates(known.found, result.motion, duplicatesFor(options), source_.scale);
-    result.detections = removeOutliers(std::move(result.detections), result.motion, options.outliers, source_.scale);
-    if (looksThroughWindows(options.detection.method)) judgeDetections(result.detections, result.motion);
+    result.detections = removed(known.found, result.motion, options, source_.scale);
     return result;
 }
 

@@ -207,11 +207,12 @@ void ImageStacker::startFromClusters(const std::vector<Placed>& placed, const st
             if (!owner_.count(p.vector->id)) free.push_back(&p);
         }
         if (free.size() < 3) continue;
-        const double vehicles = cluster.box.length / scale_.px(options_.vehicle_length_m);
+        const double vehicle = scale_.at(cluster.box.centre).px(options_.vehicle_length_m);
+        const double vehicles = cluster.box.length / vehicle;
         const int k = std::clamp(static_cast<int>(std::lround(vehicles)), 1, static_cast<int>(free.size()));
         cv::Mat points(static_cast<int>(free.size()), 4, CV_32F);
         const double speed = std::max(std::hypot(cluster.velocity.x, cluster.velocity.y), 1e-3);
-        const auto motion_weight = static_cast<float>(scale_.px(options_.vehicle_length_m) / speed);
+        const auto motion_weight = static_cast<float>(vehicle / speed);
         for (int i = 0; i < points.rows; ++i) {
             const MotionVector& vector = *free[static_cast<std::size_t>(i)]->vector;
             points.at<float>(i, 0) = vector.position.x;

@@ -254,10 +254,8 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const ChainOpti
             const auto found = this->found(options, motion, stop);
             count(ChainStage::removal);
             detected->frames.resize(motion.size());
-            const DuplicateRemovalOptions duplicates = duplicatesFor(options);
             forFrames(stop, [&](std::size_t i, ClipFrames::Reader&) {
-                detected->frames[i] = removeOutliers(removeDuplicates((*found)[i], motion[i], duplicates, scale_),
-                                                     motion[i], options.outliers, scale_);
+                detected->frames[i] = removed((*found)[i], motion[i], options, scale_);
             });
         }
         detected->boxes = keptBoxes(motion, detected->frames);

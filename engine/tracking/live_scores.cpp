@@ -20,7 +20,8 @@ void LiveScores::addState(Known& known, const TrackState& state, FrameIndex fram
     for (Window& window : known.open) {
         ++window.states;
         window.ended_standing = stands;
-        window.flow = flowMoments(window.begin, window.carried, at, std::max(1, frame - window.first));
+        if (window.known)
+            window.flow = flowMoments(window.begin, window.carried, at, std::max(1, frame - window.first));
         window.frames = frame - window.first;
     }
     while (!known.open.empty() && known.open.front().states == kFlowWindow) {

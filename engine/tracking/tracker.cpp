@@ -229,7 +229,6 @@ void Tracker::traceAssociation(const OverlapMatrix& matrix, const FrameAssociati
                                const std::vector<MovingBox>& predicted, const std::vector<int>& positions,
                                TrackingTrace& trace) const {
     trace.min_overlap = options_.min_overlap;
-    trace.gate_px = gateAt(scale_.slope.centre());
     const auto position = [&](int detection) { return positions[static_cast<std::size_t>(detection)]; };
     for (const BoxRelation& relation : matrix.relations()) {
         trace.relations.push_back({position(relation.detection), tracks_[static_cast<std::size_t>(relation.track)].id,
@@ -239,6 +238,7 @@ void Tracker::traceAssociation(const OverlapMatrix& matrix, const FrameAssociati
         TracedTrack traced;
         traced.id = tracks_[j].id;
         traced.predicted = predicted[j].box;
+        traced.gate_px = gateAt(predicted[j].box.centre);
         traced.kind = association.tracks[j].kind;
         if (association.tracks[j].detection >= 0)
             traced.detections.push_back(position(association.tracks[j].detection));

@@ -22,6 +22,7 @@ struct TracedRelation {
 struct TracedTrack {
     TrackId id = 0;
     OrientedBox predicted;
+    double gate_px = 0;  ///< distance gate there, without the track's own uncertainty
     AssociationKind kind = AssociationKind::missed;
     std::vector<int> detections;  ///< positions in the frame's list
     std::string ended_by;         ///< the parameter that ended it in this frame; empty while it lives
@@ -36,7 +37,6 @@ struct TrackingTrace {
     std::vector<int> doubled;  ///< detections that started no track because one with evidence lies there
     std::vector<std::pair<int, TrackId>> started;  ///< detections that started tracks
     double min_overlap = 0;                        ///< T_tov
-    double gate_px = 0;                            ///< distance gate, without the track's own uncertainty
 };
 
 }  // namespace eyrie

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "chain/scale_estimation.h"
+#include "chain/slope_estimation.h"
 #include "support/moving_scene.h"
 #include "support/shared_data.h"
 
@@ -89,6 +89,18 @@ TEST(SlopeEstimation, ARealObliqueViewHasASlopeAndARealNadirViewNone) {
     EXPECT_NEAR(oblique.down_per_px, 0.0028, 0.0008);
     EXPECT_NEAR(oblique.right_per_px, 0, 0.0005);
     EXPECT_TRUE(slopeOf("collage_day/frames", 0.2, 25).isFlat());
+}
+
+TEST(SlopeEstimation, TellsHowFarItIs) {
+    EYRIE_NEED_SHARED_DATA("collage_day");
+    const auto source = openSource(test::sharedData("collage_day/frames"));
+    std::vector<RunProgress> told;
+    estimateSlope(*source, {}, ChainOptions{}, SceneScale{0.2, 25, true}, {},
+                  [&](const RunProgress& progress) { told.push_back(progress); });
+    ASSERT_GE(told.size(), 34U);
+    EXPECT_TRUE(told.front().estimating_scale);
+    EXPECT_EQ(told.front().frames_done, 1);
+    EXPECT_LE(told.back().frames_done, told.back().frames_total);
 }
 
 TEST(SlopeEstimation, IsOnlyLookedForWhereAskedAndWhereTheScaleMeansSomething) {

@@ -35,7 +35,7 @@ class OwnRun : public ChainObserver {
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
         const FrameIndex frame = result->motion.frame;
         for (const Detection& d : result->detections) {
-            if (d.rejection == Rejection::none) detections_.emplace_back(frame, 0, d.box, d.velocity, d.score);
+            if (d.rejection == Rejection::none) detections_.emplace_back(frame, 0, d.box, d.velocity, shownScore(d));
         }
         for (const TrackState& state : result->tracks) states_.emplace_back(frame, state);
         vectors_[frame] = result->motion.motion_vectors;

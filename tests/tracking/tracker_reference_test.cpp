@@ -180,9 +180,9 @@ TEST(TrackerReference, WhatDetectionsAndTracksMeantForEachOtherIsTold) {
     EXPECT_TRUE(trace.tracks.empty());
     EXPECT_EQ(trace.started, (std::vector<std::pair<int, TrackId>>{{1, 1}, {2, 2}}));
     EXPECT_EQ(trace.min_overlap, options.min_overlap);
-    EXPECT_NEAR(trace.gate_px, 2.4, 1e-9) << "0.6 m";
     for (int frame = 1; frame < 10; ++frame) tracker.next(scene.motion(frame), scene.detections(frame), &trace);
     ASSERT_EQ(trace.tracks.size(), 2U);
+    EXPECT_NEAR(trace.tracks[0].gate_px, 2.4, 1e-9) << "0.6 m";
     EXPECT_EQ(trace.tracks[1].kind, AssociationKind::matched);
     EXPECT_EQ(trace.tracks[1].detections, std::vector<int>{1});
     ASSERT_EQ(trace.relations.size(), 2U);

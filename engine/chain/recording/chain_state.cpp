@@ -24,7 +24,9 @@ std::string conditions(const ChainOptions& options, const SceneScale& scale) {
     bool known = scale.gsd_known;
     double right = scale.slope.right_per_px;
     double down = scale.slope.down_per_px;
-    writer(gsd, rate, known, right, down);
+    double x = scale.slope.centre_x;
+    double y = scale.slope.centre_y;
+    writer(gsd, rate, known, right, down, x, y);
     return text + writer.bytes();
 }
 

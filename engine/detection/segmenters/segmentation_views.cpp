@@ -41,8 +41,11 @@ cv::Mat superpixelSegments(const MotionRoi& roi, const SceneScale& scale, double
 
 cv::Mat watershedSegments(const MotionRoi& roi, double smoothing_px) {
     if (tooSmall(roi.image)) return oneSegment(roi.image);
-    cv::Mat smooth = roi.image.clone();
-    if (smoothing_px > 0) cv::GaussianBlur(roi.image, smooth, {}, smoothing_px);
+    cv::Mat smooth;  // never the picture itself, which others hold
+    if (smoothing_px > 0)
+        cv::GaussianBlur(roi.image, smooth, {}, smoothing_px);
+    else
+        smooth = roi.image.clone();
     cv::Mat gradient;
     simpleGradient(smooth, gradient);
     cv::Mat lowest;

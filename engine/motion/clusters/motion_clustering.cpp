@@ -197,8 +197,9 @@ std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion, 
 }
 
 LinkageGap MotionClustering::gapOutside(const FrameMotion& motion, const std::vector<int>& group) const {
-    const Linkage linkage = linkageFor(motion.background_speed_sigma).at(middleOf(motion, group));
-    LinkageGap gap = smallestGapOutside(motion.motion_vectors, group, linkage);
+    const Linkage everywhere = linkageFor(motion.background_speed_sigma);
+    const Linkage linkage = everywhere.at(middleOf(motion, group));
+    LinkageGap gap = smallestGapOutside(motion.motion_vectors, group, everywhere);
     const double distance = gap.aside / linkage.across > gap.ahead / linkage.along ? linkage.across : linkage.along;
     if (gap.distance <= 1)
         gap.parameter = gap.allowed > linkage.velocity_floor || linkage.velocity_share <= 0
@@ -212,8 +213,9 @@ LinkageGap MotionClustering::gapOutside(const FrameMotion& motion, const std::ve
 }
 
 LinkageGap MotionClustering::gapInside(const FrameMotion& motion, const std::vector<int>& group) const {
-    const Linkage linkage = linkageFor(motion.background_speed_sigma).at(middleOf(motion, group));
-    LinkageGap gap = largestGapInside(motion.motion_vectors, group, linkage);
+    const Linkage everywhere = linkageFor(motion.background_speed_sigma);
+    const Linkage linkage = everywhere.at(middleOf(motion, group));
+    LinkageGap gap = largestGapInside(motion.motion_vectors, group, everywhere);
     gap.parameter = gap.distance > 1 ? "clustering.roof_length" : nearestLimit(gap, linkage);
     return gap;
 }
@@ -241,7 +243,7 @@ ClusteringVerdict MotionClustering::verdictOn(const std::vector<int>& here, cons
     verdict.value = farthest->value;
     verdict.limit = farthest->limit;
     verdict.parameter = farthest->parameter;
-    if (verdict.refusal == ClusterRefusal::too_few) verdict.needed = static_cast<int>(farthest->limit);
+    verdict.needed = minMembersFor(motion, middleOf(motion, farthest->members));
     // Neighbours that would have made it enough point to the linkage.
     if (verdict.refusal == ClusterRefusal::too_few && verdict.here >= verdict.needed) {
         verdict.refusal = ClusterRefusal::not_linked;

@@ -166,15 +166,15 @@ void DifferenceMotion::findClusters(const FrameMotion& motion, DifferenceResult&
     if (!opening_.empty()) cv::morphologyEx(binary, binary, cv::MORPH_OPEN, opening_);
     binary &= result.difference.overlap;
     result.moving = cv::Mat::zeros(binary.size(), CV_8UC1);
-    const double smallest = std::max<double>(options_.min_area_px, options_.min_area_m2 * scale_.px(1) * scale_.px(1));
-    const double longest = scale_.px(options_.max_length_m);
     const bool ghosts = options_.method == MotionMethod::difference_ghosts;
     const cv::Mat gradient = ghosts ? backgroundGradient(frames_.newest()) : cv::Mat();
     for (const auto& pixels : areasOf(binary)) {
+        const SceneScale here = scale_.at(pixels[pixels.size() / 2]);
+        const double smallest = std::max<double>(options_.min_area_px, options_.min_area_m2 * here.px(1) * here.px(1));
         if (static_cast<double>(pixels.size()) < smallest) continue;
         if (ghosts && isGhost(pixels, gradient)) continue;
         const MotionCluster cluster = clusterOf(pixels, motion);
-        if (std::max(cluster.box.length, cluster.box.width) > longest) continue;
+        if (std::max(cluster.box.length, cluster.box.width) > here.px(options_.max_length_m)) continue;
         for (const cv::Point& p : pixels) result.moving.at<uchar>(p) = 255;
         result.clusters.push_back(cluster);
     }

@@ -47,8 +47,9 @@ std::vector<int> joinAcrossRoofs(const FrameMotion& motion, const Linkage& linka
     across_roof.velocity_floor *= kMoreAlike;
     across_roof.velocity_share *= kMoreAlike;
     const std::vector<cv::Point2f> positions = positionsOf(vectors);
-    const NeighbourGrid grid(positions, across_roof.reachAmong(vectors));
-    const double most = std::max(1.0, across_roof.reachAmong(vectors) / std::max(bridge.length, across_roof.across));
+    const double reach = across_roof.reachAmong(vectors);
+    const NeighbourGrid grid(positions, reach);
+    const double most = std::max(1.0, reach / std::max(bridge.length, across_roof.across));
     const NeighbourGrid standing(motion.stationary_corners, bridge.length * most);
 
     UnionFind sets(vectors.size());
@@ -64,7 +65,7 @@ std::vector<int> joinAcrossRoofs(const FrameMotion& motion, const Linkage& linka
             const int a = static_cast<int>(i);
             const int b = static_cast<int>(j);
             if (b <= a || sets.root(a) == sets.root(b) || !across_roof.joins(vectors[i], vectors[j])) return;
-            const double factor = linkage.slope.factorAt(vectors[i].position);
+            const double factor = linkage.slope.factorAt((cv::Point2d(positions[i]) + cv::Point2d(positions[j])) / 2);
             const RoofBridge here{bridge.length * factor, std::max(bridge.half_width * factor, kThinnestStrip)};
             if (roadIsHidden(motion.stationary_corners, standing, positions[i], positions[j], here)) sets.join(a, b);
         });

@@ -27,6 +27,7 @@ double length(cv::Point2d v) {
 IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, const SceneScale& scale)
     : options_(options),
       scale_(scale),
+      everywhere_(limitsUnder(scale)),
       shadow_test_(options.shadow, scale),
       shadow_owners_(options.shadow, scale),
       local_background_(options.local_background, scale),
@@ -106,8 +107,7 @@ cv::Point2d IndependentMotion::presentVelocity(std::size_t corner, cv::Point2d n
     return mean + trust * change;
 }
 
-IndependentMotion::SpeedLimits IndependentMotion::limitsAt(cv::Point2d place) const {
-    const SceneScale here = scale_.at(place);
+IndependentMotion::SpeedLimits IndependentMotion::limitsUnder(const SceneScale& here) const {
     return {std::max(here.pxPerFrame(options_.min_speed_m_s), options_.min_speed_px),
             std::max(here.pxPerFrame(options_.slow_min_speed_m_s), options_.min_speed_px),
             here.gsd_known ? here.pxPerFrame(options_.max_speed_m_s) : 0};

@@ -71,7 +71,10 @@ class IndependentMotion {
         double least_slow;
         double most;  ///< 0: none
     };
-    SpeedLimits limitsAt(cv::Point2d place) const;
+    SpeedLimits limitsUnder(const SceneScale& here) const;
+    SpeedLimits limitsAt(cv::Point2d place) const {
+        return scale_.slope.isFlat() ? everywhere_ : limitsUnder(scale_.at(place));
+    }
     /// What the speed over `measured.baseline` frames must reach, and which parameter says so.
     double speedLimit(double min_speed, double sigma) const;
     CornerVerdict verdictOn(const Corner& corner, const Measured& measured, const Measured& slow,
@@ -79,6 +82,7 @@ class IndependentMotion {
 
     IndependentMotionOptions options_;
     SceneScale scale_;
+    SpeedLimits everywhere_;  ///< where the scale is the same everywhere
     ShadowTest shadow_test_;
     ShadowOwners shadow_owners_;
     LocalBackground local_background_;

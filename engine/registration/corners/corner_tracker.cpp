@@ -44,10 +44,11 @@ void noteStay(TrackedCorner& corner, cv::Point2f position, const cv::Matx33d& ma
         corner.sticks = false;
         return;
     }
+    if (corner.sticks) return;  // where its ground has gone meanwhile says no more
     corner.ground = PointJacobian(map, corner.ground).point;
     corner.held_frames += frames;
-    corner.sticks = corner.sticks || (corner.held_frames >= kHeldFrames &&
-                                      squareOf(corner.ground - corner.held) > kGroundGonePx * kGroundGonePx);
+    corner.sticks =
+        corner.held_frames >= kHeldFrames && squareOf(corner.ground - corner.held) > kGroundGonePx * kGroundGonePx;
 }
 
 /// The turn so far, followed by that of one more step.
