@@ -115,7 +115,9 @@ TEST(ScaleEstimation, tellsHowFarItIs) {
         EXPECT_EQ(told[i].frames_total, static_cast<int>(told.size()));
     }
     told.clear();
-    chooseScale(source, {}, ChainOptions{}, 0.3, {}, [&](const RunProgress& progress) { told.push_back(progress); });
+    ChainOptions straight_down;
+    straight_down.view.oblique = false;
+    chooseScale(source, {}, straight_down, 0.3, {}, [&](const RunProgress& progress) { told.push_back(progress); });
     EXPECT_TRUE(told.empty()) << "nothing to look for";
 }
 
