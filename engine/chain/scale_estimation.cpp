@@ -10,7 +10,7 @@
 #include "chain/look_progress.h"
 #include "chain/slope_estimation.h"
 #include "core/error.h"
-#include "detection/detector_table.h"
+#include "detection/detector_factory.h"
 
 namespace eyrie {
 namespace {

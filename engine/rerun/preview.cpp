@@ -7,7 +7,7 @@
 #include "chain/chain.h"
 #include "chain/parameter_stage.h"
 #include "core/error.h"
-#include "detection/detector_table.h"
+#include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
 #include "removal/detection_probability.h"
 #include "tracking/tracker.h"

@@ -11,7 +11,7 @@
 #include "chain/chain.h"
 #include "chain/recording/classified_vehicles.h"
 #include "core/error.h"
-#include "detection/detector_table.h"
+#include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
 
 namespace eyrie {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/parameter.h"
-#include "detection/detector_table.h"
+#include "detection/detector_factory.h"
 #include "support/driven_scene.h"
 
 namespace eyrie {

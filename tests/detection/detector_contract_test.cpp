@@ -1,6 +1,6 @@
 #include "contract/detector_contract.h"
 
-#include "detection/detector_table.h"
+#include "detection/detector_factory.h"
 #include "detection/trained_window_model.h"
 
 namespace eyrie::test {

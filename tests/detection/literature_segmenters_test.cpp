@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "detection/detector_table.h"
+#include "detection/detector_factory.h"
 #include "detection/segmenters/canny_harris_segmenter.h"
 #include "detection/segmenters/mser_segmenter.h"
 #include "detection/segmenters/segmentation_views.h"

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/parameter.h"
-#include "detection/detector_table.h"
+#include "detection/detector_factory.h"
 #include "detection/trained_window_model.h"
 #include "support/driven_scene.h"
 

@@ -95,8 +95,9 @@ using ChangeOf = decltype(changeTold(&Sender::changed));
 
 /// Lets the reactions follow the changes that `sender` tells of, as long as `receiver` lives.
 template <class Sender>
-void whenChanged(const Sender& sender, QObject* receiver, Reactions<ChangeOf<Sender>> reactions) {
-    QObject::connect(&sender, &Sender::changed, receiver, std::move(reactions));
+void whenChanged(const Sender& sender, QObject* receiver, Reactions<ChangeOf<Sender>> reactions,
+                 Qt::ConnectionType when = Qt::AutoConnection) {
+    QObject::connect(&sender, &Sender::changed, receiver, std::move(reactions), when);
 }
 
 /// What a field sends when its value becomes another, by a person or by the program.

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "detection/detector_table.h"
+#include "detection/detector_factory.h"
 #include "evaluation/evaluate.h"
 
 namespace eyrie {
