@@ -8,6 +8,7 @@
 #include "rerun/replay.h"
 #include "scoring/scoring.h"
 #include "store/details/kept_details.h"
+#include "store/runs/doubtful_tracks.h"
 
 namespace eyrie {
 namespace {
@@ -75,7 +76,7 @@ std::vector<ScorePoint> scoreCurveOf(const RunEvaluation& evaluation, const RunS
     constexpr std::size_t kMostPoints = 50;
     BoxesByFrame boxes = evaluation.result;
     if (!evaluation.detections) {
-        for (auto& [frame, doubtful] : store.doubtfulBoxes(evaluation.run.id))
+        for (auto& [frame, doubtful] : store.doubtful().boxes(evaluation.run.id))
             boxes[frame].insert(boxes[frame].end(), doubtful.begin(), doubtful.end());
     }
     return scoreCurve(evaluation.truth, boxes, evaluation.options, kMostPoints, stop);

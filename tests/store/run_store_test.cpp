@@ -1,4 +1,5 @@
 #include "store/runs/run_store.h"
+#include "store/runs/doubtful_tracks.h"
 
 #include <gmock/gmock.h>
 
@@ -322,7 +323,7 @@ TEST_F(RunStoreTest, DoubtfulTracksAreReadApartFromTheResult) {
     for (const FrameResult& frame : twoTracks()) writer.write(frame);
     const int run = writer.runId();
     RunStore store(project);
-    EXPECT_EQ(store.scoreThreshold(run), 0) << "nothing was judged yet";
+    EXPECT_EQ(store.doubtful().scoreThreshold(run), 0) << "nothing was judged yet";
     TrackState state = twoTracks().front().tracks.front();
     state.id = 9;
     state.status = TrackStatus::confirmed;
@@ -351,22 +352,22 @@ TEST_F(RunStoreTest, DoubtfulTracksAreReadApartFromTheResult) {
     EXPECT_FALSE(store.tracks(run).front().doubtful);
     EXPECT_EQ(store.frameResult(run, 5)->tracks.size(), 1U);
     EXPECT_EQ(store.trackBoxes(run).at(5).size(), 1U);
-    ASSERT_EQ(store.doubtfulTracks(run).size(), 1U);
-    const TrackSummary doubtful = store.doubtfulTracks(run).front();
+    ASSERT_EQ(store.doubtful().summaries(run).size(), 1U);
+    const TrackSummary doubtful = store.doubtful().summaries(run).front();
     EXPECT_TRUE(doubtful.doubtful);
     EXPECT_EQ(doubtful.id, 9);
     EXPECT_EQ(doubtful.frames, 2);
     EXPECT_EQ(doubtful.first_frame, 4);
     EXPECT_EQ(doubtful.score, 0.25);
     EXPECT_NEAR(doubtful.mean_length_px, state.box.length, 1e-9);
-    ASSERT_EQ(store.doubtfulStates(run, 5).size(), 1U);
-    EXPECT_EQ(store.doubtfulStates(run, 5).front().box.centre, state.box.centre);
-    EXPECT_TRUE(store.doubtfulStates(run, 6).empty());
-    EXPECT_EQ(store.doubtfulTrackStates(run, 9).size(), 2U);
-    EXPECT_EQ(store.doubtfulStatesUpTo(run, 5, 1).size(), 1U);
-    EXPECT_EQ(store.doubtfulBoxes(run).at(4).front().id, 9);
-    EXPECT_FALSE(store.evidence(run, 1));
-    const auto read = store.evidence(run, 9);
+    ASSERT_EQ(store.doubtful().statesIn(run, 5).size(), 1U);
+    EXPECT_EQ(store.doubtful().statesIn(run, 5).front().box.centre, state.box.centre);
+    EXPECT_TRUE(store.doubtful().statesIn(run, 6).empty());
+    EXPECT_EQ(store.doubtful().statesOf(run, 9).size(), 2U);
+    EXPECT_EQ(store.doubtful().statesUpTo(run, 5, 1).size(), 1U);
+    EXPECT_EQ(store.doubtful().boxes(run).at(4).front().id, 9);
+    EXPECT_FALSE(store.doubtful().evidence(run, 1));
+    const auto read = store.doubtful().evidence(run, 9);
     ASSERT_TRUE(read);
     EXPECT_EQ(read->detected, 0.5);
     EXPECT_EQ(read->looked_alike, 0.125);
@@ -375,11 +376,11 @@ TEST_F(RunStoreTest, DoubtfulTracksAreReadApartFromTheResult) {
     EXPECT_EQ(read->flow_ratio, 0.75);
     EXPECT_EQ(read->alignment, -0.25);
     EXPECT_EQ(read->score, 0.25);
-    EXPECT_EQ(store.scoreThreshold(run), 0.35);
+    EXPECT_EQ(store.doubtful().scoreThreshold(run), 0.35);
 
     store.replaceTrackStates(run, {});
-    EXPECT_TRUE(store.doubtfulTracks(run).empty());
-    EXPECT_FALSE(store.evidence(run, 9));
+    EXPECT_TRUE(store.doubtful().summaries(run).empty());
+    EXPECT_FALSE(store.doubtful().evidence(run, 9));
 }
 
 TEST_F(RunStoreTest, ADetectionIsToldByItsProbabilityWhereItHasOne) {

@@ -16,6 +16,7 @@ namespace {
 // Widths in px.
 constexpr int kNarrow = 1500;  ///< below, the video comes first
 constexpr int kOnlyColumn = 340;
+constexpr int kOnlyTuneColumn = 430;  ///< all its tabs are seen
 constexpr int kNarrowColumn = 260;
 constexpr int kLeftColumn = 380;
 constexpr int kRightColumn = 440;
@@ -80,7 +81,7 @@ Columns columnsOf(WorkspaceKind workspace) {
     }
     return {{DockId::runs, DockId::tracks, DockId::events, DockId::evaluation, DockId::errors, DockId::sweeps},
             {DockId::inspector, DockId::stages, DockId::stacks, DockId::parameters, DockId::why, DockId::stage_times,
-             DockId::statistics, DockId::card, DockId::mosaic}};
+             DockId::statistics}};
 }
 
 }  // namespace
@@ -107,9 +108,16 @@ void DockRegistry::watch(DockId id, QObject* watcher, const std::function<void(b
 }
 
 QList<QDockWidget*> DockRegistry::docksFor(WorkspaceKind workspace) const {
-    const Columns columns = columnsOf(workspace == WorkspaceKind::label ? workspace : WorkspaceKind::tune);
+    // Whoever watches and whoever tunes look at the same runs.
+    QList<DockId> ids;
+    for (const WorkspaceKind kind : {WorkspaceKind::label, WorkspaceKind::tune, WorkspaceKind::review}) {
+        if ((kind == WorkspaceKind::label) != (workspace == WorkspaceKind::label)) continue;
+        const Columns columns = columnsOf(kind);
+        for (const DockId id : columns.left + columns.right)
+            if (!ids.contains(id)) ids.append(id);
+    }
     QList<QDockWidget*> found;
-    for (const DockId id : columns.left + columns.right)
+    for (const DockId id : ids)
         if (dock(id) != nullptr) found.append(dock(id));
     return found;
 }
@@ -161,7 +169,7 @@ void DockRegistry::arrange(WorkspaceKind workspace) {
         column.front()->raise();
     }
     if (one_column) {
-        window_.resizeDocks({left}, {kOnlyColumn}, Qt::Horizontal);
+        window_.resizeDocks({left}, {workspace == WorkspaceKind::tune ? kOnlyTuneColumn : kOnlyColumn}, Qt::Horizontal);
         window_.resizeDocks({left, right}, {100, 100}, Qt::Vertical);
     } else {
         window_.resizeDocks({left, right},

@@ -18,6 +18,7 @@
 #include "io/atomic_file.h"
 #include "io/tables/homography_csv.h"
 #include "scoring/scoring.h"
+#include "store/runs/doubtful_tracks.h"
 #include "store/runs/run_store.h"
 
 namespace eyrie::cli {
@@ -62,7 +63,7 @@ Result readResult(const EvaluateArguments& arguments) {
     result.boxes = arguments.detections ? store.detectionBoxes(id) : store.trackBoxes(id);
     result.name =
         arguments.project + ", run " + std::to_string(id) + (arguments.detections ? ", detections" : ", tracks");
-    if (!arguments.detections && !arguments.score_curve.empty()) result.doubtful = store.doubtfulBoxes(id);
+    if (!arguments.detections && !arguments.score_curve.empty()) result.doubtful = store.doubtful().boxes(id);
     if (!arguments.homographies.empty()) result.registrations = store.registrations(id);
     return result;
 }

@@ -1,4 +1,5 @@
-// The part of RunStore for tracks that only their score kept out of the result, and for what speaks for each track.
+#include "store/runs/doubtful_tracks.h"
+
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include "store/runs/class_rule.h"
 #include "store/runs/frame_rows.h"
 #include "store/runs/of_run.h"
-#include "store/runs/run_store.h"
 
 namespace eyrie {
 namespace {
@@ -60,8 +60,8 @@ void insertDoubtful(SQLite::Database& database, int run_id, const TracksOfRun& t
     }
 }
 
-std::vector<TrackSummary> RunStore::doubtfulTracks(int run_id) const {
-    const ClassRule rule = classRuleOf(*this, run_id);
+std::vector<TrackSummary> DoubtfulTracks::summaries(int run_id) const {
+    const ClassRule rule = classRuleOf(RunStore(project_), run_id);
     return guarded(project_.path(), "reading the doubtful tracks" + ofRun(run_id), [&] {
         SQLite::Statement statement(
             project_.database(),
@@ -91,29 +91,29 @@ std::vector<TrackSummary> RunStore::doubtfulTracks(int run_id) const {
     });
 }
 
-std::vector<TrackState> RunStore::doubtfulStates(int run_id, FrameIndex frame) const {
+std::vector<TrackState> DoubtfulTracks::statesIn(int run_id, FrameIndex frame) const {
     std::vector<TrackState> states;
     for (const TrackFrame& state : readDoubtful(project_, run_id, "frame = ?", {frame})) states.push_back(state.state);
     return states;
 }
 
-std::vector<TrackFrame> RunStore::doubtfulTrackStates(int run_id, TrackId track) const {
+std::vector<TrackFrame> DoubtfulTracks::statesOf(int run_id, TrackId track) const {
     return readDoubtful(project_, run_id, "track_id = ?", {track});
 }
 
-BoxesByFrame RunStore::doubtfulBoxes(int run_id) const {
+BoxesByFrame DoubtfulTracks::boxes(int run_id) const {
     BoxesByFrame boxes;
     for (const TrackFrame& state : readDoubtful(project_, run_id, "TRUE", {}))
         boxes[state.frame].push_back(boxOf(state.frame, state.state));
     return boxes;
 }
 
-std::vector<TrackFrame> RunStore::doubtfulStatesUpTo(int run_id, FrameIndex frame, int trail) const {
+std::vector<TrackFrame> DoubtfulTracks::statesUpTo(int run_id, FrameIndex frame, int trail) const {
     return readDoubtful(project_, run_id, "frame > ? AND frame <= ?",
                         {static_cast<std::int64_t>(frame) - trail, frame});
 }
 
-std::optional<TrackEvidence> RunStore::evidence(int run_id, TrackId track) const {
+std::optional<TrackEvidence> DoubtfulTracks::evidence(int run_id, TrackId track) const {
     return guarded(
         project_.path(), "reading what speaks for track " + std::to_string(track) + ofRun(run_id),
         [&]() -> std::optional<TrackEvidence> {
@@ -135,7 +135,7 @@ std::optional<TrackEvidence> RunStore::evidence(int run_id, TrackId track) const
         });
 }
 
-double RunStore::scoreThreshold(int run_id) const {
+double DoubtfulTracks::scoreThreshold(int run_id) const {
     const bool scored = guarded(project_.path(), "reading what speaks for the tracks" + ofRun(run_id), [&] {
         SQLite::Statement any(project_.database(), "SELECT EXISTS (SELECT 1 FROM track_evidence WHERE run_id = ?)");
         any.bind(1, run_id);
@@ -143,7 +143,7 @@ double RunStore::scoreThreshold(int run_id) const {
         return any.getColumn(0).getInt() != 0;
     });
     if (!scored) return 0;
-    for (const auto& [name, value] : parameters(run_id)) {
+    for (const auto& [name, value] : RunStore(project_).parameters(run_id)) {
         if (name != kThreshold) continue;
         double threshold = 0;
         std::from_chars(value.data(), value.data() + value.size(), threshold);

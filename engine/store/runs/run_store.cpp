@@ -9,6 +9,7 @@
 #include "store/database/rows.h"
 #include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
+#include "store/runs/doubtful_tracks.h"
 #include "store/runs/frame_rows.h"
 #include "store/runs/of_run.h"
 #include "store/runs/run_lock.h"
@@ -343,6 +344,10 @@ void RunStore::refuseUnchanged(int run_id) const {
     if (project_.database().getChanges() > 0) return;
     throw Error(ErrorKind::project, "the project " + project_.path().string() + " has no run " +
                                         std::to_string(run_id) + "; eyrie-cli info lists its runs");
+}
+
+DoubtfulTracks RunStore::doubtful() const {
+    return DoubtfulTracks(project_);
 }
 
 }  // namespace eyrie

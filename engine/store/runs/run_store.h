@@ -104,6 +104,8 @@ struct TracksOfRun {
     std::map<TrackId, TrackEvidence> evidence;     ///< of these and of those of the result
 };
 
+class DoubtfulTracks;
+
 /// Reads, and where said changes, the runs of a project. Throws Error(project) for contents that no writer wrote, a run
 /// to change that does not exist, or a project locked for seconds by another program.
 class RunStore {
@@ -131,17 +133,8 @@ class RunStore {
     std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;  ///< ascending frames
     std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame,
                                             int trail) const;  ///< states of frames (frame − trail, frame], for trails
-    /// Tracks that only their score kept out of the result (`finishing.min_score`), ascending id, and their states in a
-    /// frame, of one of them, or for trails. Nothing else here tells of them.
-    std::vector<TrackSummary> doubtfulTracks(int run_id) const;
-    std::vector<TrackState> doubtfulStates(int run_id, FrameIndex frame) const;
-    std::vector<TrackFrame> doubtfulTrackStates(int run_id, TrackId track) const;
-    BoxesByFrame doubtfulBoxes(int run_id) const;
-    std::vector<TrackFrame> doubtfulStatesUpTo(int run_id, FrameIndex frame, int trail) const;
-    /// What speaks for a track, of the result or left out; nothing where no classifier took part.
-    std::optional<TrackEvidence> evidence(int run_id, TrackId track) const;
-    /// The score below which tracks of the run are doubtful; 0 where tracks have no score.
-    double scoreThreshold(int run_id) const;
+    /// What only its score kept out of the result; nothing else here tells of it.
+    DoubtfulTracks doubtful() const;
     /// Every state of every track, one by one, ordered by frame, then track.
     using StateVisitor = TracksOfRun::StateVisitor;
     void visitTrackStates(int run_id, const StateVisitor& visitor) const;

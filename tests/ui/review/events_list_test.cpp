@@ -10,7 +10,7 @@
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
 #include "ui/support/ui_support.h"
-#include "widgets/collapsible_section.h"
+#include "widgets/layout/collapsible_section.h"
 #include "widgets/parameters/parameter_row.h"
 #include "workspace/window_actions.h"
 
@@ -144,7 +144,7 @@ class EventsListTest : public QObject {
         panel.kinds().showAll(false);
         QVERIFY(kindsShown(panel).isEmpty());
         QVERIFY(!panel.table()->isVisible());
-        QVERIFY(test::says(panel, QStringLiteral("None of the 8")));
+        QVERIFY(test::says(panel, QStringLiteral("All 8 events")));
         QVERIFY(test::press(panel, QStringLiteral("Show all")));
         QCOMPARE(kindsShown(panel).size(), 8);
     }

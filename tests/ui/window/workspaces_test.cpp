@@ -182,6 +182,34 @@ class WorkspacesTest : public QObject {
         }
     }
 
+    void aFinishedRunDoesNotPushAWindowOffASmallScreen() {
+        const Theme theme(*qApp);
+        for (const QSize first : {QSize(1280, 690), QSize(1600, 900)}) {
+            const auto window = this->window(first);
+            QVERIFY(window);
+            window->session().settings().options.detection.method = DetectionMethod::gradient;
+            StartOptions options;
+            options.input = test::writeScene(*home_ / "images", 8);
+            options.gsd_m_per_px = 0.25;
+            window->start(options);
+            QVERIFY(QTest::qWaitFor([&] { return window->session().runData() && !window->session().running(); },
+                                    kPatience_ms));
+            window->findChild<MessageBar*>()->setMaximumHeight(0);  // notices pass
+            for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
+                go(*window, key);
+                QTest::qWait(0);
+                const QSize least = window->minimumSizeHint();
+                QVERIFY2(least.width() <= 1280 && least.height() <= 690,
+                         qPrintable(QStringLiteral("%1 of %2 needs %3 x %4: %5")
+                                        .arg(wordOf(window->workspaces().current()))
+                                        .arg(first.width())
+                                        .arg(least.width())
+                                        .arg(least.height())
+                                        .arg(sizes(*window))));
+            }
+        }
+    }
+
     void everyTabOfASmallWindowIsSeen() {
         const Theme theme(*qApp);
         const auto window = windowWithVideo();

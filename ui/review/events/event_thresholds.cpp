@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "review/events/event_text.h"
-#include "widgets/collapsible_section.h"
+#include "widgets/layout/collapsible_section.h"
 #include "widgets/parameters/parameter_row.h"
 
 namespace eyrie::ui {

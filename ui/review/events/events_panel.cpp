@@ -11,6 +11,7 @@
 #include <QVBoxLayout>
 
 #include "review/events/event_thresholds.h"
+#include "widgets/layout/flow_layout.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/theme_colours.h"
 #include "widgets/wiring.h"
@@ -75,16 +76,14 @@ void EventsPanel::buildFilters() {
 
 void EventsPanel::buildButtons() {
     auto* line = new QWidget(this);
-    auto* buttons = new QHBoxLayout(line);
+    auto* buttons = new FlowLayout(line, 2);
     buttons->setContentsMargins(2, 0, 2, 2);
-    buttons->setSpacing(2);
     buttons->addWidget(buttonOf(actions_.relevant, tr("Relevant")));
     buttons->addWidget(buttonOf(actions_.not_relevant, tr("Not relevant")));
     buttons->addWidget(buttonOf(actions_.unsure, tr("Unsure")));
     buttons->addWidget(buttonOf(actions_.star, QStringLiteral("★")));
     buttons->addWidget(buttonOf(actions_.undo_verdict, tr("Undo")));
-    buttons->addStretch(1);
-    const auto addSwitch = [](QHBoxLayout& row, const QString& text, const QString& tip) {
+    const auto addSwitch = [](QLayout& row, const QString& text, const QString& tip) {
         auto* button = new QToolButton;
         button->setText(text);
         button->setToolTip(tip);
@@ -92,7 +91,6 @@ void EventsPanel::buildButtons() {
         row.addWidget(button);
         return button;
     };
-    limits_button_ = addSwitch(*buttons, tr("Limits"), tr("What counts as an event"));
     // Up there: the row of buttons decides how narrow the column can be.
     zones_button_ = addSwitch(*toolRow(), tr("Zones"), tr("Areas and lines that are watched: draw, name, delete them"));
     auto* report = new QToolButton;
@@ -104,7 +102,8 @@ void EventsPanel::buildButtons() {
             [this] { emit reportWanted(false); });
     connect(choices->addAction(tr("All events…")), &QAction::triggered, this, [this] { emit reportWanted(true); });
     report->setMenu(choices);
-    buttons->insertWidget(buttons->count() - 1, report);
+    buttons->addWidget(report);
+    limits_button_ = addSwitch(*buttons, tr("Limits"), tr("What counts as an event"));
     bindSwitches(this, {{limits_button_, [this](bool on) { showThresholds(on); }},
                         {zones_button_, [this](bool on) { showZones(on); }}});
     layout()->addWidget(line);

@@ -16,7 +16,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "widgets/flow_layout.h"
+#include "widgets/layout/flow_layout.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {

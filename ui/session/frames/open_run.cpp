@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "store/details/kept_details.h"
+#include "store/runs/doubtful_tracks.h"
 
 namespace eyrie::ui {
 
@@ -39,7 +40,7 @@ ReplaySource OpenRun::source(std::function<void(FrameIndex)> about_to_read) {
         return std::move(stored->motion);
     };
     source.result_of = result;
-    source.evidence_of = [this](TrackId track) { return store_.evidence(run_id_, track); };
+    source.evidence_of = [this](TrackId track) { return store_.doubtful().evidence(run_id_, track); };
     return source;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "session/frames/trail_history.h"
+#include "store/runs/doubtful_tracks.h"
 
 namespace eyrie::ui {
 
@@ -36,7 +37,7 @@ void StoredFrames::addTo(ViewFrame& frame) {
     if (!frame.result) return;
     if (frame.image.isNull()) frame.time_us = frame.result->motion.time_us;
     frame.scale = scale_;
-    frame.doubtful = store_.doubtfulStates(run_id_, frame.index);
+    frame.doubtful = store_.doubtful().statesIn(run_id_, frame.index);
     frame.trails = trails(frame.index);
 }
 
@@ -75,7 +76,7 @@ std::vector<Trail> StoredFrames::trails(FrameIndex frame) {
     };
     FrameIndex current = -1;
     std::vector<TrackFrame> states = store_.trackStatesUpTo(run_id_, frame, trail_length_);
-    const auto doubtful = store_.doubtfulStatesUpTo(run_id_, frame, trail_length_);
+    const auto doubtful = store_.doubtful().statesUpTo(run_id_, frame, trail_length_);
     const auto kept = static_cast<std::ptrdiff_t>(states.size());
     states.insert(states.end(), doubtful.begin(), doubtful.end());
     std::inplace_merge(states.begin(), states.begin() + kept, states.end(),

@@ -12,6 +12,7 @@
 #include "store/database/change_watch.h"
 #include "store/labels/annotation_store.h"
 #include "store/project/project_file.h"
+#include "store/runs/doubtful_tracks.h"
 
 namespace eyrie::ui {
 
@@ -74,10 +75,11 @@ class ProjectReader::Worker {
             data->parameters = store.parameters(run_id);
             data->frames = store.frameSummaries(run_id);
             data->tracks = store.tracks(run_id);
-            for (TrackSummary& doubtful : store.doubtfulTracks(run_id)) data->tracks.push_back(std::move(doubtful));
+            for (TrackSummary& doubtful : store.doubtful().summaries(run_id))
+                data->tracks.push_back(std::move(doubtful));
             std::stable_sort(data->tracks.begin(), data->tracks.end(),
                              [](const TrackSummary& a, const TrackSummary& b) { return a.id < b.id; });
-            data->score_threshold = store.scoreThreshold(run_id);
+            data->score_threshold = store.doubtful().scoreThreshold(run_id);
             data->facts = factsOf(*project_, data->record);
             tell([this, data = std::shared_ptr<const RunData>(std::move(data))] { emit owner_.runRead(data); });
         });
@@ -93,7 +95,7 @@ class ProjectReader::Worker {
     void readTrack(int run_id, TrackId track) {
         guarded([this, run_id, track](RunStore& store) {
             std::vector<TrackFrame> states = store.trackStates(run_id, track);
-            if (states.empty()) states = store.doubtfulTrackStates(run_id, track);
+            if (states.empty()) states = store.doubtful().statesOf(run_id, track);
             tell([this, run_id, track, states = std::move(states)] { emit owner_.trackRead(run_id, track, states); });
         });
     }

@@ -10,7 +10,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "widgets/collapsible_section.h"
+#include "widgets/layout/collapsible_section.h"
 #include "widgets/parameters/parameter_row.h"
 #include "widgets/wiring.h"
 

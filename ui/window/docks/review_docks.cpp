@@ -11,6 +11,7 @@
 #include "tune/sweep/sweep_panel.h"
 #include "widgets/charts/stage_times_chart.h"
 #include "widgets/empty_state.h"
+#include "widgets/layout/scrolled.h"
 #include "widgets/parameters/parameter_form.h"
 #include "widgets/wiring.h"
 #include "window/run_guard.h"
@@ -40,8 +41,8 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
     docks.add(DockId::stage_times, tr("Times"), chart_);
     docks.add(DockId::stages, tr("Stages"), stages_);
     docks.add(DockId::stacks, tr("Stacks"), stacks_);
-    docks.add(DockId::statistics, tr("Statistics"), statistics_);
-    docks.add(DockId::sweeps, tr("Sweeps"), sweeps_);
+    docks.add(DockId::statistics, tr("Statistics"), scrolled(statistics_));
+    docks.add(DockId::sweeps, tr("Sweeps"), scrolled(sweeps_));
     docks.watch(DockId::stages, stages_, [this](bool visible) { stages_->setLookedAt(visible); });
     docks.watch(DockId::stacks, stacks_, [this](bool visible) { stacks_->setLookedAt(visible); });
     docks.watch(DockId::statistics, statistics_, [this](bool visible) { statistics_->setLookedAt(visible); });

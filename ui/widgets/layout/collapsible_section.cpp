@@ -1,4 +1,4 @@
-#include "widgets/collapsible_section.h"
+#include "widgets/layout/collapsible_section.h"
 
 #include <QToolButton>
 #include <QVBoxLayout>

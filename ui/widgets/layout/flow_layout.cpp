@@ -1,4 +1,4 @@
-#include "widgets/flow_layout.h"
+#include "widgets/layout/flow_layout.h"
 
 #include <algorithm>
 
