@@ -16,7 +16,7 @@ namespace {
 constexpr int kAboveEvents = 4;  ///< of marks in one place the bookmark is seen
 
 QColor colourOfMarks(bool dark) {
-    return dark ? QColor(0xff, 0xc1, 0x4d) : QColor(0xb3, 0x6b, 0x00);
+    return dark ? QColor(0xd5, 0x8c, 0xff) : QColor(0x8a, 0x2b, 0xb5);
 }
 
 std::optional<QString> askWithDialog(const QString& note, FrameIndex frame) {
