@@ -208,6 +208,12 @@ void WindowActions::addEvents() {
                                      {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
                                      QT_TR_NOOP("Undo the last verdict, star, note or change of a zone")});
     redo_verdict = add(tr("Re&do"), {"edit-redo", {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))}});
+    bookmark = add(tr("&Bookmark this frame…"), {"bookmark-new",
+                                                 {QKeySequence(tr("Ctrl+F9"))},
+                                                 QT_TR_NOOP("Mark the frame with a note, or change the note it has")});
+    next_bookmark = add(tr("Ne&xt bookmark"), {nullptr, {QKeySequence(Qt::Key_F9)}});
+    previous_bookmark = add(tr("Previous boo&kmark"), {nullptr, {QKeySequence(tr("Shift+F9"))}});
+    remove_bookmark = add(tr("Re&move the bookmark"), {nullptr, {QKeySequence(tr("Ctrl+Shift+F9"))}});
     draw_zone = addToggle(tr("Draw a &zone"),
                           {nullptr,
                            {QKeySequence(tr("Ctrl+Shift+A"))},

@@ -194,14 +194,54 @@ const std::map<int, StoredZone>& EventReview::zones() const {
 }
 
 bool EventReview::changeZones(const std::function<ReviewEdit(const ReviewSet&, const Judge&, const NewId&)>& step) {
+    const std::vector<Zone> before = zonesOf(zones());
+    if (!applyStep([&] { return step(store_->review(), whoJudges(), [this] { return store_->newZoneId(); }); }))
+        return false;
+    if (zonesOf(zones()) != before) search();
+    return true;
+}
+
+// ---- bookmarks ------------------------------------------------------------------------------------------------------
+
+const std::map<int, Bookmark>& EventReview::bookmarks() const {
+    static const std::map<int, Bookmark> none;
+    return store_ ? store_->review().bookmarks : none;
+}
+
+bool EventReview::setBookmark(FrameIndex frame, const QString& note) {
+    return applyStep([&] {
+        std::optional<Bookmark> before;
+        for (const auto& [id, bookmark] : bookmarks())
+            if (bookmark.frame == frame) before = bookmark;
+        Bookmark after = before.value_or(Bookmark{});
+        if (before && after.note == note.toStdString()) return ReviewEdit{};
+        if (!before) after.id = store_->newBookmarkId();
+        after.frame = frame;
+        after.seconds = tracks_ ? tracks_->secondsOf(frame) : after.seconds;
+        after.note = note.toStdString();
+        const Judge judge = whoJudges();
+        after.person = judge.person;
+        after.when_utc = judge.when_utc;
+        return changeBookmark(before, after);
+    });
+}
+
+bool EventReview::removeBookmark(int id) {
+    return applyStep([&] {
+        const auto found = bookmarks().find(id);
+        return found == bookmarks().end() ? ReviewEdit{} : changeBookmark(found->second, std::nullopt);
+    });
+}
+
+/// What is not said about one event: zones and bookmarks.
+bool EventReview::applyStep(const std::function<ReviewEdit()>& step) {
     if (!store_) return false;
     if (store_->readOnly()) {
         answers_.tell_notice(QString::fromStdString(store_->readOnlyReason()));
         return false;
     }
-    const std::vector<Zone> before = zonesOf(zones());
     try {
-        const ReviewEdit edit = step(store_->review(), whoJudges(), [this] { return store_->newZoneId(); });
+        const ReviewEdit edit = step();
         if (edit.empty()) return false;
         store_->apply(edit);
     } catch (const Error& error) {
@@ -213,7 +253,6 @@ bool EventReview::changeZones(const std::function<ReviewEdit(const ReviewSet&, c
         return false;
     }
     answers_.show_zones();
-    if (zonesOf(zones()) != before) search();
     return true;
 }
 
@@ -353,7 +392,7 @@ void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step)
             lost = lost || store_->review().verdicts.contains(id);
     }
     std::sort(positions.begin(), positions.end());
-    if (!edit->zones.empty()) answers_.show_zones();
+    if (!edit->zones.empty() || !edit->bookmarks.empty()) answers_.show_zones();
     if (lost || zonesOf(zones()) != zones_before) search();
     answers_.show_verdicts(positions);
     answers_.go_back_to(positions);

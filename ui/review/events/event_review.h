@@ -23,7 +23,7 @@ struct EventReviewAnswers {
     /// Another state, or other events.
     std::function<void()> show_events;
     std::function<void(const Positions& positions)> show_verdicts;
-    /// The zones of the video are others, or were read.
+    /// The zones or the bookmarks of the video are others, or were read.
     std::function<void()> show_zones;
     /// Verdicts on these events were undone or done again.
     std::function<void(const Positions& positions)> go_back_to;
@@ -76,6 +76,11 @@ class EventReview : public QObject {
     bool canHaveZones() const { return store_ != nullptr; }
     /// Changes zones by a step made from what was said and watched so far; searches anew where it makes a difference.
     bool changeZones(const std::function<ReviewEdit(const ReviewSet&, const Judge&, const NewId&)>& step);
+    /// Places of the video that a person marked; none until the verdicts were read.
+    const std::map<int, Bookmark>& bookmarks() const;
+    /// Marks a frame, or gives the bookmark that is there another note. Steps that can be undone, as all below.
+    bool setBookmark(FrameIndex frame, const QString& note);
+    bool removeBookmark(int id);
     /// How the camera moved over the ground; null until the run was read.
     const std::shared_ptr<const StoredTracks>& tracks() const { return tracks_; }
 
@@ -116,6 +121,7 @@ class EventReview : public QObject {
     int& verdictIdAt(std::size_t position);
     int verdictIdAt(std::size_t position) const;
     bool mayJudge();
+    bool applyStep(const std::function<ReviewEdit()>& step);
     bool apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions);
     std::vector<Judged> judgedAt(const std::vector<std::size_t>& positions) const;
     Judge whoJudges() const;

@@ -5,6 +5,7 @@
 
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
+#include "review/bookmarks/bookmarks.h"
 #include "review/events/event_review.h"
 #include "review/events/event_text.h"
 #include "review/events/event_thresholds.h"
@@ -48,6 +49,7 @@ EventsDock::EventsDock(const EventsParts& parts)
     model_ = new EventsModel(this);
     panel_ = new EventsPanel(model_, parts_.actions);
     zones_ = new ZoneReview({parts_.session, parts_.canvas, parts_.actions, parts_.messages, *review_}, this);
+    bookmarks_ = new Bookmarks(parts_.session, parts_.actions, *review_, this);
     panel_->setZones(&zones_->panel());
     connect(zones_, &ZoneReview::listWanted, this, [this] {
         parts_.docks.raise(DockId::events);
@@ -71,6 +73,7 @@ EventReviewAnswers EventsDock::reviewAnswers() {
             [this] {
                 if (zones_ == nullptr) return;
                 zones_->showZones();
+                marks_due_.start();
                 enableActions();
                 emit tracksRead();
             },
@@ -96,6 +99,10 @@ void EventsDock::wireLists() {
         if (const auto place = placeOf(id)) review_->setNote(*place, note);
     });
     connect(&parts_.timeline, &TimelineView::markClicked, this, [this](int id) {
+        if (Bookmarks::isBookmark(id)) {
+            bookmarks_->goTo(id);
+            return;
+        }
         parts_.docks.raise(DockId::events);
         chooseAndShow(id);
     });
@@ -195,10 +202,13 @@ void EventsDock::showMarks() {
         marks.push_back({entry.id, found->frameAt(entry.position), judgementColour(entry.judgement, dark),
                          weightOf(entry.judgement)});
     }
+    if (active_)
+        for (TimelineMark& mark : bookmarks_->marks(dark)) marks.push_back(std::move(mark));
     parts_.timeline.setMarks(tr("Events"), std::move(marks), [this](int id) { return markText(id); });
 }
 
 QString EventsDock::markText(int id) const {
+    if (Bookmarks::isBookmark(id)) return bookmarks_->markText(id);
     const auto place = placeOf(id);
     if (!place || !model_->found()) return {};
     const QString verdict = judgementText(model_->recordAt(static_cast<int>(*place))->judgement);
@@ -211,6 +221,7 @@ void EventsDock::enableActions() {
     for (QAction* action : {actions.next_event, actions.previous_event, actions.next_open_event, actions.relevant,
                             actions.not_relevant, actions.unsure, actions.take_back, actions.star, actions.note})
         action->setEnabled(any);
+    bookmarks_->enableActions(active_);
     actions.undo_verdict->setEnabled(active_ && review_->canUndo());
     actions.redo_verdict->setEnabled(active_ && review_->canRedo());
     const auto named = [](const QString& verb, const QString& step) {

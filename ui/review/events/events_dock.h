@@ -16,6 +16,7 @@ enum class Judgement;
 
 namespace eyrie::ui {
 
+class Bookmarks;
 class DockRegistry;
 class EventReview;
 struct EventReviewAnswers;
@@ -49,6 +50,7 @@ class EventsDock : public QObject {
     EventsPanel& panel() { return *panel_; }
     EventsModel& model() { return *model_; }
     ZoneReview& zones() { return *zones_; }
+    Bookmarks& bookmarks() { return *bookmarks_; }
 
     /// Whether keys and marks are wanted: labelling has others.
     void setActive(bool active);
@@ -90,6 +92,7 @@ class EventsDock : public QObject {
     EventsModel* model_;
     EventsPanel* panel_;
     ZoneReview* zones_ = nullptr;
+    Bookmarks* bookmarks_ = nullptr;
     DelayedCall marks_due_;
     std::shared_ptr<const StoredTracks> listed_run_;  ///< whose events have their ids
     bool active_ = true;
