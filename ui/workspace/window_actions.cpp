@@ -206,7 +206,7 @@ void WindowActions::addEvents() {
     note = add(tr("&Write a note"), {nullptr, {QKeySequence(tr("Ctrl+E"))}});
     undo_verdict = add(tr("U&ndo"), {"edit-undo",
                                      {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
-                                     QT_TR_NOOP("Undo the last verdict, star, note or change of a zone")});
+                                     QT_TR_NOOP("Undo the last verdict, star, note, bookmark or change of a zone")});
     redo_verdict = add(tr("Re&do"), {"edit-redo", {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))}});
     bookmark = add(tr("&Bookmark this frame…"), {"bookmark-new",
                                                  {QKeySequence(tr("Ctrl+F9"))},
