@@ -160,6 +160,12 @@ class EvaluationTest : public QObject {
         QCOMPARE(curve.series[0].values[0], 1.0);
         QVERIFY(curve.series[0].values[1] < 0.95);
         QVERIFY(std::abs(curve.series[2].values[0] - 0.9) < 1e-9);
+        QVERIFY(!panel.scoreCurve().isHidden());
+        // Without an evaluation there is none of a former one.
+        EvaluationSettings settings = window->evaluation().evaluation().settings();
+        settings.truth_file = *home_ / "nowhere.csv";
+        window->evaluation().evaluation().setSettings(settings);
+        QVERIFY(waitFor([&] { return !panel.explanation().isEmpty() && panel.scoreCurve().isHidden(); }));
     }
 
     void everyErrorIsListedWithItsCause() {
