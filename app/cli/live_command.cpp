@@ -1,9 +1,12 @@
 #include "cli/live_command.h"
 
+#include <algorithm>
+#include <condition_variable>
 #include <cstdio>
-#include <functional>
-#include <memory>
+#include <mutex>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "chain/live/live_run.h"
 #include "chain/recording/run_recorder.h"
@@ -16,6 +19,7 @@
 #include "core/utc_time.h"
 #include "io/tables/box_csv.h"
 #include "io/tables/number_text.h"
+#include "store/backup/database_copy.h"
 
 namespace eyrie::cli {
 namespace {
@@ -50,10 +54,10 @@ class LiveConsole : public ChainObserver {
         if (quiet_ || now - told_ < kTellEvery) return;
         told_ = now;
         const LiveFacts facts = stream_.facts();
-        std::fprintf(stderr, "%d frames, %s frames/s, %d waiting in %d %%, %d left out, connected again %d×\n",
-                     progress.frames_done, fixedText(progress.frames_per_second, 1).c_str(),
-                     facts.frames - progress.frames_done, static_cast<int>(100 * stream_.backlog()), facts.skipped,
-                     facts.reconnects);
+        std::fprintf(
+            stderr, "%d frames, %s frames/s, %d waiting (%d %% of the queue), %d left out, connected again %d×\n",
+            progress.frames_done, fixedText(progress.frames_per_second, 1).c_str(), facts.frames - progress.frames_done,
+            static_cast<int>(100 * stream_.backlog()), facts.skipped, facts.reconnects);
     }
 
  private:
@@ -67,11 +71,12 @@ class LiveTimer {
  public:
     LiveTimer(double seconds, std::stop_source& ending) {
         if (seconds <= 0) return;
-        const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-        thread_ = std::jthread([end, &ending](const std::stop_token& stop) {
-            while (!stop.stop_requested() && std::chrono::steady_clock::now() < end)
-                std::this_thread::sleep_for(std::chrono::milliseconds(50));
-            ending.request_stop();
+        thread_ = std::jthread([seconds, &ending](const std::stop_token& stop) {
+            std::mutex mutex;
+            std::condition_variable_any stopped;
+            std::unique_lock lock(mutex);
+            stopped.wait_for(lock, stop, std::chrono::duration<double>(seconds), [] { return false; });
+            if (!stop.stop_requested()) ending.request_stop();
         });
     }
 
@@ -79,17 +84,44 @@ class LiveTimer {
     std::jthread thread_;
 };
 
+/// Takes a project away again that was made for a run which then did not begin.
+class ProjectOfRun {
+ public:
+    explicit ProjectOfRun(std::filesystem::path project)
+        : project_(std::move(project)), is_new_(!std::filesystem::exists(std::filesystem::symlink_status(project_))) {}
+    ~ProjectOfRun() {
+        if (is_new_ && !isUsed()) removeDatabase(project_);
+    }
+    ProjectOfRun(const ProjectOfRun&) = delete;
+    ProjectOfRun& operator=(const ProjectOfRun&) = delete;
+
+ private:
+    bool isUsed() const {
+        try {
+            ProjectFile file = ProjectFile::open(project_, ProjectFile::Mode::read_only);
+            const std::vector<RunRecord> runs = RunStore(file).runs();
+            return std::any_of(runs.begin(), runs.end(),
+                               [](const RunRecord& run) { return run.frames_done > 0 || run.live; });
+        } catch (const Error&) {
+            return true;  // what cannot be read is left to whoever looks for the cause
+        }
+    }
+    std::filesystem::path project_;
+    bool is_new_;
+};
+
 /// The numbers of frames are those of the recording, if nothing was lost on the way.
-void checkRecording(const std::filesystem::path& recording, int frames) {
+void checkRecording(const std::filesystem::path& recording, int frames, const std::stop_token& stop) {
+    if (stop.stop_requested()) return;
     try {
-        const int recorded = openSource(recording)->info().frame_count;
+        const int recorded = openSource(recording, {}, {}, stop)->info().frame_count;
         if (recorded != frames)
             std::fprintf(stderr,
                          "note: the recording shows %d frames, the run has %d: packets were damaged or lost, and boxes "
                          "may lie some frames off\n",
                          recorded, frames);
     } catch (const Error& error) {
-        std::fprintf(stderr, "note: the recording cannot be read: %s\n", error.what());
+        if (!stop.stop_requested()) std::fprintf(stderr, "note: the recording cannot be read: %s\n", error.what());
     }
 }
 
@@ -99,18 +131,21 @@ int runLiveCommand(const LiveArguments& arguments) {
     if (!arguments.video.frames.empty())
         throw Error(ErrorKind::parameter, "--frames is of no use with a live source; --seconds ends it after a while");
     const std::filesystem::path project = arguments.project.empty() ? timedName() : arguments.project;
+    LiveOptions wishes;
+    wishes.recording = recordingFor(project);
+    arguments.outputs.check(
+        {growingProject(project), {wishes.recording, FileKind::video}, {arguments.tracks_csv, FileKind::text}},
+        {arguments.preset.preset});
     const InterruptGuard interrupt;
     std::stop_source ending;
     const std::stop_callback end_by_hand(interrupt.token(), [&] { ending.request_stop(); });
     if (!keepEarlierState(project, interrupt.token())) return exit_stopped;
-    LiveOptions wishes;
-    wishes.recording = recordingFor(project);
     wishes.frame_rate_hz = arguments.video.frame_rate_hz.value_or(0);
     wishes.connect_s = arguments.wait_s;
     wishes.give_up_s = arguments.give_up_s;
     const ChainOptions options = arguments.preset.options();
-    ProjectFile::openOrCreate(project);  // whether it can be written is known before anything is received
     LiveStream stream(arguments.address, wishes, ending.get_token());
+    const ProjectOfRun made(project);
     const VideoInfo& video = stream.info();
     const SceneScale scale = sceneScale(video, arguments.video.gsd_m_per_px.value_or(0));
     if (!arguments.quiet) {
@@ -139,8 +174,10 @@ int runLiveCommand(const LiveArguments& arguments) {
                stdout);
     std::printf("Recording: %s\n", wishes.recording.c_str());
     if (const std::string given_up = result.load.text(); !given_up.empty()) std::printf("Live: %s\n", given_up.c_str());
-    checkRecording(wishes.recording, result.summary.frames_done);
-    if (result.summary.outcome != RunOutcome::failed) return exit_ok;
+    if (result.summary.outcome != RunOutcome::failed) {
+        checkRecording(wishes.recording, result.summary.frames_done, interrupt.token());
+        return exit_ok;
+    }
     std::fprintf(stderr, "eyrie-cli: the run failed after %d frames: %s\n", result.summary.frames_done,
                  result.summary.message.c_str());
     return exitCodeOf(result.summary.error);

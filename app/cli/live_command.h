@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "cli/arguments/output_arguments.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/video_arguments.h"
 
@@ -19,11 +20,12 @@ struct LiveArguments {
     double wait_s = 10;     ///< for the first picture
     double give_up_s = 30;  ///< after the last one
     double seconds = 0;     ///< after which it is ended; 0: never
+    OutputArguments outputs;
     bool quiet = false;
 };
 
-/// Receives, records beside the project, runs the chain as frames come, and tells how it went. Answers the exit code.
-/// Throws Error.
+/// Receives, records beside the project, runs the chain as frames come, and tells how it went. Nothing is made before
+/// the source answers. Answers the exit code. Throws Error.
 int runLiveCommand(const LiveArguments& arguments);
 
 }  // namespace eyrie::cli

@@ -83,7 +83,18 @@ GeoReference GeoReference::byControl(GeoFootage footage, std::vector<std::string
     if (footage.control.empty()) return reference;
     reference.plane_ = LocalPlane(footage.control.front().place);
     double squares = 0;
+    const std::array<cv::Point2d, 4> corners = outlineOf(footage.image_size);
     for (const ControlFit& fit : fitControlPoints(footage.control, footage.camera, reference.plane_, why_not)) {
+        // By points that lie beyond the horizon of the others nothing can be placed.
+        if (!std::all_of(corners.begin(), corners.end(),
+                         [&](const cv::Point2d& corner) { return mapped(fit.plane_from_image, corner); })) {
+            if (why_not != nullptr)
+                why_not->push_back("from frame " + std::to_string(fit.frame) + " on there are " +
+                                   std::to_string(fit.points) +
+                                   " control points, but by them the horizon crosses the picture; check them, and "
+                                   "choose some nearer to its corners");
+            continue;
+        }
         reference.views_.emplace(fit.frame, Statement{fit.plane_from_image, std::nullopt});
         reference.control_points_ += fit.points;
         squares += fit.points * fit.rms_m * fit.rms_m;

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "metadata/vmti/vmti_set.h"
 
 namespace eyrie {
 namespace {
@@ -60,6 +61,11 @@ MetadataRecording readRaw(const std::filesystem::path& path, const IndexProgress
 
 int MetadataStream::damaged() const {
     return std::accumulate(faults.begin(), faults.end(), 0);
+}
+
+int MetadataStream::targetSets() const {
+    const auto found = other_sets.find(hexText(vmti::kKey));
+    return found == other_sets.end() ? 0 : found->second;
 }
 
 int MetadataStream::places() const {

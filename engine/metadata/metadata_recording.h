@@ -37,6 +37,8 @@ struct MetadataStream {
     int leaps = 0;          ///< clock of the sets goes on by more than 10 s at once
 
     int damaged() const;
+    /// Sets of moving targets (VMTI) among the others.
+    int targetSets() const;
     /// Sets that hold a place on the ground or what is needed to find one.
     int places() const;
 };

@@ -15,6 +15,7 @@
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"
+#include "support/wait_until.h"
 
 namespace eyrie {
 namespace {
@@ -92,11 +93,6 @@ class Batches : public testing::Test {
         }
         return names;
     }
-    static void waitFor(const std::function<bool()>& condition) {
-        for (int i = 0; i < 12000 && !condition(); ++i) usleep(5000);
-        ASSERT_TRUE(condition());
-    }
-
     const test::TemporaryFolder folder;
 };
 
@@ -150,11 +146,12 @@ TEST_F(Batches, startedAgainSkipsWhatIsDoneAndDoesWhatCame) {
 TEST_F(Batches, goesOnAfterAKill) {
     for (const char* name : {"in/a.mp4", "in/b.mp4", "in/c.mp4"}) put(name);
     test::Process process(command("batch", {"--jobs", "2"}));
-    waitFor([&] { return !runsOf("out/a.eyrie").empty() && runsOf("out/a.eyrie")[0].frames_done > 5; });
+    test::waitUntil("some frames are done",
+                    [&] { return !runsOf("out/a.eyrie").empty() && runsOf("out/a.eyrie")[0].frames_done > 5; });
     kill(process.pid(), SIGKILL);
     process.wait();
     // Those at work end by themselves, so that nobody holds their projects.
-    waitFor([&] {
+    test::waitUntil("nobody writes a run any more", [&] {
         const auto a = runsOf("out/a.eyrie");
         const auto b = runsOf("out/b.eyrie");
         return (a.empty() || !a[0].live) && (b.empty() || !b[0].live);
@@ -168,7 +165,8 @@ TEST_F(Batches, goesOnAfterAKill) {
 TEST_F(Batches, stopsWhenAskedAndSaysSo) {
     for (const char* name : {"in/a.mp4", "in/b.mp4"}) put(name);
     test::Process process(command("batch", {"--jobs", "1"}));
-    waitFor([&] { return !runsOf("out/a.eyrie").empty() && runsOf("out/a.eyrie")[0].frames_done > 5; });
+    test::waitUntil("some frames are done",
+                    [&] { return !runsOf("out/a.eyrie").empty() && runsOf("out/a.eyrie")[0].frames_done > 5; });
     kill(process.pid(), SIGTERM);
     const auto result = process.wait();
     EXPECT_EQ(result.exit_code, 130);
@@ -245,12 +243,14 @@ TEST_F(Batches, aFileIsTakenOnceItHasArrived) {
     const std::string bytes{std::istreambuf_iterator<char>(clip), {}};
     std::ofstream arriving(folder / "in/a.mp4", std::ios::binary);
     const std::size_t part = bytes.size() / 8 + 1;
+    // It comes slowly, as from a camera's card, yet more often than --settle says: there is nothing to wait for.
+    constexpr auto kBetweenParts = std::chrono::milliseconds(500);
     for (std::size_t from = 0; from < bytes.size(); from += part) {
         arriving.write(bytes.data() + from, static_cast<std::streamsize>(std::min(part, bytes.size() - from)));
         arriving.flush();
-        usleep(500000);  // it comes slowly
+        std::this_thread::sleep_for(kBetweenParts);
     }
-    waitFor([&] { return isFinished("out/a.eyrie"); });
+    test::waitUntil("the run over the clip is finished", [&] { return isFinished("out/a.eyrie"); });
     kill(process.pid(), SIGTERM);
     EXPECT_EQ(process.wait().exit_code, 130);
     EXPECT_THAT(inState("failed", "out/watch.csv"), ElementsAre()) << "it was not tried half";
@@ -262,7 +262,7 @@ TEST_F(Batches, theLogIsCompleteThoughItCouldNotBeWrittenForAWhile) {
     test::Process process(command("watch", {"--settle", "0", "--frames", "0:9"}));
     const auto arrives = [&](const std::string& name) {
         put("in/" + name);
-        waitFor([&] {
+        test::waitUntil(name + " is done", [&] {
             const auto done = inState("done", "out/watch.csv");
             return std::find(done.begin(), done.end(), name) != done.end();
         });

@@ -17,6 +17,7 @@
 #include "support/places.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
+#include "support/wait_until.h"
 
 namespace eyrie {
 namespace {
@@ -272,7 +273,7 @@ TEST_F(Outputs, FoldersAndNamesThatCannotBeLookedAtAreNoDefect) {
 TEST_F(Outputs, AClosedTerminalStopsARunCleanly) {
     const std::string clip = frames(120);
     test::Process process({test::programPath("eyrie-cli"), "run", clip, "--gsd", "0.2", "--project", at("n.eyrie")});
-    while (!fs::exists(at("n.eyrie"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    test::waitUntil("the run has made its project", [&] { return fs::exists(at("n.eyrie")); });
     kill(process.pid(), SIGHUP);
     const auto result = process.wait();
     EXPECT_EQ(result.exit_code, 130) << result.errors;

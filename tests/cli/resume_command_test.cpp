@@ -180,4 +180,44 @@ TEST_F(RunAgain, FindsAVideoThatMovedAndRefusesAnother) {
     EXPECT_THAT(moved.output, HasSubstr("60 of 60 frames"));
 }
 
+TEST_F(RunAgain, DetectionsAreWrittenOfLongRuns) {
+    const auto all = cli(command("p.eyrie", {"--detections", at("all.csv")}));
+    ASSERT_EQ(all.exit_code, 0) << all.errors;
+    const auto lengthy =
+        cli(command("p.eyrie", {"--detections", at("long.csv"), "--set", "recording.details_up_to=10"}));
+    ASSERT_EQ(lengthy.exit_code, 0) << lengthy.errors;
+    EXPECT_FALSE(contentsOf(at("all.csv")).empty());
+    EXPECT_EQ(contentsOf(at("long.csv")), contentsOf(at("all.csv"))) << "a run that would keep none but for that";
+}
+
+TEST_F(RunAgain, DetectionsThatAreNotKeptAreRefusedBeforeTheRun) {
+    for (const std::string kept : {"none", "sampled"}) {
+        const auto result =
+            cli(command("p.eyrie", {"--detections", at("d.csv"), "--set", "recording.details=" + kept}));
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_THAT(result.errors, HasSubstr("recording.details=" + kept));
+    }
+    EXPECT_FALSE(std::filesystem::exists(at("p.eyrie")));
+    const std::vector<std::string> none{"--set", "recording.details=none"};
+    stop("p.eyrie", none);
+    const int done = framesDone("p.eyrie");
+    const std::vector<std::string> again{"run", "--resume", "--project", at("p.eyrie"), "--detections", at("d.csv")};
+    const auto unfinished = cli(again);
+    EXPECT_EQ(unfinished.exit_code, 3);
+    EXPECT_THAT(unfinished.errors, HasSubstr("keeps tracks only"));
+    EXPECT_EQ(framesDone("p.eyrie"), done);
+    EXPECT_EQ(cli(command("p.eyrie", {"--resume", "--set", "recording.details=none"})).exit_code, 0);
+    EXPECT_EQ(runsIn("p.eyrie"), 1U) << "it was begun with the same";
+    EXPECT_EQ(cli(again).exit_code, 3) << "finished";
+    EXPECT_FALSE(std::filesystem::exists(at("d.csv")));
+}
+
+TEST_F(RunAgain, ARunThatKeepsSomethingElseIsAnotherOne) {
+    ASSERT_EQ(cli(command("p.eyrie", {"--set", "recording.details=none"})).exit_code, 0);
+    EXPECT_EQ(cli(command("p.eyrie", {"--resume", "--set", "recording.details=all"})).exit_code, 0);
+    EXPECT_EQ(runsIn("p.eyrie"), 2U);
+    EXPECT_EQ(cli(command("p.eyrie", {"--resume"})).exit_code, 0);
+    EXPECT_EQ(runsIn("p.eyrie"), 2U);
+}
+
 }  // namespace eyrie

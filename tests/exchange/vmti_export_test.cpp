@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <opencv2/core.hpp>
 
 #include "core/error.h"
@@ -72,6 +73,23 @@ class VmtiExport : public testing::Test {
     VmtiReport copy(const LabelStream& labels) {
         const auto source = openSource(video_, {.index_folder = folder_ / "index"});
         return writeVmti(labels, *source, out_);
+    }
+    /// Why there is no copy.
+    std::string refusal() {
+        try {
+            copy(car());
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::input);
+            return error.what();
+        }
+        return "nothing was refused";
+    }
+    /// What lies at its place or beside it.
+    int filesOfTheCopy() {
+        int files = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+            files += entry.path().filename().string().find("copy.ts") != std::string::npos ? 1 : 0;
+        return files;
     }
     std::vector<PlacedFrame> setsOf(const std::filesystem::path& path) {
         std::vector<PlacedFrame> frames;
@@ -161,19 +179,29 @@ TEST_F(VmtiExport, WithoutTimesNothingIsWritten) {
 }
 
 TEST_F(VmtiExport, WhatNoTransportStreamCarriesIsRefusedAndNothingIsLeft) {
-    VideoWriterOptions lossless;
-    lossless.codec = "ffv1";
-    film("film.avi", lossless);
     std::ofstream(out_) << "earlier";
-    try {
-        copy(car());
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("film.avi"));
+    for (const char* codec : {"ffv1", "mjpeg"}) {
+        VideoWriterOptions options;
+        options.codec = codec;
+        film(std::string(codec) + ".avi", options);
+        EXPECT_THAT(refusal(), testing::AllOf(testing::HasSubstr(".avi: a transport stream cannot carry its codec (" +
+                                                                 std::string(codec) + ")"),
+                                              testing::HasSubstr("H.264")));
+        EXPECT_EQ(filesOfTheCopy(), 1) << "no part beside it";
     }
-    int files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
-        files += entry.path().filename().string().find("copy.ts") != std::string::npos ? 1 : 0;
-    EXPECT_EQ(files, 1) << "no part beside it";
+}
+
+TEST_F(VmtiExport, ACopyThatWouldLackPicturesIsRefused) {
+    film("film.ts");
+    std::string bytes;
+    {
+        std::ifstream file(video_, std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    // Twice the same: in its midst the stamps go back.
+    std::ofstream(video_, std::ios::binary) << bytes << bytes;
+    EXPECT_THAT(refusal(), testing::HasSubstr("film.ts: a picture cannot be copied"));
+    EXPECT_EQ(filesOfTheCopy(), 0);
 }
 
 }  // namespace

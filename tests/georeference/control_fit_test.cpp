@@ -115,6 +115,22 @@ TEST(ControlFit, PointsOnALineOrTooFewSayNothingAndWhy) {
     EXPECT_FALSE(GeoReference::byControl(market({})).known());
 }
 
+TEST(ControlFit, AHorizonInThePictureSaysNothingAndWhy) {
+    // All points lie below row 50, and so does what they say of the ground.
+    const cv::Matx33d steep{0.5, 0, -50, 0, -0.6, 40, 0, -0.02, 1};
+    std::vector<ControlPoint> points;
+    for (const cv::Point2d px : {cv::Point2d(10, 5), {190, 8}, {180, 40}, {20, 35}}) {
+        const cv::Vec3d at = steep * cv::Vec3d(px.x, px.y, 1);
+        points.push_back({0, px, LocalPlane(kMarket).placeOf({at[0] / at[2], at[1] / at[2]})});
+    }
+    std::vector<std::string> why;
+    const GeoReference places = GeoReference::byControl(market(points), &why);
+    EXPECT_FALSE(places.known());
+    EXPECT_TRUE(places.origin().empty());
+    ASSERT_EQ(why.size(), 1U);
+    EXPECT_THAT(why[0], testing::HasSubstr("horizon"));
+}
+
 TEST(ControlFit, BeyondACutNothingIsKnownUnlessItHasPointsOfItsOwn) {
     const GeoReference one = GeoReference::byControl(market(corners(), 50));
     EXPECT_TRUE(one.placeOf(49, {100, 50}));

@@ -46,6 +46,17 @@ RecordingOptions PresetArguments::recording() const {
     return options;
 }
 
+RecordingOptions PresetArguments::recordingAll(const std::string& option, FrameIndex first, FrameIndex last) const {
+    RecordingOptions kept = recording();
+    if (kept.keepsAllDetails(first, last)) return kept;
+    if (kept.details != KeptDetails::automatic)
+        throw Error(ErrorKind::parameter,
+                    option + " needs what is behind the tracks of every frame, which recording.details=" +
+                        nameOf(kept.details) + " does not keep; leave out one of both");
+    kept.details = KeptDetails::all;
+    return kept;
+}
+
 void applySettings(const Describe& describe, const std::vector<std::string>& settings) {
     for (const auto& setting : settings) {
         const auto equals = setting.find('=');

@@ -22,6 +22,9 @@ struct PresetArguments {
     ChainOptions options() const;
     /// What of a run is kept, by --set recording.…. The same.
     RecordingOptions recording() const;
+    /// The same with the details of every frame of a run from `first` to `last`, which `option` needs. Throws
+    /// Error(parameter) where a setting forbids that.
+    RecordingOptions recordingAll(const std::string& option, FrameIndex first, FrameIndex last) const;
     /// Only what --set says. Throws Error(parameter).
     void applySettings(ChainOptions& options) const;
 };

@@ -6,6 +6,8 @@
 #include "cli/project_runs.h"
 #include "cli/reports/figure_text.h"
 #include "core/error.h"
+#include "store/details/kept_details.h"
+#include "store/details/recording_options.h"
 
 namespace eyrie::cli {
 namespace {
@@ -25,9 +27,17 @@ std::string differenceOf(const RunStore& store, const RunRecord& run, const Resu
             return "--frames " + std::to_string(run.first_frame) + ":" + std::to_string(run.last_frame);
         }
     }
+    auto stored = store.parameters(run.id);
+    RecordingOptions kept = RecordingOptions::among(stored);
+    for (const Parameter& parameter : listParameters(describeOf(kept))) {
+        const auto wish = std::find_if(wishes.recording.begin(), wishes.recording.end(),
+                                       [&](const auto& value) { return value.first == parameter.name; });
+        if (wish != wishes.recording.end() && wish->second != parameter.value)
+            return parameter.name + "=" + parameter.value;
+    }
     if (!wishes.options) return "";
+    std::erase_if(stored, [](const auto& parameter) { return isOfRecording(parameter.first); });
     const auto wished = parameterValues(*wishes.options);
-    const auto stored = store.parameters(run.id);
     for (const auto& parameter : stored) {
         if (std::find(wished.begin(), wished.end(), parameter) == wished.end()) {
             return parameter.first + "=" + parameter.second;
@@ -70,6 +80,13 @@ ResumeChoice chooseRun(const RunStore& store, const std::string& project, const 
                          (usable ? " was started with " + difference : " cannot be resumed: " + textOf(obstacle));
     }
     return choice;
+}
+
+void needDetections(ProjectFile& project, const RunRecord& run) {
+    if (run.state == RunState::finished) return needDetails(project, run);
+    const RecordingOptions kept = RecordingOptions::among(RunStore(project).parameters(run.id));
+    if (!kept.keepsAllDetails(run.first_frame, run.last_frame))
+        throw Error(ErrorKind::input, lackOfDetails(run, detailedFrames(project, run.id)));
 }
 
 }  // namespace eyrie::cli

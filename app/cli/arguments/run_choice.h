@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "chain/chain_options.h"
 #include "chain/chain_run.h"
@@ -17,6 +19,7 @@ struct ResumeWishes {
     std::optional<double> frame_rate_hz;
     std::optional<FrameRange> frames;
     std::optional<ChainOptions> options;
+    std::vector<std::pair<std::string, std::string>> recording;  ///< parameters of what is kept that were set
 };
 
 /// The run that `run --resume` is about.
@@ -29,5 +32,8 @@ struct ResumeChoice {
 /// video that was begun with what is wished, finished or not, so that a command given again with --resume does what is
 /// left of it. Throws Error(parameter) when there is no such run, or it was begun with something else than is wished.
 ResumeChoice chooseRun(const RunStore& store, const std::string& project, const ResumeWishes& wishes);
+
+/// Throws Error(input) unless a run that is gone on with will have the detections of all its frames, or has them.
+void needDetections(ProjectFile& project, const RunRecord& run);
 
 }  // namespace eyrie::cli

@@ -98,7 +98,7 @@ void exportVmti(const ExportArguments& arguments, ProjectFile& project, const Ru
     arguments.outputs.check({{arguments.out, FileKind::video}}, {run.sequence.path, arguments.project});
     const InterruptGuard interrupt;
     const auto video = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
-    LabelStream labels = labelStreamOf(store, run, arguments.detections);
+    LabelStream labels = labelStreamOf(store, run, false);
     labels.about.world = trackWorldOf(store, run, video.get(), startOf(arguments.start), interrupt.token(),
                                       readControlPoints(project, run.sequence.id));
     const VmtiReport report = writeVmti(labels, *video, arguments.out, {}, interrupt.token());
@@ -139,6 +139,10 @@ void exportRun(const ExportArguments& arguments, ProjectFile& project) {
 void exportLabels(const ExportArguments& arguments) {
     if (arguments.format == kVmti && (!arguments.from.empty() || arguments.labels))
         throw Error(ErrorKind::parameter, "vmti is written of runs: give --project and, if need be, --run");
+    if (arguments.format == kVmti && arguments.detections)
+        throw Error(ErrorKind::parameter,
+                    "vmti holds targets that are followed, which detections are not: leave --detections out, or choose "
+                    "another format");
     if (!arguments.from.empty()) return exportFile(arguments);
     ProjectFile project = openForReading(arguments.project);
     if (arguments.labels) return exportAnnotations(arguments, project);

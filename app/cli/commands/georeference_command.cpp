@@ -69,13 +69,13 @@ void tell(const std::vector<ControlPoint>& points, const SequenceRecord& sequenc
                 fixedText(gsd, 4).c_str(), fixedText(course, 1).c_str());
 }
 
-void georeference(const GeoreferenceArguments& arguments) {
+/// Answers the exit code.
+int georeference(const GeoreferenceArguments& arguments) {
     const InterruptGuard interrupt;
     const bool changes = arguments.clear || !arguments.points.empty();
     const std::vector<ControlPoint> given =
         arguments.points.empty() ? std::vector<ControlPoint>{} : readPoints(arguments.points);
-    if (changes && !keepEarlierState(arguments.project, interrupt.token()))
-        throw Error(ErrorKind::project, arguments.project + ": stopped before anything was changed");
+    if (changes && !keepEarlierState(arguments.project, interrupt.token())) return exit_stopped;
     ProjectFile project = changes ? ProjectFile::open(arguments.project) : openForReading(arguments.project);
     const SequenceRecord sequence = chosenSequence(project, arguments.sequence);
     for (const ControlPoint& point : given) {
@@ -92,6 +92,7 @@ void georeference(const GeoreferenceArguments& arguments) {
                     shortestText(point.px.y).c_str(), fixedText(point.place.latitude_deg, 7).c_str(),
                     fixedText(point.place.longitude_deg, 7).c_str());
     if (!points.empty()) tell(points, sequence, cameraMotionOf(RunStore(project), sequence.id));
+    return exit_ok;
 }
 
 }  // namespace
@@ -106,10 +107,7 @@ void addGeoreferenceCommand(CLI::App& app, int& exit_code) {
         "Table frame,x,y,latitude,longitude of at least four points; takes the place of those before");
     command->add_flag("--clear", arguments->clear, "Forget the points")->excludes(points);
     command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several");
-    command->callback([arguments, &exit_code] {
-        georeference(*arguments);
-        exit_code = exit_ok;
-    });
+    command->callback([arguments, &exit_code] { exit_code = georeference(*arguments); });
 }
 
 }  // namespace eyrie::cli

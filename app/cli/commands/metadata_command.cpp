@@ -20,9 +20,6 @@
 namespace eyrie::cli {
 namespace {
 
-/// As MetadataStream::other_sets names it.
-constexpr char kVmtiKey[] = "060e2b34020b01010e01030306000000";
-
 using Json = nlohmann::ordered_json;
 
 struct MetadataArguments {
@@ -49,8 +46,9 @@ void printCounts(const MetadataStream& stream) {
     std::printf("  %s: %d of ST 0601, %d of the older universal set",
                 counted(static_cast<int>(stream.packets.size()), "set").c_str(), stream.local_sets,
                 stream.universal_sets);
-    int others = 0, targets = 0;
-    for (const auto& [key, count] : stream.other_sets) (key == kVmtiKey ? targets : others) += count;
+    const int targets = stream.targetSets();
+    int others = -targets;
+    for (const auto& [key, count] : stream.other_sets) others += count;
     if (targets > 0) std::printf("; %d of moving targets (VMTI, ST 0903), not read", targets);
     if (others > 0) std::printf("; %d of other kinds, not read", others);
     std::puts("");

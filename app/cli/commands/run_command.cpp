@@ -45,6 +45,7 @@ struct RunArguments {
     bool resume = false;
     std::optional<int> run_id;
     bool preset_given = false;
+    bool live_given = false;  ///< something that is of use with a live source only
     OutputArguments outputs;
     bool quiet = false;
 };
@@ -183,8 +184,12 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
     planned.scale_basis = basis;
     planned.name = arguments.name;
+    const RecordingOptions recording =
+        arguments.detections_csv.empty()
+            ? arguments.preset.recording()
+            : arguments.preset.recordingAll("--detections", planned.first_frame, planned.last_frame);
     ConsoleObserver console(arguments, video);
-    RunRecorder recorder(project, planned, options, &console, arguments.preset.recording());
+    RunRecorder recorder(project, planned, options, &console, recording);
     EndedRun ended;
     ended.summary =
         ChainRun(options, scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
@@ -261,8 +266,11 @@ ResumeChoice choiceOf(const RunArguments& arguments, const FrameSource* source, 
     wishes.frame_rate_hz = arguments.video.frame_rate_hz;
     if (!arguments.video.frames.empty()) wishes.frames = arguments.video.range();
     if (arguments.preset_given) wishes.options = arguments.preset.options();
+    wishes.recording = arguments.preset.recording().changed();
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
-    return chooseRun(RunStore(file), project.string(), wishes);
+    const ResumeChoice choice = chooseRun(RunStore(file), project.string(), wishes);
+    if (choice.run && !arguments.detections_csv.empty()) needDetections(file, *choice.run);
+    return choice;
 }
 
 /// Before a long video is indexed, not after a long run.
@@ -291,16 +299,21 @@ int runLive(const RunArguments& arguments) {
     live.preset = arguments.preset;
     live.name = arguments.name;
     live.tracks_csv = arguments.tracks_csv;
+    live.outputs = arguments.outputs;
     live.quiet = arguments.quiet;
-    arguments.outputs.check({growingProject(arguments.project), {arguments.tracks_csv, FileKind::text}},
-                            {arguments.preset.preset});
     return runLiveCommand(live);
 }
 
 int run(const RunArguments& arguments) {
     arguments.video.check();
     arguments.preset.options();
+    if (!arguments.detections_csv.empty()) arguments.preset.recordingAll("--detections", 0, 0);
     if (isLiveAddress(arguments.input)) return runLive(arguments);
+    if (arguments.live_given)
+        throw Error(
+            ErrorKind::parameter,
+            "--seconds, --wait and --give-up are for live sources, and INPUT is none; --frames says how much of "
+            "a video is looked at");
     if (arguments.input.empty() && !(arguments.resume && !arguments.project.empty())) {
         throw Error(ErrorKind::parameter,
                     "INPUT is missing: name a video, a folder of images or a scene; --resume can do with --project");
@@ -394,6 +407,8 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     command->add_flag("--quiet", arguments->quiet, "No progress");
     command->callback([arguments, command, &exit_code] {
         arguments->preset_given = command->count("--preset") + command->count("--set") > 0;
+        arguments->live_given =
+            command->count("--seconds") + command->count("--wait") + command->count("--give-up") > 0;
         exit_code = run(*arguments);
     });
 }

@@ -100,12 +100,13 @@ class LiveRecorder : public ChainObserver {
 std::string LiveLoad::text() const {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-    const std::string of = " of " + std::to_string(frames) + " frames ";
-    if (skipped > 0) add(std::to_string(skipped) + of + "left out, since the chain was behind");
+    const std::string of = " of " + std::to_string(facts.frames) + " frames ";
+    if (facts.skipped > 0) add(std::to_string(facts.skipped) + of + "left out, since the chain was behind");
     if (fewer_corners > 0) add(std::to_string(fewer_corners) + of + "with fewer corners");
-    if (reconnects > 0)
-        add("connected again " + std::to_string(reconnects) + "×, longest gap " + fixedText(longest_gap_s, 1) + " s");
-    if (!ended.empty()) add("ended: " + ended);
+    if (facts.reconnects > 0)
+        add("connected again " + std::to_string(facts.reconnects) + "×, longest gap " +
+            fixedText(facts.longest_gap_s, 1) + " s");
+    if (!facts.ended.empty()) add("ended: " + facts.ended);
     return text;
 }
 
@@ -127,12 +128,10 @@ LiveRunResult runLive(LiveStream& stream, const std::filesystem::path& project, 
     stream.finish();
     if (summary.outcome == RunOutcome::stopped) summary.outcome = RunOutcome::finished;
     summary.frames_total = summary.frames_done;
-    const LiveFacts facts = stream.facts();
-    result.load = {facts.frames,     facts.skipped,       source.fewerCorners(),
-                   facts.reconnects, facts.longest_gap_s, facts.ended};
-    live.tellEnd();
+    result.load = {stream.facts(), source.fewerCorners()};
     summary.median_ms[static_cast<std::size_t>(Stage::store)] = recorder.medianStoreMs();
     recorder.finish(summary);
+    live.tellEnd();
     if (summary.outcome == RunOutcome::finished) live.tellRemark(result.load.text());
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     result.record = RunStore(file).run(recorder.runId()).value();

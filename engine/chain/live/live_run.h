@@ -12,12 +12,8 @@ namespace eyrie {
 
 /// What a run over a live source gave up to keep pace.
 struct LiveLoad {
-    int frames = 0;         ///< received
-    int skipped = 0;        ///< repeated the frame before: nothing was looked for in them
-    int fewer_corners = 0;  ///< were registered by fewer corners than the parameters say
-    int reconnects = 0;
-    double longest_gap_s = 0;
-    std::string ended;  ///< why the stream ended by itself; may be empty
+    LiveFacts facts;        ///< a frame that was skipped repeats the one before: nothing was looked for in it
+    int fewer_corners = 0;  ///< frames that were registered by fewer corners than the parameters say
 
     /// "3 of 100 frames left out; 40 with fewer corners; …"; empty where nothing was given up.
     std::string text() const;
@@ -32,7 +28,8 @@ struct LiveRunResult {
 
 /// Runs the chain over a live source until that ends or is ended, and stores it as a run over the recording. Where the
 /// chain is slower than the source it takes fewer corners first; where that is not enough, frames are left out by the
-/// stream. Both is told in the run's message. `also`, if given, sees every frame. Never throws but as RunRecorder does.
+/// stream. Both is told in the run's message. `also`, if given, sees every frame. What goes wrong with the stream or
+/// the chain is told by the summary; throws Error(project | output) where the run cannot be stored.
 LiveRunResult runLive(LiveStream& stream, const std::filesystem::path& project, const RunRecord& planned,
                       const ChainOptions& options, ChainObserver* also = nullptr,
                       const RecordingOptions& recording = {});

@@ -51,7 +51,11 @@ LiveConnection::LiveConnection(const std::string& address, double seconds, const
 
 bool LiveConnection::read(AVPacket& packet, double seconds) {
     allow(seconds);
-    return av_read_frame(demuxer_.get(), &packet) >= 0;
+    const int got = av_read_frame(demuxer_.get(), &packet);
+    // What is made as it is sent has no size, and a broken connection ends like a file but for its error.
+    has_ended_ =
+        got == AVERROR_EOF && demuxer_->pb != nullptr && demuxer_->pb->error >= 0 && avio_size(demuxer_->pb) > 0;
+    return got >= 0;
 }
 
 void LiveConnection::allow(double seconds) {

@@ -22,6 +22,8 @@ class LiveConnection {
     const AVStream& videoStream() const { return *demuxer_->streams[video_]; }
     /// The next packet of any track; false when none came for `seconds`, at the end and when stopped.
     bool read(AVPacket& packet, double seconds);
+    /// Whether all of a source that has an end, such as a file on the net, was read.
+    bool hasEnded() const { return has_ended_; }
 
  private:
     static int overdue(void* self);
@@ -31,6 +33,7 @@ class LiveConnection {
     std::chrono::steady_clock::time_point limit_;
     libav::Demuxer demuxer_;
     int video_ = -1;
+    bool has_ended_ = false;
 };
 
 }  // namespace eyrie

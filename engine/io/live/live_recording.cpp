@@ -11,6 +11,7 @@ namespace {
 constexpr AVRational kLiveMicrosecond{1, 1'000'000};
 constexpr std::int64_t kLiveOrigin_us = 1'000'000;  ///< room for stamps before the first picture
 constexpr std::int64_t kClockJump_us = 10'000'000;  ///< the clock of the sender was set
+constexpr std::int64_t kHeldBack_us = 200'000;      ///< how long a packet may wait for those of a silent track
 
 }  // namespace
 
@@ -19,14 +20,7 @@ void LiveRecording::CloseRecording::operator()(AVFormatContext* context) const {
     avformat_free_context(context);
 }
 
-LiveRecording::LiveRecording(std::filesystem::path path) : path_(std::move(path)) {
-    AVFormatContext* raw = nullptr;
-    const std::string url = "file:" + path_.string();
-    if (const int made = avformat_alloc_output_context2(&raw, nullptr, "mpegts", url.c_str()); made < 0) fail(made);
-    muxer_.reset(raw);
-    muxer_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
-    if (const int opened = avio_open(&muxer_->pb, url.c_str(), AVIO_FLAG_WRITE); opened < 0) fail(opened);
-}
+LiveRecording::LiveRecording(std::filesystem::path path) : path_(std::move(path)) {}
 
 LiveRecording::~LiveRecording() {
     try {
@@ -41,36 +35,51 @@ void LiveRecording::fail(int reason) const {
                                        "); check that its folder may be written and that the disk has space");
 }
 
+void LiveRecording::open(const AVFormatContext& demuxer, int video) {
+    const AVCodecID pictures = demuxer.streams[video]->codecpar->codec_id;
+    if (!libav::fitsTransportStream(pictures))
+        throw Error(ErrorKind::input, path_.string() +
+                                          ": the recording is a transport stream, which cannot carry the "
+                                          "source's codec (" +
+                                          avcodec_get_name(pictures) + "); let the source send H.264 or HEVC");
+    AVFormatContext* raw = nullptr;
+    const std::string url = "file:" + path_.string();
+    if (const int made = avformat_alloc_output_context2(&raw, nullptr, "mpegts", url.c_str()); made < 0) fail(made);
+    std::unique_ptr<AVFormatContext, CloseRecording> muxer(raw);
+    muxer->flags |= AVFMT_FLAG_FLUSH_PACKETS;
+    muxer->max_interleave_delta = kHeldBack_us;
+    for (unsigned i = 0; i < demuxer.nb_streams; ++i) {
+        const AVCodecParameters& codec = *demuxer.streams[i]->codecpar;
+        if (codec.codec_id == AV_CODEC_ID_NONE) continue;
+        AVStream* track = avformat_new_stream(raw, nullptr);
+        avcodec_parameters_copy(track->codecpar, &codec);
+        track->codecpar->codec_tag = 0;
+        track->time_base = {1, 90000};
+        places_[i] = track->index;
+    }
+    if (const int opened = avio_open(&raw->pb, url.c_str(), AVIO_FLAG_WRITE); opened < 0) fail(opened);
+    AVDictionary* options = nullptr;
+    av_dict_set(&options, "mpegts_copyts", "1", 0);
+    const int begun = avformat_write_header(raw, &options);
+    av_dict_free(&options);
+    if (begun < 0) fail(begun);
+    muxer_ = std::move(muxer);
+}
+
 void LiveRecording::begin(const AVFormatContext& demuxer, int video) {
-    const bool first = muxer_->nb_streams == 0;
     places_.assign(demuxer.nb_streams, -1);
     video_ = video;
     waits_for_key_ = true;
     shift_us_.reset();
+    if (!muxer_) return open(demuxer, video);
     std::vector<bool> taken(muxer_->nb_streams);
     for (unsigned i = 0; i < demuxer.nb_streams; ++i) {
-        const AVCodecParameters& codec = *demuxer.streams[i]->codecpar;
-        if (first) {
-            if (codec.codec_id == AV_CODEC_ID_NONE) continue;
-            AVStream* track = avformat_new_stream(muxer_.get(), nullptr);
-            avcodec_parameters_copy(track->codecpar, &codec);
-            track->codecpar->codec_tag = 0;
-            track->time_base = {1, 90000};
-            places_[i] = track->index;
-            continue;
-        }
         for (unsigned k = 0; k < muxer_->nb_streams && places_[i] < 0; ++k) {
-            if (taken[k] || muxer_->streams[k]->codecpar->codec_id != codec.codec_id) continue;
+            if (taken[k] || muxer_->streams[k]->codecpar->codec_id != demuxer.streams[i]->codecpar->codec_id) continue;
             taken[k] = true;
             places_[i] = static_cast<int>(k);
         }
     }
-    if (!first) return;
-    AVDictionary* options = nullptr;
-    av_dict_set(&options, "mpegts_copyts", "1", 0);
-    const int begun = avformat_write_header(muxer_.get(), &options);
-    av_dict_free(&options);
-    if (begun < 0) fail(begun);
 }
 
 void LiveRecording::shift(AVPacket& packet, AVRational tick, std::int64_t gap_us) {
@@ -119,8 +128,7 @@ bool LiveRecording::write(AVPacket& packet, const AVFormatContext& demuxer, std:
 
 void LiveRecording::finish() {
     if (!muxer_) return;
-    const bool any = muxer_->nb_streams > 0;
-    int written = any ? av_write_trailer(muxer_.get()) : 0;
+    int written = av_write_trailer(muxer_.get());
     if (const int closed = avio_closep(&muxer_->pb); written >= 0) written = closed;
     muxer_.reset();
     if (written < 0) fail(written);

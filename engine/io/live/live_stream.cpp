@@ -53,12 +53,13 @@ bool isLiveAddress(const std::string& input) {
 }
 
 std::string shownAddress(const std::string& address) {
-    const std::size_t begin = address.find("://");
-    const std::size_t end = begin == std::string::npos ? begin : address.find('/', begin + 3);
-    const std::size_t at = address.rfind('@', end);
+    const std::string shown = address.substr(0, address.find('?'));
+    const std::size_t begin = shown.find("://");
+    const std::size_t end = begin == std::string::npos ? begin : shown.find('/', begin + 3);
+    const std::size_t at = shown.rfind('@', end);
     // udp://@239.0.0.1 listens; a name and a password stand between.
-    if (begin == std::string::npos || at == std::string::npos || at <= begin + 3) return address;
-    return address.substr(0, begin + 3) + address.substr(at + 1);
+    if (begin == std::string::npos || at == std::string::npos || at <= begin + 3) return shown;
+    return shown.substr(0, begin + 3) + shown.substr(at + 1);
 }
 
 /// What receives, on a thread of its own.
@@ -95,6 +96,7 @@ struct LiveStream::Receiver {
         LiveRecording recording(options.recording);
         auto connection = std::make_unique<LiveConnection>(address, options.connect_s, ending.get_token());
         while (connection) {
+            if (!goesOnWith(*connection)) break;
             recording.begin(connection->demuxer(), connection->video());
             const bool goes_on = receive(*connection, recording);
             connection.reset();
@@ -103,13 +105,24 @@ struct LiveStream::Receiver {
         recording.finish();
     }
 
+    /// Whether a connection sends what those before it sent. Nothing else may lie in one recording.
+    bool goesOnWith(const LiveConnection& connection) {
+        const AVCodecParameters& video = *connection.videoStream().codecpar;
+        const std::string codec = avcodec_get_name(video.codec_id);
+        if (!info.codec.empty() && codec != info.codec) return endForChange("codec", info.codec, codec);
+        const cv::Size size(video.width, video.height);
+        if (facts.frames > 0 && size != info.size)
+            return endForChange("picture", liveSizeText(info.size), liveSizeText(size));
+        return true;
+    }
+
     /// Null when it is given up, or no longer wanted.
     std::unique_ptr<LiveConnection> connectAgain() {
         std::string why;
         while (!ending.stop_requested()) {
-            const double left = options.give_up_s - liveSecondsSince(last_packet);
+            const double left = options.give_up_s - liveSecondsSince(last_picture);
             if (left <= 0) {
-                endFor("nothing came for " + std::to_string(static_cast<int>(options.give_up_s)) + " s" +
+                endFor("no picture came for " + std::to_string(static_cast<int>(options.give_up_s)) + " s" +
                        (why.empty() ? "" : " (" + why + ")"));
                 return nullptr;
             }
@@ -145,10 +158,10 @@ struct LiveStream::Receiver {
         tick = stream.time_base;
         learnRate(stream);
         const libav::Packet packet(av_packet_alloc());
+        const LiveClock::time_point begin = LiveClock::now();
         while (!ending.stop_requested()) {
             if (!connection.read(*packet, options.stall_s)) break;
-            const double gap = facts.frames > 0 ? liveSecondsSince(last_packet) : 0;
-            last_packet = LiveClock::now();
+            const double gap = facts.frames > 0 ? liveSecondsSince(last_picture) : 0;
             noteGap(gap);
             const bool picture = packet->stream_index == connection.video();
             const bool recorded =
@@ -156,10 +169,25 @@ struct LiveStream::Receiver {
             const bool good = !recorded || !picture || decode(*codec, packet.get());
             av_packet_unref(packet.get());
             if (!good) return false;
+            if (stalls(begin)) break;
         }
         // What the decoder holds back still counts: the recording has it.
-        return decode(*codec, nullptr) && !ending.stop_requested();
+        if (!decode(*codec, nullptr) || ending.stop_requested()) return false;
+        if (connection.hasEnded()) endFor("the source has an end; download it and run over the file");
+        return !connection.hasEnded();
     }
+
+    /// Whether a connection brings no pictures, whatever else it brings. Throws Error(input) when none came ever.
+    bool stalls(LiveClock::time_point begin) const {
+        // The first one is a key frame, which may be longer to come.
+        const bool begun = last_picture >= begin;
+        if (liveSecondsSince(std::max(last_picture, begin)) <= (begun ? options.stall_s : longestWait())) return false;
+        if (facts.frames > 0) return true;
+        throw Error(ErrorKind::input, shownAddress(address) + ": no picture that could be shown came within " +
+                                          std::to_string(std::lround(longestWait())) +
+                                          " s; check that it sends key frames");
+    }
+    double longestWait() const { return std::max(options.stall_s, options.connect_s); }
 
     void learnRate(const AVStream& stream) {
         if (info.frame_count > 0) return;
@@ -182,12 +210,20 @@ struct LiveStream::Receiver {
         const std::scoped_lock lock(mutex);
         facts.ended = why;
     }
+    bool endForChange(const std::string& what, const std::string& before, const std::string& now) {
+        endFor("the " + what + " changed from " + before + " to " + now +
+               (facts.frames > 0 ? " after frame " + std::to_string(facts.frames - 1) : "") +
+               "; start another run for it");
+        return false;
+    }
 
     /// False when the stream cannot be gone on with.
     bool decode(AVCodecContext& codec, const AVPacket* packet) {
         if (avcodec_send_packet(&codec, packet) < 0) return true;  // damaged: the next ones may be better
         const libav::Picture picture(av_frame_alloc());
         while (avcodec_receive_frame(&codec, picture.get()) >= 0) {
+            // What comes out at the end was there before.
+            if (packet != nullptr) last_picture = LiveClock::now();
             const bool good = deliver(*picture);
             av_frame_unref(picture.get());
             if (!good) return false;
@@ -197,11 +233,8 @@ struct LiveStream::Receiver {
 
     bool deliver(const AVFrame& picture) {
         const cv::Size size(picture.width, picture.height);
-        if (facts.frames > 0 && size != info.size) {
-            endFor("the picture changed from " + liveSizeText(info.size) + " to " + liveSizeText(size) +
-                   " after frame " + std::to_string(facts.frames - 1) + "; start another run for it");
-            return false;
-        }
+        if (facts.frames > 0 && size != info.size)
+            return endForChange("picture", liveSizeText(info.size), liveSizeText(size));
         WaitingFrame frame;
         const std::int64_t ticks = picture.best_effort_timestamp;
         const std::int64_t usual = last_time_us + std::llround(1e6 / info.frame_rate_hz);
@@ -242,7 +275,7 @@ struct LiveStream::Receiver {
     // Of the receiving thread:
     AVRational tick{1, 90000};
     PixelConversion conversion;
-    LiveClock::time_point last_packet = LiveClock::now();
+    LiveClock::time_point last_picture = LiveClock::now();
     std::optional<std::int64_t> first_stamp_us;
     std::int64_t last_time_us = 0;
 

@@ -10,11 +10,11 @@
 namespace eyrie {
 
 struct LiveOptions {
-    std::filesystem::path recording;  ///< what comes is written here as it is, as a transport stream; must end with .ts
+    std::filesystem::path recording;  ///< what comes is written here as it is, as a transport stream
     double frame_rate_hz = 0;         ///< 0: what the stream says
     double connect_s = 10;            ///< how long the first picture may take
-    double stall_s = 5;               ///< without any packet for so long, the connection is made anew
-    double give_up_s = 30;            ///< so long without success, the stream has ended
+    double stall_s = 5;               ///< without a picture for so long, the connection is made anew
+    double give_up_s = 30;            ///< without a picture for so long, the stream has ended
     int waiting_frames = 50;          ///< that may wait for the reader; further ones are left out
 };
 
@@ -33,7 +33,7 @@ struct StreamEnded {};
 /// Whether an input is the address of a live source: rtsp://…, udp://…, srt://… and what else names a protocol of the
 /// net.
 bool isLiveAddress(const std::string& input);
-/// Without a password, for messages and files.
+/// Without name, password and what follows a "?", which may hold a passphrase: for messages and files.
 std::string shownAddress(const std::string& address);
 
 /// Video that comes as it is made, from the first key frame on. A thread of its own receives, records and decodes;
@@ -41,8 +41,9 @@ std::string shownAddress(const std::string& address);
 /// memory, with its own number and time, so that numbers are those of the recording.
 class LiveStream : public FrameSource {
  public:
-    /// Waits for the first picture. Throws Error(input) when none comes in time or the address is of no use,
-    /// Error(output) when the recording cannot be written. `stop` ends waiting as Error(input) "stopped".
+    /// Waits for the first picture. Throws Error(input) when none comes in time, the address is of no use, or no
+    /// transport stream can carry the video; Error(output) when the recording cannot be written, which is made when the
+    /// address answers. `stop` ends waiting as Error(input) "stopped".
     LiveStream(std::string address, LiveOptions options, std::stop_token stop);
     ~LiveStream() override;
 
@@ -53,10 +54,12 @@ class LiveStream : public FrameSource {
     /// Of frames that were read; an estimate for others.
     std::int64_t timeOf(FrameIndex index) const override;
 
-    /// Share of the waiting frames that is used, 0 … 1. From any thread, as what follows.
+    /// Share of the waiting frames that is used, 0 … 1. From any thread.
     double backlog() const;
+    /// From any thread.
     LiveFacts facts() const;
-    /// Ends receiving and completes the recording; read() throws StreamEnded once all that came was read.
+    /// Ends receiving and completes the recording; read() throws StreamEnded once all that came was read. By the thread
+    /// that reads. Throws nothing: read() throws Error(output) where the recording could not be written.
     void finish();
 
  private:

@@ -12,7 +12,7 @@ extern "C" {
 #include <memory>
 #include <string>
 
-/// Owners of libav objects. Private to this room.
+/// Owners of libav objects, and what else this room needs to know of it. Private to this room.
 namespace eyrie::libav {
 
 struct Free {
@@ -33,6 +33,24 @@ inline std::string errorText(int code) {
     char text[AV_ERROR_MAX_STRING_SIZE] = {};
     av_strerror(code, text, sizeof text);
     return text;
+}
+
+/// Whether an MPEG transport stream has a place for pictures of a codec. Those of others are taken, too, as private
+/// data that nothing can read again.
+constexpr bool fitsTransportStream(AVCodecID codec) {
+    switch (codec) {
+        case AV_CODEC_ID_MPEG1VIDEO:
+        case AV_CODEC_ID_MPEG2VIDEO:
+        case AV_CODEC_ID_MPEG4:
+        case AV_CODEC_ID_H264:
+        case AV_CODEC_ID_HEVC:
+        case AV_CODEC_ID_VC1:
+        case AV_CODEC_ID_DIRAC:
+        case AV_CODEC_ID_CAVS:
+            return true;
+        default:
+            return false;
+    }
 }
 
 }  // namespace eyrie::libav

@@ -63,6 +63,10 @@ class StreamCopy {
             if (track < places_.size() && places_[track] >= 0) return true;
             av_packet_unref(packet_.get());
         }
+        if (demuxer_->pb != nullptr && demuxer_->pb->error < 0)
+            throw Error(ErrorKind::input, from_.string() + ": cannot be read to its end (" +
+                                              libav::errorText(demuxer_->pb->error) +
+                                              "); check the disk or the net that it lies on");
         return false;
     }
     /// When it is decoded, µs; kNoStamp where it has no stamp or is no picture.
@@ -74,11 +78,12 @@ class StreamCopy {
     }
     void copy() {
         const AVStream& source = *demuxer_->streams[packet_->stream_index];
+        const bool picture = packet_->stream_index == video_;
         packet_->stream_index = places_[static_cast<std::size_t>(packet_->stream_index)];
         const AVStream& target = *muxer_->streams[packet_->stream_index];
         av_packet_rescale_ts(packet_.get(), source.time_base, target.time_base);
         packet_->pos = -1;
-        write(*packet_);
+        write(*packet_, picture);
     }
     void add(const AddedPacket& added) {
         const libav::Packet packet(av_packet_alloc());
@@ -86,7 +91,7 @@ class StreamCopy {
         std::copy(added.bytes.begin(), added.bytes.end(), packet->data);
         packet->stream_index = klv_->index;
         packet->pts = packet->dts = av_rescale_q(added.stamp_us, kMicrosecond, klv_->time_base);
-        write(*packet);
+        write(*packet, false);
     }
     double share() const {
         const auto size = static_cast<double>(std::max<std::int64_t>(1, avio_size(demuxer_->pb)));
@@ -110,6 +115,11 @@ class StreamCopy {
 
     void takeStreams() {
         int free_pid = kFirstFreePid;
+        video_ = findVideoStream(from_, *demuxer_);
+        if (const AVCodecID codec = demuxer_->streams[video_]->codecpar->codec_id; !libav::fitsTransportStream(codec))
+            throw Error(ErrorKind::input, from_.string() + ": a transport stream cannot carry its codec (" +
+                                              avcodec_get_name(codec) +
+                                              "); convert the video to H.264, and make the run over that");
         for (unsigned i = 0; i < demuxer_->nb_streams; ++i) {
             const AVStream& source = *demuxer_->streams[i];
             if (source.codecpar->codec_id == AV_CODEC_ID_NONE ||
@@ -135,14 +145,16 @@ class StreamCopy {
     }
 
     /// Takes the packet's bytes.
-    void write(AVPacket& packet) {
-        if (const int written = av_interleaved_write_frame(muxer_.get(), &packet); written < 0) {
-            if (written == AVERROR(EINVAL)) {  // stamps that go back: this packet is left out, as players would do
-                av_packet_unref(&packet);
-                return;
-            }
-            failToWrite(written);
-        }
+    void write(AVPacket& packet, bool picture) {
+        const int written = av_interleaved_write_frame(muxer_.get(), &packet);
+        if (written >= 0) return;
+        if (written != AVERROR(EINVAL)) failToWrite(written);
+        // Without it the copy's frames would have other numbers than those of the original.
+        if (picture)
+            throw Error(ErrorKind::input, from_.string() +
+                                              ": a picture cannot be copied, since its stamps are missing or go back; "
+                                              "convert the video, and make the run over that");
+        av_packet_unref(&packet);  // stamps that go back: this packet is left out, as players would do
     }
 
     std::filesystem::path from_, to_, part_;
@@ -150,6 +162,7 @@ class StreamCopy {
     std::unique_ptr<AVFormatContext, CloseStreamCopy> muxer_;
     libav::Packet packet_{av_packet_alloc()};
     AVStream* klv_ = nullptr;
+    int video_ = -1;           ///< track of the original whose pictures are the frames
     std::vector<int> places_;  ///< where each track of the original lies in the copy; −1: nowhere
     bool done_ = false;
 };

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 /// Numbers of ST 0903 that writing and reading share; inside of this folder only.
 namespace eyrie::vmti {
 
-inline constexpr std::array<std::uint8_t, 16> kKey{0x06, 0x0E, 0x2B, 0x34, 0x02, 0x0B, 0x01, 0x01,
-                                                   0x0E, 0x01, 0x03, 0x03, 0x06, 0x00, 0x00, 0x00};
 inline constexpr int kVersion = 5;  ///< ST 0903.5
 
 namespace item {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <string>
@@ -43,9 +44,9 @@ struct Frame {
     std::vector<Target> targets;
 };
 
-/// Frames larger have pixel numbers beyond what readers take.
-inline constexpr int kMostPixels = 0x00FFFFFF;
-
+/// Every set begins with it.
+inline constexpr std::array<std::uint8_t, 16> kKey{0x06, 0x0E, 0x2B, 0x34, 0x02, 0x0B, 0x01, 0x01,
+                                                   0x0E, 0x01, 0x03, 0x03, 0x06, 0x00, 0x00, 0x00};
 bool isKey(klv::Bytes key);
 /// Key, length, value, with the checksum as its last item.
 std::vector<std::uint8_t> packed(const Frame& frame);

@@ -32,6 +32,10 @@ bool RecordingOptions::keepsDetailsOf(FrameIndex frame, FrameIndex first, FrameI
     return true;
 }
 
+bool RecordingOptions::keepsAllDetails(FrameIndex first, FrameIndex last) const {
+    return keepsDetailsOf(first, first, last) && (details != KeptDetails::sampled || details_every == 1);
+}
+
 void RecordingOptions::describe(ParameterVisitor& v) {
     const ParameterDeclarer declare(v, ChainStage::none);
     std::vector<std::string> names;

@@ -24,8 +24,11 @@ struct RecordingOptions {
     int details_every = 25;    ///< frames, of `sampled`
     int details_up_to = 7500;  ///< frames; runs of no more are short for `automatic`
 
-    /// Whether the details of `frame` are kept, of a run over `range`, both ends included.
+    /// Whether the details of `frame` are kept, of a run from frame `first` to frame `last`.
     bool keepsDetailsOf(FrameIndex frame, FrameIndex first, FrameIndex last) const;
+
+    /// Whether those of all its frames are.
+    bool keepsAllDetails(FrameIndex first, FrameIndex last) const;
 
     void describe(ParameterVisitor& visitor);
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <string>
+
+#include "core/error.h"
 
 namespace eyrie {
 namespace {
@@ -48,8 +51,11 @@ Bytes squeezed(ByteView bytes, std::size_t stride) {
     const auto raw = static_cast<std::uint32_t>(bytes.size());
     std::memcpy(packed.data() + 1, &raw, sizeof raw);
     packed[5] = static_cast<std::byte>(stride);
-    compress2(reinterpret_cast<Bytef*>(packed.data() + kSqueezedHeader), &size, asZlib(together.data()),
-              static_cast<uLong>(together.size()), kQuick);
+    const int done = compress2(reinterpret_cast<Bytef*>(packed.data() + kSqueezedHeader), &size,
+                               asZlib(together.data()), static_cast<uLong>(together.size()), kQuick);
+    if (done != Z_OK)
+        throw Error(ErrorKind::internal, std::string("the details of a frame cannot be squeezed (") + zError(done) +
+                                             "); the memory may be used up: close other programs");
     packed.resize(kSqueezedHeader + size);
     return packed;
 }

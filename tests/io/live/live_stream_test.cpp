@@ -6,8 +6,11 @@
 #include <random>
 
 #include "io/numbered_video.h"
+#include "io/video/stream_copy.h"
 #include "support/live_sender.h"
+#include "support/live_server.h"
 #include "support/temporary_folder.h"
+#include "support/wait_until.h"
 
 namespace eyrie {
 namespace {
@@ -18,8 +21,10 @@ using testing::HasSubstr;
 /// Waits are short, so that the tests are; machines that have much to do still get some seconds.
 class LiveStreams : public testing::Test {
  protected:
-    std::filesystem::path film(const std::string& name, int frames, int first_number = 0, cv::Size size = {160, 64}) {
+    std::filesystem::path film(const std::string& name, int frames, int first_number = 0, cv::Size size = {160, 64},
+                               const std::string& codec = {}) {
         VideoWriterOptions options;
+        options.codec = codec;
         options.key_frame_distance = 10;
         test::writeNumberedVideo(folder_ / name, frames, options, size, first_number);
         return folder_ / name;
@@ -62,7 +67,7 @@ TEST_F(LiveStreams, FramesComeInOrderAndAreThoseOfTheRecording) {
     const LiveFacts facts = stream.facts();
     EXPECT_EQ(facts.skipped, 0);
     EXPECT_EQ(facts.frames, static_cast<int>(numbers.size()));
-    EXPECT_THAT(facts.ended, HasSubstr("nothing came"));
+    EXPECT_THAT(facts.ended, HasSubstr("no picture came"));
 }
 
 TEST_F(LiveStreams, AfterAStallItIsConnectedToAgainAndTheRecordingGoesOn) {
@@ -102,7 +107,7 @@ TEST_F(LiveStreams, AReaderThatIsBehindGetsRepeatsInPlaceOfWhatWasLeftOut) {
     narrow.waiting_frames = 5;
     const LiveSender sender(port_, {{film("a.ts", 60), 0.5, 0.3}});
     LiveStream stream(address(), narrow, {});
-    while (stream.facts().ended.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    test::waitUntil("the stream has ended", [&] { return !stream.facts().ended.empty(); });
     EXPECT_EQ(stream.backlog(), 1);
     int repeats = 0;
     cv::Mat last;
@@ -130,7 +135,71 @@ TEST_F(LiveStreams, APictureOfAnotherSizeEndsIt) {
     EXPECT_THAT(stream.facts().ended, HasSubstr("changed from 160×64 px to 320×128 px"));
 }
 
-TEST_F(LiveStreams, WhatNeverAnswersIsToldInTime) {
+TEST_F(LiveStreams, ACodecOrSizeThatIsAnotherAfterConnectingAgainEndsItAndIsNotRecorded) {
+    const std::string first = test::bytesOf(film("a.ts", 30));
+    for (const auto& [other, change] :
+         {std::pair(film("b.ts", 30, 100, {160, 64}, "mpeg2video"), "the codec changed from h264 to mpeg2video"),
+          std::pair(film("c.ts", 30, 100, {320, 128}), "the picture changed from 160×64 px to 320×128 px")}) {
+        const test::LiveServer server({first, test::bytesOf(other)});
+        LiveStream stream("tcp://" + server.place(), options(), {});
+        const std::vector<int> numbers = numbersOf(stream);
+        EXPECT_EQ(numbers.size(), 30U);
+        EXPECT_EQ(stream.facts().ended, change + std::string(" after frame 29; start another run for it"));
+        EXPECT_EQ(recorded(), numbers);
+    }
+}
+
+TEST_F(LiveStreams, AFileOnTheNetEndsWhereItEnds) {
+    const test::LiveServer server({test::LiveServer::httpReply(test::bytesOf(film("a.ts", 30)))});
+    LiveStream stream("http://" + server.place() + "/a.ts", options(), {});
+    EXPECT_EQ(numbersOf(stream).size(), 30U);
+    EXPECT_THAT(stream.facts().ended, HasSubstr("the source has an end"));
+    EXPECT_EQ(server.connections(), 1);
+}
+
+TEST_F(LiveStreams, AConnectionThatBreaksOffIsNoEnd) {
+    const std::string whole = test::LiveServer::httpReply(test::bytesOf(film("a.ts", 30)));
+    const test::LiveServer server({whole.substr(0, whole.size() / 2), whole});
+    LiveStream stream("http://" + server.place() + "/a.ts", options(), {});
+    EXPECT_GT(numbersOf(stream).size(), 30U);
+    EXPECT_EQ(stream.facts().reconnects, 1);
+}
+
+TEST_F(LiveStreams, MetadataWithoutPicturesAreAStall) {
+    int number = 0;
+    // Far more of them than of pictures, so that they go on for half a minute after the last one.
+    copyWithKlv(
+        film("film.ts", 30),
+        [&]() -> std::optional<AddedPacket> {
+            if (number == 600) return std::nullopt;
+            return AddedPacket{2'000'000 + 40'000 * std::int64_t{number++}, std::vector<std::uint8_t>(1000, 7)};
+        },
+        folder_ / "a.ts");
+    const LiveSender sender(port_, {{folder_ / "a.ts", 30, 0.3}});
+    const auto begin = std::chrono::steady_clock::now();
+    LiveStream stream(address(), options(), {});
+    EXPECT_GE(numbersOf(stream).size(), 20U);
+    EXPECT_THAT(stream.facts().ended, HasSubstr("no picture came for 2 s"));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(25));
+}
+
+TEST_F(LiveStreams, ATrackThatIsSilentHoldsNothingOfTheRecordingBack) {
+    copyWithKlv(
+        film("film.ts", 60), []() { return std::optional<AddedPacket>(); }, folder_ / "a.ts");
+    const LiveSender sender(port_, {{folder_ / "a.ts", 2, 0.3}});
+    LiveStream stream(address(), options(), {});
+    for (FrameIndex frame = 0; frame < 25; ++frame) stream.read(frame, false);
+    EXPECT_GT(std::filesystem::file_size(folder_ / "recorded.ts"), 1000U) << "after one second of video";
+}
+
+TEST_F(LiveStreams, WhatNoTransportStreamCarriesIsRefusedBeforeItIsRecorded) {
+    const test::LiveServer server({test::bytesOf(film("a.mkv", 30, 0, {160, 64}, "mjpeg"))});
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { LiveStream("tcp://" + server.place(), options(), {}); }),
+                testing::AllOf(HasSubstr("cannot carry the source's codec (mjpeg)"), HasSubstr("H.264")));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "recorded.ts"));
+}
+
+TEST_F(LiveStreams, WhatNeverAnswersIsToldInTimeAndRecordsNothing) {
     LiveOptions brief = options();
     brief.connect_s = 0.6;
     const auto begin = std::chrono::steady_clock::now();
@@ -141,6 +210,7 @@ TEST_F(LiveStreams, WhatNeverAnswersIsToldInTime) {
     EXPECT_THAT(
         test::messageOf(ErrorKind::input, [&] { LiveStream("tcp://127.0.0.1:" + std::to_string(port_), brief, {}); }),
         HasSubstr("check the address"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "recorded.ts"));
 }
 
 TEST_F(LiveStreams, NoiseIsNoVideo) {
@@ -157,7 +227,8 @@ TEST_F(LiveStreams, NoiseIsNoVideo) {
 TEST_F(LiveStreams, ARecordingThatCannotBeWrittenIsTold) {
     LiveOptions nowhere = options();
     nowhere.recording = folder_ / "absent" / "recorded.ts";
-    EXPECT_THAT(test::messageOf(ErrorKind::output, [&] { LiveStream(address(), nowhere, {}); }),
+    const test::LiveServer server({test::bytesOf(film("a.ts", 30))});
+    EXPECT_THAT(test::messageOf(ErrorKind::output, [&] { LiveStream("tcp://" + server.place(), nowhere, {}); }),
                 HasSubstr("recording cannot be written"));
 }
 
@@ -189,6 +260,7 @@ TEST(LiveAddresses, AreThoseOfTheNet) {
     EXPECT_EQ(shownAddress("rtsp://me:secret@camera:554/stream@1"), "rtsp://camera:554/stream@1");
     EXPECT_EQ(shownAddress("udp://@239.0.0.1:5000"), "udp://@239.0.0.1:5000");
     EXPECT_EQ(shownAddress("rtsp://camera/x"), "rtsp://camera/x");
+    EXPECT_EQ(shownAddress("srt://camera:9000?passphrase=se/cr@et&mode=caller"), "srt://camera:9000");
 }
 
 }  // namespace
