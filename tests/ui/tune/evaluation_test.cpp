@@ -168,6 +168,20 @@ class EvaluationTest : public QObject {
         QVERIFY(waitFor([&] { return !panel.explanation().isEmpty() && panel.scoreCurve().isHidden(); }));
     }
 
+    void whyThereIsNoCurveOverTheScoreIsTold() {
+        const auto window = evaluatingWindow();
+        QVERIFY(window);
+        EvaluationPanel& panel = window->evaluation().panel();
+        QVERIFY(waitFor([&] { return panel.scoreCurve().data().places.size() == 2; }));
+        // What the run left out is read from the project, which is gone; the rest is still known.
+        EvaluationSettings settings = window->evaluation().evaluation().settings();
+        std::filesystem::rename(project(), *home_ / "moved.eyrie");
+        settings.wishes.overlap = 0.45;
+        window->evaluation().evaluation().setSettings(settings);
+        QVERIFY(waitFor([&] { return test::says(panel, QStringLiteral("No curve over the score: ")); }));
+        QVERIFY(panel.scoreCurve().isHidden());
+    }
+
     void everyErrorIsListedWithItsCause() {
         const auto window = evaluatingWindow();
         QVERIFY(window);

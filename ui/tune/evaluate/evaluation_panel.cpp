@@ -59,9 +59,6 @@ EvaluationPanel::EvaluationPanel(ProjectSession& session, EvaluationSession& eva
                                           counts_->setMarker(session_.currentFrame());
                                           ratios_->setMarker(session_.currentFrame());
                                       }}});
-    curve_failure_ = new QLabel;
-    curve_failure_->setWordWrap(true);
-    curve_failure_->hide();
     for (LineChart* chart : {counts_, ratios_})
         connect(chart, &LineChart::placeActivated, &session_,
                 [this](double place) { session_.goToFrame(static_cast<FrameIndex>(std::lround(place))); });
