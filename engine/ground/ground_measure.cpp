@@ -10,7 +10,14 @@ std::optional<GroundMeasure> measureBetween(const GroundStretches& ground, const
     if (!first) return std::nullopt;
     const cv::Point2d way = ground.toGround(to.frame, to.at) - ground.toGround(from.frame, from.at);
     const cv::Point2d seen = to.at - first->at;
+    const SceneScale& scale = ground.footage().scale;
+    if (!scale.slope.isFlat()) return measureInFrame(scale, first->at, to.at);
     return GroundMeasure{std::hypot(way.x, way.y), std::hypot(seen.x, seen.y)};
+}
+
+GroundMeasure measureInFrame(const SceneScale& scale, cv::Point2d from, cv::Point2d to) {
+    const double px = std::hypot(to.x - from.x, to.y - from.y);
+    return {scale.at((from + to) / 2).metres(px), px};
 }
 
 std::optional<FramePoint> carriedTo(const GroundStretches& ground, const FramePoint& point, FrameIndex frame) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/values/scene_scale.h"
 #include "events/ground/ground_stretches.h"
 
 namespace eyrie {
@@ -18,9 +19,12 @@ struct GroundMeasure {
     double px = 0;      ///< as long as that seems in the frame of the second place
 };
 
-/// Nothing where no ground carries both frames.
+/// Nothing where no ground carries both frames. In an oblique view the scale is that of the place in the frame of the
+/// second one, else that of the ground.
 std::optional<GroundMeasure> measureBetween(const GroundStretches& ground, const FramePoint& from,
                                             const FramePoint& to);
+/// Two places of one frame by the scale there: in an oblique view that of the middle between them.
+GroundMeasure measureInFrame(const SceneScale& scale, cv::Point2d from, cv::Point2d to);
 /// The place in another frame; nothing where that does not carry the same ground.
 std::optional<FramePoint> carriedTo(const GroundStretches& ground, const FramePoint& point, FrameIndex frame);
 

@@ -31,7 +31,7 @@ double diagonalOf(const std::vector<cv::Point2d>& outline) {
 GroundMosaic::GroundMosaic(std::shared_ptr<const GroundSheets> sheets, const MosaicOptions& options)
     : sheets_(std::move(sheets)), colour_(options.colour) {
     if (sheets_->count() == 0) return;
-    chooseFrames(std::max(1, options.max_frames));
+    chooseFrames(std::max(1, options.wanted_frames));
     layOut(options);
     const cv::Size size = sheets_->imageSize();
     const double soft = std::max(1.0, kSoftEdge * std::min(size.width, size.height));

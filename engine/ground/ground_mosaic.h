@@ -11,9 +11,9 @@
 namespace eyrie {
 
 struct MosaicOptions {
-    std::int64_t max_pixels = 16'000'000;  ///< of all sheets together
-    int max_frames = 600;                  ///< that are painted, of all sheets together
-    bool colour = true;                    ///< else grey
+    std::int64_t max_pixels = 8'000'000;  ///< of all sheets together
+    int wanted_frames = 400;              ///< that are painted, of all sheets together; two of each are at least
+    bool colour = true;                   ///< else grey
 };
 
 /// The ground of one sheet as it was seen, newest on top.
@@ -40,7 +40,8 @@ class GroundMosaic {
     explicit GroundMosaic(std::shared_ptr<const GroundSheets> sheets, const MosaicOptions& options = {});
 
     /// The frames to paint, ascending: all ground that was seen is in one of them, but for slivers where
-    /// `max_frames` does not suffice.
+    /// `wanted_frames` do not suffice. The first and the last of every sheet are always among them, so that a run that
+    /// falls into very many sheets has more.
     const std::vector<FrameIndex>& frames() const { return frames_; }
     /// Throws Error(input) for a picture of another size than the run's.
     void paint(const Frame& frame);

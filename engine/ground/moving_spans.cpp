@@ -25,10 +25,12 @@ std::vector<FrameSpan> movingSpans(const StoredTracks& run, const GroundStretche
         if (score != run.scores.end() && score->second < min_score) continue;
         if (path.samples.empty()) continue;
         // What was followed too shortly to tell its speed may have moved.
-        if (!path.measured) add(path.samples.front().frame, path.samples.back().frame);
-        if (path.measured)
-            for (const SampleSpan& span : spansOf(path, true))
-                add(path.samples[span.first].frame, path.samples[span.last].frame);
+        if (!path.measured) {
+            add(path.samples.front().frame, path.samples.back().frame);
+            continue;
+        }
+        for (const SampleSpan& span : spansOf(path, true))
+            add(path.samples[span.first].frame, path.samples[span.last].frame);
     }
     for (FrameIndex frame = footage.first_frame + 1; frame <= footage.last_frame; ++frame)
         if (!footage.camera.connects(frame - 1, frame)) add(frame, frame);

@@ -6,17 +6,10 @@
 #include <tuple>
 
 #include "core/geometry/homography_jacobian.h"
+#include "core/review/zone.h"
 
 namespace eyrie {
 namespace {
-
-double fromSegment(cv::Point2d point, cv::Point2d a, cv::Point2d b) {
-    const cv::Point2d way = b - a;
-    const double length2 = way.dot(way);
-    const double along = length2 > 0 ? std::clamp((point - a).dot(way) / length2, 0.0, 1.0) : 0;
-    const cv::Point2d away = point - a - way * along;
-    return std::hypot(away.x, away.y);
-}
 
 /// Whether a box of a frame lies at the place; where the frame does not show it, nobody is there.
 bool isAt(const GroundSheets& sheets, const TrackedBox& box, const std::optional<cv::Point2d>& in_image,
@@ -59,7 +52,7 @@ PlaceHistory placeHistory(const GroundSheets& sheets, const std::vector<EventTra
             const HomographyJacobian local(sheets.sheetFromImage(box.frame), box.box.centre);
             const double reach = box.box.width * local.scale() / 2 + margin;
             const bool crossed =
-                before != nullptr && place && fromSegment(on_sheet, centre_before, local.point()) <= reach;
+                before != nullptr && place && distanceTo({centre_before, local.point()}, false, on_sheet) <= reach;
             if (isAt(sheets, box, place, margin) || crossed) {
                 if (!is_there) there.first = box.frame;
                 there.last = box.frame;
@@ -78,23 +71,24 @@ PlaceHistory placeHistory(const GroundSheets& sheets, const std::vector<EventTra
     return history;
 }
 
-std::vector<SheetPath> pathsOn(const GroundSheets& sheets, const std::vector<EventTrack>& tracks, int sheet,
-                               double least) {
-    std::vector<SheetPath> paths;
+std::vector<std::vector<SheetPath>> pathsOn(const GroundSheets& sheets, const std::vector<EventTrack>& tracks,
+                                            double least) {
+    std::vector<std::vector<SheetPath>> paths(static_cast<std::size_t>(sheets.count()));
     for (const EventTrack& track : tracks) {
-        SheetPath path;
-        path.track = track.id;
         for (const TrackedBox& box : track.boxes) {
-            if (sheets.sheetOf(box.frame) != sheet) continue;
+            const int sheet = sheets.sheetOf(box.frame);
+            if (sheet < 0) continue;
+            std::vector<SheetPath>& there = paths[static_cast<std::size_t>(sheet)];
             const cv::Point2d at = HomographyJacobian(sheets.sheetFromImage(box.frame), box.box.centre).point();
+            if (there.empty() || there.back().track != track.id) there.push_back({track.id, {}});
+            std::vector<FramePoint>& points = there.back().points;
             const bool last = &box == &track.boxes.back();
-            if (!path.points.empty() && !last) {
-                const cv::Point2d way = at - path.points.back().at;
+            if (!points.empty() && !last) {
+                const cv::Point2d way = at - points.back().at;
                 if (std::hypot(way.x, way.y) < least) continue;
             }
-            path.points.push_back({box.frame, at});
+            points.push_back({box.frame, at});
         }
-        if (!path.points.empty()) paths.push_back(std::move(path));
     }
     return paths;
 }

@@ -34,8 +34,8 @@ struct SheetPath {
     std::vector<FramePoint> points;  ///< on the sheet, ascending frames
 };
 
-/// The ways of all tracks over a sheet, ascending ids; of points nearer to each other than `least`, one.
-std::vector<SheetPath> pathsOn(const GroundSheets& sheets, const std::vector<EventTrack>& tracks, int sheet,
-                               double least = 1);
+/// The ways of all tracks over each sheet, ascending ids; of points nearer to each other than `least`, one.
+std::vector<std::vector<SheetPath>> pathsOn(const GroundSheets& sheets, const std::vector<EventTrack>& tracks,
+                                            double least = 1);
 
 }  // namespace eyrie

@@ -7,6 +7,14 @@
 #include "events/ground/ground_path.h"
 
 namespace eyrie {
+namespace {
+
+/// What makes of metres on the ground, which know the scale in the middle, metres at a place of an oblique view.
+double byPlace(const SceneScale& scale, const GroundStretches& ground, FrameIndex frame, cv::Point2d place) {
+    return scale.slope.isFlat() ? 1 : scale.at(place).gsd_m_per_px / ground.metresPerPixel(frame, place);
+}
+
+}  // namespace
 
 std::vector<StoryPoint> storyOf(const StoredTracks& run, const GroundStretches& ground, TrackId track,
                                 FrameIndex around, const EventOptions& options) {
@@ -17,11 +25,14 @@ std::vector<StoryPoint> storyOf(const StoredTracks& run, const GroundStretches& 
     std::vector<StoryPoint> story;
     for (const GroundPath& path : groundPaths(alone, ground, options)) {
         if (path.stretch != ground.indexOf(around)) continue;
+        double way = 0;
         for (std::size_t i = 0; i < path.samples.size(); ++i) {
             const GroundSample& sample = path.samples[i];
             const OrientedBox& box = path.box(i).box;
-            story.push_back({sample.frame, run.secondsOf(sample.frame), path.measured ? sample.speed : 0, sample.at,
-                             box.centre, box.length});
+            const double corrected = byPlace(run.footage.scale, ground, sample.frame, box.centre);
+            if (i > 0) way += cv::norm(sample.at - path.samples[i - 1].at) * corrected;
+            story.push_back({sample.frame, run.secondsOf(sample.frame), path.measured ? sample.speed * corrected : 0,
+                             way, sample.at, box.centre, box.length});
         }
     }
     return story;

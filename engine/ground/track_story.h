@@ -13,7 +13,8 @@ namespace eyrie {
 struct StoryPoint {
     FrameIndex frame = 0;
     double seconds = 0;       ///< in the video
-    double speed = 0;         ///< m/s by the scale, known or not; of a track too short to tell 0
+    double speed = 0;         ///< m/s by the scale there, known or not; of a track too short to tell 0
+    double way_m = 0;         ///< driven since the first point, by the scale there
     cv::Point2d at{0, 0};     ///< m on its ground
     cv::Point2d image{0, 0};  ///< px in the frame
     double length_px = 0;     ///< of the vehicle in the frame

@@ -53,6 +53,30 @@ TEST(GroundMeasure, DistancesAreThoseOfTheGroundHoweverTheCameraMoves) {
     EXPECT_NEAR(across->px, 50 * enlarged, 1e-6);
 }
 
+TEST(GroundMeasure, InAnObliqueViewAWayIsAsLongAsTheScaleOfItsPlaceSays) {
+    SceneScale scale{0.2, 25, true, ScaleSlope::ofPicture({641, 361}, 0, 0.005)};
+    // 100 px below the middle there are 1.5 times as many pixels to a metre, above it half as many.
+    EXPECT_NEAR(measureInFrame(scale, {290, 280}, {350, 280}).metres, 60 * 0.2 / 1.5, 1e-9);
+    EXPECT_NEAR(measureInFrame(scale, {290, 80}, {350, 80}).metres, 60 * 0.2 / 0.5, 1e-9);
+    EXPECT_NEAR(measureInFrame(scale, {320, 80}, {320, 280}).metres, 200 * 0.2, 1e-9);
+    EXPECT_NEAR(measureInFrame(scale, {290, 80}, {350, 80}).px, 60, 1e-9);
+}
+
+TEST(GroundMeasure, AcrossFramesOfAnObliqueViewTheScaleIsThatOfThePlaceTo) {
+    Footage footage = flight(20);
+    footage.scale.slope = ScaleSlope::ofPicture({641, 361}, 0, 0.005);
+    const GroundStretches ground(footage);
+    for (const cv::Point2d place : {cv::Point2d(300, 90), cv::Point2d(300, 250)}) {
+        const FramePoint to{20, place};
+        const auto from = carriedTo(ground, {20, place + cv::Point2d(40, 0)}, 3);
+        ASSERT_TRUE(from);
+        const auto measure = measureBetween(ground, *from, to);
+        ASSERT_TRUE(measure);
+        EXPECT_NEAR(measure->px, 40, 1e-6);
+        EXPECT_NEAR(measure->metres, 40 * 0.2 / (1 + 0.005 * (place.y - 180)), 1e-6);
+    }
+}
+
 TEST(GroundMeasure, NothingIsMeasuredAcrossFramesThatNothingConnects) {
     const Footage footage = flight(100, 50);
     const GroundStretches ground(footage);

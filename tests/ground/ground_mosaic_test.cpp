@@ -100,7 +100,7 @@ TEST(GroundMosaic, StaysWithinItsPixelsAndFramesHoweverFarItFlies) {
     const auto view = [](double frame) { return cv::Matx33d(1, 0, -40 * frame, 0, 1, 0, 0, 0, 1); };
     const auto sheets = std::make_shared<const GroundSheets>(flightOver(view, 3000, 1500), 0);
     ASSERT_EQ(sheets->count(), 2);
-    const GroundMosaic mosaic(sheets, {.max_pixels = 100'000, .max_frames = 50});
+    const GroundMosaic mosaic(sheets, {.max_pixels = 100'000, .wanted_frames = 50});
     std::size_t pixels = 0;
     for (const MosaicSheet& sheet : mosaic.sheets()) pixels += sheet.picture.total();
     EXPECT_LE(pixels, 100'000U);
@@ -108,6 +108,17 @@ TEST(GroundMosaic, StaysWithinItsPixelsAndFramesHoweverFarItFlies) {
     EXPECT_LE(mosaic.frames().size(), 50U);
     EXPECT_EQ(mosaic.frames().front(), 0);
     EXPECT_EQ(mosaic.frames().back(), 3000);
+}
+
+TEST(GroundMosaic, EverySheetHasItsFirstAndLastFrameHoweverManyThereAre) {
+    std::vector<Homography> steps = test::stepsOf(test::flyingView, 100);
+    std::erase_if(steps, [](const Homography& step) { return step.to_frame % 5 == 0; });
+    Footage footage = flightOver(test::flyingView, 100);
+    footage.camera = CameraMotion(steps);
+    const auto sheets = std::make_shared<const GroundSheets>(footage, 0);
+    ASSERT_EQ(sheets->count(), 21);
+    const GroundMosaic mosaic(sheets, {.wanted_frames = 10});
+    EXPECT_EQ(mosaic.frames().size(), 41U) << "the last sheet is a single frame";
 }
 
 TEST(GroundMosaic, RefusesPicturesOfAnotherVideo) {
@@ -155,7 +166,9 @@ TEST(PlaceHistory, WhoCrossesAPlaceIsNamedHoweverFastAndHoweverTheCameraMoves) {
 
 TEST(PlaceHistory, WaysLieOnTheSheet) {
     const GroundSheets sheets(flightOver(test::flyingView, 60), 0);
-    const auto paths = pathsOn(sheets, {driveAlong(7, 50, 2, 0, 60)}, 0, 5);
+    const auto sheet_paths = pathsOn(sheets, {driveAlong(7, 50, 2, 0, 60)}, 5);
+    ASSERT_EQ(sheet_paths.size(), 1U);
+    const std::vector<SheetPath>& paths = sheet_paths[0];
     ASSERT_EQ(paths.size(), 1U);
     EXPECT_EQ(paths[0].track, 7);
     EXPECT_EQ(paths[0].points.back().frame, 60);
@@ -165,7 +178,16 @@ TEST(PlaceHistory, WaysLieOnTheSheet) {
         EXPECT_NEAR(ground.y, 50, 1e-6);
         EXPECT_NEAR(ground.x, 2 * point.frame, 1e-6);
     }
-    EXPECT_TRUE(pathsOn(sheets, {driveAlong(7, 50, 2, 0, 60)}, 1).empty());
+    // Where the ground begins anew, so do the ways.
+    const GroundSheets two(flightOver(test::flyingView, 60, 30), 0);
+    const auto of_two = pathsOn(two, {driveAlong(7, 50, 2, 0, 60), driveAlong(8, 70, 2, 40, 60)}, 5);
+    ASSERT_EQ(of_two.size(), 2U);
+    ASSERT_EQ(of_two[0].size(), 1U);
+    ASSERT_EQ(of_two[1].size(), 2U);
+    EXPECT_EQ(of_two[0][0].points.front().frame, 0);
+    EXPECT_EQ(of_two[1][0].track, 7);
+    EXPECT_EQ(of_two[1][0].points.front().frame, of_two[0][0].points.back().frame < 30 ? 30 : 31);
+    EXPECT_EQ(of_two[1][1].track, 8);
 }
 
 }  // namespace eyrie

@@ -42,9 +42,29 @@ TEST(TrackStory, TellsSpeedsAndWaysOnTheGround) {
     EXPECT_TRUE(storyOf(run, ground, 1, 5000).empty());
 }
 
+TEST(TrackStory, InAnObliqueViewSpeedsAndWaysAreThoseOfThePlace) {
+    StoredTracks run = drivenUnderACamera();
+    const GroundStretches flat_ground(run.footage);
+    const auto flat = storyOf(run, flat_ground, 1, 100);
+    EXPECT_NEAR(flat.back().way_m, cv::norm(flat.back().at - flat.front().at), 3);
+    run.footage.scale.slope = ScaleSlope::ofPicture(run.footage.image_size, 0.001, 0);
+    const GroundStretches ground(run.footage);
+    const auto oblique = storyOf(run, ground, 1, 100);
+    ASSERT_EQ(oblique.size(), flat.size());
+    double way = 0;
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        // Metres of the scale in the middle, pixels of the frame, metres of the place.
+        const double px = 1 / flat_ground.metresPerPixel(flat[i].frame, flat[i].image);
+        const double metres = 0.2 / (1 + 0.001 * (flat[i].image.x - 499.5));
+        EXPECT_NEAR(oblique[i].speed, flat[i].speed * px * metres, 1e-9);
+        if (i > 0) way += cv::norm(flat[i].at - flat[i - 1].at) * px * metres;
+        EXPECT_NEAR(oblique[i].way_m, way, 1e-6);
+    }
+}
+
 TEST(TrackStory, FramesAroundAMomentAreSpreadEvenly) {
     std::vector<StoryPoint> story;
-    for (int frame = 0; frame < 200; ++frame) story.push_back({frame, frame / 25.0, 0, {}, {}, 0});
+    for (int frame = 0; frame < 200; ++frame) story.push_back({frame, frame / 25.0, 0, 0, {}, {}, 0});
     const auto chosen = chosenAround(story, 100, 2, 2, 11);
     ASSERT_EQ(chosen.size(), 11U);
     EXPECT_EQ(chosen.front().frame, 50);

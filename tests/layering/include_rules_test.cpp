@@ -72,7 +72,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"report", {"core", "chain", "diagnosis", "evaluation", "events", "georeference", "io", "metadata", "store"}},
     {"scoring", {"core", "annotation", "evaluation", "formats", "io", "store"}},
     {"events", {"core", "annotation", "formats", "io", "store"}},
-    {"ground", {"core", "annotation", "events", "io"}},
+    {"ground", {"core", "annotation", "events"}},
     {"diagnosis", {"core", "chain", "rerun", "evaluation", "io", "motion", "scoring", "store"}},
 };
 

@@ -344,8 +344,8 @@ void VideoView::mouseReleaseEvent(QMouseEvent* event) {
     dragged_ = false;
     updateCursorShape();
     if (!was_click || !frame_.result || tool_ != nullptr) return;
-    const double margin = kHitMargin / transform_.scale();
     const QPointF point = transform_.imageFromView(event->position());
+    const double margin = kHitMargin / transform_.scaleAt(point);
     std::optional<TrackId> clicked;
     if (settings_.isVisible(TrackLayer::kKind)) {
         clicked = trackAt(frame_.result->tracks, settings_.style(), point, margin);
@@ -388,8 +388,8 @@ void VideoView::keyReleaseEvent(QKeyEvent* event) {
 
 void VideoView::contextMenuEvent(QContextMenuEvent* event) {
     if (tool_ != nullptr || !frame_.result) return;
-    emit placeMenuRequested(transform_.imageFromView(event->pos()), kHitMargin / transform_.scale(),
-                            event->globalPos());
+    const QPointF point = transform_.imageFromView(event->pos());
+    emit placeMenuRequested(point, kHitMargin / transform_.scaleAt(point), event->globalPos());
     event->accept();
 }
 

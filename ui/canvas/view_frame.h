@@ -31,4 +31,8 @@ struct ViewFrame {
     std::vector<ZoneMark> zones;        ///< what is watched; belongs to the video, so that it comes apart
 };
 
+/// The state of a track in a frame, also of one that only its score kept out of the result; null where it has none.
+/// Lives as long as the frame.
+const TrackState* stateOf(const ViewFrame& frame, TrackId track);
+
 }  // namespace eyrie::ui

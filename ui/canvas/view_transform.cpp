@@ -73,6 +73,13 @@ QPointF ViewTransform::imageVector(QPointF view_vector, QPointF at) const {
     return on_ground_ ? alongMap(image_from_ground_, vector, ground_from_image_.map(at)) : vector;
 }
 
+double ViewTransform::scaleAt(QPointF image_point) const {
+    if (!on_ground_) return scale_;
+    const QPointF right = viewVector({1, 0}, image_point);
+    const QPointF down = viewVector({0, 1}, image_point);
+    return std::sqrt(std::abs(right.x() * down.y() - right.y() * down.x()));
+}
+
 double ViewTransform::turnAt(QPointF image_point) const {
     const QPointF right = viewVector({1, 0}, image_point);
     return std::atan2(right.y(), right.x());

@@ -40,6 +40,8 @@ class ViewTransform {
     /// A distance at a place of the image as it lies in the view, and back.
     QPointF viewVector(QPointF image_vector, QPointF at) const;
     QPointF imageVector(QPointF view_vector, QPointF at) const;
+    /// Logical view px per image px at a place: scale(), unless the picture lies on the ground.
+    double scaleAt(QPointF image_point) const;
     /// The direction of +x at a place of the image as it lies in the view, radians clockwise.
     double turnAt(QPointF image_point) const;
     /// Turns what is drawn where unturnedFromImage() says to where it belongs. Identity unless the picture is turned.

@@ -47,8 +47,8 @@ LabelScene labelScene(const LabelSession& labels, const LabelProposals& proposal
     if (drawn.length_m > 0 && drawn.width_m > 0) {
         scene.width_of_length = drawn.width_m / drawn.length_m;
         if (scale.gsd_known) {
-            scene.drawn_length = scale.px(drawn.length_m);
             scene.drawn_width = scale.px(drawn.width_m);
+            scene.slope = scale.slope;
         }
     }
     const auto add = [&](const LabelledObject& object, const LabelledBox& box) {

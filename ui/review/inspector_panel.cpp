@@ -36,23 +36,23 @@ QString registrationText(const Registration& registration) {
 }
 
 TrackClass classOfTrack(const ProjectSession& session, TrackId track) {
-    if (!session.runData()) return TrackClass::unknown;
-    const auto& tracks = session.runData()->tracks;
-    const auto found = std::find_if(tracks.begin(), tracks.end(), [track](const auto& one) { return one.id == track; });
-    return found == tracks.end() ? TrackClass::unknown : found->track_class;
+    const TrackSummary* summary = session.trackSummary(track);
+    return summary != nullptr ? summary->track_class : TrackClass::unknown;
 }
 
 /// The score of a track and what became of it: "0.12, below 0.2: left out of the result".
 QString scoreOfTrack(const ProjectSession& session, TrackId track) {
-    if (!session.runData()) return {};
-    for (const TrackSummary& summary : session.runData()->tracks) {
-        if (summary.id != track) continue;
-        const QString score = numberText(summary.score, 2);
-        return summary.doubtful ? QObject::tr("%1, below %2: left out of the result")
-                                      .arg(score, numberText(session.runData()->score_threshold, 2))
-                                : score;
-    }
-    return {};
+    const TrackSummary* summary = session.trackSummary(track);
+    if (summary == nullptr) return {};
+    const QString score = numberText(summary->score, 2);
+    return summary->doubtful ? QObject::tr("%1, below %2: left out of the result")
+                                   .arg(score, numberText(session.runData()->score_threshold, 2))
+                             : score;
+}
+
+/// Stands for what a run found but did not keep.
+QString notKept() {
+    return QObject::tr("not kept (recording.details)");
 }
 
 /// How likely the detection in a track's box is a moving vehicle.
@@ -157,12 +157,11 @@ void InspectorPanel::showFrame(const ViewFrame& frame) {
 
 void InspectorPanel::showChip() {
     const ViewFrame& frame = session_.viewFrame();
-    const TrackState* shown = nullptr;
-    if (frame.result)
-        for (const auto* states : {&frame.result->tracks, &frame.doubtful})
-            for (const TrackState& state : *states)
-                if (state.id == session_.selectedTrack()) shown = &state;
-    track_->showDetection(shown != nullptr ? detectionText(*frame.result, shown->box) : QString());
+    const TrackState* shown = stateOf(frame, *session_.selectedTrack());
+    QString detection;
+    if (shown != nullptr && frame.result)
+        detection = session_.detailsKept(frame.index) ? detectionText(*frame.result, shown->box) : notKept();
+    track_->showDetection(detection);
     if (shown != nullptr)
         chip_->show(frame.image, shown->box);
     else
@@ -178,16 +177,15 @@ void InspectorPanel::showFacts() {
     }
     title_->setText(tr("Frame %1").arg(frame.index));
     const FrameResult& result = *frame.result;
-    const auto kept = std::count_if(result.detections.begin(), result.detections.end(),
-                                    [](const Detection& d) { return d.rejection == Rejection::none; });
-    const auto tracked = std::count_if(result.tracks.begin(), result.tracks.end(),
-                                       [](const TrackState& s) { return s.status != TrackStatus::tentative; });
+    const bool details = session_.detailsKept(frame.index);
+    const FrameSummary counts = details ? summaryOf(result) : *session_.frameSummary(frame.index);
     setRows({{tr("Registration"), registrationText(result.motion.registration)},
-             {tr("Corners"), QLocale().toString(result.motion.corner_count)},
-             {tr("Motion vectors"), QLocale().toString(static_cast<int>(result.motion.motion_vectors.size()))},
-             {tr("Clusters"), QLocale().toString(static_cast<int>(result.clusters.size()))},
-             {tr("Detections"), tr("%1 of %2 kept").arg(kept).arg(result.detections.size())},
-             {tr("Tracks"), QLocale().toString(static_cast<int>(tracked))}});
+             {tr("Corners"), QLocale().toString(counts.corners)},
+             {tr("Motion vectors"), QLocale().toString(counts.motion_vectors)},
+             {tr("Clusters"), details ? QLocale().toString(static_cast<int>(result.clusters.size())) : notKept()},
+             {tr("Detections"), details ? tr("%1 of %2 kept").arg(counts.detections).arg(result.detections.size())
+                                        : QLocale().toString(counts.detections)},
+             {tr("Tracks"), QLocale().toString(counts.tracks)}});
 }
 
 void InspectorPanel::setRows(const QList<std::pair<QString, QString>>& rows) {

@@ -48,13 +48,7 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     static_cast<QVBoxLayout*>(layout())->insertLayout(1, narrowing);
     connect(chips_, &FilterChips::edited, this, &TracksPanel::filterTracks);
     connect(chips_, &FilterChips::doingsWanted, this, [this] { commands_.want_doings(); });
-    onEdited(
-        this,
-        [this] {
-            filterTracks();
-            commands_.use_min_score(minScore());
-        },
-        sensitivity_);
+    onEdited(this, &TracksPanel::useSensitivity, sensitivity_);
     whenAny(
         model, this, [this] { chips_->setScale(tracks_->scale()); }, &QAbstractItemModel::modelReset,
         &QAbstractItemModel::rowsInserted, &QAbstractItemModel::headerDataChanged);
@@ -65,17 +59,30 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     setTentativeShown(false);
 }
 
+int TracksPanel::placeOf(double score) const {
+    return sensitivity_->maximum() - static_cast<int>(std::lround(score * 100));
+}
+
 void TracksPanel::setThreshold(double score) {
-    const auto placeOf = [this](double threshold) {
-        return sensitivity_->maximum() - static_cast<int>(std::lround(threshold * 100));
-    };
+    if (score == threshold_) return;
     const bool untouched = sensitivity_->value() == placeOf(threshold_);
     threshold_ = score;
-    if (untouched) sensitivity_->setValue(placeOf(score));
+    if (!untouched) return;
+    if (sensitivity_->value() == placeOf(score))
+        useSensitivity();  // the same place stands for another score
+    else
+        sensitivity_->setValue(placeOf(score));
 }
 
 double TracksPanel::minScore() const {
-    return 1 - sensitivity_->value() / 100.0;
+    // The run's own threshold need not be a whole percent.
+    if (sensitivity_->value() == placeOf(threshold_)) return threshold_;
+    return (sensitivity_->maximum() - sensitivity_->value()) / 100.0;
+}
+
+void TracksPanel::useSensitivity() {
+    filterTracks();
+    commands_.use_min_score(minScore());
 }
 
 bool TracksPanel::isOfTheRun(const TrackSummary& track) const {
@@ -121,7 +128,7 @@ QString TracksPanel::hiddenText() const {
 
 void TracksPanel::showHidden() {
     chips_->clear();
-    sensitivity_->setValue(sensitivity_->maximum() - static_cast<int>(std::lround(threshold_ * 100)));
+    sensitivity_->setValue(placeOf(threshold_));
 }
 
 void TracksPanel::setTentativeShown(bool shown) {

@@ -64,6 +64,9 @@ class TracksPanel : public TablePanel {
     void filterTracks();
     void showCount();
     double minScore() const;
+    void useSensitivity();
+    /// Where the slider stands for a score.
+    int placeOf(double score) const;
     TracksModel* tracks_;
     TrackListCommands commands_;
     QToolButton* tentative_;

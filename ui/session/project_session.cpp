@@ -252,6 +252,26 @@ void ProjectSession::beginRun(RunRequest request) {
     setFollowing(true);
 }
 
+const FrameSummary* ProjectSession::frameSummary(FrameIndex frame) const {
+    if (!run_data_) return nullptr;
+    const auto& frames = run_data_->frames;
+    const auto found = std::lower_bound(frames.begin(), frames.end(), frame,
+                                        [](const FrameSummary& one, FrameIndex index) { return one.frame < index; });
+    return found != frames.end() && found->frame == frame ? &*found : nullptr;
+}
+
+bool ProjectSession::detailsKept(FrameIndex frame) const {
+    const FrameSummary* summary = frameSummary(frame);
+    return summary == nullptr || summary->details;
+}
+
+const TrackSummary* ProjectSession::trackSummary(TrackId track) const {
+    if (!run_data_) return nullptr;
+    const auto& tracks = run_data_->tracks;
+    const auto found = std::find_if(tracks.begin(), tracks.end(), [track](const auto& one) { return one.id == track; });
+    return found != tracks.end() ? &*found : nullptr;
+}
+
 const RunRecord* ProjectSession::ownRun() const {
     return own_run_ && project_ == run_project_ ? findRun(*own_run_) : nullptr;
 }

@@ -81,6 +81,12 @@ class ProjectSession : public QObject {
     const RunRecord* shownRun() const { return current_run_ ? findRun(*current_run_) : nullptr; }
     /// Lists of the current run; null until they were read.
     const std::shared_ptr<const RunData>& runData() const { return run_data_; }
+    /// What the current run tells of a frame; null where it tells nothing. Lives as long as runData().
+    const FrameSummary* frameSummary(FrameIndex frame) const;
+    /// Whether the current run kept of a frame what its tracks were made from (recording.details), as far as is known.
+    bool detailsKept(FrameIndex frame) const;
+    /// The same of a track; doubtful ones, too.
+    const TrackSummary* trackSummary(TrackId track) const;
     /// The scale that numbers on screen are given with: that of the current run, else of the settings.
     SceneScale scale() const;
 

@@ -13,7 +13,6 @@
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <utility>
 
 #include "canvas/layers/stages/image_stack_layer.h"
@@ -68,13 +67,6 @@ constexpr int kLeastLabelRows_px = 68;
 constexpr int kMostLabelRows_px = 118;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
 
-/// Whether the run found motion in a frame, but kept none of it.
-bool keptTracksOnly(const ViewFrame& frame, const RunData* run) {
-    if (!frame.result || run == nullptr || !frame.result->motion.motion_vectors.empty()) return false;
-    const auto found = std::lower_bound(run->frames.begin(), run->frames.end(), frame.index,
-                                        [](const FrameSummary& one, FrameIndex index) { return one.frame < index; });
-    return found != run->frames.end() && found->frame == frame.index && found->motion_vectors > 0;
-}
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
@@ -214,12 +206,15 @@ void MainWindow::buildWorkspaces() {
         const QList<QDockWidget*> offered = docks_->docksFor(kind);
         for (const DockId id : allDocks())
             docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
-        labelling_->setActive(kind == WorkspaceKind::label);
-        events_->setActive(kind != WorkspaceKind::label);
-        watching_->setActive(kind != WorkspaceKind::label);
-        steady_->setActive(kind != WorkspaceKind::label);
-        // Zones are drawn and tracks narrowed by what they did, whichever list is in front.
-        if (kind == WorkspaceKind::review) events_->review().setWanted();
+        // Whoever leaves the canvas does so before the next one takes it: tool, turn and ground are one for all.
+        const bool labels = kind == WorkspaceKind::label;
+        if (!labels) labelling_->setActive(false);
+        events_->setActive(!labels);
+        watching_->setActive(!labels);
+        steady_->setActive(!labels);
+        if (labels) labelling_->setActive(true);
+        // Zones are drawn, tracks narrowed by what they did and the ground held still, whichever list is in front.
+        if (!labels) events_->review().setWanted();
         evaluation_->enterWorkspace(kind);
         showPicture();
     });
@@ -315,7 +310,7 @@ void MainWindow::showPicture() {
     // An empty picture of a run may not look as if nothing was found there.
     QString missing;
     if (!frame.result && session_.currentRun() && !session_.running()) missing = tr("Not processed in this run");
-    if (workspaces_->current() == WorkspaceKind::tune && keptTracksOnly(frame, session_.runData().get()))
+    if (workspaces_->current() == WorkspaceKind::tune && !session_.detailsKept(frame.index))
         missing = tr("Only the tracks of this frame were kept (recording.details)");
     if (std::exchange(told_missing_, !missing.isEmpty()) || !missing.isEmpty()) canvas_->setBadge(missing);
     evaluation_->showMarks();
@@ -330,6 +325,7 @@ void MainWindow::enableActions() {
                 action->setEnabled(has_video);
     actions_->full_screen->setEnabled(true);
     steady_->enableActions();
+    watching_->enableActions();
     for (QAction* action : actions_->workspace) action->setEnabled(true);
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);

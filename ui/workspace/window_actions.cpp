@@ -74,12 +74,12 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     faster = add(tr("Faster"), {nullptr, {QKeySequence(tr(">"))}});
     loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(tr("Shift+Space"))}}, false);
 
-    only_moving = addToggle(tr("Play only where something &moves"),
-                            {"media-skip-forward",
-                             {QKeySequence(tr("Ctrl+Space"))},
-                             QT_TR_NOOP("Leap over stretches in which nothing drives; what could not be searched is "
-                                        "played")},
-                            false);
+    only_moving =
+        addToggle(tr("Play only where something &moves"),
+                  {"media-skip-forward",
+                   {QKeySequence(tr("Ctrl+Space"))},
+                   QT_TR_NOOP("Leap over stretches in which nothing drives; where nobody can know, all is played")},
+                  false);
 
     addEvents();
 

@@ -9,7 +9,7 @@ namespace eyrie {
 struct ControlPoint {
     FrameIndex frame = 0;
     cv::Point2d px;  ///< in that frame
-    GeoPoint place;
+    GeoPoint place;  ///< WGS 84, degrees
 };
 
 }  // namespace eyrie

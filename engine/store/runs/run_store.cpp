@@ -180,7 +180,7 @@ std::vector<FrameSummary> RunStore::frameSummaries(int run_id) const {
     return guarded(project_.path(), "reading the frames" + ofRun(run_id), [&] {
         std::string query =
             "SELECT frame, time_us, registration_state, inliers, rms_px, corner_count, motion_vector_count, "
-            "detection_count, track_count";
+            "detection_count, track_count, details";
         for (const char* stage : stored::kStageColumns) query += std::string(", ") + stage;
         SQLite::Statement statement(project_.database(), query + " FROM frame WHERE run_id = ? ORDER BY frame");
         statement.bind(1, run_id);
@@ -197,6 +197,7 @@ std::vector<FrameSummary> RunStore::frameSummaries(int run_id) const {
             summary.motion_vectors = row.integer();
             summary.detections = row.integer();
             summary.tracks = row.integer();
+            summary.details = row.integer() != 0;
             for (float& ms : summary.stage_ms) ms = static_cast<float>(row.real());
             summaries.push_back(summary);
         }

@@ -62,8 +62,9 @@ struct FrameSummary {
     double rms_px = 0;
     int corners = 0;
     int motion_vectors = 0;
-    int detections = 0;  ///< kept ones
-    int tracks = 0;      ///< confirmed or coasting ones
+    int detections = 0;   ///< kept ones
+    int tracks = 0;       ///< confirmed or coasting ones
+    bool details = true;  ///< what is behind the tracks was kept; else only the counts are known
     StageTimes stage_ms{};
 };
 

@@ -150,7 +150,7 @@ TEST_F(LiveStreams, ACodecOrSizeThatIsAnotherAfterConnectingAgainEndsItAndIsNotR
 }
 
 TEST_F(LiveStreams, AFileOnTheNetEndsWhereItEnds) {
-    const test::LiveServer server({test::LiveServer::httpReply(test::bytesOf(film("a.ts", 30)))});
+    const test::LiveServer server({test::LiveServer::httpReply(test::bytesOf(film("a.ts", 30))), {}});
     LiveStream stream("http://" + server.place() + "/a.ts", options(), {});
     EXPECT_EQ(numbersOf(stream).size(), 30U);
     EXPECT_THAT(stream.facts().ended, HasSubstr("the source has an end"));

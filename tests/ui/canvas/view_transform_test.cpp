@@ -74,6 +74,23 @@ class ViewTransformTest : public QObject {
         QCOMPARE(t.zoom(), 1.0);
     }
 
+    void theScaleOfAPlaceIsThatOfItsSurroundings() {
+        ViewTransform t = shown({640, 480}, {1000, 700});
+        t.setRotation(0.7);
+        QVERIFY(std::abs(t.scaleAt({100, 50}) - t.scale()) < 1e-12);
+        // On the ground what is far is drawn larger than it was filmed.
+        t.setGround(QTransform(1, 0, 0.0005, 0, 1, 0, 0, 0, 1));
+        for (const QPointF at : {QPointF(0, 0), QPointF(600, 400)}) {
+            const double step = 1e-3;
+            const QPointF o = t.viewFromImage(at);
+            const QPointF x = (t.viewFromImage(at + QPointF(step, 0)) - o) / step;
+            const QPointF y = (t.viewFromImage(at + QPointF(0, step)) - o) / step;
+            const double px = std::sqrt(std::abs(x.x() * y.y() - x.y() * y.x()));
+            QVERIFY2(std::abs(t.scaleAt(at) - px) < 1e-4, qPrintable(QString::number(t.scaleAt(at) - px)));
+        }
+        QVERIFY(t.scaleAt({600, 400}) < 0.8 * t.scaleAt({0, 0}));
+    }
+
     void pixelsAreSharpFromFourHundredPercent() {
         ViewTransform t = shown({640, 480}, {1000, 700});
         t.setZoomAround({0, 0}, 3.99);

@@ -100,7 +100,6 @@ class LabelToolTest : public QObject {
     void twoClicksDrawAlongTheHeading() {
         Canvas canvas;
         LabelScene scene;
-        scene.drawn_length = 18;
         scene.drawn_width = 7;
         canvas.tool.setScene(scene);
         canvas.tool.startDrawing();
@@ -115,6 +114,20 @@ class LabelToolTest : public QObject {
         QVERIFY(near(canvas.drawn.width, 7));
         QVERIFY(near(canvas.drawn.heading, std::numbers::pi / 2, 0.03));  // y points down
         QCOMPARE(canvas.view.transform().zoom(), zoom);
+    }
+
+    void inAnObliqueViewTheWidthIsThatOfThePlace() {
+        Canvas canvas;
+        LabelScene scene;
+        scene.drawn_width = 8;
+        scene.slope = ScaleSlope::ofPicture({200, 150}, 0, 0.01);
+        canvas.tool.setScene(scene);
+        for (const double y : {40.0, 110.0}) {
+            canvas.tool.startDrawing();
+            canvas.click(60, y);
+            canvas.click(80, y);
+            QVERIFY(near(canvas.drawn.width, 8 * (1 + 0.01 * (y - 74.5)), 0.05));
+        }
     }
 
     void shiftAsksForTheWidthByAThirdClick() {

@@ -160,6 +160,26 @@ class EvaluationTest : public QObject {
         QCOMPARE(curve.series[0].values[0], 1.0);
         QVERIFY(curve.series[0].values[1] < 0.95);
         QVERIFY(std::abs(curve.series[2].values[0] - 0.9) < 1e-9);
+        QVERIFY(!panel.scoreCurve().isHidden());
+        // Without an evaluation there is none of a former one.
+        EvaluationSettings settings = window->evaluation().evaluation().settings();
+        settings.truth_file = *home_ / "nowhere.csv";
+        window->evaluation().evaluation().setSettings(settings);
+        QVERIFY(waitFor([&] { return !panel.explanation().isEmpty() && panel.scoreCurve().isHidden(); }));
+    }
+
+    void whyThereIsNoCurveOverTheScoreIsTold() {
+        const auto window = evaluatingWindow();
+        QVERIFY(window);
+        EvaluationPanel& panel = window->evaluation().panel();
+        QVERIFY(waitFor([&] { return panel.scoreCurve().data().places.size() == 2; }));
+        // What the run left out is read from the project, which is gone; the rest is still known.
+        EvaluationSettings settings = window->evaluation().evaluation().settings();
+        std::filesystem::rename(project(), *home_ / "moved.eyrie");
+        settings.wishes.overlap = 0.45;
+        window->evaluation().evaluation().setSettings(settings);
+        QVERIFY(waitFor([&] { return test::says(panel, QStringLiteral("No curve over the score: ")); }));
+        QVERIFY(panel.scoreCurve().isHidden());
     }
 
     void everyErrorIsListedWithItsCause() {

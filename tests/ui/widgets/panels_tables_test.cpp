@@ -156,6 +156,32 @@ class TablesTest : public QObject {
         QCOMPARE(panel.sensitivity()->value(), 100);
     }
 
+    void aTrackIsListedFromTheVeryThresholdOn() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        std::vector<TrackSummary> tracks;
+        for (const double score : {0.123, 0.3, 0.7}) {
+            tracks.push_back(sampleTrack(static_cast<int>(tracks.size()) + 1));
+            tracks.back().confirmed = true;
+            tracks.back().score = score;
+        }
+        model.setTracks(tracks, {});
+        double min_score = -1;
+        panel.setCommands({.use_min_score = [&](double score) { min_score = score; }});
+        panel.sensitivity()->setValue(70);
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 3 tracks"));
+        panel.sensitivity()->setValue(30);
+        QCOMPARE(panel.countText(), QStringLiteral("1 of 3 tracks"));
+        // Thresholds of runs are no whole percents: what is in the result is listed, and nothing below it.
+        panel.sensitivity()->setValue(100);
+        panel.setThreshold(0.123);
+        QCOMPARE(min_score, 0.123);
+        QCOMPARE(panel.countText(), QStringLiteral("3 of 3 tracks"));
+        panel.setThreshold(0.124);
+        QCOMPARE(min_score, 0.124);
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 3 tracks"));
+    }
+
     void theSelectionSurvivesNewContentsWithoutBeingTold() {
         TracksModel model;
         TracksPanel panel(&model);

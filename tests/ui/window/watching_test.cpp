@@ -1,7 +1,10 @@
+#include <QApplication>
+#include <QFileDialog>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QSlider>
 #include <QTest>
+#include <QTimer>
 #include <cmath>
 
 #include "canvas/video_view.h"
@@ -156,8 +159,26 @@ class WatchingTest : public QObject {
         QVERIFY(!canvas().transform().onGround());
         QVERIFY(!actions().steady->isEnabled());
         QVERIFY(!actions().measure->isEnabled());
+        // Nor when it changes what can be done otherwise.
+        window().session().renameRun(*window().session().currentRun(), QStringLiteral("watched"));
+        QTRY_COMPARE_WITH_TIMEOUT(window().session().shownRun()->name, std::string("watched"), kPatience_ms);
+        QVERIFY(!actions().measure->isEnabled());
         actions().workspaceAction(WorkspaceKind::review)->trigger();
+        QVERIFY(actions().measure->isEnabled());
         QTRY_VERIFY_WITH_TIMEOUT(canvas().transform().onGround(), kPatience_ms);
+    }
+
+    void whatOneWorkspaceBeganOnTheCanvasEndsBeforeAnotherTakesIt() {
+        window().session().selectTrack(window().ground().ground()->run->tracks.front().id);
+        actions().follow_object->setChecked(true);
+        actions().measure->trigger();
+        QVERIFY(window().watching().measureTool().measuring());
+        actions().workspaceAction(WorkspaceKind::label)->trigger();
+        QVERIFY(!window().watching().measureTool().measuring());
+        QVERIFY(canvas().tool() != nullptr && canvas().tool() != &window().watching().measureTool());
+        QCOMPARE(canvas().transform().rotation(), 0.0);
+        actions().workspaceAction(WorkspaceKind::review)->trigger();
+        QVERIFY(canvas().tool() == nullptr);
     }
 
     void distancesAndSpeedsAreMeasuredOnTheGround() {
@@ -187,6 +208,12 @@ class WatchingTest : public QObject {
         QTRY_VERIFY_WITH_TIMEOUT(window().session().playback().spans().has_value(), kPatience_ms);
         QVERIFY(!window().session().playback().spans()->empty());
         QVERIFY(tells(QStringLiteral("Something moves")));
+        // What the sensitivity hides does not count, as soon as it does.
+        window().overlays().setMinScore(2);
+        QTRY_VERIFY_WITH_TIMEOUT(window().session().playback().spans()->empty(), kPatience_ms);
+        QVERIFY(tells(QStringLiteral("Nothing moves")));
+        window().overlays().setMinScore(0);
+        QTRY_VERIFY_WITH_TIMEOUT(!window().session().playback().spans()->empty(), kPatience_ms);
         QTest::keyClick(&canvas(), Qt::Key_Space, Qt::ControlModifier);
         QVERIFY(!window().session().playback().spans());
     }
@@ -214,21 +241,41 @@ class WatchingTest : public QObject {
 
     void whatIsSeenIsSavedAndNeverOverAProject() {
         const std::filesystem::path seen = *home_ / "seen.png";
-        window().watching().writeSnapshot(seen, SnapshotKind::as_seen);
+        window().watching().writeSnapshot(seen, snapshotOf(canvas(), window().session(), SnapshotKind::as_seen));
         QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(seen), kPatience_ms);
         const QImage view(QString::fromStdString(seen.string()));
         QCOMPARE(view.width(), canvas().width());  // a message above it may come or go meanwhile
         QCOMPARE(view.text(QStringLiteral("Frame")), QString::number(kAnchor));
         QCOMPARE(view.text(QStringLiteral("Video")), QStringLiteral("scene.mp4"));
         const std::filesystem::path alone = *home_ / "alone.png";
-        window().watching().writeSnapshot(alone, SnapshotKind::alone);
+        window().watching().writeSnapshot(alone, snapshotOf(canvas(), window().session(), SnapshotKind::alone));
         QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(alone), kPatience_ms);
         QCOMPARE(QImage(QString::fromStdString(alone.string())).size(), QSize(240, 180));
         const auto project = window().session().project();
         const auto size = std::filesystem::file_size(project);
-        window().watching().writeSnapshot(project, SnapshotKind::alone);
+        window().watching().writeSnapshot(project, snapshotOf(canvas(), window().session(), SnapshotKind::alone));
         QTRY_VERIFY_WITH_TIMEOUT(tells(QString::fromStdString(project.filename().string())), kPatience_ms);
         QVERIFY(std::filesystem::file_size(project) >= size);
+    }
+
+    void aSnapshotIsOfTheMomentItWasAskedFor() {
+        QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+        const std::filesystem::path path = *home_ / "asked.png";
+        QTimer::singleShot(0, this, [&] {
+            QTRY_VERIFY_WITH_TIMEOUT(QApplication::activeModalWidget() != nullptr, kPatience_ms);
+            auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+            QVERIFY(dialog != nullptr);
+            QVERIFY(goTo(kLater));  // the video went on meanwhile
+            dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))
+                ->setText(QString::fromStdString(path.string()));
+            QMetaObject::invokeMethod(dialog, "accept");
+        });
+        actions().snapshot_plain->trigger();
+        window().activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(window_.get()));
+        QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(path), kPatience_ms);
+        QCOMPARE(window().session().shownFrame(), kLater);
+        QCOMPARE(QImage(QString::fromStdString(path.string())).text(QStringLiteral("Frame")), QString::number(kAnchor));
     }
 
     void theMosaicTellsWhenAPlaceWasSeenAndWhoCrossedIt() {
@@ -239,9 +286,9 @@ class WatchingTest : public QObject {
         const SheetPicture& sheet = panel.mosaic()->pictures.front();
         // The camera went 59 px further.
         QVERIFY(std::abs(sheet.image.width() - 299) <= 3 && std::abs(sheet.image.height() - 180) <= 3);
-        QVERIFY(!sheet.paths.empty());
+        QVERIFY(!sheet.paths->empty());
         // A place that a vehicle crosses, by the mouse: on its way.
-        const SheetPath& path = sheet.paths.front();
+        const SheetPath& path = sheet.paths->front();
         const FramePoint& there = path.points[path.points.size() / 2];
         QTRY_VERIFY(panel.view().width() > 100);
         QTest::mouseClick(&panel.view(), Qt::LeftButton, {},
@@ -265,6 +312,14 @@ class WatchingTest : public QObject {
         QTest::keyClick(&panel.view(), Qt::Key_Plus);
         QTest::keyClick(&panel.view(), Qt::Key_Return);
         QTRY_VERIFY_WITH_TIMEOUT(panel.list().count() > 0, kPatience_ms);
+        // What is kept of the view between frames is painted anew where it changes.
+        const QImage first = panel.view().grab().toImage();
+        panel.view().setColours(overlayColours(PaletteKind::colour_blind));
+        QVERIFY(panel.view().grab().toImage() != first);
+        panel.view().setColours(overlayColours(PaletteKind::thesis));
+        QVERIFY(panel.view().grab().toImage() == first);
+        QTest::keyClick(&panel.view(), Qt::Key_Left);
+        QVERIFY(panel.view().grab().toImage() != first);
     }
 
     void theCardShowsTheEventInALoopWithItsSpeedAndNote() {

@@ -92,10 +92,10 @@ void appendHeading(QVector<QLineF>& lines, const OrientedBox& box, const ViewTra
     const QPointF from = transform.viewFromImage(QPointF(front.x, front.y));
     if (!view.contains(from)) return;
     const cv::Point2d direction = box.direction();
-    const double length = std::clamp(box.length * transform.scale() * 0.25, 5.0, 14.0);
-    QPointF ahead = transform.viewVector({direction.x, direction.y}, {box.centre.x, box.centre.y});
-    ahead /= std::hypot(ahead.x(), ahead.y());
-    lines.append({from, from + ahead * length});
+    const QPointF ahead = transform.viewVector({direction.x, direction.y}, {box.centre.x, box.centre.y});
+    const double scale = std::hypot(ahead.x(), ahead.y());
+    const double length = std::clamp(box.length * scale * 0.25, 5.0, 14.0);
+    lines.append({from, from + ahead / scale * length});
 }
 
 }  // namespace eyrie::ui

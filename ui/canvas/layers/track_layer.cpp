@@ -1,22 +1,9 @@
 #include "canvas/layers/track_layer.h"
 
-#include <algorithm>
-
 #include "canvas/drawing/edged_painter.h"
 #include "canvas/drawing/track_captions.h"
 
 namespace eyrie::ui {
-
-namespace {
-
-/// Null where there is none; `states` by ascending id.
-const TrackState* stateOf(const std::vector<TrackState>& states, TrackId id) {
-    const auto found = std::lower_bound(states.begin(), states.end(), id,
-                                        [](const TrackState& state, TrackId wanted) { return state.id < wanted; });
-    return found != states.end() && found->id == id ? &*found : nullptr;
-}
-
-}  // namespace
 
 void TrackLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     if (scene.style.trails) paintTrails(painter, scene);
@@ -31,8 +18,7 @@ void TrackLayer::paintTrails(QPainter& painter, const OverlayScene& scene) const
     QVector<QLineF> steps[kSteps];
     QVector<QLineF> selected;
     for (const Trail& trail : scene.frame.trails) {
-        const TrackState* state = stateOf(scene.result.tracks, trail.id);
-        if (state == nullptr) state = stateOf(scene.frame.doubtful, trail.id);
+        const TrackState* state = stateOf(scene.frame, trail.id);
         if (state == nullptr || !isShown(*state, scene)) continue;
         const size_t count = trail.points.size();
         for (size_t i = 1; i < count; ++i) {

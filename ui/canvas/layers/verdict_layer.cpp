@@ -120,7 +120,7 @@ void VerdictLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     for (const VerdictMark& mark : scene.frame.verdicts) {
         appendBox(lines[static_cast<std::size_t>(mark.kind)], mark.box, scene.transform, scene.view);
         if (!mark.selected) continue;
-        const double gap = 2 * kSelectedGap / scene.transform.scale();
+        const double gap = 2 * kSelectedGap / scene.transform.scaleAt({mark.box.centre.x, mark.box.centre.y});
         OrientedBox wider = mark.box;
         wider.length += gap;
         wider.width += gap;

@@ -7,6 +7,7 @@
 
 #include "core/labels/annotation.h"
 #include "core/values/ids.h"
+#include "core/values/scale_slope.h"
 
 namespace eyrie::ui {
 
@@ -52,8 +53,8 @@ struct LabelScene {
     std::optional<ObjectId> selected;  ///< the one with handles
     bool editable = true;
     QColor drawn_colour{255, 255, 255};
-    double drawn_length = 0;  ///< usual size of the class drawn, px; 0: not known
-    double drawn_width = 0;
+    double drawn_width = 0;         ///< usual one of the class drawn in the slope's centre, px; 0: not known
+    ScaleSlope slope;               ///< how that changes over the picture
     double width_of_length = 0.42;  ///< width of what is drawn when its size is not known
 };
 

@@ -1,5 +1,6 @@
 #include "label/canvas/label_tool.h"
 
+#include <QLineF>
 #include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
@@ -90,8 +91,10 @@ bool LabelTool::cancel() {
     return something;
 }
 
-double LabelTool::usualWidth(double length) const {
-    return scene_.drawn_width > 0 ? scene_.drawn_width : length * scene_.width_of_length;
+double LabelTool::usualWidth(QPointF rear, QPointF front) const {
+    const QPointF middle = (rear + front) / 2;
+    if (scene_.drawn_width > 0) return scene_.drawn_width * scene_.slope.factorAt({middle.x(), middle.y()});
+    return QLineF(rear, front).length() * scene_.width_of_length;
 }
 
 void LabelTool::finishDrawing(const OrientedBox& box) {
@@ -110,8 +113,7 @@ void LabelTool::updateDraft(QPointF point) {
         return;
     }
     if (!front_) {
-        const double length = std::hypot(point.x() - rear_->x(), point.y() - rear_->y());
-        draft_ = boxFromRearToFront(*rear_, point, usualWidth(length));
+        draft_ = boxFromRearToFront(*rear_, point, usualWidth(*rear_, point));
         return;
     }
     OrientedBox box = boxFromRearToFront(*rear_, *front_, 1);
@@ -203,7 +205,7 @@ bool LabelTool::release(const QMouseEvent& event, const CanvasPlace& place) {
             if (asks_width)
                 front_ = point;
             else
-                finishDrawing(boxFromRearToFront(*rear_, point, usualWidth(length)));
+                finishDrawing(boxFromRearToFront(*rear_, point, usualWidth(*rear_, point)));
         } else {
             updateDraft(point);
             finishDrawing(OrientedBox(*draft_));

@@ -86,7 +86,7 @@ class LabelTool : public QObject, public CanvasTool {
     const LabelMark* selectedMark() const;
     void paintLoupes(QPainter& painter, const CanvasPlace& place) const;
     void finishDrawing(const OrientedBox& box);
-    double usualWidth(double length) const;
+    double usualWidth(QPointF rear, QPointF front) const;
     void updateDraft(QPointF image_point);
     void finishRegion();
     void addRegionCorner(QPointF image_point);

@@ -1,6 +1,5 @@
 #include "review/card/card_dock.h"
 
-#include "review/card/story_sketch.h"
 #include "review/events/event_text.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_model.h"
@@ -46,7 +45,9 @@ std::optional<CardSubject> CardDock::subjectOf(int id) const {
     if (entry == nullptr || !found) return std::nullopt;
     const Event* event = found->eventAt(entry->position);
     QStringList words{eventKindText(*found, entry->position), eventClockText(*found, entry->position)};
-    if (event != nullptr) words << tr("track %1").arg(eventTracksText(*found, entry->position));
+    if (event != nullptr)
+        words << (event->tracks.size() == 1 ? tr("track %1") : tr("tracks %1"))
+                     .arg(eventTracksText(*found, entry->position));
     const QString figure = eventFigureText(*found, entry->position);
     if (!figure.isEmpty()) words << figure;
     CardSubject subject;
@@ -70,13 +71,17 @@ void CardDock::refreshEvent() {
 
 void CardDock::showSelection() {
     const auto track = parts_.session.selectedTrack();
+    // An event that was just shown selects its track, or none.
+    if (card_->subject() && card_->subject()->track == track.value_or(0)) return;
     if (!track) {
         show(std::nullopt);
         return;
     }
-    if (card_->subject() && card_->subject()->track == *track) return;
+    const TrackSummary* summary = parts_.session.trackSummary(*track);
     CardSubject subject;
-    subject.title = tr("Track %1").arg(*track);
+    subject.title = summary != nullptr && summary->doubtful
+                        ? tr("Track %1 · left out of the result for its score; its way is not worked out").arg(*track)
+                        : tr("Track %1").arg(*track);
     subject.track = *track;
     subject.frame = parts_.session.currentFrame();
     show(subject);
@@ -91,8 +96,9 @@ void CardDock::show(const std::optional<CardSubject>& subject) {
 void CardDock::askForStory() {
     const auto& subject = card_->subject();
     const auto& ground = parts_.ground.ground();
-    if (!looked_at_ || !subject || subject->track == 0 || !ground || !parts_.session.media()) {
-        loader_.cancel();
+    const bool readable = looked_at_ && ground && parts_.session.media();
+    if (!readable || !subject || subject->track == 0) {
+        readable ? loader_.cancel() : loader_.close();
         asked_.reset();
         return;
     }

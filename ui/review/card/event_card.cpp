@@ -18,8 +18,8 @@ constexpr int kLongestNote = 500;
 }  // namespace
 
 EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [this] { nextChip(); }) {
-    empty_ = new EmptyState;
-    empty_->setTexts(tr("Select an event or a track: its vehicle in a loop, its speed and its way are shown here."));
+    auto* empty = new EmptyState;
+    empty->setTexts(tr("Select an event or a track: its vehicle in a loop, its speed and its way are shown here."));
     title_ = new QLabel;
     title_->setWordWrap(true);
     picture_ = new QLabel;
@@ -48,7 +48,7 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     grid->setRowStretch(2, 1);
     grid->setColumnStretch(1, 1);
     stack_ = new QStackedLayout(this);
-    stack_->addWidget(empty_);
+    stack_->addWidget(empty);
     stack_->addWidget(card);
     onFinished(
         this,

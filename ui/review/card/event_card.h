@@ -13,7 +13,6 @@ class QStackedLayout;
 
 namespace eyrie::ui {
 
-class EmptyState;
 class StorySketch;
 
 /// What stands on a card.
@@ -73,7 +72,6 @@ class EventCard : public QWidget {
     std::shared_ptr<const VehicleStory> story_;
     std::size_t chip_ = 0;
     QStackedLayout* stack_;
-    EmptyState* empty_;
     QLabel* title_;
     QLabel* picture_;
     StorySketch* speed_;

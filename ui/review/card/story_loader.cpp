@@ -33,6 +33,11 @@ void StoryLoader::cancel() {
     query_.cancel();
 }
 
+void StoryLoader::close() {
+    query_.cancel();
+    query_.post([opened = opened_](const BackgroundTask&) { opened->source.reset(); });
+}
+
 void StoryLoader::ask(const StoryWish& wish) {
     query_.ask([this, wish, opened = opened_](const BackgroundTask& task) {
         auto story = std::make_shared<VehicleStory>();
@@ -52,11 +57,13 @@ void StoryLoader::ask(const StoryWish& wish) {
                 if (task.stop().stop_requested()) return;
                 const Frame frame = opened->source->read(point.frame, true);
                 const cv::Mat& picture = frame.colour.empty() ? frame.gray : frame.colour;
-                story->chips.push_back(imageForDisplay(chipOf(picture, point.image, side, kChipSize)).copy());
+                story->chips.push_back(imageForDisplay(chipOf(picture, point.image, side, kChipSize)));
             }
         } catch (const std::exception&) {
-            opened->source.reset();  // what cannot be read has no chips; the canvas tells why
-            return;
+            // What cannot be read has no chip; those before it are shown. The canvas tells why.
+            opened->source.reset();
+            if (task.stop().stop_requested()) return;
+            story->shown.resize(story->chips.size());
         }
         task.tell([this, story = std::shared_ptr<const VehicleStory>(story)] { came_(story); });
     });

@@ -30,12 +30,12 @@ struct StoryWish {
 struct VehicleStory {
     StoryWish wish;
     std::vector<StoryPoint> points;  ///< of the whole drive on this ground
-    std::vector<StoryPoint> shown;   ///< those with a chip
-    std::vector<QImage> chips;       ///< may be fewer while they come
+    std::vector<StoryPoint> shown;   ///< those that have a chip, or get one
+    std::vector<QImage> chips;       ///< of these in their order; none while they come
 };
 
 /// Reads the story of a vehicle and its chips, in the background; of several wishes the newest counts. Keeps the video
-/// open for the next one.
+/// open for the next one, until close().
 class StoryLoader {
  public:
     static constexpr int kChipSize = 132;  ///< px
@@ -48,6 +48,8 @@ class StoryLoader {
     /// Answered twice: without chips, then with them.
     void ask(const StoryWish& wish);
     void cancel();
+    /// The same; and lets the video go.
+    void close();
 
  private:
     struct Opened;

@@ -16,20 +16,14 @@ constexpr double kSketchMargin = 6;
 constexpr double kWayPerLine = 1.2;
 const QColor kSketchMark(255, 170, 30);
 
-double wayOf(const std::vector<StoryPoint>& points) {
-    double way = 0;
-    for (std::size_t i = 1; i < points.size(); ++i)
-        way += std::hypot(points[i].at.x - points[i - 1].at.x, points[i].at.y - points[i - 1].at.y);
-    return way;
-}
-
 }  // namespace
 
 StorySketch::StorySketch(Kind kind, QWidget* parent) : QWidget(parent), kind_(kind) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     setAccessibleName(kind == Kind::speed ? tr("Speed over time") : tr("Way over the ground"));
-    setToolTip(kind == Kind::speed ? tr("Speed over time; a click goes there")
-                                   : tr("Way over the ground, as the first frame of it is turned; a click goes there"));
+    setToolTip(kind == Kind::speed
+                   ? tr("Speed over time; a click goes there")
+                   : tr("Way over the ground, turned as the frame in which that begins; a click goes there"));
 }
 
 QSize StorySketch::sizeHint() const {
@@ -50,12 +44,11 @@ void StorySketch::setMark(FrameIndex frame) {
 
 QString StorySketch::figureText() const {
     if (points_.empty()) return {};
-    const auto px_per_frame = [&](double speed) { return scale_.pxPerFrame(speed); };
-    if (kind_ == Kind::way) return lengthText(scale_.px(wayOf(points_)), scale_);
+    if (kind_ == Kind::way) return lengthText(scale_.px(points_.back().way_m), scale_);
     const auto [least, most] = std::minmax_element(points_.begin(), points_.end(),
                                                    [](const auto& a, const auto& b) { return a.speed < b.speed; });
-    return tr("%1 – %2").arg(numberText(shownSpeed(px_per_frame(least->speed), scale_), scale_.gsd_known ? 0 : 1),
-                             shortSpeedText(px_per_frame(most->speed), scale_));
+    return tr("%1 – %2").arg(numberText(shownSpeed(scale_.pxPerFrame(least->speed), scale_), scale_.gsd_known ? 0 : 1),
+                             shortSpeedText(scale_.pxPerFrame(most->speed), scale_));
 }
 
 QPolygonF StorySketch::line() const {

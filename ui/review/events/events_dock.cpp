@@ -95,9 +95,7 @@ void EventsDock::wireLists() {
     panel_->setCommands({.show = [this](int id) { show(id); }, .listing_changed = [this] { marks_due_.start(); }});
     connect(&panel_->thresholds(), &EventThresholds::edited, this,
             [this] { review_->setOptions(panel_->thresholds().options()); });
-    connect(model_, &EventsModel::noteEdited, this, [this](int id, const QString& note) {
-        if (const auto place = placeOf(id)) review_->setNote(*place, note);
-    });
+    connect(model_, &EventsModel::noteEdited, this, &EventsDock::writeNote);
     connect(&parts_.timeline, &TimelineView::markClicked, this, [this](int id) {
         if (Bookmarks::isBookmark(id)) {
             bookmarks_->goTo(id);
@@ -250,13 +248,13 @@ void EventsDock::show(int id) {
     const FoundEvents& found = *model_->found();
     const Event* event = found.eventAt(*place);
     parts_.session.playback().pause();
+    tell_shown_(id);  // first: what shows it need not show its track alone before
     if (event != nullptr && !event->tracks.empty())
         parts_.session.selectTrack(event->tracks.front());
     else
         parts_.session.selectTrack(std::nullopt);
     parts_.session.goToFrame(found.frameAt(*place));
     if (event != nullptr) bringIntoView(QPointF(event->place.x, event->place.y));
-    tell_shown_(id);
 }
 
 void EventsDock::writeNote(int id, const QString& note) {

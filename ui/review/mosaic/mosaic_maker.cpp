@@ -1,6 +1,7 @@
 #include "review/mosaic/mosaic_maker.h"
 
 #include <chrono>
+#include <utility>
 
 #include "canvas/drawing/image_convert.h"
 #include "ground/ground_mosaic.h"
@@ -10,9 +11,50 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr MosaicOptions kMosaicBudget{.max_pixels = 8'000'000, .max_frames = 400, .colour = true};
 constexpr auto kShownEvery = std::chrono::milliseconds(700);
 constexpr double kLeastWay = 2;  ///< between points of a way, units of the sheet
+
+/// The mosaic of a run on its way.
+class MosaicWork {
+ public:
+    explicit MosaicWork(const std::shared_ptr<const RunGround>& ground)
+        : ground_(ground),
+          sheets_(std::make_shared<const GroundSheets>(ground->run->footage, ground->run->footage.first_frame)),
+          painter_(sheets_) {
+        auto paths = pathsOn(*sheets_, ground->run->tracks, kLeastWay);
+        for (std::size_t i = 0; i < painter_.sheets().size(); ++i) {
+            const MosaicSheet& sheet = painter_.sheets()[i];
+            SheetPicture shown;
+            shown.area = {sheet.area.x, sheet.area.y, sheet.area.width, sheet.area.height};
+            shown.px_per_unit = sheet.px_per_unit;
+            shown.paths = std::make_shared<const std::vector<SheetPath>>(std::move(paths[i]));
+            pictures_.push_back(std::move(shown));
+        }
+        painted_.assign(pictures_.size(), true);
+    }
+
+    const std::vector<FrameIndex>& frames() const { return painter_.frames(); }
+    void paint(const Frame& frame) {
+        painter_.paint(frame);
+        painted_[static_cast<std::size_t>(sheets_->sheetOf(frame.index))] = true;
+    }
+    /// What there is so far; only sheets that were painted since are copied.
+    std::shared_ptr<const MosaicPicture> picture(double share, const std::stop_token& stop) {
+        for (std::size_t i = 0; i < pictures_.size() && !stop.stop_requested(); ++i) {
+            if (!painted_[i]) continue;
+            pictures_[i].image = imageForDisplay(painter_.sheets()[i].picture);
+            painted_[i] = false;
+        }
+        return std::make_shared<const MosaicPicture>(MosaicPicture{ground_, sheets_, pictures_, share});
+    }
+
+ private:
+    std::shared_ptr<const RunGround> ground_;
+    std::shared_ptr<const GroundSheets> sheets_;
+    GroundMosaic painter_;
+    std::vector<SheetPicture> pictures_;
+    std::vector<bool> painted_;  ///< since they were shown
+};
 
 }  // namespace
 
@@ -26,42 +68,26 @@ void MosaicMaker::make(const std::shared_ptr<const RunGround>& ground, const Med
     mosaic_.reset();
     emit changed();
     const auto work = [this, ground, media](const BackgroundTask& task) {
-        const Footage& footage = ground->run->footage;
-        const auto sheets = std::make_shared<const GroundSheets>(footage, footage.first_frame);
-        GroundMosaic painter(sheets, kMosaicBudget);
-        std::vector<std::vector<SheetPath>> paths;
-        for (int sheet = 0; sheet < sheets->count(); ++sheet)
-            paths.push_back(pathsOn(*sheets, ground->run->tracks, sheet, kLeastWay));
+        MosaicWork mosaic(ground);
+        const std::stop_token& stop = task.stop();
+        if (stop.stop_requested()) return;
         const auto show = [&](double share) {
-            auto picture = std::make_shared<MosaicPicture>();
-            picture->ground = ground;
-            picture->sheets = sheets;
-            picture->share = share;
-            for (std::size_t i = 0; i < painter.sheets().size(); ++i) {
-                const MosaicSheet& sheet = painter.sheets()[i];
-                SheetPicture shown;
-                shown.image = imageForDisplay(sheet.picture);
-                shown.area = {sheet.area.x, sheet.area.y, sheet.area.width, sheet.area.height};
-                shown.px_per_unit = sheet.px_per_unit;
-                shown.paths = paths[i];
-                picture->pictures.push_back(std::move(shown));
-            }
-            task.tell([this, picture] {
+            task.tell([this, picture = mosaic.picture(share, stop)] {
                 mosaic_ = picture;
                 emit changed();
             });
         };
-        const auto source = media.open({}, task.stop());
+        const auto source = media.open({}, stop);
         auto shown_at = std::chrono::steady_clock::now();
-        const std::vector<FrameIndex>& frames = painter.frames();
-        for (std::size_t i = 0; i < frames.size() && !task.stop().stop_requested(); ++i) {
-            if (frames[i] < source->info().frame_count) painter.paint(source->read(frames[i], true));
-            const auto now = std::chrono::steady_clock::now();
-            if (i > 0 && now - shown_at < kShownEvery) continue;
+        const std::vector<FrameIndex>& frames = mosaic.frames();
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            if (stop.stop_requested()) return;
+            if (frames[i] < source->info().frame_count) mosaic.paint(source->read(frames[i], true));
+            if (i > 0 && std::chrono::steady_clock::now() - shown_at < kShownEvery) continue;
             show(static_cast<double>(i + 1) / static_cast<double>(frames.size()));
             shown_at = std::chrono::steady_clock::now();
         }
-        if (!task.stop().stop_requested()) show(1);
+        if (!stop.stop_requested()) show(1);
     };
     query_.ask(work, fail_);
 }

@@ -20,7 +20,7 @@ struct SheetPicture {
     QImage image;
     QRectF area;  ///< of the sheet, in its unit
     double px_per_unit = 1;
-    std::vector<SheetPath> paths;
+    std::shared_ptr<const std::vector<SheetPath>> paths;  ///< never null in what is shown
 
     QPointF imageFromSheet(QPointF on_sheet) const { return (on_sheet - area.topLeft()) * px_per_unit; }
     QPointF sheetFromImage(QPointF in_image) const { return in_image / px_per_unit + area.topLeft(); }

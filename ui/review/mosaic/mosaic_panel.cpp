@@ -6,6 +6,7 @@
 #include <QStackedLayout>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "canvas/overlay_settings.h"
@@ -31,10 +32,14 @@ QLabel* quietLine(QWidget* parent) {
     return label;
 }
 
+QString timeOf(const StoredTracks& run, FrameIndex frame) {
+    return QString::fromStdString(timeText(std::llround(run.secondsOf(frame) * 1e6), 1));
+}
+
 }  // namespace
 
 MosaicPanel::MosaicPanel(const MosaicParts& parts, QWidget* parent)
-    : QWidget(parent), parts_(parts), maker_([this](const QString& message) { empty_->setTexts(message); }) {
+    : QWidget(parent), parts_(parts), maker_([this](const QString& message) { fail(message); }) {
     empty_ = new EmptyState;
     header_ = quietLine(this);
     place_ = quietLine(this);
@@ -84,13 +89,15 @@ MosaicPanel::~MosaicPanel() = default;
 
 void MosaicPanel::setLookedAt(bool looked_at) {
     looked_at_ = looked_at;
-    makeIfWanted();
+    if (looked_at) makeIfWanted();
 }
 
 void MosaicPanel::makeIfWanted() {
     const auto& ground = parts_.ground.ground();
-    if (made_of_ && made_of_ != ground) {
+    const bool something = made_of_ || maker_.mosaic() || !failure_.isEmpty();
+    if (something && made_of_ != ground) {
         made_of_.reset();
+        failure_.clear();
         place_query_.cancel();
         maker_.clear();
     }
@@ -100,8 +107,19 @@ void MosaicPanel::makeIfWanted() {
     maker_.make(ground, *parts_.session.media());
 }
 
+void MosaicPanel::fail(const QString& message) {
+    // Tried again once somebody looks again.
+    made_of_.reset();
+    failure_ = tr("The ground could not be laid out: %1").arg(message);
+    showMosaic();
+}
+
 void MosaicPanel::explainNothing() {
     if (maker_.mosaic() || made_of_) return;
+    if (!failure_.isEmpty()) {
+        empty_->setTexts(failure_);
+        return;
+    }
     empty_->setTexts(
         tr("The ground that a run saw is laid out here once it has finished, with the ways of all tracks. A "
            "click on a place tells when it was seen and who crossed it."));
@@ -139,7 +157,10 @@ void MosaicPanel::showFrame() {
     QStringList texts;
     const int count = mosaic->sheets->count();
     if (count > 1) texts << tr("Ground %1 of %2").arg(sheet + 1).arg(count);
-    if (mosaic->share < 1) texts << tr("laid out: %1 %").arg(static_cast<int>(100 * mosaic->share));
+    if (!failure_.isEmpty())
+        texts << failure_;
+    else if (mosaic->share < 1)
+        texts << tr("laid out: %1 %").arg(static_cast<int>(100 * mosaic->share));
     header_->setText(texts.join(QStringLiteral(" · ")));
     header_->setVisible(!texts.isEmpty());
     header_->setToolTip(count > 1
@@ -149,12 +170,6 @@ void MosaicPanel::showFrame() {
 }
 
 // ---- a place --------------------------------------------------------------------------------------------------------
-
-QString MosaicPanel::timeOf(FrameIndex frame) const {
-    const auto& times = parts_.session.timesUs();
-    const auto at = static_cast<std::size_t>(frame);
-    return at < times.size() ? QString::fromStdString(timeText(times[at], 1)) : QString::number(frame);
-}
 
 void MosaicPanel::askAbout(QPointF on_sheet) {
     const auto mosaic = maker_.mosaic();
@@ -170,8 +185,9 @@ void MosaicPanel::askAbout(QPointF on_sheet) {
 }
 
 void MosaicPanel::showHistory(int sheet, const PlaceHistory& history) {
-    if (sheet != view_->sheet()) return;
+    if (sheet != view_->sheet() || !maker_.mosaic()) return;
     list_->clear();
+    const StoredTracks& run = *maker_.mosaic()->ground->run;
     double seconds = 0;
     const auto add = [&](const QString& text, FrameIndex frame, TrackId track) {
         auto* item = new QListWidgetItem(text, list_);
@@ -182,20 +198,23 @@ void MosaicPanel::showHistory(int sheet, const PlaceHistory& history) {
     auto passage = history.passed.begin();
     const auto add_passages = [&](FrameIndex until) {
         for (; passage != history.passed.end() && passage->frames.first <= until; ++passage)
-            add(tr("    %1   track %2").arg(timeOf(passage->frames.first)).arg(passage->track), passage->frames.first,
-                passage->track);
+            add(tr("    %1   track %2").arg(timeOf(run, passage->frames.first)).arg(passage->track),
+                passage->frames.first, passage->track);
     };
     for (const FrameSpan& span : history.seen) {
-        seconds += static_cast<double>(span.last - span.first + 1) / parts_.session.scale().frame_rate_hz;
-        add(tr("seen %1 – %2").arg(timeOf(span.first), timeOf(span.last)), span.first, 0);
+        seconds += run.secondsOf(span.last) - run.secondsOf(span.first) + 1 / run.footage.scale.frame_rate_hz;
+        add(tr("seen %1 – %2").arg(timeOf(run, span.first), timeOf(run, span.last)), span.first, 0);
         add_passages(span.last);
     }
     add_passages(std::numeric_limits<FrameIndex>::max());
-    const QString times = history.seen.size() == 1 ? tr("once") : tr("%1 times").arg(history.seen.size());
-    const QString tracks =
-        history.passed.size() == 1 ? tr("crossed once") : tr("crossed %1 times").arg(history.passed.size());
+    const QString seen = history.seen.size() == 1
+                             ? tr("Seen once, for %1").arg(durationText(seconds))
+                             : tr("Seen %1 times, %2 in all").arg(history.seen.size()).arg(durationText(seconds));
+    const QString crossed = history.passed.empty()       ? tr("no track crossed it")
+                            : history.passed.size() == 1 ? tr("crossed once")
+                                                         : tr("crossed %1 times").arg(history.passed.size());
     place_->setText(history.seen.empty() ? tr("This place was never in the picture.")
-                                         : tr("Seen %1, %2 in all; %3.").arg(times, durationText(seconds), tracks));
+                                         : QStringLiteral("%1; %2.").arg(seen, crossed));
 }
 
 void MosaicPanel::activate(int row) {

@@ -48,14 +48,15 @@ class MosaicPanel : public QWidget {
     void makeIfWanted();
     void showMosaic();
     void showFrame();
+    void fail(const QString& message);
     void explainNothing();
     void showHistory(int sheet, const PlaceHistory& history);
     void activate(int row);
-    QString timeOf(FrameIndex frame) const;
 
     MosaicParts parts_;
     bool looked_at_ = false;
     std::shared_ptr<const RunGround> made_of_;
+    QString failure_;  ///< why nothing, or not all, was laid out; else empty
     QStackedLayout* stack_;
     EmptyState* empty_;
     QLabel* header_;

@@ -63,7 +63,7 @@ void MosaicView::show(const std::shared_ptr<const MosaicPicture>& mosaic, int sh
         place_.reset();
         fit();
     }
-    update();
+    changeStill();
 }
 
 void MosaicView::setFrame(FrameIndex frame) {
@@ -83,7 +83,7 @@ void MosaicView::setPlace(std::optional<QPointF> on_sheet) {
 
 void MosaicView::setColours(const OverlayColours& colours) {
     colours_ = colours;
-    update();
+    changeStill();
 }
 
 // ---- place ----------------------------------------------------------------------------------------------------------
@@ -110,7 +110,7 @@ void MosaicView::fit() {
     const QSizeF size = shown->image.size();
     scale_ = std::min({width() / size.width(), height() / size.height(), kClosest});
     origin_ = QPointF(width() - size.width() * scale_, height() - size.height() * scale_) / 2;
-    update();
+    changeStill();
 }
 
 void MosaicView::zoomAround(QPointF in_view, double factor) {
@@ -123,14 +123,14 @@ void MosaicView::zoomAround(QPointF in_view, double factor) {
     scale_ = scale;
     fitted_ = false;
     keepReachable();
-    update();
+    changeStill();
 }
 
 void MosaicView::panBy(QPointF way) {
     origin_ += way;
     fitted_ = false;
     keepReachable();
-    update();
+    changeStill();
 }
 
 void MosaicView::keepReachable() {
@@ -144,24 +144,42 @@ void MosaicView::keepReachable() {
 
 // ---- painting -------------------------------------------------------------------------------------------------------
 
+void MosaicView::changeStill() {
+    still_ = {};
+    update();
+}
+
+QVector<QLineF> MosaicView::waysOf(const SheetPicture& shown, std::optional<TrackId> track) const {
+    QVector<QLineF> ways;
+    for (const SheetPath& path : *shown.paths) {
+        if (track && *track != path.track) continue;
+        for (std::size_t i = 1; i < path.points.size(); ++i)
+            ways.append({viewFromSheet({path.points[i - 1].at.x, path.points[i - 1].at.y}),
+                         viewFromSheet({path.points[i].at.x, path.points[i].at.y})});
+    }
+    return ways;
+}
+
+void MosaicView::paintStill(const SheetPicture& shown) {
+    still_ = QPixmap(size() * devicePixelRatioF());
+    still_.setDevicePixelRatio(devicePixelRatioF());
+    still_.fill(kUnseen);
+    QPainter painter(&still_);
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, scale_ < 4);
+    painter.drawImage(QRectF(origin_, QSizeF(shown.image.size()) * scale_), shown.image);
+    painter.setRenderHint(QPainter::Antialiasing);
+    drawEdgedLines(painter, waysOf(shown, std::nullopt), {colours_.track, colours_.edge, 1});
+}
+
 void MosaicView::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.fillRect(rect(), kUnseen);
     const SheetPicture* shown = picture();
     if (shown == nullptr) return;
-    painter.setRenderHint(QPainter::SmoothPixmapTransform, scale_ < 4);
-    painter.drawImage(QRectF(origin_, QSizeF(shown->image.size()) * scale_), shown->image);
+    if (still_.isNull() || still_.size() != size() * devicePixelRatioF()) paintStill(*shown);
+    painter.drawPixmap(0, 0, still_);
     painter.setRenderHint(QPainter::Antialiasing);
-    QVector<QLineF> ways;
-    QVector<QLineF> selected;
-    for (const SheetPath& path : shown->paths)
-        for (std::size_t i = 1; i < path.points.size(); ++i) {
-            const QLineF line(viewFromSheet({path.points[i - 1].at.x, path.points[i - 1].at.y}),
-                              viewFromSheet({path.points[i].at.x, path.points[i].at.y}));
-            (selected_ == path.track ? selected : ways).append(line);
-        }
-    drawEdgedLines(painter, ways, {colours_.track, colours_.edge, 1});
-    drawEdgedLines(painter, selected, {colours_.selected_track, colours_.edge, 2.4});
+    if (selected_) drawEdgedLines(painter, waysOf(*shown, selected_), {colours_.selected_track, colours_.edge, 2.4});
     if (mosaic_->sheets->sheetOf(frame_) == sheet_) {
         QPolygonF outline;
         for (const cv::Point2d& corner : mosaic_->sheets->outlineOf(frame_))

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <QPolygonF>
+#include <QLineF>
+#include <QPixmap>
+#include <QVector>
 #include <QWidget>
 #include <functional>
 #include <memory>
@@ -54,10 +56,16 @@ class MosaicView : public QWidget {
     void zoomAround(QPointF in_view, double factor);
     void panBy(QPointF way);
     void keepReachable();
+    /// What does not change while frames are played is painted anew.
+    void changeStill();
+    void paintStill(const SheetPicture& shown);
+    /// Of one track, or of all.
+    QVector<QLineF> waysOf(const SheetPicture& shown, std::optional<TrackId> track) const;
 
     std::function<void(QPointF)> ask_;
     std::shared_ptr<const MosaicPicture> mosaic_;
     int sheet_ = -1;
+    QPixmap still_;  ///< the sheet and all ways, as they lie in the view; null: to be painted
     OverlayColours colours_ = overlayColours(PaletteKind::thesis);
     FrameIndex frame_ = -1;
     std::optional<TrackId> selected_;

@@ -3,6 +3,7 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -85,8 +86,7 @@ std::optional<GroundMeasure> MeasureTool::between(const FramePoint& from, const 
         if (const auto measure = measureBetween(ground_.ground()->stretches, from, to)) return measure;
     if (from.frame != to.frame) return std::nullopt;
     // Without a run the picture alone is measured.
-    const double px = std::hypot(to.at.x - from.at.x, to.at.y - from.at.y);
-    return GroundMeasure{session_.scale().metres(px), px};
+    return measureInFrame(session_.scale(), from.at, to.at);
 }
 
 QString MeasureTool::text() const {
@@ -98,18 +98,15 @@ QString MeasureTool::text() const {
         return ground_.ground()
                    ? tr("The ground of frame %1 is not connected with that of this one: nothing to measure by")
                          .arg(from_->frame)
-                   : tr("Across frames it takes a finished run, which tells how the ground moves");
+                   : tr("To measure across frames takes a finished run, which tells how the ground moves");
     const SceneScale scale = session_.scale();
     const QString length =
         scale.gsd_known ? metresText(measure->metres) : QStringLiteral("%1 px").arg(numberText(measure->px, 1));
     const int frames = std::abs(to->frame - from_->frame);
     if (frames == 0) return length;
-    const auto& times = session_.timesUs();
-    const auto secondsOf = [&](FrameIndex frame) {
-        const auto at = static_cast<std::size_t>(frame);
-        return at < times.size() ? static_cast<double>(times[at]) / 1e6 : frame / scale.frame_rate_hz;
-    };
-    const double seconds = std::abs(secondsOf(to->frame) - secondsOf(from_->frame));
+    // Across frames there is a run.
+    const StoredTracks& run = *ground_.ground()->run;
+    const double seconds = std::abs(run.secondsOf(to->frame) - run.secondsOf(from_->frame));
     const double km_per_hour = seconds > 0 ? measure->metres / seconds * 3.6 : 0;
     const QString speed = scale.gsd_known ? QStringLiteral("%1 km/h").arg(numberText(km_per_hour, 1))
                                           : QStringLiteral("%1 px/frame").arg(numberText(measure->px / frames, 2));

@@ -106,11 +106,10 @@ std::optional<FollowedPose> SteadyWatch::poseOf(int track) const {
     if (const auto& ground = parts_.ground.ground())
         if (const EventTrack* known = ground->track(track))
             return followedPose(*known, frame.index, ground->run->footage.camera);
-    // While a run works, all that is known is the frame itself.
-    if (!frame.result) return std::nullopt;
-    for (const TrackState& state : frame.result->tracks)
-        if (state.id == track) return FollowedPose{state.box.centre, state.box.heading, state.box.length};
-    return std::nullopt;
+    // While a run works, and of tracks that it left out, all that is known is the frame itself.
+    const TrackState* state = stateOf(frame, track);
+    if (state == nullptr) return std::nullopt;
+    return FollowedPose{state->box.centre, state->box.heading, state->box.length};
 }
 
 void SteadyWatch::follow() {

@@ -46,13 +46,19 @@ WatchCommands::WatchCommands(const WatchParts& parts, QObject* parent)
             if (parts_.actions.only_moving->isChecked()) playMoving();
         },
         &WatchedGround::changed);
+    whenAny(&parts_.overlays, this, &WatchCommands::followSensitivity, &OverlaySettings::changed);
 }
 
 WatchCommands::~WatchCommands() = default;
 
 void WatchCommands::setActive(bool active) {
+    active_ = active;
     if (!active) measure_->end();
-    parts_.actions.measure->setEnabled(active);
+    enableActions();
+}
+
+void WatchCommands::enableActions() {
+    parts_.actions.measure->setEnabled(active_ && parts_.session.video().has_value());
 }
 
 // ---- playing --------------------------------------------------------------------------------------------------------
@@ -61,15 +67,16 @@ void WatchCommands::playMoving() {
     spans_query_.cancel();
     Playback& playback = parts_.session.playback();
     const auto ground = parts_.ground.ground();
+    played_score_.reset();
     if (!parts_.actions.only_moving->isChecked() || !ground) {
         playback.setSpans(std::nullopt);
         parts_.messages.dismissTopic(kMovingTopic);
-        if (parts_.actions.only_moving->isChecked() && !parts_.session.runData())
-            parts_.messages.showTopic(kMovingTopic, MessageKind::info,
-                                      tr("Where something moves is known once a run has finished; all is played."));
+        if (parts_.actions.only_moving->isChecked())
+            parts_.messages.showTopic(kMovingTopic, MessageKind::info, whyAllIsPlayed());
         return;
     }
     const double min_score = parts_.overlays.style().min_score;
+    played_score_ = min_score;
     spans_query_.ask([this, ground, min_score](const BackgroundTask& task) {
         const auto spans = movingSpans(*ground->run, ground->stretches, {}, min_score);
         task.tell([this, ground, spans] {
@@ -79,31 +86,46 @@ void WatchCommands::playMoving() {
             const std::int64_t all = footage.last_frame - footage.first_frame + 1;
             const double seconds = static_cast<double>(framesIn(spans)) / footage.scale.frame_rate_hz;
             const double of_all = static_cast<double>(all) / footage.scale.frame_rate_hz;
-            parts_.messages.showTopic(
-                kMovingTopic, MessageKind::info,
-                spans.empty() ? tr("Nothing moves in this run: there is nothing to play.")
-                              : tr("Something moves, or could not be searched, in %1 of %2; only these are played.")
-                                    .arg(durationText(seconds), durationText(of_all)));
+            QString text = tr("Something moves, or nobody can know, in %1 of %2: only that is played.")
+                               .arg(durationText(seconds), durationText(of_all));
+            if (framesIn(spans) == all) text = tr("Something moves, or nobody can know, all the time: all is played.");
+            if (spans.empty()) text = tr("Nothing moves in this run: there is nothing to play.");
+            parts_.messages.showTopic(kMovingTopic, MessageKind::info, text);
         });
     });
+}
+
+QString WatchCommands::whyAllIsPlayed() const {
+    const auto& run = parts_.session.runData();
+    if (parts_.session.running() || (run && run->record.live))
+        return tr(
+            "The run is still at work. Where something moves is known once it has finished; until then all is "
+            "played.");
+    if (!parts_.session.currentRun())
+        return tr("Where something moves is known once a run has finished; until then all is played.");
+    return tr("Where something moves is not worked out yet; until then all is played.");
+}
+
+void WatchCommands::followSensitivity() {
+    if (played_score_ && *played_score_ != parts_.overlays.style().min_score) playMoving();
 }
 
 // ---- pictures -------------------------------------------------------------------------------------------------------
 
 void WatchCommands::askForSnapshot(SnapshotKind kind) {
-    if (parts_.canvas.frame().image.isNull()) return;
+    // What is seen now is meant, whatever is shown by the time that the file has a name.
+    const QImage picture = snapshotOf(parts_.canvas, parts_.session, kind);
+    if (picture.isNull()) return;
     const QFileInfo project(QString::fromStdString(parts_.session.project().string()));
     const QString path = QFileDialog::getSaveFileName(
         &parts_.canvas, kind == SnapshotKind::as_seen ? tr("Save what is seen") : tr("Save the picture"),
         project.dir().filePath(snapshotName(parts_.canvas, parts_.session)), tr("PNG pictures (*.png)"));
     if (path.isEmpty()) return;
     const bool named = QFileInfo(path).suffix().compare(QStringLiteral("png"), Qt::CaseInsensitive) == 0;
-    writeSnapshot((named ? path : path + QStringLiteral(".png")).toStdString(), kind);
+    writeSnapshot((named ? path : path + QStringLiteral(".png")).toStdString(), picture);
 }
 
-void WatchCommands::writeSnapshot(const std::filesystem::path& path, SnapshotKind kind) {
-    const QImage picture = snapshotOf(parts_.canvas, parts_.session, kind);
-    if (picture.isNull()) return;
+void WatchCommands::writeSnapshot(const std::filesystem::path& path, const QImage& picture) {
     std::vector<std::filesystem::path> inputs{parts_.session.project()};
     if (parts_.session.media() && !isScene(parts_.session.media()->identity))
         inputs.emplace_back(parts_.session.media()->identity);

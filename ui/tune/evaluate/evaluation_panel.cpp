@@ -101,6 +101,9 @@ QWidget* EvaluationPanel::buildResult() {
     score_curve_->setToolTip(
         tr("Precision over recall as the score that a track must have grows, from right to left. Tracks that the run "
            "left out for their score are counted; the line is where its own threshold lies (finishing.min_score)."));
+    curve_failure_ = new QLabel;
+    curve_failure_->setWordWrap(true);
+    curve_failure_->hide();
     for (LineChart* chart : {counts_, ratios_, score_curve_}) chart->setFixedHeight(190);
     report_ = new QToolButton;
     report_->setText(tr("Report…"));
@@ -121,6 +124,7 @@ QWidget* EvaluationPanel::buildResult() {
     rows->addWidget(counts_);
     rows->addWidget(ratios_);
     rows->addWidget(score_curve_);
+    rows->addWidget(curve_failure_);
     rows->addLayout(report);
     rows->addStretch(1);
     auto* scroll = new QScrollArea;
@@ -160,6 +164,7 @@ void EvaluationPanel::refresh() {
         pages_->setCurrentIndex(1);
         return;
     }
+    forgetScoreCurve();
     pages_->setCurrentIndex(0);
     if (evaluation_.working()) {
         empty_->setTexts(tr("The run is being compared with the ground truth …"));
@@ -248,18 +253,35 @@ void EvaluationPanel::showCurves() {
     ratios_->setMarker(session_.currentFrame());
 }
 
+void EvaluationPanel::forgetScoreCurve() {
+    query_.cancel();
+    curve_of_.reset();
+    score_curve_->hide();
+    curve_failure_->hide();
+}
+
 void EvaluationPanel::askForScoreCurve() {
     const auto& evaluation = evaluation_.evaluation();
-    if (std::exchange(curve_of_, evaluation) == evaluation) return;
-    score_curve_->hide();
-    query_.ask([this, evaluation, project = session_.project()](const BackgroundTask& task) {
+    if (curve_of_ == evaluation) return;
+    forgetScoreCurve();
+    curve_of_ = evaluation;
+    const auto work = [this, evaluation, project = session_.project()](const BackgroundTask& task) {
         ProjectFile opened = ProjectFile::open(project, ProjectFile::Mode::read_only);
-        auto curve = scoreCurveOf(*evaluation, RunStore(opened), task.stop());
-        task.tell([this, curve = std::move(curve)] { showScoreCurve(curve); });
+        const RunStore store(opened);
+        // Detections have a score of their own, which nothing asks for.
+        std::optional<double> threshold;
+        if (!evaluation->detections) threshold = store.scoreThreshold(evaluation->run.id);
+        auto curve = scoreCurveOf(*evaluation, store, task.stop());
+        task.tell([this, curve = std::move(curve), threshold] { showScoreCurve(curve, threshold); });
+    };
+    query_.ask(work, [this](const QString& message) {
+        curve_of_.reset();  // so that it is tried again
+        curve_failure_->setText(tr("No curve over the score: %1").arg(message));
+        curve_failure_->show();
     });
 }
 
-void EvaluationPanel::showScoreCurve(const std::vector<ScorePoint>& curve) {
+void EvaluationPanel::showScoreCurve(const std::vector<ScorePoint>& curve, std::optional<double> threshold) {
     score_curve_->setVisible(curve.size() > 1);
     if (curve.size() < 2) return;
     LineData chart;
@@ -268,7 +290,6 @@ void EvaluationPanel::showScoreCurve(const std::vector<ScorePoint>& curve) {
     chart.top = 1.02;
     chart.series = {
         {tr("precision"), kFalseColour, {}}, {tr("f-score"), kFoundColour, {}}, {tr("score"), kMissedColour, {}}};
-    const double threshold = session_.runData() ? session_.runData()->score_threshold : 0;
     std::optional<double> there;
     // Thresholds ascend, so recall falls: the axis wants it the other way round.
     for (auto point = curve.rbegin(); point != curve.rend(); ++point) {
@@ -277,10 +298,10 @@ void EvaluationPanel::showScoreCurve(const std::vector<ScorePoint>& curve) {
         chart.series[0].values.push_back(point->detection.precision);
         chart.series[1].values.push_back(point->detection.f_score);
         chart.series[2].values.push_back(point->threshold);
-        if (point->threshold >= threshold) there = recall;
+        if (threshold && point->threshold >= *threshold) there = recall;
     }
     score_curve_->setData(std::move(chart));
-    if (there) score_curve_->setMarker(*there);
+    score_curve_->setMarker(there);
 }
 
 void EvaluationPanel::copyTable() const {

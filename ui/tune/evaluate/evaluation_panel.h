@@ -3,6 +3,7 @@
 #include <QWidget>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "tune/evaluate/evaluation_session.h"
@@ -57,8 +58,10 @@ class EvaluationPanel : public QWidget {
     void refresh();
     void showTable();
     void showCurves();
+    void forgetScoreCurve();
     void askForScoreCurve();
-    void showScoreCurve(const std::vector<ScorePoint>& curve);
+    /// `threshold`: the run's own; nothing where none applies.
+    void showScoreCurve(const std::vector<ScorePoint>& curve, std::optional<double> threshold);
     void copyTable() const;
 
     ProjectSession& session_;
@@ -74,6 +77,7 @@ class EvaluationPanel : public QWidget {
     LineChart* counts_;
     LineChart* ratios_;
     LineChart* score_curve_;
+    QLabel* curve_failure_;
     std::shared_ptr<const RunEvaluation> curve_of_;
     QToolButton* report_;
     QProgressBar* report_progress_;

@@ -67,11 +67,15 @@ void LineChart::setData(LineData data) {
     fill();
 }
 
-void LineChart::setMarker(double place) {
-    marker_->setVisible(true);
-    marker_->point1->setCoords(place, 0);
-    marker_->point2->setCoords(place, 1);
+void LineChart::setMarker(std::optional<double> place) {
+    marker_->setVisible(place.has_value());
+    marker_->point1->setCoords(place.value_or(0), 0);
+    marker_->point2->setCoords(place.value_or(0), 1);
     plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+std::optional<double> LineChart::marker() const {
+    return marker_->visible() ? std::optional(marker_->point1->key()) : std::nullopt;
 }
 
 void LineChart::fill() {

@@ -40,8 +40,9 @@ class LineChart : public QWidget {
 
     void setData(LineData data);
     const LineData& data() const { return data_; }
-    /// A vertical line, such as at the frame shown.
-    void setMarker(double place);
+    /// A vertical line, such as at the frame shown; nothing: none.
+    void setMarker(std::optional<double> place);
+    std::optional<double> marker() const;
     QPixmap picture() const { return const_cast<LineChart*>(this)->grab(); }
 
     QSize sizeHint() const override { return {340, 170}; }

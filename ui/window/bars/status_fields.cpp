@@ -104,7 +104,11 @@ void StatusFields::showCursor(std::optional<QPointF> image_point) {
     QString text =
         tr("%1, %2 px").arg(locale.toString(image_point->x(), 'f', 1), locale.toString(image_point->y(), 'f', 1));
     const SceneScale scale = session_.scale();
-    if (scale.gsd_known)
+    // In an oblique view pixels do not add up to metres; how long one is there is told instead.
+    if (scale.gsd_known && !scale.slope.isFlat())
+        text += tr("   %1 m/px here")
+                    .arg(locale.toString(scale.at({image_point->x(), image_point->y()}).gsd_m_per_px, 'g', 3));
+    else if (scale.gsd_known)
         text += tr("   %1, %2 m")
                     .arg(locale.toString(scale.metres(image_point->x()), 'f', 1),
                          locale.toString(scale.metres(image_point->y()), 'f', 1));

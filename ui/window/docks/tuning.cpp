@@ -68,7 +68,8 @@ void Tuning::buildWhy() {
 void Tuning::askWhyHere() {
     const QPointF middle(parts_.canvas.width() / 2.0, parts_.canvas.height() / 2.0);
     const ViewTransform& transform = parts_.canvas.transform();
-    askWhy(cursor_.value_or(transform.imageFromView(middle)), kKeyMargin / transform.scale());
+    const QPointF place = cursor_.value_or(transform.imageFromView(middle));
+    askWhy(place, kKeyMargin / transform.scaleAt(place));
 }
 
 void Tuning::buildPreview() {
