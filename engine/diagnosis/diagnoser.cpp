@@ -232,7 +232,7 @@ std::vector<DiagnosedError> Diagnoser::diagnose(std::vector<ResultError> errors,
                                    .upright = comparison.options.upright,
                                    .facts = lookup.at(place.box),
                                    .object_facts = {},
-                                   .frames_needed = source_.options.motion.min_age};
+                                   .frames_needed = source_.options.motion.atRate(source_.scale.frame_rate_hz).min_age};
             if (evidence.facts != nullptr && evidence.facts->registration == RegistrationState::failed)
                 unregistered = frame;
             evidence.recently_unregistered = frame - unregistered <= kRecently;

@@ -76,7 +76,8 @@ void decideByFate(Story& story, const std::vector<const CornerVerdict*>& corners
     switch (fate) {
         case CornerFate::young:
             story.decide("The oldest corner here has been tracked for " + std::to_string(closest->age) + " frames, " +
-                             std::to_string(story.options.motion.min_age) + " are needed",
+                             std::to_string(story.options.motion.atRate(story.scale.frame_rate_hz).min_age) +
+                             " are needed",
                          closest->parameter);
             break;
         case CornerFate::slow:
@@ -115,10 +116,10 @@ void tellVerdicts(Story& story, const std::vector<const CornerVerdict*>& corners
                countText(inliers, "corner agrees", "corners agree") + " with the ground's homography (RANSAC), " +
                    std::to_string(corners.size() - inliers) + " do not",
                "registration.inlier_distance");
+    const int needed = story.options.motion.atRate(story.scale.frame_rate_hz).min_age;
     const std::string ages = "the oldest of " + countText(corners.size(), "corner", "corners") + " has been tracked " +
-                             std::to_string(oldest) + " frames, " + std::to_string(story.options.motion.min_age) +
-                             " are needed";
-    if (oldest >= story.options.motion.min_age)
+                             std::to_string(oldest) + " frames, " + std::to_string(needed) + " are needed";
+    if (oldest >= needed)
         story.pass("motion", ages, "motion.min_age");
     else
         story.fail("motion", ages, "motion.min_age");

@@ -96,7 +96,7 @@ void tellTracks(Story& story, const std::vector<int>& detections) {
         return;
     }
     const TrackingTrace& trace = *evidence.tracking;
-    const TrackerOptions& options = story.options.tracking;
+    const TrackerOptions options = story.options.tracking.atRate(story.scale.frame_rate_hz);
     for (const TracedTrack& track : trace.tracks) {
         if (track.ended_by.empty() || !atPlace(track.predicted, evidence.area)) continue;
         if (track.ended_by == "tracking.suppress_duplicates") continue;

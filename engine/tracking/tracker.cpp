@@ -43,7 +43,10 @@ bool isCut(const Registration& registration) {
 }  // namespace
 
 Tracker::Tracker(const TrackerOptions& options, const SceneScale& scale)
-    : options_(options), scale_(scale), model_(options, checked(scale)), manager_(options, scale) {}
+    : options_(options.atRate(scale.frame_rate_hz)),
+      scale_(scale),
+      model_(options, checked(scale)),
+      manager_(options_, scale) {}
 
 double Tracker::gateAt(cv::Point2d place) const {
     return std::max(options_.distance_gate_px, scale_.at(place).px(options_.distance_gate_m));

@@ -58,6 +58,7 @@ struct TrackerOptions {
     // Life of a track.
     int confirm_hits = 5;
     int confirm_window = 8;
+    bool follow_rate = true;
     int max_missing_tentative = 2;
     double max_missing_s = 0.3;
     double stop_speed_m_s = 2.0;
@@ -95,6 +96,9 @@ struct TrackerOptions {
     void describe(ParameterVisitor& visitor);
     /// The text of the thesis to the letter, with its optima.
     static TrackerOptions thesis();
+    /// What holds for a video: below 8⅓ frames per second `confirm_hits` shrinks with the rate, to 3 at the least,
+    /// where `follow_rate` says so.
+    TrackerOptions atRate(double frame_rate_hz) const;
 };
 
 }  // namespace eyrie

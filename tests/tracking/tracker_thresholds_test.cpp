@@ -194,4 +194,28 @@ TEST(TrackerThresholds, MaxMissingTentativeIsForHowManyFramesATrackSeenOnceIsHel
     }
 }
 
+TEST(TrackerThresholds, WhereTheVideoIsSlowFewerHitsConfirmATrack) {
+    const auto framesUntilConfirmed = [](const TrackerOptions& options, double frame_rate_hz) {
+        testing::MovingScene scene;
+        scene.scale.frame_rate_hz = frame_rate_hz;
+        scene.objects = {{{100, 240}, {6, 0}, 40, 14, 0}};
+        Tracker tracker(options, scene.scale);
+        for (int frame = 0; frame < 12; ++frame) {
+            const auto states = tracker.next(scene.motion(frame), scene.detections(frame));
+            if (!states.empty() && states[0].status == TrackStatus::confirmed) return frame + 1;
+        }
+        return 0;
+    };
+    EXPECT_EQ(framesUntilConfirmed({}, 25), 5);
+    EXPECT_EQ(framesUntilConfirmed({}, 10), 5);
+    EXPECT_EQ(framesUntilConfirmed({}, 6.5), 4);
+    EXPECT_EQ(framesUntilConfirmed({}, 2), 3);
+    TrackerOptions counted;
+    counted.follow_rate = false;
+    EXPECT_EQ(framesUntilConfirmed(counted, 2), 5);
+    counted = {};
+    counted.confirm_hits = 2;
+    EXPECT_EQ(framesUntilConfirmed(counted, 2), 2) << "never more than asked for";
+}
+
 }  // namespace eyrie

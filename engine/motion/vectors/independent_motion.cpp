@@ -25,7 +25,7 @@ double length(cv::Point2d v) {
 }  // namespace
 
 IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, const SceneScale& scale)
-    : options_(options),
+    : options_(options.atRate(scale.frame_rate_hz)),
       scale_(scale),
       everywhere_(limitsUnder(scale)),
       shadow_test_(options.shadow, scale),
@@ -34,7 +34,7 @@ IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, co
       parallax_test_(options.parallax),
       silhouettes_(options.silhouettes, scale),
       areas_(options.areas, scale),
-      history_(std::max(options.baseline, options.find_slow ? options.slow_baseline : 0)) {
+      history_(std::max(options_.baseline, options.find_slow ? options.slow_baseline : 0)) {
     options_.baseline = std::max(options_.baseline, options_.min_age);
     if (options_.baseline > history_.depth()) history_ = CornerHistory(options_.baseline);
 }

@@ -1,11 +1,32 @@
 #include "motion/vectors/independent_motion_options.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace eyrie {
+namespace {
+
+constexpr double kUsualRate_hz = 25;  ///< the counts of frames are meant for this rate and more
+
+}  // namespace
+
+IndependentMotionOptions IndependentMotionOptions::atRate(double frame_rate_hz) const {
+    IndependentMotionOptions here = *this;
+    if (!follow_rate || !(frame_rate_hz < kUsualRate_hz)) return here;
+    const auto fewer = [&](int frames, int least) {
+        const int by_time = static_cast<int>(std::lround(frames * frame_rate_hz / kUsualRate_hz));
+        return std::max(by_time, std::min(frames, least));
+    };
+    here.min_age = fewer(min_age, 2);
+    here.baseline = fewer(baseline, 3);
+    return here;
+}
 
 IndependentMotionOptions IndependentMotionOptions::thesis() {
     IndependentMotionOptions options;
     options.min_age = 5;
     options.baseline = 5;
+    options.follow_rate = false;
     options.follow_turns = false;
     options.find_slow = false;
     options.sigma_factor = 0;
@@ -44,6 +65,12 @@ void IndependentMotionOptions::describe(ParameterVisitor& visitor) {
                   "Faster corners are tracking errors. Used where the ground sampling distance is known; 0: no "
                   "limit.",
                   ""});
+    declare.flag(
+        "motion.follow_rate", follow_rate,
+        {"",
+         "min_age and baseline are meant for 25 frames per second and more. Where there are fewer, both are as "
+         "much shorter: what matters is the time that a vehicle is seen.",
+         ""});
     declare.flag("motion.follow_turns", follow_turns,
                  {"",
                   "A velocity over the baseline lags by half of it. Where the path clearly bends, extrapolate the "

@@ -17,6 +17,7 @@ struct IndependentMotionOptions {
     double min_speed_px = 0.05;  ///< px/frame, lowest threshold whatever the scale
     double sigma_factor = 4;     ///< threshold in deviations of the background's residual speed; 0: not used
     double max_speed_m_s = 70;   ///< faster corners are tracking errors; only where GSD is known; 0: no limit
+    bool follow_rate = true;     ///< fewer frames where the video has fewer a second, see atRate()
     bool follow_turns = true;    ///< the velocity of corners whose path bends is carried on to the present
     bool find_slow = false;      ///< second test over a longer baseline
     int slow_baseline = 15;      ///< frames of the second test
@@ -30,6 +31,9 @@ struct IndependentMotionOptions {
 
     /// The text to the letter: one threshold on the speed of corners at least 5 frames old.
     static IndependentMotionOptions thesis();
+    /// What holds for a video: below 25 frames per second `min_age` and `baseline` shrink with the rate, to 2 and 3
+    /// frames at the least, where `follow_rate` says so.
+    IndependentMotionOptions atRate(double frame_rate_hz) const;
     void describe(ParameterVisitor& visitor);
 };
 

@@ -228,7 +228,8 @@ class InspectionTest : public QObject {
         Inspection inspection(*session);
         inspection.wantStacks(StackPictures::surroundings);
         session->goToFrame(58);
-        QVERIFY(waitFor([&] { return inspection.framesLeft() > 0; }));
+        // Under way; or, on a fast machine, done before anybody could see that.
+        QVERIFY(waitFor([&] { return inspection.framesLeft() > 0 || inspection.view(); }));
     }
 };
 
