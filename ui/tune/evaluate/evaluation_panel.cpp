@@ -17,6 +17,7 @@
 #include <optional>
 #include <utility>
 
+#include "store/runs/doubtful_tracks.h"
 #include "tune/evaluate/evaluation_choices.h"
 #include "tune/evaluate/evaluation_wording.h"
 #include "widgets/charts/line_chart.h"
@@ -270,7 +271,7 @@ void EvaluationPanel::askForScoreCurve() {
         const RunStore store(opened);
         // Detections have a score of their own, which nothing asks for.
         std::optional<double> threshold;
-        if (!evaluation->detections) threshold = store.scoreThreshold(evaluation->run.id);
+        if (!evaluation->detections) threshold = store.doubtful().scoreThreshold(evaluation->run.id);
         auto curve = scoreCurveOf(*evaluation, store, task.stop());
         task.tell([this, curve = std::move(curve), threshold] { showScoreCurve(curve, threshold); });
     };
