@@ -61,6 +61,7 @@ namespace eyrie::ui {
 
 namespace {
 constexpr QSize kFirstSize(1500, 940);
+constexpr QSize kFrame(12, 36);  ///< what a window manager may put around it
 /// The style keeps a picture of every button that ever was, and messages bring new ones all the time.
 constexpr int kStyleCache_kB = 2048;
 constexpr int kLeastLabelRows_px = 68;
@@ -80,7 +81,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     keys_.add({QString(), actions_->sections()});
     buildCentre();
     buildToolBar();
-    resize(kFirstSize.boundedTo(screen()->availableSize()));
+    resize(kFirstSize.boundedTo(screen()->availableSize() - kFrame));
     guard_ = new RunGuard(session_, *this);
     inspection_ = new Inspection(session_, this);
     docks_ = new DockRegistry(*this);
