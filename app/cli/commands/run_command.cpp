@@ -268,7 +268,7 @@ ResumeChoice choiceOf(const RunArguments& arguments, const FrameSource* source, 
     if (arguments.preset_given) wishes.options = arguments.preset.options();
     wishes.recording = arguments.preset.recording().changed();
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
-    const ResumeChoice choice = chooseRun(RunStore(file), project.string(), wishes);
+    ResumeChoice choice = chooseRun(RunStore(file), project.string(), wishes);
     if (choice.run && !arguments.detections_csv.empty()) needDetections(file, *choice.run);
     return choice;
 }
