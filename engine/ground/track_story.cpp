@@ -5,17 +5,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "events/ground/ground_path.h"
+#include "ground/ground_measure.h"
 
 namespace eyrie {
-namespace {
-
-/// What makes of metres on the ground, which know the scale in the middle, metres at a place of an oblique view.
-double byPlace(const SceneScale& scale, const GroundStretches& ground, FrameIndex frame, cv::Point2d place) {
-    return scale.slope.isFlat() ? 1 : scale.at(place).gsd_m_per_px / ground.metresPerPixel(frame, place);
-}
-
-}  // namespace
-
 std::vector<StoryPoint> storyOf(const StoredTracks& run, const GroundStretches& ground, TrackId track,
                                 FrameIndex around, const EventOptions& options) {
     const auto found =
@@ -29,7 +21,7 @@ std::vector<StoryPoint> storyOf(const StoredTracks& run, const GroundStretches& 
         for (std::size_t i = 0; i < path.samples.size(); ++i) {
             const GroundSample& sample = path.samples[i];
             const OrientedBox& box = path.box(i).box;
-            const double corrected = byPlace(run.footage.scale, ground, sample.frame, box.centre);
+            const double corrected = metresByPlace(run.footage.scale, ground, sample.frame, box.centre);
             if (i > 0) way += cv::norm(sample.at - path.samples[i - 1].at) * corrected;
             story.push_back({sample.frame, run.secondsOf(sample.frame), path.measured ? sample.speed * corrected : 0,
                              way, sample.at, box.centre, box.length});
