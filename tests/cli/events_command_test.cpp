@@ -79,6 +79,37 @@ class EventsCommand : public testing::Test {
         }
         writer.finish(RunState::finished, "");
     }
+    /// 1 drives to the right, 2 at once to the left beside it, 3 later where 1 was.
+    void writeTraffic() const {
+        RunRecord run;
+        run.sequence = {.path = "/nowhere/clip.mp4", .size = {640, 400}, .frame_count = 200, .frame_rate_hz = 25};
+        run.last_frame = 199;
+        run.scale = {0.2, 25, true};
+        ProjectFile::create(folder_ / "traffic.eyrie");
+        ResultWriter writer(folder_ / "traffic.eyrie", run, {});
+        for (int frame = 0; frame < 200; ++frame) {
+            FrameResult result;
+            result.motion.frame = frame;
+            result.motion.time_us = frame * 40000LL;
+            result.motion.image_size = {640, 400};
+            auto& registration = result.motion.registration;
+            registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
+            registration.current_from_previous.from_frame = std::max(0, frame - 1);
+            registration.current_from_previous.to_frame = frame;
+            const auto add = [&](TrackId id, cv::Point2d at, double heading) {
+                TrackState track;
+                track.id = id;
+                track.box = {at, 22, 9, heading};
+                track.status = TrackStatus::confirmed;
+                result.tracks.push_back(track);
+            };
+            if (frame < 100) add(1, {100 + 2.0 * frame, 200}, 0);
+            if (frame < 100) add(2, {300 - 2.0 * frame, 182}, CV_PI);
+            if (frame >= 100) add(3, {100 + 2.0 * (frame - 100), 200}, 0);
+            writer.write(result);
+        }
+        writer.finish(RunState::finished, "");
+    }
     /// Says something about the vehicle in one frame, as if in an earlier run.
     void judge(EventKind kind, int frame, Judgement judgement, const std::string& note) const {
         ProjectFile project = ProjectFile::open(folder_ / "p.eyrie");
@@ -238,6 +269,39 @@ TEST_F(EventsCommand, VerdictsThatNoEventTakesUpAreListed) {
     const auto near = call({"--project", "@p.eyrie", "--kind", "stops", "--set", "review.carry_time=20"});
     EXPECT_THAT(near.output, AllOf(HasSubstr(" relevant * "), Not(HasSubstr("could not be carried over"))));
     EXPECT_THAT(call({"--project", "@p.eyrie", "--verdict", "unsure"}).output, HasSubstr("1 verdict could not be"));
+}
+
+TEST_F(EventsCommand, TracksLikeOneAreListedByLikeness) {
+    writeTraffic();
+    const auto result = call({"--project", "@traffic.eyrie", "--like", "1", "--csv", "@like.csv"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_EQ(result.errors, "");
+    EXPECT_THAT(result.output,
+                StartsWith("track    likeness  path   speed  size   frames          clock\n3        1.00 "));
+    EXPECT_THAT(result.output, HasSubstr("\n2        0.00      0.00   1.00   1.00   0-99            0:00.0\n"));
+    EXPECT_THAT(result.output, HasSubstr("\n2 other tracks, by likeness to track 1\n"));
+    const std::string table = textOf("like.csv");
+    EXPECT_THAT(table,
+                StartsWith("track,first_frame,last_frame,start_s,end_s,likeness,path,speed,size\n3,100,199,4,7.96,1,"));
+    EXPECT_THAT(table, HasSubstr("\n2,0,99,0,3.96,0,0,"));
+}
+
+TEST_F(EventsCommand, TracksThatAreNotThereAreLikeNone) {
+    writeTraffic();
+    const auto none = call({"--project", "@traffic.eyrie", "--like", "77", "--csv", "@like.csv"});
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_THAT(none.errors, HasSubstr("no track 77"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "like.csv"));
+    for (const char* wrong : {"1.5", "car", "", "99999999999999999999"}) {
+        EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like", wrong}).exit_code, 2) << wrong;
+    }
+    EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like", "-1"}).exit_code, 2);
+    EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like", "1", "--kind", "stops"}).exit_code, 2)
+        << "what it lists is no events";
+    EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like", "1", "--csv", "@traffic.eyrie"}).exit_code, 4);
+    const auto alone = call({"--project", "@p.eyrie", "--like", "5"});
+    EXPECT_EQ(alone.exit_code, 0);
+    EXPECT_THAT(alone.output, HasSubstr("0 other tracks"));
 }
 
 TEST_F(EventsCommand, EndsAsTheOtherCommandsDo) {

@@ -58,6 +58,12 @@ ReviewedRun EventArguments::read(const EventChoice& wanted) const {
     return readReviewedRun(file, record, wanted);
 }
 
+StoredTracks EventArguments::readTracksAlone() const {
+    ProjectFile file = openForReading(project);
+    const RunStore store(file);
+    return readTracks(store, chosenRun(store, project, run));
+}
+
 void EventArguments::tellZones(const ReviewedRun& found) const {
     if (!zones.empty() || found.zones.empty()) return;
     std::string names;

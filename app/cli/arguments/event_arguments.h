@@ -32,6 +32,8 @@ struct EventArguments {
     EventChoice choice() const;
     /// Throws Error(project | parameter).
     ReviewedRun read(const EventChoice& choice) const;
+    /// The tracks without their events. Throws Error(project).
+    StoredTracks readTracksAlone() const;
     /// Says on standard error which zones of the project were watched, where no file was given.
     void tellZones(const ReviewedRun& found) const;
 };

@@ -5,7 +5,8 @@
 #include "cli/arguments/event_arguments.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
-#include "cli/reports/event_table.h"
+#include "cli/reports/events/event_table.h"
+#include "cli/reports/events/likeness_table.h"
 #include "cli/reports/figure_text.h"
 #include "events/event_csv.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 struct ListArguments {
     EventArguments events;
+    TrackId like = 0;
     std::string csv;
     OutputArguments outputs;
 };
@@ -36,6 +38,12 @@ JudgedEvents wantedOf(const ReviewedRun& reviewed, const EventChoice& choice) {
     return wanted;
 }
 
+void tellUnregistered(const StoredTracks& stored) {
+    if (stored.unregistered == 0) return;
+    std::fprintf(stderr, "eyrie-cli: %d frame%s could not be registered; nothing is told across them\n",
+                 stored.unregistered, stored.unregistered == 1 ? "" : "s");
+}
+
 void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& remarks) {
     if (!stored.footage.scale.gsd_known) {
         std::fprintf(stderr,
@@ -43,10 +51,7 @@ void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& rem
                      "--gsd for speeds that hold\n",
                      numberText(stored.footage.scale.gsd_m_per_px).c_str());
     }
-    if (stored.unregistered > 0) {
-        std::fprintf(stderr, "eyrie-cli: %d frame%s could not be registered; nothing is told across them\n",
-                     stored.unregistered, stored.unregistered == 1 ? "" : "s");
-    }
+    tellUnregistered(stored);
     for (const std::string& remark : remarks) std::fprintf(stderr, "eyrie-cli: %s\n", remark.c_str());
 }
 
@@ -68,6 +73,20 @@ void tellEvents(const ListArguments& arguments) {
     printLeft(wanted, reviewed.review);
 }
 
+/// Tracks like one: no events are looked for.
+void tellLikeTracks(const ListArguments& arguments) {
+    const EventChoice choice = arguments.events.choice();
+    arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.events.project});
+    const StoredTracks stored = arguments.events.readTracksAlone();
+    if (!hasMetricLimits(stored.footage.scale))
+        std::fprintf(stderr, "eyrie-cli: the scale is not known; distances count in lengths of vehicles\n");
+    tellUnregistered(stored);
+    const GroundStretches ground(stored.footage);
+    const std::vector<TrackLikeness> found = tracksLike(stored, ground, arguments.like, choice.options);
+    if (!arguments.csv.empty()) writeLikenessCsv(arguments.csv, found, stored);
+    printLikeness(arguments.like, found, stored);
+}
+
 }  // namespace
 
 void addEventsCommand(CLI::App& app, int& exit_code) {
@@ -77,10 +96,16 @@ void addEventsCommand(CLI::App& app, int& exit_code) {
     arguments->events.addRunTo(*command);
     arguments->events.addChoiceTo(*command, "all");
     arguments->events.addSearchTo(*command);
-    command->add_option("--csv", arguments->csv, "Write the events as a table, too");
+    auto* like = command
+                     ->add_option("--like", arguments->like,
+                                  "List instead the other tracks by how like they are to this one, in path over the "
+                                  "ground, speed and size")
+                     ->type_name("TRACK");
+    for (const char* of_events : {"--kind", "--verdict", "--zone"}) like->excludes(command->get_option(of_events));
+    command->add_option("--csv", arguments->csv, "Write what is listed as a table, too");
     arguments->outputs.addTo(*command);
-    command->callback([arguments, &exit_code] {
-        tellEvents(*arguments);
+    command->callback([arguments, like, &exit_code] {
+        like->count() > 0 ? tellLikeTracks(*arguments) : tellEvents(*arguments);
         exit_code = exit_ok;
     });
 }

@@ -1,4 +1,4 @@
-#include "cli/reports/event_table.h"
+#include "cli/reports/events/event_table.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,0 +1,48 @@
+#include "cli/reports/events/likeness_table.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "events/event_csv.h"
+#include "io/atomic_file.h"
+#include "io/tables/number_text.h"
+
+namespace eyrie::cli {
+namespace {
+
+const EventTrack& trackOf(const StoredTracks& stored, TrackId id) {
+    return *std::lower_bound(stored.tracks.begin(), stored.tracks.end(), id,
+                             [](const EventTrack& track, TrackId wanted) { return track.id < wanted; });
+}
+
+}  // namespace
+
+void printLikeness(TrackId chosen, const std::vector<TrackLikeness>& found, const StoredTracks& stored) {
+    std::printf("%-8s %-9s %-6s %-6s %-6s %-15s %s\n", "track", "likeness", "path", "speed", "size", "frames", "clock");
+    for (const TrackLikeness& each : found) {
+        const EventTrack& track = trackOf(stored, each.track);
+        const std::string frames =
+            std::to_string(track.boxes.front().frame) + "-" + std::to_string(track.boxes.back().frame);
+        std::printf("%-8d %-9.2f %-6.2f %-6.2f %-6.2f %-15s %s\n", each.track, each.likeness, each.path, each.speed,
+                    each.size, frames.c_str(), videoClockText(stored.secondsOf(track.boxes.front().frame)).c_str());
+    }
+    std::printf("%zu other track%s, by likeness to track %d\n", found.size(), found.size() == 1 ? "" : "s", chosen);
+}
+
+void writeLikenessCsv(const std::filesystem::path& path, const std::vector<TrackLikeness>& found,
+                      const StoredTracks& stored) {
+    std::string text = "track,first_frame,last_frame,start_s,end_s,likeness,path,speed,size\n";
+    for (const TrackLikeness& each : found) {
+        const EventTrack& track = trackOf(stored, each.track);
+        const FrameIndex first = track.boxes.front().frame;
+        const FrameIndex last = track.boxes.back().frame;
+        text += std::to_string(each.track) + ',' + std::to_string(first) + ',' + std::to_string(last) + ',' +
+                fixedText(stored.secondsOf(first), 3) + ',' + fixedText(stored.secondsOf(last), 3);
+        for (const double value : {each.likeness, each.path, each.speed, each.size}) text += ',' + fixedText(value, 4);
+        text += '\n';
+    }
+    writeFileAtomically(path, text);
+}
+
+}  // namespace eyrie::cli
