@@ -12,6 +12,12 @@ void TracksModel::setTracks(std::vector<TrackSummary> tracks, const SceneScale& 
     if (other_units) emit headerDataChanged(Qt::Horizontal, 0, column_count - 1);
 }
 
+void TracksModel::setLikeness(std::shared_ptr<const LikenessByTrack> likeness) {
+    if (likeness_ == likeness) return;
+    likeness_ = std::move(likeness);
+    if (rowCount() > 0) emit dataChanged(index(0, like_column), index(rowCount() - 1, like_column));
+}
+
 double TracksModel::secondsOf(const TrackSummary& track) const {
     const int frames = track.last_frame - track.first_frame + 1;
     return scale_.frame_rate_hz > 0 ? frames / scale_.frame_rate_hz : 0;
@@ -63,6 +69,8 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
             return numberText(track.score, 2);
         case class_column:
             return shownName(track.track_class);
+        case like_column:
+            return likeness_ ? numberText(likeness_->of(track.id), 2) : QString();
         default:
             return {};
     }
@@ -86,6 +94,9 @@ QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
             return track.mean_width_px;
         case score_column:
             return track.score;
+        case like_column:
+            // Before those that are as like as can be, the one that they are like.
+            return !likeness_ ? 0.0 : track.id == likeness_->chosen ? 2.0 : likeness_->of(track.id);
         default:
             return textOf(track, column);
     }
@@ -115,6 +126,8 @@ QString TracksModel::helpOf(int column) const {
             return tr(
                 "What the track is, by its mean size and speed over the ground (classes.*); a dash where they do not "
                 "tell");
+        case like_column:
+            return tr("How like the chosen track, from 0 to 1: path over the ground, speed and size");
         default:
             return {};
     }
@@ -146,6 +159,8 @@ QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int r
             return tr("Score");
         case class_column:
             return tr("Class");
+        case like_column:
+            return tr("Like");
         default:
             return {};
     }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/values/scene_scale.h"
+#include "review/tracks/track_filter.h"
 #include "store/runs/run_store.h"
 #include "widgets/tables/record_model.h"
 
@@ -23,12 +25,15 @@ class TracksModel : public RecordModel<TrackSummary> {
         status_column,
         score_column,
         class_column,
+        like_column,  ///< empty unless setLikeness()
         column_count
     };
 
     explicit TracksModel(QObject* parent = nullptr) : RecordModel(parent) {}
 
     void setTracks(std::vector<TrackSummary> tracks, const SceneScale& scale);
+    /// How like the tracks are to one of them; null: nobody asked, or it is not known yet.
+    void setLikeness(std::shared_ptr<const LikenessByTrack> likeness);
     const SceneScale& scale() const { return scale_; }
 
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }
@@ -42,6 +47,7 @@ class TracksModel : public RecordModel<TrackSummary> {
     QVariant sortValueOf(const TrackSummary& track, int column) const;
     double secondsOf(const TrackSummary& track) const;
     SceneScale scale_;
+    std::shared_ptr<const LikenessByTrack> likeness_;
 };
 
 }  // namespace eyrie::ui

@@ -1,6 +1,7 @@
 #include "review/tracks_panel.h"
 
 #include <QHBoxLayout>
+#include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
 #include <QSlider>
@@ -46,7 +47,7 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     count_->setFixedHeight(chips_->minimumSizeHint().height());  // beside the first row of chips
     narrowing->addWidget(count_, 0, Qt::AlignTop);
     static_cast<QVBoxLayout*>(layout())->insertLayout(1, narrowing);
-    connect(chips_, &FilterChips::edited, this, &TracksPanel::filterTracks);
+    connect(chips_, &FilterChips::edited, this, &TracksPanel::useFilter);
     connect(chips_, &FilterChips::doingsWanted, this, [this] { commands_.want_doings(); });
     onEdited(this, &TracksPanel::useSensitivity, sensitivity_);
     whenAny(
@@ -56,6 +57,10 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     whenAny(&proxy(), this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
             &QAbstractItemModel::rowsRemoved);
     onEdited(this, &TracksPanel::filterTracks, tentative_);
+    // Left over from a day that ended with such a list.
+    table()->setColumnHidden(TracksModel::like_column, true);
+    if (table()->horizontalHeader()->sortIndicatorSection() == TracksModel::like_column)
+        table()->sortByColumn(TracksModel::id_column, Qt::AscendingOrder);
     setTentativeShown(false);
 }
 
@@ -93,7 +98,7 @@ bool TracksPanel::isOfTheRun(const TrackSummary& track) const {
 
 bool TracksPanel::isListed(const TrackSummary& track) const {
     return isOfTheRun(track) && track.score >= minScore() &&
-           chips_->filter().holds(track, tracks_->scale(), doings_.get());
+           chips_->filter().holds(track, tracks_->scale(), doings_.get(), likeness_.get());
 }
 
 void TracksPanel::filterTracks() {
@@ -122,6 +127,45 @@ void TracksPanel::setDoings(const std::shared_ptr<const DoingsByTrack>& doings) 
     if (chips_->filter().any()) filterTracks();
 }
 
+// ---- tracks like one ------------------------------------------------------------------------------------------------
+
+void TracksPanel::listLike(int track) {
+    chips_->setLike(track == 0 ? std::nullopt : std::optional(track));
+}
+
+void TracksPanel::useFilter() {
+    const auto& limit = chips_->filter().like;
+    const std::optional<TrackId> like = limit ? std::optional(limit->track) : std::nullopt;
+    if (like != like_) {
+        const bool ordered = like_.has_value();
+        like_ = like;
+        setLikeness(nullptr);
+        if (ordered != like.has_value()) orderByLikeness(like.has_value());
+        commands_.want_likeness(like);
+    }
+    filterTracks();
+}
+
+void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& likeness) {
+    if (likeness_ == likeness || (likeness && likeness->chosen != like_)) return;
+    likeness_ = likeness;
+    tracks_->setLikeness(likeness);
+    filterTracks();
+}
+
+void TracksPanel::orderByLikeness(bool wanted) {
+    const QHeaderView* header = table()->horizontalHeader();
+    table()->setColumnHidden(TracksModel::like_column, !wanted);
+    if (wanted) {
+        order_before_like_ = {header->sortIndicatorSection(), header->sortIndicatorOrder()};
+        table()->sortByColumn(TracksModel::like_column, Qt::DescendingOrder);
+    } else if (header->sortIndicatorSection() == TracksModel::like_column) {
+        table()->sortByColumn(order_before_like_.first, order_before_like_.second);
+    }
+}
+
+// ---- what is hidden -------------------------------------------------------------------------------------------------
+
 QString TracksPanel::hiddenText() const {
     return tr("None of the %1 tracks passes these filters.").arg(tracks_->rowCount());
 }
@@ -145,6 +189,7 @@ void TracksPanel::activate(int track, int column) {
 void TracksPanel::fillMenu(QMenu& menu, int track) {
     menu.addAction(tr("Go to its first frame"), this, [this, track] { activate(track, TracksModel::first_column); });
     menu.addAction(tr("Go to its last frame"), this, [this, track] { activate(track, TracksModel::last_column); });
+    menu.addAction(tr("Tracks like this one"), this, [this, track] { listLike(track); });
 }
 
 }  // namespace eyrie::ui

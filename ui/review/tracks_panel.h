@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "review/tracks/track_doings.h"
@@ -25,6 +26,8 @@ struct TrackListCommands {
     std::function<void(double score)> use_min_score = [](double) {};
     /// What the tracks did is asked for: setDoings().
     std::function<void()> want_doings = [] {};
+    /// How like the others are to this track is asked for, setLikeness(); none: no more.
+    std::function<void(std::optional<TrackId> track)> want_likeness = [](std::optional<TrackId>) {};
 };
 
 /// The tracks of the shown run: clicking one goes to it.
@@ -45,6 +48,10 @@ class TracksPanel : public TablePanel {
     FilterChips& chips() { return *chips_; }
     /// What the tracks did, for the chips; null while nobody knows.
     void setDoings(const std::shared_ptr<const DoingsByTrack>& doings);
+    /// Lists tracks like this one, the most like first, until the chip that says so is removed; 0: does not.
+    void listLike(int track);
+    /// How like tracks are to the one that was asked about; of another one it counts for nothing.
+    void setLikeness(const std::shared_ptr<const LikenessByTrack>& likeness);
     /// How many of the tracks are listed, "12 of 40 tracks".
     QString countText() const;
 
@@ -59,6 +66,9 @@ class TracksPanel : public TablePanel {
 
  private:
     void activate(int track, int column);
+    void useFilter();
+    /// Brings the column of likeness and its order, or takes them away again.
+    void orderByLikeness(bool wanted);
     bool isOfTheRun(const TrackSummary& track) const;
     bool isListed(const TrackSummary& track) const;
     void filterTracks();
@@ -75,6 +85,9 @@ class TracksPanel : public TablePanel {
     double threshold_ = 0;
     FilterChips* chips_;
     std::shared_ptr<const DoingsByTrack> doings_;
+    std::shared_ptr<const LikenessByTrack> likeness_;
+    std::optional<TrackId> like_;                        ///< that was asked about
+    std::pair<int, Qt::SortOrder> order_before_like_{};  ///< column and order
 };
 
 }  // namespace eyrie::ui

@@ -26,6 +26,7 @@
 #include "review/events/events_panel.h"
 #include "review/mosaic/mosaic_panel.h"
 #include "review/mosaic/mosaic_view.h"
+#include "review/tracks/like_tracks.h"
 #include "review/tracks_panel.h"
 #include "review/watch/seen_watch.h"
 #include "review/watch/steady_watch.h"
@@ -224,8 +225,15 @@ void MainWindow::buildWorkspaces() {
 
 void MainWindow::buildWatching() {
     ground_ = new WatchedGround(this);
+    like_ = new LikeTracks({session_, review_->tracks(), *docks_, *actions_, *messages_}, this);
+    review_->setLikenessWanted([this](std::optional<TrackId> track) { like_->want(track); });
     whenAny(
-        events_, ground_, [this] { ground_->setRun(events_->review().tracks()); }, &EventsDock::tracksRead);
+        events_, ground_,
+        [this] {
+            ground_->setRun(events_->review().tracks());
+            like_->setRun(events_->review().tracks());
+        },
+        &EventsDock::tracksRead);
     steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
     watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
     seen_ = new SeenWatch(

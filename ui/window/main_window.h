@@ -20,6 +20,7 @@ class EventsDock;
 class Inspection;
 class LabelTimeline;
 class LabelWorkspace;
+class LikeTracks;
 class MessageBar;
 class MosaicPanel;
 class OpenedFiles;
@@ -121,6 +122,7 @@ class MainWindow : public QMainWindow {
     ReviewDocks* review_;
     EventsDock* events_;
     WatchedGround* ground_;
+    LikeTracks* like_;
     SteadyWatch* steady_;
     WatchCommands* watching_;
     SeenWatch* seen_;

@@ -204,6 +204,10 @@ void WindowActions::addEvents() {
     take_back = add(tr("&Take the verdict back"), {nullptr, {QKeySequence(tr("Shift+Backspace"))}});
     star = add(tr("&Star or unstar"), {nullptr, {QKeySequence(tr("*"))}, QT_TR_NOOP("Star the selected events")});
     note = add(tr("&Write a note"), {nullptr, {QKeySequence(tr("Ctrl+E"))}});
+    like_track = add(tr("Trac&ks like this one"),
+                     {"edit-find",
+                      {QKeySequence(tr("Ctrl+Shift+T"))},
+                      QT_TR_NOOP("List tracks like the selected one, by path over the ground, speed and size")});
     undo_verdict = add(tr("U&ndo"), {"edit-undo",
                                      {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
                                      QT_TR_NOOP("Undo the last verdict, star, note, bookmark or change of a zone")});

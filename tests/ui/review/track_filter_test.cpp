@@ -208,6 +208,77 @@ class TrackFilterTest : public QObject {
         QCOMPARE(listed(panel), std::vector<int>{2});
     }
 
+    void tracksLikeOneAreListedTheMostLikeFirst() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        std::vector<std::optional<TrackId>> asked;
+        panel.setCommands({.want_likeness = [&](std::optional<TrackId> track) { asked.push_back(track); }});
+        panel.resize(500, 400);
+        panel.show();
+        model.setTracks(tenTracks(), kMetres);
+        panel.table()->sortByColumn(TracksModel::speed_column, Qt::DescendingOrder);
+        QVERIFY(panel.table()->isColumnHidden(TracksModel::like_column));
+
+        panel.listLike(4);
+        QCOMPARE(asked, std::vector<std::optional<TrackId>>{4});
+        QCOMPARE(chipText(panel.chips().filter(), TrackQuality::like, kMetres), QStringLiteral("Like 4"));
+        QCOMPARE(panel.countText(), QStringLiteral("10 of 10 tracks"));  // nobody knows yet
+        const auto likeness = std::make_shared<LikenessByTrack>();
+        likeness->chosen = 4;
+        likeness->likeness = {{1, 0.6}, {2, 0.49}, {3, 1.0}, {5, 0.2}, {9, 0.7}};
+        panel.setLikeness(likeness);
+        QCOMPARE(listed(panel), (std::vector<int>{4, 3, 9, 1}));
+        QCOMPARE(panel.countText(), QStringLiteral("4 of 10 tracks"));
+        QVERIFY(!panel.table()->isColumnHidden(TracksModel::like_column));
+        QCOMPARE(panel.table()->model()->index(2, TracksModel::like_column).data().toString(), QStringLiteral("0.70"));
+
+        QFrame* limits = panel.chips().openLimits(TrackQuality::like);
+        auto* least = limits->findChild<QLineEdit*>();
+        QVERIFY(least != nullptr);
+        least->setText(QStringLiteral("0,2"));
+        QCOMPARE(listed(panel), (std::vector<int>{4, 3, 9, 1, 2, 5}));
+        least->setText(QStringLiteral("much"));
+        QCOMPARE(panel.countText(), QStringLiteral("6 of 10 tracks"));
+        limits->close();
+        QCOMPARE(chipText(panel.chips().filter(), TrackQuality::like, kMetres), QStringLiteral("Like 4 ≥ 0.2"));
+        QCOMPARE(asked.size(), std::size_t(1));
+
+        for (QToolButton* button : panel.chips().findChildren<QToolButton*>())
+            if (button->text() == QStringLiteral("×") && button->isVisible()) button->click();
+        QCOMPARE(asked.back(), std::optional<TrackId>());
+        QCOMPARE(panel.countText(), QStringLiteral("10 of 10 tracks"));
+        QCOMPARE(listed(panel).front(), 10);  // the order of before
+        QVERIFY(panel.table()->isColumnHidden(TracksModel::like_column));
+    }
+
+    void likenessToAnotherTrackCountsForNothing() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.show();
+        model.setTracks(tenTracks(), kMetres);
+        const auto of_four = std::make_shared<LikenessByTrack>();
+        of_four->chosen = 4;
+        panel.setLikeness(of_four);  // nobody asked
+        QCOMPARE(listed(panel).size(), std::size_t(10));
+        panel.listLike(4);
+        panel.setLikeness(of_four);
+        QCOMPARE(listed(panel), std::vector<int>{4});
+        panel.listLike(7);
+        QCOMPARE(listed(panel).size(), std::size_t(10));
+        panel.setLikeness(of_four);  // comes late
+        QCOMPARE(listed(panel).size(), std::size_t(10));
+        panel.listLike(0);
+        QVERIFY(!panel.chips().filter().any());
+    }
+
+    void aTrackOfOneRunIsNotKeptWithAFilter() {
+        TrackFilter filter;
+        filter.like = LikeLimit{.track = 12};
+        QVERIFY(filter.any());
+        QVERIFY(filter.json().isEmpty());
+        QVERIFY(!TrackFilter::fromJson({{QStringLiteral("like"), 12}}).any());
+    }
+
     void filtersAreKeptByName() {
         TrackFilter fast;
         fast.range(TrackQuality::speed) = {50.0, std::nullopt};

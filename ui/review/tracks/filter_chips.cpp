@@ -91,6 +91,15 @@ void FilterChips::setFilter(const TrackFilter& filter) {
     change([&](TrackFilter& mine) { mine = filter; });
 }
 
+void FilterChips::setLike(std::optional<TrackId> track) {
+    change([&](TrackFilter& filter) {
+        if (!track)
+            filter.like.reset();
+        else if (!filter.like || filter.like->track != *track)
+            filter.like = LikeLimit{.track = *track};
+    });
+}
+
 void FilterChips::change(const std::function<void(TrackFilter&)>& what) {
     const TrackFilter before = filter_;
     what(filter_);
@@ -119,6 +128,7 @@ void FilterChips::refresh() {
 
 void FilterChips::fillAddMenu(QMenu& menu) {
     for (const TrackQuality quality : allQualities()) {
+        if (quality == TrackQuality::like) continue;  // begins with a track, not here
         QAction* action =
             menu.addAction(tr("%1…").arg(nameOf(quality)), this, [this, quality] { openLimits(quality); });
         action->setEnabled(!filter_.has(quality));
@@ -126,7 +136,7 @@ void FilterChips::fillAddMenu(QMenu& menu) {
     menu.addSeparator();
     const QStringList names = keptNames();
     for (const QString& name : names) menu.addAction(name, this, [this, name] { useKept(name); });
-    menu.addAction(tr("Save this filter as…"), this, [this] { askForName(); })->setEnabled(filter_.any());
+    menu.addAction(tr("Save this filter as…"), this, [this] { askForName(); })->setEnabled(!filter_.json().isEmpty());
     if (!names.isEmpty()) {
         QMenu* forget = menu.addMenu(tr("Delete"));
         for (const QString& name : names) forget->addAction(name, this, [this, name] { forgetKept(name); });
@@ -154,10 +164,13 @@ QFrame* FilterChips::openLimits(TrackQuality quality) {
         case TrackQuality::zone:
             fillZones(*rows);
             break;
+        case TrackQuality::like:
+            fillLike(*rows);
+            break;
         default:
             fillRange(*rows, quality);
     }
-    if (static_cast<int>(quality) >= kRangedQualities) emit doingsWanted();
+    if (static_cast<int>(quality) >= kRangedQualities && quality != TrackQuality::like) emit doingsWanted();
     const Chip& chip = chips_.at(static_cast<std::size_t>(quality));
     const QWidget* below = chip.whole->isVisible() ? static_cast<QWidget*>(chip.button) : add_;
     popup_->adjustSize();
@@ -171,38 +184,62 @@ QFrame* FilterChips::openLimits(TrackQuality quality) {
     return popup_;
 }
 
+QLineEdit* FilterChips::addField(QHBoxLayout& line, const QString& name, const std::optional<double>& value,
+                                 const std::function<void(std::optional<double>)>& take) {
+    auto* edit = new QLineEdit;
+    edit->setPlaceholderText(tr("any"));
+    edit->setAccessibleName(name);
+    edit->setFixedWidth(70);
+    if (value) edit->setText(QString::number(*value, 'g', 6));
+    onEdited(
+        this,
+        [edit, take] {
+            const QString text = edit->text().trimmed().replace(QLatin1Char(','), QLatin1Char('.'));
+            bool is_number = false;
+            const double number = text.toDouble(&is_number);
+            const bool good = text.isEmpty() || (is_number && number >= 0);
+            edit->setStyleSheet(good ? QString() : QStringLiteral("color: #d04040"));
+            if (good) take(text.isEmpty() ? std::nullopt : std::optional(number));
+        },
+        edit);
+    line.addWidget(edit);
+    return edit;
+}
+
 void FilterChips::fillRange(QVBoxLayout& rows, TrackQuality quality) {
     const TrackRange range = filter_.range(quality);
     auto* line = new QHBoxLayout;
     const auto field = [&](const QString& words, const std::optional<double>& value,
                            std::optional<double> TrackRange::*limit) {
-        auto* edit = new QLineEdit;
-        edit->setPlaceholderText(tr("any"));
-        edit->setAccessibleName(QStringLiteral("%1 %2").arg(nameOf(quality), words));
-        edit->setFixedWidth(70);
-        if (value) edit->setText(QString::number(*value, 'g', 6));
-        onEdited(
-            this,
-            [this, edit, limit, quality] {
-                const QString text = edit->text().trimmed().replace(QLatin1Char(','), QLatin1Char('.'));
-                bool is_number = false;
-                const double number = text.toDouble(&is_number);
-                const bool good = text.isEmpty() || (is_number && number >= 0);
-                edit->setStyleSheet(good ? QString() : QStringLiteral("color: #d04040"));
-                if (!good) return;
-                change([&](TrackFilter& filter) {
-                    filter.range(quality).*limit = text.isEmpty() ? std::nullopt : std::optional(number);
-                });
-            },
-            edit);
         line->addWidget(new QLabel(words));
-        line->addWidget(edit);
+        addField(*line, QStringLiteral("%1 %2").arg(nameOf(quality), words), value,
+                 [this, limit, quality](std::optional<double> number) {
+                     change([&](TrackFilter& filter) { filter.range(quality).*limit = number; });
+                 });
     };
     rows.addWidget(new QLabel(QStringLiteral("<b>%1</b>").arg(nameOf(quality))));
     field(tr("from"), range.from, &TrackRange::from);
     field(tr("to"), range.to, &TrackRange::to);
     line->addWidget(new QLabel(unitOf(quality, scale_)));
     rows.addLayout(line);
+}
+
+void FilterChips::fillLike(QVBoxLayout& rows) {
+    if (!filter_.like) return;
+    rows.addWidget(new QLabel(QStringLiteral("<b>%1</b>").arg(tr("Tracks like track %1").arg(filter_.like->track))));
+    auto* line = new QHBoxLayout;
+    line->addWidget(new QLabel(tr("at least")));
+    QLineEdit* least = addField(*line, tr("Least likeness"), filter_.like->least, [this](std::optional<double> number) {
+        change([&](TrackFilter& filter) {
+            if (filter.like) filter.like->least = number.value_or(0);
+        });
+    });
+    least->setPlaceholderText(QStringLiteral("0"));
+    line->addStretch();
+    rows.addLayout(line);
+    auto* note = new QLabel(tr("From 0 to 1, by the path over the ground, the speed and the size"));
+    note->setWordWrap(true);
+    rows.addWidget(note);
 }
 
 void FilterChips::fillDirections(QVBoxLayout& rows) {

@@ -8,6 +8,8 @@
 #include "review/tracks/track_filter.h"
 
 class QFrame;
+class QHBoxLayout;
+class QLineEdit;
 class QMenu;
 class QToolButton;
 class QVBoxLayout;
@@ -25,6 +27,8 @@ class FilterChips : public QWidget {
     const TrackFilter& filter() const { return filter_; }
     void setFilter(const TrackFilter& filter);
     void clear() { setFilter({}); }
+    /// Tracks like this one; none: of any kind.
+    void setLike(std::optional<TrackId> track);
     /// The units of the limits.
     void setScale(const SceneScale& scale);
     /// What there is to choose from; null while nobody knows.
@@ -55,6 +59,10 @@ class FilterChips : public QWidget {
     void fillDirections(QVBoxLayout& rows);
     void fillEvents(QVBoxLayout& rows);
     void fillZones(QVBoxLayout& rows);
+    void fillLike(QVBoxLayout& rows);
+    /// A field for a number that may be missing, and must not be negative.
+    QLineEdit* addField(QHBoxLayout& line, const QString& name, const std::optional<double>& value,
+                        const std::function<void(std::optional<double>)>& take);
     void change(const std::function<void(TrackFilter&)>& what);
     void askForName();
     void refresh();

@@ -49,6 +49,8 @@ bool TrackFilter::has(TrackQuality quality) const {
             return !events.empty();
         case TrackQuality::zone:
             return !zones.empty();
+        case TrackQuality::like:
+            return like.has_value();
         default:
             return range(quality).any();
     }
@@ -66,12 +68,24 @@ void TrackFilter::clear(TrackQuality quality) {
             return events.clear();
         case TrackQuality::zone:
             return zones.clear();
+        case TrackQuality::like:
+            return like.reset();
         default:
             range(quality) = {};
     }
 }
 
-bool TrackFilter::holds(const TrackSummary& track, const SceneScale& scale, const DoingsByTrack* doings) const {
+double LikenessByTrack::of(TrackId track) const {
+    if (track == chosen) return 1;
+    const auto found = likeness.find(track);
+    return found == likeness.end() ? 0 : found->second;
+}
+
+bool TrackFilter::holds(const TrackSummary& track, const SceneScale& scale, const DoingsByTrack* doings,
+                        const LikenessByTrack* likeness) const {
+    if (like && likeness != nullptr && likeness->chosen == like->track && track.id != like->track &&
+        likeness->of(track.id) < like->least)
+        return false;
     for (int i = 0; i < kRangedQualities; ++i) {
         const auto quality = static_cast<TrackQuality>(i);
         if (range(quality).any() && !range(quality).holds(valueOf(track, quality, scale))) return false;
@@ -144,7 +158,7 @@ QString nameOf(TrackQuality quality) {
         QT_TRANSLATE_NOOP("TrackFilter", "Speed"),     QT_TRANSLATE_NOOP("TrackFilter", "Life"),
         QT_TRANSLATE_NOOP("TrackFilter", "Length"),    QT_TRANSLATE_NOOP("TrackFilter", "Score"),
         QT_TRANSLATE_NOOP("TrackFilter", "Direction"), QT_TRANSLATE_NOOP("TrackFilter", "Events"),
-        QT_TRANSLATE_NOOP("TrackFilter", "Zone")};
+        QT_TRANSLATE_NOOP("TrackFilter", "Zone"),      QT_TRANSLATE_NOOP("TrackFilter", "Like")};
     return trackFilterText(names.at(static_cast<std::size_t>(quality)));
 }
 
@@ -183,6 +197,12 @@ QString chipText(const TrackFilter& filter, TrackQuality quality, const SceneSca
             return text + shortList(words);
         default:
             break;
+    }
+    if (quality == TrackQuality::like) {
+        text += QString::number(filter.like->track);
+        return filter.like->least == LikeLimit().least
+                   ? text
+                   : QStringLiteral("%1 ≥ %2").arg(text, limitText(filter.like->least));
     }
     const TrackRange& range = filter.range(quality);
     text += range.from && range.to ? QStringLiteral("%1–%2").arg(limitText(*range.from), limitText(*range.to))

@@ -2,6 +2,7 @@
 
 #include <QString>
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -15,8 +16,8 @@ class QJsonObject;
 namespace eyrie::ui {
 
 /// What tracks can be narrowed by.
-enum class TrackQuality { speed, life, size, score, direction, event, zone };
-inline constexpr int kTrackQualities = 7;
+enum class TrackQuality { speed, life, size, score, direction, event, zone, like };
+inline constexpr int kTrackQualities = 8;
 /// Those that are a number between two limits come first.
 inline constexpr int kRangedQualities = 4;
 
@@ -30,12 +31,28 @@ struct TrackRange {
     bool operator==(const TrackRange&) const = default;
 };
 
+/// How like the tracks of a run are to one of them. Made in the background, then never changed.
+struct LikenessByTrack {
+    TrackId chosen = 0;
+    std::map<TrackId, double> likeness;  ///< of the others, 0 … 1; tracks that are missing are like none
+
+    double of(TrackId track) const;
+};
+
+/// Tracks like one of them: so like at least.
+struct LikeLimit {
+    TrackId track = 0;
+    double least = 0.5;
+    bool operator==(const LikeLimit&) const = default;
+};
+
 /// Which tracks are listed: those that every chip holds for. A chip without a limit holds for all.
 struct TrackFilter {
     std::array<TrackRange, kRangedQualities> ranges;
     std::set<int> eighths;       ///< any of them; none: all
     std::set<EventKind> events;  ///< any of them
     std::set<std::string> zones;
+    std::optional<LikeLimit> like;  ///< means something in one run alone
 
     bool has(TrackQuality quality) const;
     bool any() const;
@@ -44,10 +61,11 @@ struct TrackFilter {
     const TrackRange& range(TrackQuality quality) const { return ranges.at(static_cast<std::size_t>(quality)); }
     bool operator==(const TrackFilter&) const = default;
 
-    /// `doings`: null while nobody knows them; then directions, events and zones hide nothing.
-    bool holds(const TrackSummary& track, const SceneScale& scale, const DoingsByTrack* doings) const;
+    /// `doings`: null while nobody knows them; then directions, events and zones hide nothing. The same of `likeness`.
+    bool holds(const TrackSummary& track, const SceneScale& scale, const DoingsByTrack* doings,
+               const LikenessByTrack* likeness = nullptr) const;
 
-    /// For settings.
+    /// For settings; without what means something in one run alone.
     QJsonObject json() const;
     /// What is not known is left out.
     static TrackFilter fromJson(const QJsonObject& json);

@@ -117,6 +117,7 @@ void ReviewDocks::wireTracks() {
             },
         .use_min_score = [this](double score) { parts_.overlays.setMinScore(score); },
         .want_doings = [this] { want_doings_(); },
+        .want_likeness = [this](std::optional<TrackId> track) { want_likeness_(track); },
     });
 }
 

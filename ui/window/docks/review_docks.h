@@ -55,6 +55,8 @@ class ReviewDocks : public QObject {
     TracksPanel& tracks() { return *tracks_; }
     /// What is done when somebody asks for what the tracks did: TracksPanel::setDoings().
     void setDoingsWanted(std::function<void()> want) { want_doings_ = std::move(want); }
+    /// What is done when the list asks how like tracks are to one: TracksPanel::setLikeness().
+    void setLikenessWanted(std::function<void(std::optional<TrackId>)> want) { want_likeness_ = std::move(want); }
 
     /// Brings the list of tracks to the front.
     void showTrackList();
@@ -84,6 +86,7 @@ class ReviewDocks : public QObject {
     MotionStatisticsPanel* statistics_;
     SweepPanel* sweeps_;
     std::function<void()> want_doings_ = [] {};
+    std::function<void(std::optional<TrackId>)> want_likeness_ = [](std::optional<TrackId>) {};
     std::optional<int> parameters_wanted_of_;  ///< run whose parameters are taken over once they are read
 };
 

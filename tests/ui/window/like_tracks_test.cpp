@@ -1,0 +1,76 @@
+#include <QTableView>
+#include <QTest>
+
+#include "review/tracks/filter_chips.h"
+#include "review/tracks_panel.h"
+#include "ui/session/session_support.h"
+#include "widgets/message_bar.h"
+#include "widgets/tables/table_roles.h"
+#include "window/docks/review_docks.h"
+#include "window/main_window.h"
+#include "workspace/dock_registry.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+using test::kPatience_ms;
+
+/// Tracks like the one selected, in the window.
+class LikeTracksTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+
+ private slots:
+    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void cleanup() { home_.reset(); }
+
+    void theCommandListsTracksLikeTheSelectedOneUntilAnotherRunIsShown() {
+        MainWindow window;
+        window.resize(1280, 720);
+        window.show();
+        QVERIFY(QTest::qWaitForWindowActive(&window));
+        QVERIFY(test::openAndWait(window.session(), test::sceneUnderTest(60)));
+        QVERIFY(test::runAndWait(window.session()));
+        TracksPanel& panel = window.review().tracks();
+        const QAbstractItemModel* shown = panel.table()->model();
+        QVERIFY(QTest::qWaitFor([&] { return shown->rowCount() > 0; }, kPatience_ms));
+        QVERIFY2(!window.actions().like_track->isEnabled(), "nothing is selected");
+
+        const int all = shown->rowCount();
+        const TrackId chosen = shown->index(all - 1, 0).data(id_role).toInt();
+        window.session().selectTrack(chosen);
+        QVERIFY(window.actions().like_track->isEnabled());
+        QTest::keyClick(&window, Qt::Key_T, Qt::ControlModifier | Qt::ShiftModifier);
+        QCOMPARE(panel.chips().filter().like, std::optional(LikeLimit{.track = chosen}));
+        const auto text_of_first = [&] { return shown->index(0, TracksModel::like_column).data().toString(); };
+        QVERIFY(QTest::qWaitFor([&] { return text_of_first() == QStringLiteral("1.00"); }, kPatience_ms));
+        QCOMPARE(shown->index(0, 0).data(id_role).toInt(), chosen);
+        for (int row = 1; row < shown->rowCount(); ++row)
+            QVERIFY(shown->index(row, TracksModel::like_column).data().toDouble() >= 0.5);
+
+        QVERIFY(test::runAndWait(window.session()));
+        QVERIFY2(!panel.chips().filter().like, "the number means another vehicle in another run");
+    }
+
+    void aTrackThatIsNoPartOfTheResultIsSaidToBeNone() {
+        MainWindow window;
+        window.show();
+        QVERIFY(test::openAndWait(window.session(), test::sceneUnderTest(60)));
+        QVERIFY(test::runAndWait(window.session()));
+        TracksPanel& panel = window.review().tracks();
+        panel.listLike(4711);
+        const auto told = [&] {
+            const QStringList texts = window.messages().texts();
+            return std::any_of(texts.begin(), texts.end(),
+                               [](const QString& text) { return text.contains(QStringLiteral("no track 4711")); });
+        };
+        QVERIFY(QTest::qWaitFor(told, kPatience_ms));
+        QVERIFY(!panel.chips().filter().any());
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::LikeTracksTest)
+#include "like_tracks_test.moc"
