@@ -102,6 +102,7 @@ TEST_F(Batches, everyFileGetsAProjectAndBadOnesAreListed) {
     write("in/broken.mp4", std::string(5000, '\1'));
     write("in/empty.mp4", "");
     write("in/notes.txt", "not for us");
+    write("in/panel.ts", "<TS language=\"de\"></TS>");
     put("in/.hidden.mp4");
     test::MovingScene scene;
     fs::create_directories(folder / "in/images");
@@ -236,6 +237,15 @@ TEST_F(Batches, aFileWithOtherContentsIsDoneAgain) {
     EXPECT_EQ(runsOf("out/a.eyrie").size(), 2U);
 }
 
+TEST_F(Batches, textThatIsCalledAVideoIsListedWithTheReason) {
+    put("in/a.mp4");
+    write("in/bad.mp4", "not found: ask the archive");
+    const auto result = batch({"--frames", "0:9"});
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_THAT(inState("failed", "out/batch.csv"), ElementsAre("bad.mp4"));
+    EXPECT_THAT(inState("done", "out/batch.csv"), ElementsAre("a.mp4"));
+}
+
 TEST_F(Batches, aFileIsTakenOnceItHasArrived) {
     fs::create_directories(folder / "in");
     test::Process process(command("watch", {"--settle", "3"}));
@@ -250,7 +260,8 @@ TEST_F(Batches, aFileIsTakenOnceItHasArrived) {
         arriving.flush();
         std::this_thread::sleep_for(kBetweenParts);
     }
-    test::waitUntil("the run over the clip is finished", [&] { return isFinished("out/a.eyrie"); });
+    // The list is written after the project.
+    test::waitUntil("the clip is listed as done", [&] { return !inState("done", "out/watch.csv").empty(); });
     kill(process.pid(), SIGTERM);
     EXPECT_EQ(process.wait().exit_code, 130);
     EXPECT_THAT(inState("failed", "out/watch.csv"), ElementsAre()) << "it was not tried half";

@@ -27,8 +27,8 @@ IndependentMotionOptions withoutShadows(IndependentMotionOptions options = {}) {
 TEST(FrameRate, FewPicturesASecondNeedFewerOfThem) {
     EXPECT_EQ(picturesUntilSeen(withoutShadows(), 60), 6);
     EXPECT_EQ(picturesUntilSeen(withoutShadows(), 25), 6) << "a corner is as old as the pictures before this one";
-    EXPECT_EQ(picturesUntilSeen(withoutShadows(), 15), 4);
-    EXPECT_EQ(picturesUntilSeen(withoutShadows(), 10), 3);
+    EXPECT_EQ(picturesUntilSeen(withoutShadows(), 10), 6);
+    EXPECT_EQ(picturesUntilSeen(withoutShadows(), 6), 4);
     EXPECT_EQ(picturesUntilSeen(withoutShadows(), 2), 3);
 }
 
@@ -42,7 +42,8 @@ TEST(FrameRate, TheThesisCountsFramesWhateverTheRate) {
 TEST(FrameRate, TheBaselineIsAsLongAsAtTheUsualRateAndNeverLongerThanAskedFor) {
     IndependentMotionOptions options;
     EXPECT_EQ(options.atRate(25).baseline, 12);
-    EXPECT_EQ(options.atRate(12.5).baseline, 6);
+    EXPECT_EQ(options.atRate(10).baseline, 12);
+    EXPECT_EQ(options.atRate(5).baseline, 6);
     EXPECT_EQ(options.atRate(2).baseline, 3);
     options.baseline = 2;
     options.min_age = 1;

@@ -102,7 +102,14 @@ void LabelCommands::bindEdits() {
     LabelEditor& editor = parts_.editor;
     LabelFitting& fitting = parts_.fitting;
     bindCommands(this, {
-                           {actions.undo, [&] { labels.undo(); }},
+                           {actions.undo,
+                            [&] {
+                                // What is at work is not in the labels yet: it ends, and what it did can be undone.
+                                if (parts_.tracking.working() || parts_.fitting.working())
+                                    escape();
+                                else
+                                    labels.undo();
+                            }},
                            {actions.redo, [&] { labels.redo(); }},
                            {actions.try_to_write, [&] { labels.tryToWrite(); }},
                            {actions.keyframe, [&] { editor.setKeyframe(); }},

@@ -41,6 +41,7 @@ class LabelWorkspace : public QObject {
     LabelEditor& editor() { return *editor_; }
     LabelTool& tool() { return *tool_; }
     LabelFitting& fitting() { return *fitting_; }
+    LabelTracking& tracking() { return *tracking_; }
     LabelProposals& proposals() { return *proposals_; }
     LabelActions& actions() { return *actions_; }
     ObjectsPanel& objects() { return *objects_; }

@@ -44,10 +44,14 @@ BatchInput ofImages(const fs::path& folder, const fs::path& name, const std::vec
     return input;
 }
 
-/// Also one that has no bytes yet, or no longer: it is told, not left out.
+/// Also one that has no bytes yet, or other ones than its name says: it is told, not left out.
 bool isCalledVideo(const fs::path& path) {
     const FileKind kind = kindOfFile(path);
-    return kind == FileKind::video || (kind == FileKind::empty && hasVideoName(path));
+    if (kind == FileKind::video) return true;
+    if (!hasVideoName(path)) return false;
+    if (kind == FileKind::empty) return true;
+    // Programs and translations are called so, too.
+    return kind == FileKind::text && path.extension() != ".ts" && path.extension() != ".mts";
 }
 
 class Search {

@@ -90,8 +90,9 @@ std::string estimateText(const ScaleEstimate& estimate) {
 
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,
                         const std::vector<TrackSummary>& tracks, const std::filesystem::path& project) {
-    std::string text = formatted("%s: %dx%d, %d frames at %.3g Hz, %s\n", video.path.filename().c_str(),
+    std::string text = formatted("%s: %dx%d, %d frames at %.3g Hz%s, %s\n", video.path.filename().c_str(),
                                  video.size.width, video.size.height, video.frame_count, video.frame_rate_hz,
+                                 video.frame_rate_assumed ? " (assumed: give --fps)" : "",
                                  scaleText(facts, run.scale, video.size).c_str());
     text += formatted("Run %d %s: %d of %d frames in %s (%.1f frames/s)", run.id, nameOf(summary.outcome),
                       summary.frames_done, summary.frames_total, clockText(summary.seconds).c_str(),

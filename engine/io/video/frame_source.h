@@ -20,6 +20,7 @@ struct VideoInfo {
     int frame_count = 0;
     double frame_rate_hz = 25;  ///< mean rate from the time stamps, or the one given by the user; > 0
     double gsd_m_per_px = 0;    ///< metres per pixel where the source itself knows it (built-in scenes); 0: unknown
+    bool frame_rate_assumed = false;  ///< neither the video nor anybody says it
     bool variable_frame_rate = false;
     bool is_image_sequence = false;
     std::string codec;      ///< "h264", "png sequence" …

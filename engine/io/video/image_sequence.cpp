@@ -144,6 +144,7 @@ ImageSequence::ImageSequence(const std::filesystem::path& path, const SourceOpti
     info_.size = first.size();
     info_.frame_count = static_cast<int>(files_.size());
     if (const double rate = overridingRate(options, info_.frame_rate_hz); rate > 0) info_.frame_rate_hz = rate;
+    info_.frame_rate_assumed = !(options.frame_rate_hz > 0 || options.remembered_rate_hz > 0);
     info_.is_image_sequence = true;
     info_.codec = lowerExtension(files_.front()).substr(1) + " sequence";
     info_.container = "folder";

@@ -6,7 +6,7 @@
 namespace eyrie {
 namespace {
 
-constexpr double kUsualRate_hz = 25;  ///< the counts of frames are meant for this rate and more
+constexpr double kUsualRate_hz = 10;  ///< the counts of frames are meant for this rate and more
 
 }  // namespace
 
@@ -68,7 +68,7 @@ void IndependentMotionOptions::describe(ParameterVisitor& visitor) {
     declare.flag(
         "motion.follow_rate", follow_rate,
         {"",
-         "min_age and baseline are meant for 25 frames per second and more. Where there are fewer, both are as "
+         "min_age and baseline are meant for 10 frames per second and more. Where there are fewer, both are as "
          "much shorter: what matters is the time that a vehicle is seen.",
          ""});
     declare.flag("motion.follow_turns", follow_turns,

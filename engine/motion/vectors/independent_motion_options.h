@@ -31,7 +31,7 @@ struct IndependentMotionOptions {
 
     /// The text to the letter: one threshold on the speed of corners at least 5 frames old.
     static IndependentMotionOptions thesis();
-    /// What holds for a video: below 25 frames per second `min_age` and `baseline` shrink with the rate, to 2 and 3
+    /// What holds for a video: below 10 frames per second `min_age` and `baseline` shrink with the rate, to 2 and 3
     /// frames at the least, where `follow_rate` says so.
     IndependentMotionOptions atRate(double frame_rate_hz) const;
     void describe(ParameterVisitor& visitor);

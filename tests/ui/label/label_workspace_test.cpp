@@ -7,6 +7,7 @@
 #include "canvas/layers/track_layer.h"
 #include "label/canvas/label_timeline.h"
 #include "label/computing/label_fitting.h"
+#include "label/computing/label_tracking.h"
 #include "label/lists/object_inspector.h"
 #include "label/lists/objects_panel.h"
 #include "ui/label/labelling.h"
@@ -105,6 +106,17 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QVERIFY(!object(*window, id).keyframes.front().computed);
         QCOMPARE(object(*window, id).keyframes.front().box.centre, taken.front().box.centre);
         QVERIFY(object(*window, id).origin == ObjectOrigin::proposal_corrected);
+    }
+
+    void undoWhileABoxIsFollowedEndsThatAndKeepsTheObject() {
+        const auto window = labellingWindow(60);
+        QVERIFY(window);
+        const ObjectId id = draw(*window, {20, 55}, {42, 55});
+        window->labelling().actions().track_on->trigger();
+        QVERIFY(window->labelling().tracking().working());
+        key(*window, Qt::Key_Z);
+        QVERIFY(waitFor([&] { return !window->labelling().tracking().working(); }));
+        QVERIFY(!object(*window, id).keyframes.empty());
     }
 
     void anObjectMayHaveAColourOfItsOwn() {

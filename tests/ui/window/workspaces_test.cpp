@@ -189,15 +189,17 @@ class WorkspacesTest : public QObject {
             QVERIFY(window);
             window->session().settings().options.detection.method = DetectionMethod::gradient;
             StartOptions options;
-            options.input = test::writeScene(*home_ / "images", 8);
+            options.input = test::writeScene(*home_ / "images", 30);
             options.gsd_m_per_px = 0.25;
             window->start(options);
             QVERIFY(QTest::qWaitFor([&] { return window->session().runData() && !window->session().running(); },
                                     kPatience_ms));
             window->findChild<MessageBar*>()->setMaximumHeight(0);  // notices pass
+            QVERIFY(!window->session().runData()->tracks.empty());
+            window->session().selectTrack(window->session().runData()->tracks.front().id);
             for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
                 go(*window, key);
-                QTest::qWait(0);
+                QTest::qWait(200);  // the card and the lists are filled
                 const QSize least = window->minimumSizeHint();
                 QVERIFY2(least.width() <= 1280 && least.height() <= 690,
                          qPrintable(QStringLiteral("%1 of %2 needs %3 x %4: %5")

@@ -66,7 +66,10 @@ void LabelTracking::start(int direction) {
 
 void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, const FollowResult& result) {
     const LabelledObject* object = labels_.object(id);
-    if (object == nullptr) return;
+    if (object == nullptr) {
+        answers_.show_end(start, tr("the object was deleted meanwhile"));
+        return;
+    }
     FrameIndex end = start;
     if (!result.boxes.empty()) {
         std::vector<FrameBox> boxes{{start, box}};

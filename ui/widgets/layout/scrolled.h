@@ -10,7 +10,7 @@ namespace eyrie::ui {
 inline QScrollArea* scrolled(QWidget* content) {
     class Area : public QScrollArea {
      public:
-        QSize minimumSizeHint() const override { return {260, 160}; }
+        QSize minimumSizeHint() const override { return {200, 160}; }
     };
     auto* area = new Area;
     area->setFrameShape(QFrame::NoFrame);
