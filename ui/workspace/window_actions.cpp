@@ -78,7 +78,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
         addToggle(tr("Play only where something &moves"),
                   {"media-skip-forward",
                    {QKeySequence(tr("Ctrl+Space"))},
-                   QT_TR_NOOP("Leap over stretches in which nothing drives; where nobody can know, all is played")},
+                   QT_TR_NOOP("Leap over stretches in which nothing drives; what could not be searched is played")},
                   false);
 
     addEvents();

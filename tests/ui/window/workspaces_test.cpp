@@ -189,7 +189,7 @@ class WorkspacesTest : public QObject {
             QVERIFY(window);
             window->session().settings().options.detection.method = DetectionMethod::gradient;
             StartOptions options;
-            options.input = test::writeScene(*home_ / "images", 30);
+            options.input = test::writeScene(*home_ / "images", 60);
             options.gsd_m_per_px = 0.25;
             window->start(options);
             QVERIFY(QTest::qWaitFor([&] { return window->session().runData() && !window->session().running(); },

@@ -86,9 +86,10 @@ void WatchCommands::playMoving() {
             const std::int64_t all = footage.last_frame - footage.first_frame + 1;
             const double seconds = static_cast<double>(framesIn(spans)) / footage.scale.frame_rate_hz;
             const double of_all = static_cast<double>(all) / footage.scale.frame_rate_hz;
-            QString text = tr("Something moves, or nobody can know, in %1 of %2: only that is played.")
+            QString text = tr("Something moves, or could not be searched, in %1 of %2: only that is played.")
                                .arg(durationText(seconds), durationText(of_all));
-            if (framesIn(spans) == all) text = tr("Something moves, or nobody can know, all the time: all is played.");
+            if (framesIn(spans) == all)
+                text = tr("Something moves, or could not be searched, all the time: everything is played.");
             if (spans.empty()) text = tr("Nothing moves in this run: there is nothing to play.");
             parts_.messages.showTopic(kMovingTopic, MessageKind::info, text);
         });

@@ -125,7 +125,7 @@ void StatusFields::showRun(const RunProgress& progress) {
         progress.frames_total > 0 ? progress.frames_done / static_cast<double>(progress.frames_total) : 0;
     const int percent = static_cast<int>(share * 100);
     QString text =
-        progress.estimating_scale ? tr("estimating the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
+        progress.estimating_scale ? tr("looking at the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
     if (!progress.estimating_scale && progress.frames_per_second > 0) {
         const auto left_us = static_cast<std::int64_t>(std::ceil(progress.seconds_left) * 1e6);
         text += tr("   %1 fps   %2 left")

@@ -36,7 +36,7 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
     DockRegistry& docks = parts_.docks;
     docks.add(DockId::runs, tr("Runs"), runs_);
     docks.add(DockId::tracks, tr("Tracks"), tracks_);
-    docks.add(DockId::inspector, tr("Inspector"), inspector_);
+    docks.add(DockId::inspector, tr("Inspector"), scrolled(inspector_));
     docks.add(DockId::parameters, tr("Parameters"), form_);
     docks.add(DockId::stage_times, tr("Times"), chart_);
     docks.add(DockId::stages, tr("Stages"), stages_);
