@@ -192,11 +192,11 @@ class WorkspacesTest : public QObject {
             options.input = test::writeScene(*home_ / "images", 60);
             options.gsd_m_per_px = 0.25;
             window->start(options);
-            QVERIFY(QTest::qWaitFor([&] { return window->session().runData() && !window->session().running(); },
-                                    kPatience_ms));
+            const auto& run = window->session().runData();
+            const auto has_tracks = [&] { return !window->session().running() && run && !run->tracks.empty(); };
+            QVERIFY(QTest::qWaitFor(has_tracks, kPatience_ms));
             window->findChild<MessageBar*>()->setMaximumHeight(0);  // notices pass
-            QVERIFY(!window->session().runData()->tracks.empty());
-            window->session().selectTrack(window->session().runData()->tracks.front().id);
+            window->session().selectTrack(run->tracks.front().id);
             for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
                 go(*window, key);
                 QTest::qWait(200);  // the card and the lists are filled
