@@ -11,6 +11,11 @@ namespace eyrie {
 namespace explaining {
 namespace {
 
+/// Frames that a corner must have been tracked in this video.
+int ageNeeded(const Story& story) {
+    return story.options.motion.atRate(story.scale.frame_rate_hz).min_age;
+}
+
 constexpr double kSamePlace = 0.2;  ///< overlap from which two boxes mean the same thing
 
 /// The parameter's value with its unit, "3 vectors".
@@ -76,8 +81,7 @@ void decideByFate(Story& story, const std::vector<const CornerVerdict*>& corners
     switch (fate) {
         case CornerFate::young:
             story.decide("The oldest corner here has been tracked for " + std::to_string(closest->age) + " frames, " +
-                             std::to_string(story.options.motion.atRate(story.scale.frame_rate_hz).min_age) +
-                             " are needed",
+                             std::to_string(ageNeeded(story)) + " are needed",
                          closest->parameter);
             break;
         case CornerFate::slow:
@@ -116,7 +120,7 @@ void tellVerdicts(Story& story, const std::vector<const CornerVerdict*>& corners
                countText(inliers, "corner agrees", "corners agree") + " with the ground's homography (RANSAC), " +
                    std::to_string(corners.size() - inliers) + " do not",
                "registration.inlier_distance");
-    const int needed = story.options.motion.atRate(story.scale.frame_rate_hz).min_age;
+    const int needed = ageNeeded(story);
     const std::string ages = "the oldest of " + countText(corners.size(), "corner", "corners") + " has been tracked " +
                              std::to_string(oldest) + " frames, " + std::to_string(needed) + " are needed";
     if (oldest >= needed)

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "core/error.h"
+#include "core/robust_statistics.h"
 #include "events/ground/ground_path.h"
 #include "ground/ground_measure.h"
 
@@ -53,11 +55,8 @@ struct LikenessFacts {
     double speed() const { return seconds > 0 ? way / seconds : 0; }
 };
 
-double medianOf(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+double medianOrNone(std::vector<double> values) {
+    return values.empty() ? 0 : medianOf(std::move(values));
 }
 
 double bell(double deviations) {
@@ -121,8 +120,8 @@ class PathMaker {
             lengths.push_back(there.length * metres);
             widths.push_back(there.width * metres);
         }
-        facts.length = medianOf(std::move(lengths));
-        facts.width = medianOf(std::move(widths));
+        facts.length = medianOrNone(std::move(lengths));
+        facts.width = medianOrNone(std::move(widths));
     }
 
  private:
@@ -254,7 +253,7 @@ double unitOf(const StoredTracks& run, const GroundStretches& ground) {
             lengths.push_back(ground.toGround(middle.frame, middle.box).length *
                               metresByPlace(run.footage.scale, ground, middle.frame, middle.box.centre));
     }
-    const double median = medianOf(std::move(lengths));
+    const double median = medianOrNone(std::move(lengths));
     return median > 0 ? kUsualLength_m / median : 1;
 }
 

@@ -98,6 +98,8 @@ TEST_F(Images, TimesFollowTheGivenRate) {
     EXPECT_EQ(open()->timeOf(3), 120'000);
     EXPECT_EQ(open(2)->info().frame_rate_hz, 2);
     EXPECT_EQ(open(2)->timeOf(3), 1'500'000);
+    EXPECT_TRUE(open()->info().frame_rate_assumed);
+    EXPECT_FALSE(open(2)->info().frame_rate_assumed);
 }
 
 TEST_F(Images, ARememberedRateCountsUntilAnotherIsGiven) {
@@ -105,6 +107,7 @@ TEST_F(Images, ARememberedRateCountsUntilAnotherIsGiven) {
     SourceOptions options;
     options.remembered_rate_hz = 30;
     EXPECT_EQ(openSource(folder_.path(), options)->info().frame_rate_hz, 30);
+    EXPECT_FALSE(openSource(folder_.path(), options)->info().frame_rate_assumed);
     options.frame_rate_hz = 10;
     EXPECT_EQ(openSource(folder_.path(), options)->info().frame_rate_hz, 10);
 }

@@ -129,8 +129,8 @@ void TracksPanel::setDoings(const std::shared_ptr<const DoingsByTrack>& doings) 
 
 // ---- tracks like one ------------------------------------------------------------------------------------------------
 
-void TracksPanel::listLike(int track) {
-    chips_->setLike(track == 0 ? std::nullopt : std::optional(track));
+void TracksPanel::listLike(std::optional<TrackId> track) {
+    chips_->setLike(track);
 }
 
 void TracksPanel::useFilter() {

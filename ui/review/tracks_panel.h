@@ -48,8 +48,8 @@ class TracksPanel : public TablePanel {
     FilterChips& chips() { return *chips_; }
     /// What the tracks did, for the chips; null while nobody knows.
     void setDoings(const std::shared_ptr<const DoingsByTrack>& doings);
-    /// Lists tracks like this one, the most like first, until the chip that says so is removed; 0: does not.
-    void listLike(int track);
+    /// Lists tracks like this one, the most like first, until the chip that says so is removed; none: does not.
+    void listLike(std::optional<TrackId> track);
     /// How like tracks are to the one that was asked about; of another one it counts for nothing.
     void setLikeness(const std::shared_ptr<const LikenessByTrack>& likeness);
     /// How many of the tracks are listed, "12 of 40 tracks".

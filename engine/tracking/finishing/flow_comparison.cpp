@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "tracking/robust_statistics.h"
+#include "core/robust_statistics.h"
 
 namespace eyrie {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "core/geometry/angle.h"
+#include "core/robust_statistics.h"
 #include "tracking/finishing/shared_frames.h"
 #include "tracking/finishing/track_paths.h"
-#include "tracking/robust_statistics.h"
 
 namespace eyrie {
 namespace {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/robust_statistics.h"
 #include "tracking/finishing/shared_frames.h"
 #include "tracking/finishing/track_paths.h"
-#include "tracking/robust_statistics.h"
 
 namespace eyrie {
 namespace {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/robust_statistics.h"
 #include "tracking/finishing/shared_frames.h"
 #include "tracking/finishing/track_paths.h"
-#include "tracking/robust_statistics.h"
 
 namespace eyrie {
 namespace {

@@ -3,8 +3,8 @@
 #include <deque>
 #include <unordered_map>
 
+#include "core/robust_statistics.h"
 #include "tracking/finishing/track_occupancy.h"
-#include "tracking/robust_statistics.h"
 
 namespace eyrie {
 namespace {

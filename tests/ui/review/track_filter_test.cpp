@@ -267,7 +267,7 @@ class TrackFilterTest : public QObject {
         QCOMPARE(listed(panel).size(), std::size_t(10));
         panel.setLikeness(of_four);  // comes late
         QCOMPARE(listed(panel).size(), std::size_t(10));
-        panel.listLike(0);
+        panel.listLike(std::nullopt);
         QVERIFY(!panel.chips().filter().any());
     }
 

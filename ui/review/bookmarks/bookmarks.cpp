@@ -72,7 +72,7 @@ void Bookmarks::goTo(int mark_id) {
 
 void Bookmarks::enableActions(bool active) {
     active_ = active;
-    const bool can = active && review_.canHaveZones();
+    const bool can = active && review_.canMark();
     const auto& bookmarks = review_.bookmarks();
     const FrameIndex here = session_.currentFrame();
     const auto any = [&](auto&& passes) {

@@ -235,11 +235,7 @@ bool EventReview::removeBookmark(int id) {
 
 /// What is not said about one event: zones and bookmarks.
 bool EventReview::applyStep(const std::function<ReviewEdit()>& step) {
-    if (!store_) return false;
-    if (store_->readOnly()) {
-        answers_.tell_notice(QString::fromStdString(store_->readOnlyReason()));
-        return false;
-    }
+    if (!mayWrite()) return false;
     try {
         const ReviewEdit edit = step();
         if (edit.empty()) return false;
@@ -285,10 +281,14 @@ std::size_t EventReview::judgedCount() const {
     return judged;
 }
 
-bool EventReview::mayJudge() {
-    if (!store_ || !found_) return false;
+bool EventReview::mayWrite() {
+    if (!store_) return false;
     if (store_->readOnly()) answers_.tell_notice(QString::fromStdString(store_->readOnlyReason()));
     return !store_->readOnly();
+}
+
+bool EventReview::mayJudge() {
+    return found_ && mayWrite();
 }
 
 std::vector<Judged> EventReview::judgedAt(const std::vector<std::size_t>& positions) const {

@@ -72,8 +72,8 @@ class EventReview : public QObject {
 
     /// The zones that are watched; none until the verdicts were read.
     const std::map<int, StoredZone>& zones() const;
-    /// Whether there is a place for zones: a run that is done, whose verdicts were read.
-    bool canHaveZones() const { return store_ != nullptr; }
+    /// Whether there is a place for zones and bookmarks: a run that is done, whose verdicts were read.
+    bool canMark() const { return store_ != nullptr; }
     /// Changes zones by a step made from what was said and watched so far; searches anew where it makes a difference.
     bool changeZones(const std::function<ReviewEdit(const ReviewSet&, const Judge&, const NewId&)>& step);
     /// Places of the video that a person marked; none until the verdicts were read.
@@ -120,6 +120,7 @@ class EventReview : public QObject {
     void refreshReadOnly();
     int& verdictIdAt(std::size_t position);
     int verdictIdAt(std::size_t position) const;
+    bool mayWrite();
     bool mayJudge();
     bool applyStep(const std::function<ReviewEdit()>& step);
     bool apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions);

@@ -18,7 +18,7 @@ const QString kLikeTopic = QStringLiteral("tracks like one");
 LikeTracks::LikeTracks(const LikeParts& parts, QObject* parent) : QObject(parent), parts_(parts) {
     bindCommands(this, {{parts_.actions.like_track, [this] {
                              parts_.docks.raise(DockId::tracks);
-                             parts_.panel.listLike(parts_.session.selectedTrack().value_or(0));
+                             parts_.panel.listLike(parts_.session.selectedTrack());
                          }}});
     whenChanged(parts_.session, this,
                 {
@@ -26,7 +26,7 @@ LikeTracks::LikeTracks(const LikeParts& parts, QObject* parent) : QObject(parent
                     {SessionChange::current_run,
                      [this] {
                          // The number means another vehicle there.
-                         if (shown_run_ != parts_.session.currentRun()) parts_.panel.listLike(0);
+                         if (shown_run_ != parts_.session.currentRun()) parts_.panel.listLike(std::nullopt);
                          shown_run_ = parts_.session.currentRun();
                      }},
                 });
@@ -64,7 +64,7 @@ void LikeTracks::search() {
 }
 
 void LikeTracks::fail(const QString& text) {
-    parts_.panel.listLike(0);
+    parts_.panel.listLike(std::nullopt);
     parts_.messages.showTopic(
         kLikeTopic, MessageKind::warning,
         tr("No tracks like this one can be told: %1. Choose one that is not tentative or left out.").arg(text));

@@ -170,7 +170,7 @@ void ZoneReview::setAnchor(int id, ZoneAnchor anchor) {
 // ---- files ----------------------------------------------------------------------------------------------------------
 
 void ZoneReview::readFile(const QString& path) {
-    if (!parts_.review.canHaveZones()) {
+    if (!parts_.review.canMark()) {
         parts_.messages.showTopic(kZonesTopic, MessageKind::warning, hintText());
         return;
     }
@@ -218,7 +218,7 @@ void ZoneReview::showZones() {
 }
 
 QString ZoneReview::hintText() const {
-    if (!parts_.review.canHaveZones())
+    if (!parts_.review.canMark())
         return tr("Zones and lines are drawn over a finished run, which tells how the ground moves.");
     return tr(
         "Draw an area or a line, and the list tells who enters, leaves or crosses it. Both are kept in the "
@@ -226,7 +226,7 @@ QString ZoneReview::hintText() const {
 }
 
 void ZoneReview::enableActions() {
-    const bool possible = active_ && parts_.review.canHaveZones();
+    const bool possible = active_ && parts_.review.canMark();
     if (!possible) tool_->cancel();
     parts_.actions.draw_zone->setEnabled(possible);
     parts_.actions.draw_line->setEnabled(possible);
