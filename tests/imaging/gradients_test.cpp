@@ -34,6 +34,20 @@ TEST(CannyGradient, OfARampIsItsSlope) {
     EXPECT_NEAR(gradient.at<float>(7, 7), 10, 1e-3);
 }
 
+TEST(CannyGradient, OfADotIsTheSlopeOfAGaussian) {
+    // Variance .5: g = 1, .3679, .0183, .0001, their sum over both sides 1.7726; i · g falls by .8845 a grey level.
+    cv::Mat dot(15, 15, CV_8UC1, cv::Scalar(0));
+    dot.at<uchar>(7, 7) = 100;
+    cv::Mat gradient;
+    cannyGradient(dot, 0.5, gradient);
+    EXPECT_NEAR(gradient.at<float>(7, 7), 0, 1e-4);
+    EXPECT_NEAR(gradient.at<float>(7, 8), 23.463, 1e-2);  // 100 · (.3679 / .8845) · (1 / 1.7726)
+    EXPECT_NEAR(gradient.at<float>(8, 8), 12.207, 1e-2);  // the same along both axes, a row further off
+    EXPECT_NEAR(gradient.at<float>(9, 7), 2.336, 1e-2);
+    cannyGradient(dot, 2, gradient);
+    EXPECT_NEAR(gradient.at<float>(7, 8), 3.103, 1e-2);
+}
+
 TEST(CannyGradient, SmoothsNoise) {
     cv::RNG random(1);
     cv::Mat gray(100, 100, CV_8UC1);

@@ -58,6 +58,16 @@ TEST(PictureLook, EveningOutShowsWhatLiesInTheDark) {
     EXPECT_GT(spread(withLook(picture, {.even = true})), 1.5 * spread(picture));
 }
 
+TEST(PictureLook, EveningOutDoesNotMakeAPictureOfNoise) {
+    // Of six grey levels each holds a sixth of a tile; no level gets more than 2.5 and its part of what is cut off, 1,
+    // of 256 shares, so that five steps become some 16.
+    cv::Mat road(240, 240, CV_8UC1);
+    cv::RNG(4).fill(road, cv::RNG::UNIFORM, 100, 106);
+    double darkest = 0, brightest = 0;
+    cv::minMaxLoc(withLook(road, {.even = true})(cv::Rect(100, 100, 40, 40)), &darkest, &brightest);
+    EXPECT_NEAR(brightest - darkest, 16, 3);
+}
+
 TEST(PictureLook, ColoursKeepTheirHue) {
     const cv::Mat picture(32, 32, CV_8UC3, cv::Scalar(60, 90, 120));
     const cv::Vec3b after = withLook(picture, {.brightness = 0.1}).at<cv::Vec3b>(5, 5);
