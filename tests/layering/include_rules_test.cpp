@@ -58,7 +58,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"tracking", {"core", "imaging"}},
     {"peer", {"core", "motion", "tracking"}},
     {"evaluation", {"core"}},
-    {"exchange", {"core", "annotation", "events", "formats", "georeference", "io", "metadata", "store"}},
+    {"exchange", {"core", "annotation", "correction", "events", "formats", "georeference", "io", "metadata", "store"}},
     {"scene", {"core", "io"}},
     {"store", {"core"}},
     {"rerun",
@@ -71,7 +71,8 @@ const std::map<std::string, std::set<std::string>> allowed = {
      {"core", "io", "registration", "motion", "stacking", "detection", "learning", "removal", "tracking", "store"}},
     {"report", {"core", "chain", "diagnosis", "evaluation", "events", "georeference", "io", "metadata", "store"}},
     {"scoring", {"core", "annotation", "evaluation", "formats", "io", "store"}},
-    {"events", {"core", "annotation", "formats", "io", "store"}},
+    {"correction", {"core", "annotation", "store"}},
+    {"events", {"core", "annotation", "correction", "formats", "io", "store"}},
     {"ground", {"core", "annotation", "events"}},
     {"diagnosis", {"core", "chain", "rerun", "evaluation", "io", "motion", "scoring", "store"}},
 };
