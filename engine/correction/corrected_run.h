@@ -19,8 +19,7 @@ CorrectedTracks readCorrectedTracks(ProjectFile& project, const RunRecord& run);
 /// As RunStore::tracks(), ascending ids.
 std::vector<TrackSummary> trackSummaries(const RunStore& store, int run_id, const CorrectedTracks& corrected);
 /// As RunStore::trackStates().
-std::vector<TrackFrame> trackStates(const RunStore& store, int run_id, TrackId track,
-                                    const CorrectedTracks& corrected);
+std::vector<TrackFrame> trackStates(const RunStore& store, int run_id, TrackId track, const CorrectedTracks& corrected);
 /// As RunStore::trackStatesUpTo().
 std::vector<TrackFrame> trackStatesUpTo(const RunStore& store, int run_id, FrameIndex frame, int trail,
                                         const CorrectedTracks& corrected);

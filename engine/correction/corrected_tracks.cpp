@@ -11,10 +11,10 @@ namespace eyrie {
 namespace {
 
 constexpr double kLongestGap_s = 10;
-constexpr double kMostOfALife = 0.6;          ///< share of boxes that cover an added track
-constexpr std::size_t kBoxesOfATrack = 12;    ///< by which a track is found again
-constexpr std::size_t kBoxesCompared = 48;    ///< of an added track
-constexpr double kSameCentre = 0.35;          ///< of a length: boxes that hardly overlap may be one vehicle still
+constexpr double kMostOfALife = 0.6;        ///< share of boxes that cover an added track
+constexpr std::size_t kBoxesOfATrack = 12;  ///< by which a track is found again
+constexpr std::size_t kBoxesCompared = 48;  ///< of an added track
+constexpr double kSameCentre = 0.35;        ///< of a length: boxes that hardly overlap may be one vehicle still
 constexpr double kLeastOverlap = 0.1;
 
 using States = std::vector<TrackFrame>;
@@ -251,10 +251,33 @@ CorrectedTracks correctTracks(const TracksToCorrect& run, const std::map<int, Tr
                               const CameraMotion& camera) {
     Workbench bench(run, camera);
     std::map<int, CorrectionState> states;
-    for (const auto& [id, correction] : corrections) states[id] = bench.apply(correction);
+    std::map<CorrectionKind, int> applied;
+    for (const auto& [id, correction] : corrections) {
+        states[id] = bench.apply(correction);
+        if (states[id] == CorrectionState::applied) ++applied[correction.kind];
+    }
     CorrectedTracks result = bench.take();
+    result.applied = std::move(applied);
     result.states = std::move(states);
     return result;
+}
+
+std::string correctionsInWords(const CorrectedTracks& corrected) {
+    std::string text;
+    const auto add = [&](CorrectionKind kind, const char* one, const char* many) {
+        const auto found = corrected.applied.find(kind);
+        if (found == corrected.applied.end()) return;
+        text += (text.empty() ? "" : ", ") + std::to_string(found->second) + ' ' + (found->second == 1 ? one : many);
+    };
+    add(CorrectionKind::add, "track added", "tracks added");
+    add(CorrectionKind::join, "join", "joins");
+    add(CorrectionKind::split, "split", "splits");
+    const auto left = std::count_if(corrected.states.begin(), corrected.states.end(),
+                                    [](const auto& each) { return isLeft(each.second); });
+    if (left > 0)
+        text += (text.empty() ? "" : "; ") + std::to_string(left) + (left == 1 ? " correction" : " corrections") +
+                " could not be carried over";
+    return text.empty() ? text : "tracks as people corrected them: " + text;
 }
 
 TrackCorrection additionOf(std::vector<Sighting> boxes, FrameIndex drawn) {
@@ -279,9 +302,8 @@ TrackCorrection joinOf(const std::vector<TrackFrame>& one, const std::vector<Tra
 
 TrackCorrection splitOf(const std::vector<TrackFrame>& track, FrameIndex frame) {
     if (track.empty() || frame <= track.front().frame || frame > track.back().frame) {
-        throw Error(ErrorKind::parameter,
-                    "the track can be split between its first and its last frame, not at frame " +
-                        std::to_string(frame) + "; go to where the next vehicle takes it over");
+        throw Error(ErrorKind::parameter, "the track can be split between its first and its last frame, not at frame " +
+                                              std::to_string(frame) + "; go to where the next vehicle takes it over");
     }
     const auto cut = std::lower_bound(track.begin(), track.end(), frame,
                                       [](const TrackFrame& each, FrameIndex at) { return each.frame < at; });

@@ -39,6 +39,7 @@ struct CorrectedTracks {
     std::map<TrackId, CorrectedTrack> tracks;  ///< instead of those replaced, or new; ids may be those of replaced ones
     std::set<TrackId> replaced;                ///< tracks of the run that are no more what they were
     std::map<int, CorrectionState> states;     ///< of every correction
+    std::map<CorrectionKind, int> applied;     ///< how many of each kind were
     std::map<int, TrackId> covering;           ///< of covered ones: a track of the run that is there instead
 
     bool empty() const { return tracks.empty() && replaced.empty(); }
@@ -64,6 +65,10 @@ struct TracksToCorrect {
 /// result depends on nothing but the arguments.
 CorrectedTracks correctTracks(const TracksToCorrect& run, const std::map<int, TrackCorrection>& corrections,
                               const CameraMotion& camera);
+
+/// "tracks as people corrected them: 2 tracks added, 1 join, 1 split; 1 correction could not be carried over"; empty
+/// where nobody corrected anything.
+std::string correctionsInWords(const CorrectedTracks& corrected);
 
 /// The corrections that make it so, without number and person. Tracks as they are shown when it is made.
 TrackCorrection additionOf(std::vector<Sighting> boxes, FrameIndex drawn);

@@ -15,7 +15,8 @@
 namespace eyrie {
 namespace {
 
-/// Judges ten events, adds a zone and corrects a track a step until it is killed, and tells the pipe of each step that is on screen.
+/// Judges ten events, adds a zone and corrects a track a step until it is killed, and tells the pipe of each step that
+/// is on screen.
 [[noreturn]] void judgeUntilKilled(const std::filesystem::path& path, int pipe_end) {
     try {
         ProjectFile project = ProjectFile::open(path);

@@ -16,9 +16,7 @@ struct ReviewEdit {
     std::vector<Change<StoredZone>> zones = {};
     std::vector<Change<TrackCorrection>> corrections = {};
 
-    bool empty() const {
-        return verdicts.empty() && bookmarks.empty() && zones.empty() && corrections.empty();
-    }
+    bool empty() const { return verdicts.empty() && bookmarks.empty() && zones.empty() && corrections.empty(); }
 };
 
 /// The edit that takes the edit back.

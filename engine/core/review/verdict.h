@@ -68,9 +68,9 @@ struct Bookmark {
 
 /// All that was said about one video.
 struct ReviewSet {
-    std::map<int, Verdict> verdicts;    ///< by id
-    std::map<int, Bookmark> bookmarks;  ///< by id
-    std::map<int, StoredZone> zones;    ///< by id; each name once
+    std::map<int, Verdict> verdicts;                  ///< by id
+    std::map<int, Bookmark> bookmarks;                ///< by id
+    std::map<int, StoredZone> zones;                  ///< by id; each name once
     std::map<int, TrackCorrection> corrections = {};  ///< by id
 };
 

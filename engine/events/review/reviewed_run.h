@@ -18,6 +18,7 @@ struct ReviewedRun {
     std::vector<FrameSpan> unsearched;
     std::vector<Zone> zones;  ///< that were watched
     ReviewSet review;
+    CorrectedTracks corrected;  ///< what corrections made of the tracks; nothing where they were not wanted
     CarriedVerdicts carried;
 
     /// The verdict on an event, or on a stretch that could not be searched; null for none.
@@ -32,6 +33,7 @@ struct EventChoice {
     std::optional<std::vector<Zone>> zones;  ///< nothing: those that the project keeps for the video
     std::vector<EventKind> kinds;            ///< none: all
     std::vector<Judgement> judgements;       ///< none: all
+    bool uncorrected = false;                ///< of the run's own tracks
 
     /// Whether an event of this kind (nothing: a stretch that could not be searched) with this verdict, null for none,
     /// is wanted.

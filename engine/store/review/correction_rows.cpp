@@ -51,7 +51,8 @@ void writeCorrectionRows(SQLite::Database& database, int sequence_id,
                          const std::vector<Change<TrackCorrection>>& changes) {
     if (changes.empty()) return;
     const std::string values =
-        "INTO correction (id, sequence_id, kind, frame, track, other, person, when_utc) VALUES (?, ?, ?, ?, ?, ?, ?, ?)";
+        "INTO correction (id, sequence_id, kind, frame, track, other, person, when_utc) VALUES (?, ?, ?, ?, ?, ?, ?, "
+        "?)";
     SQLite::Statement add(database, "INSERT " + values);
     SQLite::Statement replace(database, "INSERT OR REPLACE " + values);
     SQLite::Statement remove(database, "DELETE FROM correction WHERE sequence_id = ? AND id = ?");

@@ -15,8 +15,8 @@ Bytes packReview(const ReviewEdit& edit);
 /// Nothing for bytes that no packing yields.
 std::optional<ReviewEdit> unpackReview(ByteView bytes);
 
-/// Where a vehicle is, little-endian: format 1, then 44 bytes a frame: frame (int32), centre x, y, length, width, heading
-/// (float64).
+/// Where a vehicle is, little-endian: format 1, then 44 bytes a frame: frame (int32), centre x, y, length, width,
+/// heading (float64).
 Bytes packSightings(const std::vector<Sighting>& sightings);
 /// Nothing for bytes that no packing yields, and for what areSightings() denies.
 std::optional<std::vector<Sighting>> unpackSightings(ByteView bytes);
