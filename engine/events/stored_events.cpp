@@ -15,7 +15,7 @@ double StoredTracks::secondsOf(FrameIndex frame) const {
     return shown_s[static_cast<std::size_t>(at)];
 }
 
-StoredTracks readTracks(const RunStore& store, const RunRecord& run, const CorrectedTracks& corrected) {
+StoredTracks readTracks(const RunStore& store, const RunRecord& run, CorrectedTracks corrected) {
     StoredTracks found;
     Footage& footage = found.footage;
     footage.image_size = run.sequence.size;
@@ -38,7 +38,6 @@ StoredTracks readTracks(const RunStore& store, const RunRecord& run, const Corre
     std::set<TrackId> confirmed;
     for (const TrackSummary& track : trackSummaries(store, run.id, corrected)) {
         if (track.confirmed) confirmed.insert(track.id);
-        if (track.corrected) found.corrected[track.id] = *track.corrected;
     }
     std::map<TrackId, EventTrack> tracks;
     visitTrackStates(store, run.id, corrected, [&](FrameIndex frame, const TrackState& state) {
@@ -50,13 +49,13 @@ StoredTracks readTracks(const RunStore& store, const RunRecord& run, const Corre
         found.scores[state.id] = state.score;
     });
     for (auto& [id, track] : tracks) found.tracks.push_back(std::move(track));
+    found.corrections = std::move(corrected);
     return found;
 }
 
 std::optional<CorrectionKind> correctionOf(const Event& event, const StoredTracks& stored) {
     for (const TrackId id : event.tracks) {
-        const auto found = stored.corrected.find(id);
-        if (found != stored.corrected.end()) return found->second;
+        if (const CorrectedTrack* track = stored.corrections.track(id)) return track->kind;
     }
     return std::nullopt;
 }

@@ -20,14 +20,14 @@ struct StoredTracks {
     std::vector<double> shown_s;       ///< when each of its frames is shown, s from the beginning of the video
     int unregistered = 0;              ///< frames that could not be registered onto the one before
     std::map<TrackId, double> scores;  ///< of each track, 0 … 1, the surer the higher
-    std::map<TrackId, CorrectionKind> corrected;  ///< tracks that people made what they are
+    CorrectedTracks corrections;       ///< what people made of the tracks; nothing where that was not wanted
 
     /// Seconds at which a frame is shown; by the frame rate where the run does not know it.
     double secondsOf(FrameIndex frame) const;
 };
 
 /// Reads a run's tracks, with what corrections make of them, and how its frames were registered. Throws Error(project).
-StoredTracks readTracks(const RunStore& store, const RunRecord& run, const CorrectedTracks& corrected = {});
+StoredTracks readTracks(const RunStore& store, const RunRecord& run, CorrectedTracks corrected = {});
 
 /// What people did to the tracks of an event, of several to the first such; nothing: they are the machine's.
 std::optional<CorrectionKind> correctionOf(const Event& event, const StoredTracks& stored);

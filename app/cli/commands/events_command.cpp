@@ -77,7 +77,7 @@ void tellEvents(const ListArguments& arguments) {
     }
     printEvents(wanted, stored);
     printLeft(wanted, reviewed.review);
-    printCorrections(reviewed.corrected, reviewed.review);
+    printCorrections(reviewed.tracks.corrections, reviewed.review);
 }
 
 /// Tracks like one: no events are looked for.

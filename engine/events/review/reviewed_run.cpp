@@ -38,8 +38,8 @@ ReviewedRun readReviewedRun(ProjectFile& project, const RunRecord& run, const Ev
     found.run = run;
     const RunStore store(project);
     found.review = readReview(project, run.sequence.id);
-    if (!choice.uncorrected) found.corrected = correctedTracksOf(store, run, found.review.corrections);
-    found.tracks = readTracks(store, run, found.corrected);
+    found.tracks = readTracks(
+        store, run, choice.uncorrected ? CorrectedTracks() : correctedTracksOf(store, run, found.review.corrections));
     found.zones = choice.zones ? *choice.zones : zonesOf(found.review.zones);
     found.events = findEvents(found.tracks.tracks, found.tracks.footage, choice.options, found.zones);
     found.unsearched = unsearchedStretches(found.tracks.footage, choice.review);

@@ -18,7 +18,6 @@ struct ReviewedRun {
     std::vector<FrameSpan> unsearched;
     std::vector<Zone> zones;  ///< that were watched
     ReviewSet review;
-    CorrectedTracks corrected;  ///< what corrections made of the tracks; nothing where they were not wanted
     CarriedVerdicts carried;
 
     /// The verdict on an event, or on a stretch that could not be searched; null for none.

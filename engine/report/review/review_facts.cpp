@@ -139,7 +139,7 @@ void tellReviewedVideo(ReportPage& page, const ReviewScene& scene) {
     fact("Events", std::to_string(input.reviewed.events.size()) + " found in " +
                        std::to_string(input.reviewed.tracks.tracks.size()) + " tracks, " + std::to_string(judged) +
                        " judged by a person");
-    const std::string corrections = correctionsInWords(input.reviewed.corrected);
+    const std::string corrections = correctionsInWords(input.reviewed.tracks.corrections);
     fact("Tracks", input.choice.uncorrected ? "as the machine found them, corrections left out"
                    : corrections.empty()    ? "as the machine found them"
                                             : corrections.substr(corrections.find("as ")));
@@ -187,10 +187,10 @@ void tellRemainder(ReportPage& page, const ReviewScene& scene) {
         }
         page.endTable();
     }
-    if (!reviewed.corrected.states.empty()) {
+    if (!reviewed.tracks.corrections.states.empty()) {
         page.heading("Tracks corrected by a person");
         page.beginTable({"What", "Frame", "By", "In this run"});
-        for (const auto& [id, state] : reviewed.corrected.states) {
+        for (const auto& [id, state] : reviewed.tracks.corrections.states) {
             const TrackCorrection& correction = reviewed.review.corrections.at(id);
             page.row(
                 {nameOf(correction.kind), std::to_string(correction.frame),

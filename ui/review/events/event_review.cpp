@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/utc_time.h"
+#include "correction/corrected_run.h"
 #include "session/project/person_name.h"
 #include "widgets/wiring.h"
 
@@ -15,6 +16,12 @@ namespace eyrie::ui {
 namespace {
 constexpr int kSearchDelay_ms = 250;  ///< while a threshold is being changed
 constexpr int kRereadVerdicts_ms = 2000;
+
+std::vector<int> correctionsIn(const ReviewStore& store) {
+    std::vector<int> ids;  // what a number stands for never changes
+    for (const auto& [id, correction] : store.review().corrections) ids.push_back(id);
+    return ids;
+}
 }  // namespace
 
 /// Verdicts as they were read in the background.
@@ -61,7 +68,7 @@ void EventReview::refresh() {
         if (!current || (key_ && (key_->run != *current || key_->project != session_.project()))) close();
         return;
     }
-    const RunKey key{session_.project(), data->record.id, data->frames.size(), data->tracks.size()};
+    const RunKey key{session_.project(), data->record.id, data->frames.size(), ownTracks(*data)};
     const RunRecord* own = session_.ownRun();
     if (data->record.live || (own != nullptr && own->id == data->record.id && session_.running())) {
         if (state_ == State::at_work) return;
@@ -140,12 +147,16 @@ void EventReview::search() {
     search_due_.stop();
     if (!key_ || !store_) return;
     const auto work = [this, key = *key_, data = data_, tracks = tracks_, options = options_,
-                       verdicts = store_->review().verdicts, zones = zonesOf(store_->review().zones),
-                       version = store_->version()](const BackgroundTask& task) mutable {
+                       verdicts = store_->review().verdicts, corrections = store_->review().corrections,
+                       zones = zonesOf(store_->review().zones), version = store_->version(),
+                       corrections_made = corrections_made_](const BackgroundTask& task) mutable {
         if (!tracks) {
             ProjectFile project = ProjectFile::open(key.project, ProjectFile::Mode::read_only);
-            tracks = std::make_shared<const StoredTracks>(readTracks(RunStore(project), data->record));
-            task.tell([this, tracks] {
+            const RunStore store(project);
+            tracks = std::make_shared<const StoredTracks>(
+                readTracks(store, data->record, correctedTracksOf(store, data->record, corrections)));
+            task.tell([this, tracks, made = corrections_made] {
+                if (made != corrections_made_) return;  // others by now: they are read next
                 tracks_ = tracks;
                 answers_.show_zones();
             });
@@ -177,9 +188,13 @@ void EventReview::refreshReadOnly() {
     }
     try {
         // Events of verdicts that another window made are found; when it is closed, the right to judge is ours.
+        const auto corrections = correctionsIn(*store_);
         if (!store_->tryToWrite() && !store_->refresh()) return;
         answers_.show_zones();
-        search();
+        if (correctionsIn(*store_) != corrections)
+            useOtherCorrections();
+        else
+            search();
     } catch (const std::exception& error) {
         reread_.stop();
         answers_.tell_problem(QString::fromUtf8(error.what()));
@@ -250,6 +265,50 @@ bool EventReview::applyStep(const std::function<ReviewEdit()>& step) {
     }
     answers_.show_zones();
     return true;
+}
+
+// ---- corrections of tracks ------------------------------------------------------------------------------------------
+
+const std::map<int, TrackCorrection>& EventReview::corrections() const {
+    static const std::map<int, TrackCorrection> none;
+    return store_ ? store_->review().corrections : none;
+}
+
+int EventReview::correct(TrackCorrection correction, const QString& step) {
+    const bool made = applyStep([&] {
+        const Judge judge = whoJudges();
+        correction.id = store_->newCorrectionId();
+        correction.person = judge.person;
+        correction.when_utc = judge.when_utc;
+        ReviewEdit edit;
+        edit.name = step.toStdString();
+        edit.corrections.push_back({std::nullopt, correction});
+        return edit;
+    });
+    if (!made) return 0;
+    useOtherCorrections();
+    return correction.id;
+}
+
+bool EventReview::removeCorrections(const std::vector<int>& ids, const QString& step) {
+    const bool removed = applyStep([&] {
+        ReviewEdit edit;
+        edit.name = step.toStdString();
+        for (const int id : ids) {
+            const auto found = corrections().find(id);
+            if (found != corrections().end()) edit.corrections.push_back({found->second, std::nullopt});
+        }
+        return edit;
+    });
+    if (removed) useOtherCorrections();
+    return removed;
+}
+
+void EventReview::useOtherCorrections() {
+    ++corrections_made_;
+    tracks_.reset();
+    session_.correctionsChanged();
+    search();
 }
 
 // ---- verdicts -------------------------------------------------------------------------------------------------------
@@ -393,7 +452,10 @@ void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step)
     }
     std::sort(positions.begin(), positions.end());
     if (!edit->zones.empty() || !edit->bookmarks.empty()) answers_.show_zones();
-    if (lost || zonesOf(zones()) != zones_before) search();
+    if (!edit->corrections.empty())
+        useOtherCorrections();
+    else if (lost || zonesOf(zones()) != zones_before)
+        search();
     answers_.show_verdicts(positions);
     answers_.go_back_to(positions);
 }
