@@ -95,20 +95,14 @@ bool tellsWorld(const std::string& format) {
 /// Not a format of labels: it needs the video, and is one.
 constexpr char kVmti[] = "vmti";
 
-/// Tracks of a run as they are wanted, or its detections.
-LabelStream wantedOf(const ExportArguments& arguments, ProjectFile& project, const RunStore& store,
-                     const RunRecord& run) {
-    if (arguments.detections || arguments.uncorrected) return labelStreamOf(store, run, arguments.detections);
-    return labelStreamOf(store, run, readCorrectedTracks(project, run));
-}
-
 /// Tracks of a run in a copy of its video.
-void exportVmti(const ExportArguments& arguments, ProjectFile& project, const RunRecord& run) {
+void exportVmti(const ExportArguments& arguments, ProjectFile& project, const RunRecord& run,
+                const CorrectedTracks& corrected) {
     const RunStore store(project);
     arguments.outputs.check({{arguments.out, FileKind::video}}, {run.sequence.path, arguments.project});
     const InterruptGuard interrupt;
     const auto video = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
-    LabelStream labels = wantedOf(arguments, project, store, run);
+    LabelStream labels = labelStreamOf(store, run, corrected);
     labels.about.world = trackWorldOf(store, run, video.get(), startOf(arguments.start), interrupt.token(),
                                       readControlPoints(project, run.sequence.id));
     const VmtiReport report = writeVmti(labels, *video, arguments.out, {}, interrupt.token());
@@ -129,9 +123,11 @@ void exportVmti(const ExportArguments& arguments, ProjectFile& project, const Ru
 void exportRun(const ExportArguments& arguments, ProjectFile& project) {
     const RunStore store(project);
     const RunRecord run = chosenRun(store, arguments.project, arguments.run);
+    const bool own = arguments.detections || arguments.uncorrected;
+    const CorrectedTracks corrected = own ? CorrectedTracks() : readCorrectedTracks(project, run);
     const Snapshot unchanging(project);
-    if (arguments.format == kVmti) return exportVmti(arguments, project, run);
-    LabelStream labels = wantedOf(arguments, project, store, run);
+    if (arguments.format == kVmti) return exportVmti(arguments, project, run, corrected);
+    LabelStream labels = arguments.detections ? labelStreamOf(store, run, true) : labelStreamOf(store, run, corrected);
     const InterruptGuard interrupt;
     std::unique_ptr<FrameSource> pixels;
     if (tellsWorld(arguments.format)) {
