@@ -40,7 +40,7 @@ void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& 
                    const std::vector<std::string>& makers) {
     std::string text =
         "kind,first_frame,last_frame,start_s,end_s,clock,tracks,figure,unit,zone,sense,frame,x,y,ground_frame,"
-        "ground_x,ground_y,verdict,note,tags,starred,person,when_utc,number,by\n";
+        "ground_x,ground_y,verdict,note,tags,starred,person,when_utc,by,number\n";
     for (std::size_t i = 0; i < events.size(); ++i) {
         const Event& event = events[i];
         std::string tracks;
@@ -54,8 +54,8 @@ void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& 
                 fixedText(event.place.x, 2) + ',' + fixedText(event.place.y, 2) + ',' +
                 std::to_string(event.ground_frame) + ',' + fixedText(event.ground.x, 2) + ',' +
                 fixedText(event.ground.y, 2) + verdictFields(verdicts.empty() ? nullptr : verdicts.at(i)) + ',' +
-                std::to_string(numbers.empty() ? static_cast<int>(i) + 1 : numbers.at(i)) + ',' +
-                (makers.empty() ? makerText(std::nullopt) : makers.at(i)) + '\n';
+                (makers.empty() ? makerText(std::nullopt) : makers.at(i)) + ',' +
+                std::to_string(numbers.empty() ? static_cast<int>(i) + 1 : numbers.at(i)) + '\n';
     }
     writeFileAtomically(path, text);
 }

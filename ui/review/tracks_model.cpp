@@ -30,8 +30,9 @@ QVariant TracksModel::data(const QModelIndex& index, int role) const {
         case Qt::DisplayRole:
             return textOf(*track, index.column());
         case Qt::ToolTipRole:
-            return tr("Track %1: frames %2 to %3, %4 states. Click to go to its first frame.")
-                .arg(track->id)
+            return tr("Track %1%2: frames %3 to %4, %5 states. Click to go to its first frame.")
+                .arg(QString::number(track->id),
+                     track->corrected ? QStringLiteral(" (%1)").arg(shownName(*track->corrected)) : QString())
                 .arg(track->first_frame)
                 .arg(track->last_frame)
                 .arg(track->frames);

@@ -199,9 +199,10 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
 
 TrackId RunStore::lastTrackId(int run_id) const {
     return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
-        SQLite::Statement statement(project_.database(),
-                                    "SELECT max(ifnull((SELECT max(id) FROM track WHERE run_id = ?1), 0), ifnull((SELECT "
-                                    "max(track_id) FROM doubtful_state WHERE run_id = ?1), 0))");
+        SQLite::Statement statement(
+            project_.database(),
+            "SELECT max(ifnull((SELECT max(id) FROM track WHERE run_id = ?1), 0), ifnull((SELECT "
+            "max(track_id) FROM doubtful_state WHERE run_id = ?1), 0))");
         statement.bind(1, run_id);
         statement.executeStep();
         return static_cast<TrackId>(RowReader(statement).integer());

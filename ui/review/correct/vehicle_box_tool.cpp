@@ -3,6 +3,7 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
+#include <numbers>
 #include <utility>
 
 #include "canvas/drawing/edged_painter.h"
@@ -69,7 +70,11 @@ bool VehicleBoxTool::release(const QMouseEvent& event, const CanvasPlace& place)
     canvas_.update();
     if (drawn.width() < kSmallest_px || drawn.height() < kSmallest_px) return true;  // a click: drawing goes on
     cancel();
-    finished_({{drawn.center().x(), drawn.center().y()}, drawn.width(), drawn.height(), 0});
+    // Until its motion tells more, a vehicle points along its longer side.
+    const cv::Point2d centre(drawn.center().x(), drawn.center().y());
+    const bool upwards = drawn.height() > drawn.width();
+    finished_(upwards ? OrientedBox{centre, drawn.height(), drawn.width(), -std::numbers::pi / 2}
+                      : OrientedBox{centre, drawn.width(), drawn.height(), 0});
     return true;
 }
 

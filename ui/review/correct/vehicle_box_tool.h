@@ -21,7 +21,7 @@ class VehicleBoxTool : public QObject, public CanvasTool {
     /// Works on the canvas while it draws; the canvas must outlive it.
     explicit VehicleBoxTool(VideoView& canvas, QObject* parent = nullptr);
 
-    /// What becomes of the box, px of the frame shown.
+    /// What becomes of the box, px of the frame shown; it points to the right, or upwards where it is higher than wide.
     void setFinished(std::function<void(const OrientedBox&)> finished) { finished_ = std::move(finished); }
     /// Drawing began or ended.
     void setDrawingChanged(std::function<void()> changed) { drawing_changed_ = std::move(changed); }
