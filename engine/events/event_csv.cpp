@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "events/stored_events.h"
 #include "io/atomic_file.h"
 #include "io/tables/csv_reader.h"
 #include "io/tables/number_text.h"
@@ -35,10 +36,11 @@ std::string videoClockText(double seconds) {
 }
 
 void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock,
-                   const std::vector<const Verdict*>& verdicts, const std::vector<int>& numbers) {
+                   const std::vector<const Verdict*>& verdicts, const std::vector<int>& numbers,
+                   const std::vector<std::string>& makers) {
     std::string text =
         "kind,first_frame,last_frame,start_s,end_s,clock,tracks,figure,unit,zone,sense,frame,x,y,ground_frame,"
-        "ground_x,ground_y,verdict,note,tags,starred,person,when_utc,number\n";
+        "ground_x,ground_y,verdict,note,tags,starred,person,when_utc,by,number\n";
     for (std::size_t i = 0; i < events.size(); ++i) {
         const Event& event = events[i];
         std::string tracks;
@@ -52,6 +54,7 @@ void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& 
                 fixedText(event.place.x, 2) + ',' + fixedText(event.place.y, 2) + ',' +
                 std::to_string(event.ground_frame) + ',' + fixedText(event.ground.x, 2) + ',' +
                 fixedText(event.ground.y, 2) + verdictFields(verdicts.empty() ? nullptr : verdicts.at(i)) + ',' +
+                (makers.empty() ? makerText(std::nullopt) : makers.at(i)) + ',' +
                 std::to_string(numbers.empty() ? static_cast<int>(i) + 1 : numbers.at(i)) + '\n';
     }
     writeFileAtomically(path, text);

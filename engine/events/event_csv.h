@@ -17,10 +17,12 @@ using FrameClock = std::function<double(FrameIndex)>;
 std::string videoClockText(double seconds);
 
 /// Columns kind, first_frame, last_frame, start_s, end_s, clock, tracks (separated by blanks), figure, unit, zone,
-/// sense, frame, x, y, ground_frame, ground_x, ground_y, verdict, note, tags, starred, person, when_utc, number.
-/// `verdicts`: of each event, null for none; or empty. `numbers`: of each event among all of the run; empty: they are
-/// all. Throws Error(output).
+/// sense, frame, x, y, ground_frame, ground_x, ground_y, verdict, note, tags, starred, person, when_utc, by
+/// ("machine", or what a person did to the tracks: "person: added"), number. `verdicts`: of each event, null for none;
+/// or empty. `numbers`: of each event among all of the run; empty: they are all. `makers`: of each event, see
+/// makerText(); empty: the machine. Throws Error(output).
 void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock,
-                   const std::vector<const Verdict*>& verdicts = {}, const std::vector<int>& numbers = {});
+                   const std::vector<const Verdict*>& verdicts = {}, const std::vector<int>& numbers = {},
+                   const std::vector<std::string>& makers = {});
 
 }  // namespace eyrie

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "correction/corrected_run.h"
 
 namespace eyrie {
 
@@ -14,7 +15,7 @@ double StoredTracks::secondsOf(FrameIndex frame) const {
     return shown_s[static_cast<std::size_t>(at)];
 }
 
-StoredTracks readTracks(const RunStore& store, const RunRecord& run) {
+StoredTracks readTracks(const RunStore& store, const RunRecord& run, CorrectedTracks corrected) {
     StoredTracks found;
     Footage& footage = found.footage;
     footage.image_size = run.sequence.size;
@@ -35,11 +36,11 @@ StoredTracks readTracks(const RunStore& store, const RunRecord& run) {
     });
     footage.camera = CameraMotion(steps);
     std::set<TrackId> confirmed;
-    for (const TrackSummary& track : store.tracks(run.id)) {
+    for (const TrackSummary& track : trackSummaries(store, run.id, corrected)) {
         if (track.confirmed) confirmed.insert(track.id);
     }
     std::map<TrackId, EventTrack> tracks;
-    store.visitTrackStates(run.id, [&](FrameIndex frame, const TrackState& state) {
+    visitTrackStates(store, run.id, corrected, [&](FrameIndex frame, const TrackState& state) {
         if (!confirmed.contains(state.id)) return;
         EventTrack& track = tracks[state.id];
         track.id = state.id;
@@ -48,7 +49,19 @@ StoredTracks readTracks(const RunStore& store, const RunRecord& run) {
         found.scores[state.id] = state.score;
     });
     for (auto& [id, track] : tracks) found.tracks.push_back(std::move(track));
+    found.corrections = std::move(corrected);
     return found;
+}
+
+std::optional<CorrectionKind> correctionOf(const Event& event, const StoredTracks& stored) {
+    for (const TrackId id : event.tracks) {
+        if (const CorrectedTrack* track = stored.corrections.track(id)) return track->kind;
+    }
+    return std::nullopt;
+}
+
+std::string makerText(std::optional<CorrectionKind> corrected) {
+    return corrected ? std::string("person: ") + nameOf(*corrected) : "machine";
 }
 
 namespace {

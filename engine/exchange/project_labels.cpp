@@ -7,6 +7,7 @@
 
 #include "annotation/edits/ignore_regions.h"
 #include "annotation/keyframes/interpolation.h"
+#include "correction/corrected_run.h"
 
 namespace eyrie {
 namespace {
@@ -152,30 +153,45 @@ LabelStream labelStreamOf(const AnnotationSet& annotations, const SequenceRecord
     return labels;
 }
 
-LabelStream labelStreamOf(const RunStore& store, const RunRecord& run, bool detections) {
+namespace {
+
+LabelStream streamOf(const RunRecord& run, VisitBoxes visit) {
     LabelStream labels;
     labels.about.image_size = run.sequence.size;
     labels.about.frame_count = run.sequence.frame_count;
     labels.about.frame_rate_hz = run.sequence.frame_rate_hz;
     if (run.scale.gsd_known) labels.about.gsd_m = run.scale.gsd_m_per_px;
-    labels.frames = [&store, id = run.id, detections](const FrameVisitor& visitor) {
+    labels.frames = [visit = std::move(visit)](const FrameVisitor& visitor) {
         std::vector<LabelBox> in_frame;
         FrameIndex present = 0;
-        const auto add = [&](FrameIndex frame, const BoxRecord& record) {
+        visit([&](FrameIndex frame, const BoxRecord& record) {
             if (frame != present && !in_frame.empty()) {
                 visitor(present, in_frame);
                 in_frame.clear();
             }
             present = frame;
             in_frame.push_back({record, Occlusion::none});
-        };
-        if (detections) {
-            store.visitDetectionBoxes(id, add);
-        } else {
-            store.visitTrackBoxes(id, add);
-        }
+        });
         if (!in_frame.empty()) visitor(present, in_frame);
     };
+    return labels;
+}
+
+}  // namespace
+
+LabelStream labelStreamOf(const RunStore& store, const RunRecord& run, bool detections) {
+    return streamOf(run, [&store, id = run.id, detections](const BoxVisitor& visitor) {
+        detections ? store.visitDetectionBoxes(id, visitor) : store.visitTrackBoxes(id, visitor);
+    });
+}
+
+LabelStream labelStreamOf(const RunStore& store, const RunRecord& run, CorrectedTracks corrected) {
+    const std::string told = correctionsInWords(corrected);
+    LabelStream labels =
+        streamOf(run, [&store, id = run.id, corrected = std::move(corrected)](const BoxVisitor& visitor) {
+            visitTrackBoxes(store, id, corrected, visitor);
+        });
+    if (!told.empty()) labels.about.notes.push_back(told);
     return labels;
 }
 

@@ -4,6 +4,7 @@
 
 #include "annotation/keyframes/camera_motion.h"
 #include "core/labels/annotation.h"
+#include "correction/corrected_tracks.h"
 #include "formats/label_stream.h"
 #include "store/runs/run_store.h"
 
@@ -25,5 +26,7 @@ LabelFile labelsOf(const RunStore& store, const RunRecord& run, bool detections)
 /// meanwhile a Snapshot is to be held.
 LabelStream labelStreamOf(const AnnotationSet& annotations, const SequenceRecord& sequence, const CameraMotion& camera);
 LabelStream labelStreamOf(const RunStore& store, const RunRecord& run, bool detections);
+/// Tracks of a run as people corrected them; notes say what they did.
+LabelStream labelStreamOf(const RunStore& store, const RunRecord& run, CorrectedTracks corrected);
 
 }  // namespace eyrie

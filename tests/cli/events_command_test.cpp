@@ -243,9 +243,10 @@ TEST_F(EventsCommand, VerdictsAreShownWithWhoSaidSoAndWhen) {
                                      HasSubstr("\"at the gate, lights on\"  [lorry]  Ada  2026-11-21T08:00:00Z\n"),
                                      Not(HasSubstr("could not be carried over"))));
     const std::string table = textOf("e.csv");
-    EXPECT_THAT(table, HasSubstr(",ground_frame,ground_x,ground_y,verdict,note,tags,starred,person,when_utc,number\n"));
-    EXPECT_THAT(table, HasSubstr(",relevant,\"at the gate, lights on\",lorry,1,Ada,2026-11-21T08:00:00Z,2\n"));
-    EXPECT_THAT(table, HasSubstr(",,,,,,1\nst")) << "nobody said anything about the first one";
+    EXPECT_THAT(table,
+                HasSubstr(",ground_frame,ground_x,ground_y,verdict,note,tags,starred,person,when_utc,by,number\n"));
+    EXPECT_THAT(table, HasSubstr(",relevant,\"at the gate, lights on\",lorry,1,Ada,2026-11-21T08:00:00Z,machine,2\n"));
+    EXPECT_THAT(table, HasSubstr(",,,,,,machine,1\nst")) << "nobody said anything about the first one";
 }
 
 TEST_F(EventsCommand, EventsCanBeChosenByTheirVerdict) {
@@ -269,6 +270,56 @@ TEST_F(EventsCommand, VerdictsThatNoEventTakesUpAreListed) {
     const auto near = call({"--project", "@p.eyrie", "--kind", "stops", "--set", "review.carry_time=20"});
     EXPECT_THAT(near.output, AllOf(HasSubstr(" relevant * "), Not(HasSubstr("could not be carried over"))));
     EXPECT_THAT(call({"--project", "@p.eyrie", "--verdict", "unsure"}).output, HasSubstr("1 verdict could not be"));
+}
+
+TEST_F(EventsCommand, TracksAreThoseThatPeopleCorrectedUnlessTheRunsOwnAreAskedFor) {
+    {
+        ProjectFile project = ProjectFile::open(folder_ / "p.eyrie");
+        ReviewStore store(project, 1);
+        ReviewEdit edit{"Correct", {}, {}};
+        TrackCorrection added;
+        added.id = store.newCorrectionId();
+        for (int frame = 100; frame <= 400; ++frame)
+            added.track.push_back({frame, {{50 + frame - 0.25 * frame, 300}, 20, 9, 0}});
+        added.frame = 200;
+        added.person = "Ada";
+        TrackCorrection join = added;
+        join.id = store.newCorrectionId();
+        join.kind = CorrectionKind::join;
+        join.track = {{20, {{100, 40}, 20, 9, 0}}};
+        join.other = {{60, {{300, 40}, 20, 9, 0}}};
+        edit.corrections = {{std::nullopt, added}, {std::nullopt, join}};
+        store.apply(edit);
+    }
+    const auto result = call({"--project", "@p.eyrie", "--csv", "@e.csv"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(
+        result.output,
+        AllOf(HasSubstr("of 2 tracks"),
+              HasSubstr("tracks as people corrected them: 1 track added; 1 correction could not be carried over:"),
+              HasSubstr("added             frame 200     tracks 6                applied  Ada"),
+              HasSubstr("joined            frame 200                             no such track near  Ada")));
+    EXPECT_THAT(textOf("e.csv"), AllOf(HasSubstr(",machine,"), HasSubstr(",person: added,")));
+    const auto own = call({"--project", "@p.eyrie", "--uncorrected", "--csv", "@own.csv"});
+    EXPECT_THAT(own.output, AllOf(HasSubstr("3 events of 1 tracks"), Not(HasSubstr("people"))));
+    EXPECT_THAT(textOf("own.csv"), Not(HasSubstr("person: ")));
+    const auto written = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{test::programPath("eyrie-cli"),
+                                       "export",
+                                       "--project",
+                                       at("p.eyrie"),
+                                       "--format",
+                                       "tracks-csv",
+                                       "--out",
+                                       at("t.csv"),
+                                       "--force"};
+        words.insert(words.end(), more.begin(), more.end());
+        const auto exported = test::runProcess(words);
+        EXPECT_EQ(exported.exit_code, 0) << exported.errors;
+        return exported.output + textOf("t.csv");
+    };
+    EXPECT_THAT(written({}), AllOf(HasSubstr(",by hand\n"), HasSubstr("note        tracks as people corrected them")));
+    EXPECT_THAT(written({"--uncorrected"}), AllOf(Not(HasSubstr(",by hand\n")), HasSubstr(",detected\n")));
 }
 
 TEST_F(EventsCommand, TracksLikeOneAreListedByLikeness) {

@@ -84,6 +84,7 @@ def _known_trap(database, random):
             "UPDATE labelled_object SET id = 2147483647 WHERE id = (SELECT max(id) FROM labelled_object)",
             "UPDATE label_counter SET value = 2147483647",
             "UPDATE verdict SET last_frame = 2147483647",
+            "UPDATE correction SET frame = 2147483647",
             "UPDATE seen SET first_frame = 2147483647",
             "UPDATE sweep SET point_count = 2147483647",
             "PRAGMA user_version = 0",

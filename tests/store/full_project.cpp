@@ -30,6 +30,7 @@ void writeFullProject(const std::filesystem::path& path) {
     ReviewStore review(project, 1);
     for (int i = 0; i < kFullVerdicts; ++i) review.apply(sampleJudging(review.newVerdictId()));
     for (int i = 0; i < kFullZones; ++i) review.apply(sampleZoning(review.newZoneId()));
+    for (int i = 0; i < kFullCorrections; ++i) review.apply(sampleCorrecting(review.newCorrectionId()));
     review.apply(sampleBookmarking(review.newBookmarkId()));
     review.undo();
     addSeen(project, 1, "Ada", {{0, 20}, {40, 50}});

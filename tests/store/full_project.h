@@ -10,8 +10,10 @@ inline constexpr int kFullFrames = 40;
 inline constexpr int kFullObjects = 12;
 inline constexpr int kFullVerdicts = 30;
 inline constexpr int kFullZones = 4;
+inline constexpr int kFullCorrections = 3;
 
-/// Two runs, labels with steps of work, verdicts, zones, presets, a sweep and a comparison; one file, without a log.
+/// Two runs, labels with steps of work, verdicts, zones, corrections, presets, a sweep and a comparison; one file,
+/// without a log.
 void writeFullProject(const std::filesystem::path& path);
 
 /// All bytes, of files that no connection has open.

@@ -15,7 +15,8 @@
 namespace eyrie {
 namespace {
 
-/// Judges ten events and adds a zone a step until it is killed, and tells the pipe of each step that is on screen.
+/// Judges ten events, adds a zone and corrects a track a step until it is killed, and tells the pipe of each step that
+/// is on screen.
 [[noreturn]] void judgeUntilKilled(const std::filesystem::path& path, int pipe_end) {
     try {
         ProjectFile project = ProjectFile::open(path);
@@ -27,6 +28,7 @@ namespace {
                 edit.verdicts.push_back({std::nullopt, test::sampleVerdict(store.newVerdictId())});
             }
             edit.zones.push_back({std::nullopt, test::sampleZone(store.newZoneId())});
+            edit.corrections.push_back({std::nullopt, test::sampleCorrection(store.newCorrectionId())});
             store.apply(edit);
             const char message = 1;
             if (write(pipe_end, &message, 1) != 1) break;
@@ -71,9 +73,13 @@ TEST(KilledReview, LosesNothingThatWasJudgedAndTearsNoStepApart) {
         ASSERT_LE(store.undoCount(), reported + 1);
         EXPECT_EQ(store.review().verdicts.size(), 10U * static_cast<unsigned>(store.undoCount()));
         EXPECT_EQ(store.review().zones.size(), static_cast<unsigned>(store.undoCount()));
+        ASSERT_EQ(store.review().corrections.size(), static_cast<unsigned>(store.undoCount()));
+        for (const auto& [id, correction] : store.review().corrections)
+            EXPECT_EQ(correction, test::sampleCorrection(id));
         while (store.undo()) {
         }
         EXPECT_TRUE(store.review().zones.empty());
+        EXPECT_TRUE(store.review().corrections.empty());
         EXPECT_TRUE(store.review().verdicts.empty());
     }
 }

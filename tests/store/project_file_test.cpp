@@ -120,7 +120,9 @@ TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
 
 TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
     test::writeSampleProject(path_, 2);
-    makeDatabase({"DROP VIEW v_track_evidence",
+    makeDatabase({"DROP VIEW v_corrections",
+                  "DROP TABLE correction",
+                  "DROP VIEW v_track_evidence",
                   "DROP TABLE track_evidence",
                   "DROP TABLE doubtful_state",
                   "DROP VIEW v_zones",

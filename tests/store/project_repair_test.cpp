@@ -11,6 +11,7 @@
 #include "store/health/project_contents.h"
 #include "store/labels/annotation_store.h"
 #include "store/labels/label_samples.h"
+#include "store/review/review_samples.h"
 #include "store/review/review_store.h"
 #include "store/review/seen_store.h"
 #include "store/samples.h"
@@ -91,13 +92,15 @@ TEST_F(RepairTest, OfAHealthyProjectNothingIsLost) {
     }
     EXPECT_TRUE(labels.annotations().objects.empty());
     ReviewStore review(project, 1);
-    EXPECT_EQ(review.undoCount(), test::kFullVerdicts + test::kFullZones);
+    EXPECT_EQ(review.undoCount(), test::kFullVerdicts + test::kFullZones + test::kFullCorrections);
     EXPECT_EQ(review.review().zones.size(), static_cast<std::size_t>(test::kFullZones));
+    EXPECT_EQ(review.review().corrections.at(3), test::sampleCorrection(3));
     EXPECT_EQ(review.redoCount(), 1);
     while (review.undo()) {
     }
     EXPECT_TRUE(review.review().verdicts.empty());
     EXPECT_TRUE(review.review().zones.empty());
+    EXPECT_TRUE(review.review().corrections.empty());
     EXPECT_EQ(seenBy(project, 1).at("Ada").size(), 2U);
 }
 
@@ -148,6 +151,27 @@ TEST_F(RepairTest, ADamagedSlopeOfAScaleDoesNotCostTheRun) {
         const auto run = RunStore(project).run(1);
         EXPECT_EQ(run->name, "first try") << damage;
         EXPECT_TRUE(run->scale.slope.isFlat()) << damage;
+    }
+}
+
+TEST_F(RepairTest, ADamagedCorrectionOfTracksCostsItselfAlone) {
+    for (const char* damage : {"track = x'0102'", "other = track", "kind = 'guess'", "frame = 9999", "track = x'01'",
+                               "frame = -1", "person = hex(zeroblob(40000))"}) {
+        std::filesystem::remove(fresh_);
+        std::filesystem::remove(path_);
+        test::writeFullProject(path_);
+        {
+            SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
+            database.exec(std::string("UPDATE correction SET ") + damage + " WHERE id = 2");
+        }
+        EXPECT_FALSE(checkProject(path_).healthy()) << damage;
+        const RepairReport report = repairProject(path_, fresh_);
+        EXPECT_FALSE(report.lost.empty()) << damage;
+        EXPECT_TRUE(checkProject(fresh_).healthy()) << damage;
+        ProjectFile project = ProjectFile::open(fresh_);
+        const auto corrections = readReview(project, 1).corrections;
+        EXPECT_EQ(corrections.size(), static_cast<std::size_t>(test::kFullCorrections - 1)) << damage;
+        EXPECT_EQ(corrections.at(1), test::sampleCorrection(1)) << damage;
     }
 }
 

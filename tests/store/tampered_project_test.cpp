@@ -128,6 +128,24 @@ TEST_F(TamperedProject, NewVerdictsGetNumbersOfTheirOwnWhateverTheCounterSays) {
     }
 }
 
+TEST_F(TamperedProject, CorrectionsOfTracksThatNobodyMadeAreRefusedWithTheirNumber) {
+    ProjectFile project = ProjectFile::open(path_);
+    ReviewStore(project, 1).apply(test::sampleCorrecting(2));
+    for (const char* change : {"kind = 'guess'", "kind = 'join'", "frame = 12", "frame = 3000000000", "track = x''",
+                               "track = x'01'", "other = x''", "track = zeroblob(45)"}) {
+        tamper(std::string("CREATE TABLE kept AS SELECT * FROM correction; UPDATE correction SET ") + change);
+        try {
+            readReview(project, 1);
+            ADD_FAILURE() << change;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::project) << error.what();
+            EXPECT_THAT(error.what(), HasSubstr("correction 2")) << change;
+        }
+        tamper("DELETE FROM correction; INSERT INTO correction SELECT * FROM kept; DROP TABLE kept");
+    }
+    EXPECT_EQ(readReview(project, 1).corrections.at(2), test::sampleCorrection(2));
+}
+
 TEST_F(TamperedProject, LabelsBeyondEveryVideoOrReasonAreRefused) {
     ProjectFile project = ProjectFile::open(path_);
     {

@@ -131,7 +131,7 @@ void TrackInspector::showWhole() {
     double fastest = 0;
     double length = 0;
     double width = 0;
-    std::array<int, 4> origins{};
+    std::array<int, 5> origins{};
     bool confirmed = false;
     for (const TrackFrame& state : states_) {
         // In pixels of the middle of the picture, where they are to become metres of an oblique view.
@@ -154,9 +154,10 @@ void TrackInspector::showWhole() {
     speed_->setText(tr("%1, at most %2").arg(speedText(speed, scale_), speedText(fastest, scale_)));
     size_->setText(sizeText(length, width, scale_));
     QStringList counts;
-    for (const StateOrigin origin :
-         {StateOrigin::detected, StateOrigin::reconstructed, StateOrigin::predicted, StateOrigin::standing}) {
-        if (origin == StateOrigin::standing && origins[static_cast<std::size_t>(origin)] == 0) continue;
+    for (const StateOrigin origin : {StateOrigin::detected, StateOrigin::reconstructed, StateOrigin::predicted,
+                                     StateOrigin::standing, StateOrigin::by_hand}) {
+        const bool rare = origin == StateOrigin::standing || origin == StateOrigin::by_hand;
+        if (rare && origins[static_cast<std::size_t>(origin)] == 0) continue;
         counts << QStringLiteral("<font color=\"%1\">■</font> %2 %3")
                       .arg(originColour(origin, palette()).name())
                       .arg(origins[static_cast<std::size_t>(origin)])

@@ -30,8 +30,9 @@ QVariant TracksModel::data(const QModelIndex& index, int role) const {
         case Qt::DisplayRole:
             return textOf(*track, index.column());
         case Qt::ToolTipRole:
-            return tr("Track %1: frames %2 to %3, %4 states. Click to go to its first frame.")
-                .arg(track->id)
+            return tr("Track %1%2: frames %3 to %4, %5 states. Click to go to its first frame.")
+                .arg(QString::number(track->id),
+                     track->corrected ? QStringLiteral(" (%1)").arg(shownName(*track->corrected)) : QString())
                 .arg(track->first_frame)
                 .arg(track->last_frame)
                 .arg(track->frames);
@@ -64,6 +65,7 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
         case width_column:
             return numberText(shownLength(track.mean_width_px, scale_.at(track.place)), 1);
         case status_column:
+            if (track.corrected) return shownName(*track.corrected);
             return track.doubtful ? tr("left out") : track.confirmed ? tr("confirmed") : tr("tentative");
         case score_column:
             return numberText(track.score, 2);
@@ -119,7 +121,10 @@ QString TracksModel::helpOf(int column) const {
         case width_column:
             return tr("Mean width, in %1").arg(lengthUnit(scale_));
         case status_column:
-            return tr("Confirmed: relied on. Tentative: too new to be relied on, and not part of the result");
+            return tr(
+                "Confirmed: relied on. Tentative: too new to be relied on, and not part of the result. By hand, "
+                "joined, "
+                "split: what a person made of it");
         case score_column:
             return tr("Probability that the track is a moving vehicle, from 0 to 1");
         case class_column:

@@ -72,7 +72,7 @@ void ProjectSession::listsRead(const ProjectLists& lists) {
     if (!before) return;
     const RunRecord* now = findRun(before->id);
     if (now == nullptr || !hasGrown(*before, *now)) return;
-    reader_.readRun(now->id);
+    reader_.readRun(now->id, corrected_);
     // Finishing a run changes frames that were shown while it worked.
     if (before->live && !now->live) loader_.useRun(RunReference{project_, now->id}, kTrailLength);
     if (!now->live) request();
@@ -149,11 +149,20 @@ void ProjectSession::useRun(std::optional<int> run_id) {
     emit changed(SessionChange::current_run);
     if (run_id) {
         loader_.useRun(RunReference{project_, *run_id}, kTrailLength);
-        reader_.readRun(*run_id);
+        reader_.readRun(*run_id, corrected_);
     } else {
         loader_.useRun(std::nullopt, 0);
     }
     request();
+}
+
+void ProjectSession::showCorrected(bool corrected) {
+    if (std::exchange(corrected_, corrected) == corrected) return;
+    if (run_data_ && run_data_->correctable) correctionsChanged();
+}
+
+void ProjectSession::correctionsChanged() {
+    if (current_run_) reader_.readRun(*current_run_, corrected_);
 }
 
 void ProjectSession::adoptGsd() {
@@ -184,9 +193,14 @@ void ProjectSession::removeRun(int run_id) {
 
 void ProjectSession::runRead(const std::shared_ptr<const RunData>& run) {
     if (current_run_ != run->record.id) return;
+    const bool other_tracks = !run->corrected->empty() || (run_data_ && !run_data_->corrected->empty());
     run_data_ = run;
+    if (other_tracks) {
+        loader_.useRun(RunReference{project_, run->record.id, run->corrected}, kTrailLength);
+        request();
+    }
     emit changed(SessionChange::run_data);
-    if (selected_track_) reader_.readTrack(run->record.id, *selected_track_);
+    if (selected_track_) reader_.readTrack(run->record.id, *selected_track_, run->corrected);
 }
 
 SceneScale ProjectSession::scale() const {
@@ -314,7 +328,7 @@ void ProjectSession::liveRunEnded(const RunSummary& summary, int run_id) {
         // The stored tracks may differ from those seen live: they were finished with knowledge of the whole run.
         if (current_run_ == run_id && run_id != 0) {
             loader_.useRun(RunReference{project_, run_id}, kTrailLength);
-            reader_.readRun(run_id);
+            reader_.readRun(run_id, corrected_);
         }
         if (followed) request();
     }

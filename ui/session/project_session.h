@@ -91,6 +91,10 @@ class ProjectSession : public QObject {
     SceneScale scale() const;
 
     void showRun(int run_id);
+    /// Whether tracks are shown as people corrected them, or as the run found them.
+    void showCorrected(bool corrected);
+    /// The corrections of tracks in the project are others now.
+    void correctionsChanged();
     void renameRun(int run_id, const QString& name) { reader_.renameRun(run_id, name); }
     /// Takes a run out of the project; until that is closed it can be brought back.
     void removeRun(int run_id);
@@ -223,6 +227,7 @@ class ProjectSession : public QObject {
     std::optional<SequenceRecord> missing_;  ///< the video shown, if it cannot be found
     std::optional<int> current_run_;
     std::shared_ptr<const RunData> run_data_;
+    bool corrected_ = true;
     std::filesystem::path run_project_;  ///< the project the running run writes to
     std::optional<int> own_run_;         ///< the running run, once it has its number
     bool run_when_open_ = false;         ///< a run was asked for while the frame rate changes

@@ -363,7 +363,10 @@ void ProjectSession::selectTrack(std::optional<TrackId> track) {
     if (track == selected_track_) return;
     selected_track_ = track;
     emit changed(SessionChange::selection);
-    if (track && current_run_) reader_.readTrack(*current_run_, *track);
+    if (track && current_run_) {
+        const auto corrected = run_data_ ? run_data_->corrected : std::make_shared<const CorrectedTracks>();
+        reader_.readTrack(*current_run_, *track, corrected);
+    }
 }
 
 void ProjectSession::goToTrack(TrackId track) {

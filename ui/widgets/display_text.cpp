@@ -57,6 +57,18 @@ QString durationText(double seconds) {
     return QStringLiteral("%1:%2:%3").arg(whole / 3600).arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
 }
 
+QString shownName(CorrectionKind kind) {
+    switch (kind) {
+        case CorrectionKind::add:
+            return QObject::tr("by hand");
+        case CorrectionKind::join:
+            return QObject::tr("joined");
+        case CorrectionKind::split:
+            return QObject::tr("split");
+    }
+    return {};
+}
+
 QString shownName(TrackClass track_class) {
     switch (track_class) {
         case TrackClass::unknown:

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/labels/track_class.h"
+#include "core/review/track_correction.h"
 #include "core/values/scene_scale.h"
 
 /// Numbers as people read them: with units, in metres and km/h when the GSD is known, in pixels otherwise.
@@ -33,5 +34,8 @@ QString shownName(TrackClass track_class);
 /// "2026-11-21T08:00:00Z" as a short local date and time, today as the time alone; the text itself if it is no
 /// time.
 QString localTimeText(const std::string& utc);
+
+/// What a person did to a track: "by hand", "joined", "split".
+QString shownName(CorrectionKind kind);
 
 }  // namespace eyrie::ui

@@ -210,6 +210,8 @@ void MainWindow::buildWorkspaces() {
             docks_->dock(id)->toggleViewAction()->setVisible(offered.contains(docks_->dock(id)));
         // Whoever leaves the canvas does so before the next one takes it: tool, turn and ground are one for all.
         const bool labels = kind == WorkspaceKind::label;
+        // Engineers and annotators work on what the run found.
+        session_.showCorrected(kind == WorkspaceKind::review);
         if (!labels) labelling_->setActive(false);
         events_->setActive(!labels);
         watching_->setActive(!labels);

@@ -208,9 +208,32 @@ void WindowActions::addEvents() {
                      {"edit-find",
                       {QKeySequence(tr("Ctrl+Shift+T"))},
                       QT_TR_NOOP("List tracks like the selected one, by path over the ground, speed and size")});
-    undo_verdict = add(tr("U&ndo"), {"edit-undo",
-                                     {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
-                                     QT_TR_NOOP("Undo the last verdict, star, note, bookmark or change of a zone")});
+    add_track =
+        addToggle(tr("&Add a vehicle that was missed"),
+                  {"list-add",
+                   {QKeySequence(Qt::Key_Insert)},
+                   QT_TR_NOOP("Drag a box around a vehicle without a track; it is followed forwards and backwards "
+                              "from there")},
+                  false);
+    // These keys have the same meaning in Label.
+    join_tracks = addToggle(tr("Join in ti&me with…"),
+                            {nullptr,
+                             {QKeySequence(tr("Shift+J"))},
+                             QT_TR_NOOP("The selected track and the one that is clicked next are of one vehicle")},
+                            false);
+    split_track = add(tr("Spl&it here"), {nullptr,
+                                          {QKeySequence(tr("Shift+Y"))},
+                                          QT_TR_NOOP("From this frame on the selected track is of another vehicle")});
+    remove_correction =
+        add(tr("Rem&ove what was corrected"),
+            {"list-remove",
+             {QKeySequence(tr("Shift+Insert"))},
+             QT_TR_NOOP("Take back the last that was done to the selected track: added, joined, split")});
+    undo_verdict =
+        add(tr("U&ndo"),
+            {"edit-undo",
+             {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
+             QT_TR_NOOP("Undo the last verdict, star, note, bookmark, correction of a track or change of a zone")});
     redo_verdict = add(tr("Re&do"), {"edit-redo", {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))}});
     bookmark = add(tr("&Bookmark this frame…"), {"bookmark-new",
                                                  {QKeySequence(tr("Ctrl+F9"))},

@@ -6,6 +6,7 @@
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/project_runs.h"
+#include "correction/corrected_run.h"
 #include "events/zones/zone_file.h"
 
 namespace eyrie::cli {
@@ -15,6 +16,11 @@ void EventArguments::addRunTo(CLI::App& command) {
     command.add_option("--run", run, "Number of the run (default: the last)");
 }
 
+void addUncorrected(CLI::App& command, bool& uncorrected) {
+    command.add_flag("--uncorrected", uncorrected,
+                     "The run's own tracks, without what people added, joined and split in Review");
+}
+
 void EventArguments::addSearchTo(CLI::App& command) {
     command.add_option("--zone", zones, "JSON file of zones and lines to be watched (default: those of the project)")
         ->type_name("FILE");
@@ -22,6 +28,7 @@ void EventArguments::addSearchTo(CLI::App& command) {
         .add_option("--set", settings,
                     "Set one threshold, e.g. --set events.over=80 (eyrie-cli params lists them); may be repeated")
         ->type_name("NAME=VALUE");
+    addUncorrected(command, uncorrected);
 }
 
 void EventArguments::addChoiceTo(CLI::App& command, const std::string& usual_verdicts) {
@@ -38,6 +45,7 @@ void EventArguments::addChoiceTo(CLI::App& command, const std::string& usual_ver
 
 EventChoice EventArguments::choice() const {
     EventChoice wanted;
+    wanted.uncorrected = uncorrected;
     wanted.kinds.reserve(kinds.size());
     for (const std::string& name : kinds) wanted.kinds.push_back(eventKindOf(name));
     wanted.judgements.reserve(verdicts.size());
@@ -61,7 +69,8 @@ ReviewedRun EventArguments::read(const EventChoice& wanted) const {
 StoredTracks EventArguments::readTracksAlone() const {
     ProjectFile file = openForReading(project);
     const RunStore store(file);
-    return readTracks(store, chosenRun(store, project, run));
+    const RunRecord record = chosenRun(store, project, run);
+    return readTracks(store, record, uncorrected ? CorrectedTracks() : readCorrectedTracks(file, record));
 }
 
 void EventArguments::tellZones(const ReviewedRun& found) const {

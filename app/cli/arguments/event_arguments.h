@@ -12,6 +12,9 @@ class App;
 
 namespace eyrie::cli {
 
+/// --uncorrected, of commands that hand out tracks.
+void addUncorrected(CLI::App& command, bool& uncorrected);
+
 /// Which events of which run a command is about.
 struct EventArguments {
     std::string project;
@@ -20,10 +23,11 @@ struct EventArguments {
     std::vector<std::string> verdicts;
     std::string zones;
     std::vector<std::string> settings;
+    bool uncorrected = false;
 
     /// --project (required) and --run.
     void addRunTo(CLI::App& command);
-    /// --zone and --set: what is an event.
+    /// --zone and --set: what is an event; --uncorrected.
     void addSearchTo(CLI::App& command);
     /// --kind and --verdict.
     void addChoiceTo(CLI::App& command, const std::string& usual_verdicts);

@@ -16,6 +16,7 @@
 #include "cli/project_runs.h"
 #include "cli/reports/console_progress.h"
 #include "core/error.h"
+#include "correction/corrected_run.h"
 #include "io/video/frame_colour.h"
 #include "io/video/video_writer.h"
 
@@ -68,8 +69,16 @@ FrameRange framesAsked(const ClipArguments& arguments, int frame_count) {
 }
 
 /// Answers whether all was written; stopped, there is no file.
-bool writeClip(const ClipArguments& arguments, FrameRange range, const RunStore& store, const RunRecord& run,
+bool writeClip(const ClipArguments& arguments, FrameRange range, ProjectFile& project, const RunRecord& run,
                FrameSource& source, const std::stop_token& stop) {
+    const RunStore store(project);
+    const CorrectedTracks corrected =
+        arguments.overlay && !arguments.events.uncorrected ? readCorrectedTracks(project, run) : CorrectedTracks();
+    const auto resultOf = [&](FrameIndex frame) {
+        auto result = store.frameResult(run.id, frame);
+        if (result) result->tracks = corrected.in(frame, std::move(result->tracks));
+        return result;
+    };
     const int zoom = arguments.overlay ? annotationZoom(source.info().size) : 1;
     VideoWriterOptions options;
     options.frame_rate_hz = source.info().frame_rate_hz;
@@ -77,7 +86,7 @@ bool writeClip(const ClipArguments& arguments, FrameRange range, const RunStore&
     if (arguments.overlay) {
         // Trails that began before the clip.
         for (FrameIndex frame = std::max(0, range.first - Annotator::kTrailFrames); frame < range.first; ++frame)
-            if (const auto result = store.frameResult(run.id, frame)) annotator.follow(*result);
+            if (const auto result = resultOf(frame)) annotator.follow(*result);
     }
     ConsoleProgress progress("% written");
     VideoWriter writer(arguments.out, source.info().size * zoom, options);
@@ -86,7 +95,7 @@ bool writeClip(const ClipArguments& arguments, FrameRange range, const RunStore&
         for (FrameIndex frame = range.first; frame <= range.last; ++frame) {
             if (stop.stop_requested()) return false;
             const Frame picture = source.read(frame, true);
-            const auto result = arguments.overlay ? store.frameResult(run.id, frame) : std::nullopt;
+            const auto result = arguments.overlay ? resultOf(frame) : std::nullopt;
             const FrameResult none;
             const cv::Mat image =
                 arguments.overlay ? annotator.draw(picture, result ? *result : none) : colourOf(picture);
@@ -139,7 +148,7 @@ int makeClip(const ClipArguments& arguments) {
         throw Error(ErrorKind::input, run.sequence.path + ": is shorter than when the run was made; it has " +
                                           std::to_string(source->info().frame_count) + " frames");
     }
-    if (!writeClip(arguments, *range, store, run, *source, interrupt.token())) return exit_stopped;
+    if (!writeClip(arguments, *range, project, run, *source, interrupt.token())) return exit_stopped;
     std::printf("Clip: %s, frames %d to %d\n", arguments.out.c_str(), range->first, range->last);
     return exit_ok;
 }

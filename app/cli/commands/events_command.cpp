@@ -38,6 +38,12 @@ JudgedEvents wantedOf(const ReviewedRun& reviewed, const EventChoice& choice) {
     return wanted;
 }
 
+std::vector<std::string> makersOf(const JudgedEvents& wanted, const StoredTracks& stored) {
+    std::vector<std::string> makers;
+    for (const Event& event : wanted.events) makers.push_back(makerText(correctionOf(event, stored)));
+    return makers;
+}
+
 void tellUnregistered(const StoredTracks& stored) {
     if (stored.unregistered == 0) return;
     std::fprintf(stderr, "eyrie-cli: %d frame%s could not be registered; nothing is told across them\n",
@@ -67,10 +73,11 @@ void tellEvents(const ListArguments& arguments) {
     if (!arguments.csv.empty()) {
         writeEventCsv(
             arguments.csv, wanted.events, [&](FrameIndex frame) { return stored.secondsOf(frame); }, wanted.verdicts,
-            wanted.numbers);
+            wanted.numbers, makersOf(wanted, stored));
     }
     printEvents(wanted, stored);
     printLeft(wanted, reviewed.review);
+    printCorrections(reviewed.tracks.corrections, reviewed.review);
 }
 
 /// Tracks like one: no events are looked for.

@@ -6,6 +6,7 @@
 
 #include "cli/arguments/described_sequence.h"
 #include "cli/arguments/earlier_state.h"
+#include "cli/arguments/event_arguments.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/label_arguments.h"
 #include "cli/arguments/output_arguments.h"
@@ -15,6 +16,7 @@
 #include "cli/labels_of_project.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
+#include "correction/corrected_run.h"
 #include "exchange/project_labels.h"
 #include "exchange/project_world.h"
 #include "exchange/vmti_export.h"
@@ -30,6 +32,7 @@ struct ExportArguments {
     std::optional<int> run;
     bool labels = false;
     bool detections = false;
+    bool uncorrected = false;
     std::optional<int> sequence;
     std::string from;
     LabelArguments from_labels;
@@ -93,12 +96,13 @@ bool tellsWorld(const std::string& format) {
 constexpr char kVmti[] = "vmti";
 
 /// Tracks of a run in a copy of its video.
-void exportVmti(const ExportArguments& arguments, ProjectFile& project, const RunRecord& run) {
+void exportVmti(const ExportArguments& arguments, ProjectFile& project, const RunRecord& run,
+                const CorrectedTracks& corrected) {
     const RunStore store(project);
     arguments.outputs.check({{arguments.out, FileKind::video}}, {run.sequence.path, arguments.project});
     const InterruptGuard interrupt;
     const auto video = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
-    LabelStream labels = labelStreamOf(store, run, false);
+    LabelStream labels = labelStreamOf(store, run, corrected);
     labels.about.world = trackWorldOf(store, run, video.get(), startOf(arguments.start), interrupt.token(),
                                       readControlPoints(project, run.sequence.id));
     const VmtiReport report = writeVmti(labels, *video, arguments.out, {}, interrupt.token());
@@ -107,6 +111,7 @@ void exportVmti(const ExportArguments& arguments, ProjectFile& project, const Ru
     std::printf("  times       %s\n", report.clock_origin.c_str());
     std::printf("  places      %s\n",
                 report.place_origin.empty() ? labels.about.world->no_place.c_str() : report.place_origin.c_str());
+    for (const std::string& note : labels.about.notes) std::printf("  note        %s\n", note.c_str());
     if (report.without_place > 0 && !report.place_origin.empty())
         std::printf("  note        %d targets have no place\n", report.without_place);
     if (report.without_stamp > 0)
@@ -118,9 +123,11 @@ void exportVmti(const ExportArguments& arguments, ProjectFile& project, const Ru
 void exportRun(const ExportArguments& arguments, ProjectFile& project) {
     const RunStore store(project);
     const RunRecord run = chosenRun(store, arguments.project, arguments.run);
+    const bool own = arguments.detections || arguments.uncorrected;
+    const CorrectedTracks corrected = own ? CorrectedTracks() : readCorrectedTracks(project, run);
     const Snapshot unchanging(project);
-    if (arguments.format == kVmti) return exportVmti(arguments, project, run);
-    LabelStream labels = labelStreamOf(store, run, arguments.detections);
+    if (arguments.format == kVmti) return exportVmti(arguments, project, run, corrected);
+    LabelStream labels = arguments.detections ? labelStreamOf(store, run, true) : labelStreamOf(store, run, corrected);
     const InterruptGuard interrupt;
     std::unique_ptr<FrameSource> pixels;
     if (tellsWorld(arguments.format)) {
@@ -159,9 +166,13 @@ void addExportCommand(CLI::App& app, int& exit_code) {
     CLI::Option* project = command->add_option("--project", arguments->project, "Project with the labels or runs");
     CLI::Option* run =
         command->add_option("--run", arguments->run, "Tracks of this run (default: the last)")->needs(project);
-    command->add_flag("--labels", arguments->labels, "Labels instead of a run")->needs(project)->excludes(run);
-    command->add_flag("--detections", arguments->detections, "The run's detections instead of its tracks")
-        ->needs(project);
+    CLI::Option* labels =
+        command->add_flag("--labels", arguments->labels, "Labels instead of a run")->needs(project)->excludes(run);
+    CLI::Option* detections =
+        command->add_flag("--detections", arguments->detections, "The run's detections instead of its tracks")
+            ->needs(project);
+    addUncorrected(*command, arguments->uncorrected);
+    command->get_option("--uncorrected")->needs(project)->excludes(labels)->excludes(detections);
     command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
         ->needs(project);
     command->add_option("--start", arguments->start, kStartHelp)->needs(project);

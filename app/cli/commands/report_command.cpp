@@ -143,7 +143,7 @@ void addReportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--start", arguments->start, kStartHelp);
     arguments->outputs.addTo(*command);
     command->callback([arguments, command, &exit_code] {
-        const std::vector<const char*> of_events{"--kind", "--verdict", "--zone", "--set", "--start"};
+        const std::vector<const char*> of_events{"--kind", "--verdict", "--zone", "--set", "--uncorrected", "--start"};
         const std::vector<const char*> of_evaluations{"--ground-truth", "--against", "--detections", "--overlap",
                                                       "--chips"};
         for (const char* option : arguments->of_events ? of_evaluations : of_events) {

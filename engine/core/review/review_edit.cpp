@@ -81,6 +81,7 @@ ReviewEdit inverseOf(ReviewEdit edit) {
     for (auto& change : edit.verdicts) std::swap(change.before, change.after);
     for (auto& change : edit.bookmarks) std::swap(change.before, change.after);
     for (auto& change : edit.zones) std::swap(change.before, change.after);
+    for (auto& change : edit.corrections) std::swap(change.before, change.after);
     return edit;
 }
 
@@ -88,6 +89,7 @@ void checkEdit(const ReviewSet& set, const ReviewEdit& edit) {
     checkSteps(set.verdicts, edit.verdicts, "verdict", checkVerdict);
     checkSteps(set.bookmarks, edit.bookmarks, "bookmark", checkBookmark);
     checkSteps(set.zones, edit.zones, "zone", checkZone);
+    checkSteps(set.corrections, edit.corrections, "correction", checkCorrection);
     if (!edit.zones.empty()) checkZoneNames(set.zones, edit.zones);
 }
 
@@ -96,6 +98,7 @@ void applyEdit(ReviewSet& set, const ReviewEdit& edit) {
     carryOut(set.verdicts, edit.verdicts);
     carryOut(set.bookmarks, edit.bookmarks);
     carryOut(set.zones, edit.zones);
+    carryOut(set.corrections, edit.corrections);
 }
 
 void checkVerdict(const Verdict& verdict) {

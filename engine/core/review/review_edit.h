@@ -14,8 +14,9 @@ struct ReviewEdit {
     std::vector<Change<Verdict>> verdicts;
     std::vector<Change<Bookmark>> bookmarks;
     std::vector<Change<StoredZone>> zones = {};
+    std::vector<Change<TrackCorrection>> corrections = {};
 
-    bool empty() const { return verdicts.empty() && bookmarks.empty() && zones.empty(); }
+    bool empty() const { return verdicts.empty() && bookmarks.empty() && zones.empty() && corrections.empty(); }
 };
 
 /// The edit that takes the edit back.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/review/event_kind.h"
+#include "core/review/track_correction.h"
 #include "core/review/zone.h"
 #include "core/values/ids.h"
 
@@ -67,9 +68,10 @@ struct Bookmark {
 
 /// All that was said about one video.
 struct ReviewSet {
-    std::map<int, Verdict> verdicts;    ///< by id
-    std::map<int, Bookmark> bookmarks;  ///< by id
-    std::map<int, StoredZone> zones;    ///< by id; each name once
+    std::map<int, Verdict> verdicts;                  ///< by id
+    std::map<int, Bookmark> bookmarks;                ///< by id
+    std::map<int, StoredZone> zones;                  ///< by id; each name once
+    std::map<int, TrackCorrection> corrections = {};  ///< by id
 };
 
 /// Tags from "gate 3, lorry": without blanks around them, empty ones and doubles; and back.

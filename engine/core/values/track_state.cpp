@@ -12,6 +12,8 @@ const char* nameOf(StateOrigin origin) {
             return "predicted";
         case StateOrigin::standing:
             return "standing";
+        case StateOrigin::by_hand:
+            return "by hand";
     }
     return "";
 }

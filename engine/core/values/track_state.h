@@ -20,7 +20,8 @@ enum class StateOrigin : std::uint8_t {
     detected,       ///< updated by a detection
     reconstructed,  ///< updated by a box rebuilt from associated motion vectors
     predicted,      ///< the Kalman prediction alone
-    standing        ///< it stands: the picture at its place on the ground goes on to look like it
+    standing,       ///< it stands: the picture at its place on the ground goes on to look like it
+    by_hand         ///< a person drew it, or it was followed from there; no run has such states
 };
 
 /// One object in one frame. A track is the sequence of its states with one id.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "correction/corrected_run.h"
 #include "store/review/review_store.h"
 
 namespace eyrie {
@@ -35,8 +36,10 @@ bool EventChoice::wants(const std::optional<EventKind>& kind, const Verdict* ver
 ReviewedRun readReviewedRun(ProjectFile& project, const RunRecord& run, const EventChoice& choice) {
     ReviewedRun found;
     found.run = run;
-    found.tracks = readTracks(RunStore(project), run);
+    const RunStore store(project);
     found.review = readReview(project, run.sequence.id);
+    found.tracks = readTracks(
+        store, run, choice.uncorrected ? CorrectedTracks() : correctedTracksOf(store, run, found.review.corrections));
     found.zones = choice.zones ? *choice.zones : zonesOf(found.review.zones);
     found.events = findEvents(found.tracks.tracks, found.tracks.footage, choice.options, found.zones);
     found.unsearched = unsearchedStretches(found.tracks.footage, choice.review);

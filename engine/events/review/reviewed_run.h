@@ -32,6 +32,7 @@ struct EventChoice {
     std::optional<std::vector<Zone>> zones;  ///< nothing: those that the project keeps for the video
     std::vector<EventKind> kinds;            ///< none: all
     std::vector<Judgement> judgements;       ///< none: all
+    bool uncorrected = false;                ///< of the run's own tracks
 
     /// Whether an event of this kind (nothing: a stretch that could not be searched) with this verdict, null for none,
     /// is wanted.

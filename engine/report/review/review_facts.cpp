@@ -136,9 +136,13 @@ void tellReviewedVideo(ReportPage& page, const ReviewScene& scene) {
     fact("Places", placeFact(input));
     fact("Searched", searchedFact(scene));
     fact("Seen", seenFact(input));
-    fact("Events", std::to_string(input.reviewed.events.size()) + " found by the machine in " +
+    fact("Events", std::to_string(input.reviewed.events.size()) + " found in " +
                        std::to_string(input.reviewed.tracks.tracks.size()) + " tracks, " + std::to_string(judged) +
                        " judged by a person");
+    const std::string corrections = correctionsInWords(input.reviewed.tracks.corrections);
+    fact("Tracks", input.choice.uncorrected ? "as the machine found them, corrections left out"
+                   : corrections.empty()    ? "as the machine found them"
+                                            : corrections.substr(corrections.find("as ")));
     fact("Told here", std::to_string(countOfEvents(input)) + ": " + chosenText(input.choice));
     if (!input.made_utc.empty()) fact("Report made", input.made_utc);
     page.endTable();
@@ -180,6 +184,18 @@ void tellRemainder(ReportPage& page, const ReviewScene& scene) {
             page.row({kind ? nameOf(*kind) : "not searched", markupEscaped(videoClockText(verdict.subject.first_s)),
                       std::to_string(verdict.subject.frame), nameOf(verdict.judgement), markupEscaped(verdict.note),
                       markupEscaped(judgeText(verdict)), nameOf(left.fault)});
+        }
+        page.endTable();
+    }
+    if (!reviewed.tracks.corrections.states.empty()) {
+        page.heading("Tracks corrected by a person");
+        page.beginTable({"What", "Frame", "By", "In this run"});
+        for (const auto& [id, state] : reviewed.tracks.corrections.states) {
+            const TrackCorrection& correction = reviewed.review.corrections.at(id);
+            page.row(
+                {nameOf(correction.kind), std::to_string(correction.frame),
+                 markupEscaped(correction.person + (correction.when_utc.empty() ? "" : ", " + correction.when_utc)),
+                 nameOf(state)});
         }
         page.endTable();
     }

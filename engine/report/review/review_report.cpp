@@ -80,7 +80,12 @@ std::string factsTable(const ReviewScene& scene, const Event& event, const Verdi
     fact("Figure", figureText(event));
     fact("Speed", speedText(scene, event));
     fact("Place", placeText(scene, event));
-    fact("Found by", "the machine, run " + std::to_string(scene.input().reviewed.run.id));
+    const auto corrected = correctionOf(event, scene.input().reviewed.tracks);
+    const std::string run = "the machine, run " + std::to_string(scene.input().reviewed.run.id);
+    fact("Found by", corrected == CorrectionKind::add     ? "a person, who added the track"
+                     : corrected == CorrectionKind::join  ? run + ", in tracks that a person joined"
+                     : corrected == CorrectionKind::split ? run + ", in a track that a person split"
+                                                          : run);
     const auto& scores = scene.input().reviewed.tracks.scores;
     const auto score = event.tracks.empty() ? scores.end() : scores.find(event.tracks.front());
     if (score != scores.end()) fact("Score", fixedDigits(score->second, 2));

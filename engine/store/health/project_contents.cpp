@@ -88,6 +88,12 @@ void readReviewContents(SQLite::Database& database, ProjectContents& contents) {
              const int id = row.integer();
              contents.zones[id] = row.longText();
          });
+    each(database, "correction",
+         "SELECT id, quote(sequence_id) || quote(kind) || quote(frame) || quote(track) || quote(other) FROM correction",
+         [&](RowReader& row) {
+             const int id = row.integer();
+             contents.corrections[id] = row.longText();
+         });
     each(database, "seen", "SELECT coalesce(sum(last_frame - first_frame + 1), 0) FROM seen",
          [&](RowReader& row) { contents.seen = row.wide(); });
     each(database, "review_step", "SELECT count(*) FROM review_step WHERE undone = 0",
@@ -190,6 +196,7 @@ void compareReview(const ProjectContents& present, const ProjectContents& earlie
     compareMany(present.verdicts, earlier.verdicts, "verdict", lines);
     compareMany(present.bookmarks, earlier.bookmarks, "bookmark", lines);
     compareMany(present.zones, earlier.zones, "zone", lines);
+    compareMany(present.corrections, earlier.corrections, "correction of tracks", lines);
     compareCounts(present.seen, earlier.seen, "watched frame", lines);
     compareCounts(present.review_steps, earlier.review_steps, "step of the review to undo", lines,
                   "steps of the review to undo");

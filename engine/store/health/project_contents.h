@@ -27,6 +27,7 @@ struct ProjectContents {
     std::map<int, std::string> verdicts;         ///< by id, as text that tells equal from other
     std::map<int, std::string> bookmarks;        ///< the same
     std::map<int, std::string> zones;            ///< the same
+    std::map<int, std::string> corrections;      ///< the same
     std::int64_t seen = 0;                       ///< frames that persons watched, summed up
     int review_steps = 0;                        ///< steps of the review that undo can take back
     std::map<std::string, std::string> presets;  ///< by name, as text that tells equal from other

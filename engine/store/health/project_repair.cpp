@@ -102,9 +102,9 @@ std::vector<std::string> summaryOf(SQLite::Database& database) {
           Kind{"ignore_region", "ignore region", "ignore regions"}, Kind{"review_mark", "review mark", "review marks"},
           Kind{"edit_journal", "step of work on the labels", "steps of work on the labels"},
           Kind{"verdict", "verdict", "verdicts"}, Kind{"bookmark", "bookmark", "bookmarks"},
-          Kind{"zone", "zone", "zones"}, Kind{"review_step", "step of the review", "steps of the review"},
-          Kind{"preset", "preset", "presets"}, Kind{"sweep", "sweep", "sweeps"},
-          Kind{"sweep_point", "point of a sweep", "points of sweeps"},
+          Kind{"zone", "zone", "zones"}, Kind{"correction", "correction of tracks", "corrections of tracks"},
+          Kind{"review_step", "step of the review", "steps of the review"}, Kind{"preset", "preset", "presets"},
+          Kind{"sweep", "sweep", "sweeps"}, Kind{"sweep_point", "point of a sweep", "points of sweeps"},
           Kind{"comparison", "comparison", "comparisons"}}) {
         const auto count = database.execAndGet(std::string("SELECT count(*) FROM ") + kind.table).getInt64();
         if (count > 0) saved.push_back(counted(count, kind.one, kind.many));

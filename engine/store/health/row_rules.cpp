@@ -3,6 +3,8 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include "core/error.h"
+#include "core/review/track_correction.h"
 #include "store/details/squeezed_bytes.h"
 #include "store/labels/packed_labels.h"
 #include "store/project/sequence_rows.h"
@@ -74,6 +76,33 @@ void answerZone(sqlite3_context* context, int, sqlite3_value** values) {
     sqlite3_result_int(context, good ? 1 : 0);
 }
 
+/// SQL function of kind, frame, track and other: whether they make a correction of tracks.
+void answerCorrection(sqlite3_context* context, int, sqlite3_value** values) {
+    const auto* kind = reinterpret_cast<const char*>(sqlite3_value_text(values[0]));
+    const auto sightingsAt = [&](int column) {
+        const auto* data = static_cast<const std::byte*>(sqlite3_value_blob(values[column]));
+        return unpackSightings(ByteView(data, static_cast<std::size_t>(sqlite3_value_bytes(values[column]))));
+    };
+    const auto track = sightingsAt(2);
+    const auto other = sightingsAt(3);
+    bool good = kind != nullptr && track && other;
+    if (good) {
+        TrackCorrection correction;
+        correction.id = 1;
+        correction.frame = sqlite3_value_int(values[1]);
+        correction.track = *track;
+        correction.other = *other;
+        for (const auto& entry : stored::kCorrectionKinds)
+            if (entry.word == kind) correction.kind = entry.value;
+        try {
+            checkCorrection(correction);
+        } catch (const Error&) {
+            good = false;
+        }
+    }
+    sqlite3_result_int(context, good ? 1 : 0);
+}
+
 }  // namespace
 
 void addRowFunctions(SQLite::Database& database) {
@@ -92,6 +121,8 @@ void addRowFunctions(SQLite::Database& database) {
     add("is_review_step", answerReadable<unpackReview>);
     sqlite3_create_function(database.getHandle(), "is_zone", 2, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr, answerZone,
                             nullptr, nullptr);
+    sqlite3_create_function(database.getHandle(), "is_correction", 4, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr,
+                            answerCorrection, nullptr, nullptr);
 }
 
 std::string fittingScaleOrigin() {
@@ -203,6 +234,10 @@ std::vector<RowRule> rowRules() {
          "(SELECT count(*) FROM zone AS other WHERE other.sequence_id = zone.sequence_id AND other.name = zone.name "
          "AND other.id < zone.id) = 0",
          "a zone has the name of another"},
+        {"correction",
+         "id BETWEEN 1 AND 2147483647 AND " + in_video + " AND " + isOneOf("kind", stored::kCorrectionKinds) +
+             " AND is_correction(kind, frame, track, other) AND " + areShort("person, when_utc"),
+         "a correction of tracks cannot be read", 17},
         {"review_step", "undone IN (0, 1) AND is_review_step(data) AND " + areShort("name, made_utc"),
          "a step of the review cannot be read", 11},
         {"seen", range + " AND last_frame >= first_frame AND " + areShort("person"), "what was watched is impossible",

@@ -348,4 +348,26 @@ FROM track_evidence JOIN v_runs ON v_runs.run = track_evidence.run_id;
 )sql");
 }
 
+// What people corrected of the tracks of a video: of the video, like verdicts, whose steps they share. Boxes as in
+// packed_review.h.
+void addCorrections(SQLite::Database& database) {
+    database.exec(R"sql(
+CREATE TABLE correction (
+    id INTEGER PRIMARY KEY,
+    sequence_id INTEGER NOT NULL REFERENCES sequence (id) ON DELETE CASCADE,
+    kind TEXT NOT NULL,
+    frame INTEGER NOT NULL,
+    track BLOB NOT NULL,
+    other BLOB NOT NULL,
+    person TEXT NOT NULL,
+    when_utc TEXT NOT NULL
+);
+CREATE INDEX correction_of_sequence ON correction (sequence_id);
+CREATE VIEW v_corrections AS
+SELECT correction.id AS correction, sequence.path AS video, correction.kind, correction.frame, correction.person,
+    correction.when_utc
+FROM correction JOIN sequence ON sequence.id = correction.sequence_id;
+)sql");
+}
+
 }  // namespace eyrie::schema

@@ -20,7 +20,7 @@ constexpr std::array kMigrations{addRuns,          addLabels,      addComparison
                                  addRemovalOfRuns, addRunStates,   addRegistrationFaults,
                                  addViews,         addReview,      addScaleOrigins,
                                  addZones,         addScaleSlopes, addKeptDetails,
-                                 addEvidence};
+                                 addEvidence,      addCorrections};
 
 }  // namespace
 

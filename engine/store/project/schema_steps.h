@@ -24,5 +24,6 @@ void addZones(SQLite::Database& database);
 void addScaleSlopes(SQLite::Database& database);
 void addKeptDetails(SQLite::Database& database);
 void addEvidence(SQLite::Database& database);
+void addCorrections(SQLite::Database& database);
 
 }  // namespace eyrie::schema

@@ -9,10 +9,14 @@ namespace {
 
 constexpr std::uint8_t kReviewFormat = 1;
 constexpr std::uint8_t kReviewFormatWithZones = 2;
-// Bytes that the smallest verdict, bookmark and zone take.
+constexpr std::uint8_t kReviewFormatWithCorrections = 3;
+constexpr std::uint8_t kSightingsFormat = 1;
+// Bytes that the smallest verdict, bookmark, zone and correction take.
 constexpr std::size_t kLeastVerdict = 97;
 constexpr std::size_t kLeastBookmark = 29;
 constexpr std::size_t kLeastZone = 41;
+constexpr std::size_t kLeastCorrection = 75;
+constexpr std::size_t kSightingBytes = 44;
 constexpr std::size_t kPointBytes = 2 * sizeof(double);
 
 template <class Value, std::size_t count>
@@ -139,6 +143,55 @@ void take(LabelBytesIn& in, StoredZone& zone) {
     if (!in.broken()) checkZone(zone);
 }
 
+void put(LabelBytesOut& out, const Sighting& sighting) {
+    out.number<std::int32_t>(sighting.frame);
+    putPoint(out, sighting.box.centre);
+    out.number(sighting.box.length);
+    out.number(sighting.box.width);
+    out.number(sighting.box.heading);
+}
+
+Sighting takeSighting(LabelBytesIn& in) {
+    Sighting sighting;
+    sighting.frame = in.number<std::int32_t>();
+    sighting.box.centre = takePoint(in);
+    sighting.box.length = in.number<double>();
+    sighting.box.width = in.number<double>();
+    sighting.box.heading = in.number<double>();
+    return sighting;
+}
+
+void put(LabelBytesOut& out, const std::vector<Sighting>& sightings) {
+    out.count(sightings.size());
+    for (const Sighting& sighting : sightings) put(out, sighting);
+}
+
+void take(LabelBytesIn& in, std::vector<Sighting>& sightings) {
+    for (std::size_t left = in.count(kSightingBytes); left > 0 && !in.broken(); --left)
+        sightings.push_back(takeSighting(in));
+}
+
+void put(LabelBytesOut& out, const TrackCorrection& correction) {
+    out.number<std::int32_t>(correction.id);
+    putWord(out, stored::kCorrectionKinds, correction.kind);
+    out.number<std::int32_t>(correction.frame);
+    put(out, correction.track);
+    put(out, correction.other);
+    out.text(correction.person);
+    out.text(correction.when_utc);
+}
+
+void take(LabelBytesIn& in, TrackCorrection& correction) {
+    correction.id = in.number<std::int32_t>();
+    correction.kind = takeWord(in, stored::kCorrectionKinds);
+    correction.frame = in.number<std::int32_t>();
+    take(in, correction.track);
+    take(in, correction.other);
+    correction.person = in.text();
+    correction.when_utc = in.text();
+    if (!in.broken()) checkCorrection(correction);
+}
+
 /// One byte tells which of the two sides follow: 1 before, 2 after.
 template <class Value>
 void putChanges(LabelBytesOut& out, const std::vector<Change<Value>>& changes) {
@@ -169,27 +222,50 @@ std::vector<Change<Value>> takeChanges(LabelBytesIn& in, std::size_t least) {
 
 Bytes packReview(const ReviewEdit& edit) {
     LabelBytesOut out;
-    out.number(edit.zones.empty() ? kReviewFormat : kReviewFormatWithZones);
+    const std::uint8_t format = !edit.corrections.empty() ? kReviewFormatWithCorrections
+                                : !edit.zones.empty()     ? kReviewFormatWithZones
+                                                          : kReviewFormat;
+    out.number(format);
     putChanges(out, edit.verdicts);
     putChanges(out, edit.bookmarks);
-    if (!edit.zones.empty()) putChanges(out, edit.zones);
+    if (format >= kReviewFormatWithZones) putChanges(out, edit.zones);
+    if (format >= kReviewFormatWithCorrections) putChanges(out, edit.corrections);
     return out.take();
 }
 
 std::optional<ReviewEdit> unpackReview(ByteView bytes) {
     LabelBytesIn in(bytes);
     const auto format = in.number<std::uint8_t>();
-    if (format != kReviewFormat && format != kReviewFormatWithZones) return std::nullopt;
+    if (format < kReviewFormat || format > kReviewFormatWithCorrections) return std::nullopt;
     ReviewEdit edit;
     try {
         edit.verdicts = takeChanges<Verdict>(in, kLeastVerdict);
         edit.bookmarks = takeChanges<Bookmark>(in, kLeastBookmark);
-        if (format == kReviewFormatWithZones) edit.zones = takeChanges<StoredZone>(in, kLeastZone);
+        if (format >= kReviewFormatWithZones) edit.zones = takeChanges<StoredZone>(in, kLeastZone);
+        if (format >= kReviewFormatWithCorrections)
+            edit.corrections = takeChanges<TrackCorrection>(in, kLeastCorrection);
     } catch (const Error&) {
         return std::nullopt;
     }
     if (!in.complete()) return std::nullopt;
     return edit;
+}
+
+Bytes packSightings(const std::vector<Sighting>& sightings) {
+    LabelBytesOut out;
+    out.number(kSightingsFormat);
+    for (const Sighting& sighting : sightings) put(out, sighting);
+    return out.take();
+}
+
+std::optional<std::vector<Sighting>> unpackSightings(ByteView bytes) {
+    LabelBytesIn in(bytes);
+    if (in.number<std::uint8_t>() != kSightingsFormat || in.left() % kSightingBytes != 0) return std::nullopt;
+    std::vector<Sighting> sightings;
+    sightings.reserve(in.left() / kSightingBytes);
+    while (in.left() > 0 && !in.broken()) sightings.push_back(takeSighting(in));
+    if (!in.complete() || !areSightings(sightings)) return std::nullopt;
+    return sightings;
 }
 
 }  // namespace eyrie

@@ -9,6 +9,7 @@
 #include "store/database/rows.h"
 #include "store/labels/packed_labels.h"
 #include "store/project/sequence_rows.h"
+#include "store/review/correction_rows.h"
 #include "store/review/review_words.h"
 
 namespace eyrie {
@@ -191,6 +192,7 @@ ReviewSet readReviewRows(SQLite::Database& database, int sequence_id) {
         set.bookmarks.emplace_hint(set.bookmarks.end(), bookmark.id, std::move(bookmark));
     }
     readZones(database, sequence_id, set.zones);
+    set.corrections = readCorrectionRows(database, sequence_id);
     return set;
 }
 
@@ -231,6 +233,7 @@ void writeReviewRows(SQLite::Database& database, int sequence_id, const ReviewEd
         row.run();
     }
     writeZones(database, sequence_id, edit.zones);
+    writeCorrectionRows(database, sequence_id, edit.corrections);
 }
 
 }  // namespace eyrie

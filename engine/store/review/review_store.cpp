@@ -42,10 +42,11 @@ void ReviewContent::ground(ReviewEdit& edit, const ReviewSet& set) {
     groundChanges(edit.verdicts, set.verdicts);
     groundChanges(edit.bookmarks, set.bookmarks);
     groundChanges(edit.zones, set.zones);
+    groundChanges(edit.corrections, set.corrections);
 }
 
-std::array<std::vector<int>, 3> ReviewContent::ids(const ReviewEdit& edit) {
-    return {idsAfter(edit.verdicts), idsAfter(edit.bookmarks), idsAfter(edit.zones)};
+std::array<std::vector<int>, 4> ReviewContent::ids(const ReviewEdit& edit) {
+    return {idsAfter(edit.verdicts), idsAfter(edit.bookmarks), idsAfter(edit.zones), idsAfter(edit.corrections)};
 }
 
 template class JournalledStore<ReviewContent>;

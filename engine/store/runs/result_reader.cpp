@@ -197,6 +197,18 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
     });
 }
 
+TrackId RunStore::lastTrackId(int run_id) const {
+    return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
+        SQLite::Statement statement(
+            project_.database(),
+            "SELECT max(ifnull((SELECT max(id) FROM track WHERE run_id = ?1), 0), ifnull((SELECT "
+            "max(track_id) FROM doubtful_state WHERE run_id = ?1), 0))");
+        statement.bind(1, run_id);
+        statement.executeStep();
+        return static_cast<TrackId>(RowReader(statement).integer());
+    });
+}
+
 std::vector<TrackFrame> RunStore::trackStates(int run_id, TrackId track) const {
     return guarded(project_.path(), "reading track " + std::to_string(track) + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(), std::string("SELECT frame, ") + kTrackStateColumns +

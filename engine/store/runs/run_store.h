@@ -9,6 +9,7 @@
 
 #include "core/labels/box_record.h"
 #include "core/labels/track_class.h"
+#include "core/review/track_correction.h"
 #include "core/values/frame_result.h"
 #include "core/values/scale_basis.h"
 #include "core/values/scene_scale.h"
@@ -85,6 +86,7 @@ struct TrackSummary {
     double score = 0;       ///< of its last state; in a result the same in all: the probability of a vehicle that moves
     bool doubtful = false;  ///< only its score kept it out of the result
     TrackClass track_class = TrackClass::unknown;  ///< by its size and speed so far and the run's limits
+    std::optional<CorrectionKind> corrected;       ///< what a person did to it last; no track of the store has it
 };
 
 /// One state of a track in a frame.
@@ -131,6 +133,7 @@ class RunStore {
     /// Boxes of its kept detections that a classifier took for whole vehicles.
     std::vector<OrientedBox> vehicleBoxes(int run_id, FrameIndex frame) const;
     std::vector<TrackSummary> tracks(int run_id) const;                    ///< ascending id
+    TrackId lastTrackId(int run_id) const;                                 ///< the highest; 0 without tracks
     std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;  ///< ascending frames
     std::vector<TrackFrame> trackStatesUpTo(int run_id, FrameIndex frame,
                                             int trail) const;  ///< states of frames (frame − trail, frame], for trails

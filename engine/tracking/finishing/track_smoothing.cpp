@@ -13,6 +13,7 @@ namespace {
 double weightOf(const PathState& state) {
     switch (state.origin) {
         case StateOrigin::detected:
+        case StateOrigin::by_hand:
             return 1;
         case StateOrigin::reconstructed:
         case StateOrigin::standing:

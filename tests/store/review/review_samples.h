@@ -57,6 +57,26 @@ inline ReviewEdit sampleZoning(int id) {
     return edit;
 }
 
+/// Every third one adds, joins, splits.
+inline TrackCorrection sampleCorrection(int id) {
+    TrackCorrection correction;
+    correction.id = id;
+    correction.kind = static_cast<CorrectionKind>(id % 3);
+    correction.frame = 12 + id;
+    for (int i = 0; i < 5; ++i) correction.track.push_back({10 + id + i, {{20.125 + i, 30.5}, 12.25, 6.5, 0.1 * i}});
+    if (correction.kind == CorrectionKind::join) correction.other = {{40 + id, {{90.125, 31.5}, 12, 6, -0.25}}};
+    correction.person = "Bo";
+    correction.when_utc = "2026-11-21T11:00:00Z";
+    return correction;
+}
+
+inline ReviewEdit sampleCorrecting(int id) {
+    ReviewEdit edit;
+    edit.name = "Correct tracks " + std::to_string(id);
+    edit.corrections.push_back({std::nullopt, sampleCorrection(id)});
+    return edit;
+}
+
 inline ReviewEdit sampleJudging(int id) {
     ReviewEdit edit;
     edit.name = "Judge event " + std::to_string(id);

@@ -122,6 +122,85 @@ TEST_F(ReviewStoreTest, ZonesAreThereAfterARestartToTheBitAndGoBackStepByStep) {
     EXPECT_EQ(store.review().zones, read.zones);
 }
 
+TEST_F(ReviewStoreTest, CorrectionsOfTracksAreThereAfterARestartToTheBitAndGoBackStepByStep) {
+    {
+        ReviewStore store(project_, 1);
+        for (int i = 0; i < 6; ++i) store.apply(test::sampleCorrecting(store.newCorrectionId()));
+        ReviewEdit removal{"Remove track", {}, {}};
+        removal.corrections = {{test::sampleCorrection(3), std::nullopt}};
+        removal.zones = {{std::nullopt, test::sampleZone(store.newZoneId())}};
+        store.apply(removal);
+    }
+    EXPECT_TRUE(checkProject(path_).healthy());
+    const ReviewSet read = readReview(project_, 1);
+    ASSERT_EQ(read.corrections.size(), 5U);
+    for (const int id : {1, 2, 4, 5, 6}) EXPECT_EQ(read.corrections.at(id), test::sampleCorrection(id)) << id;
+    ReviewStore store(project_, 1);
+    EXPECT_EQ(store.newCorrectionId(), 7) << "numbers are never used again";
+    EXPECT_EQ(store.undo()->name, "Remove track");
+    EXPECT_EQ(store.review().corrections.at(3), test::sampleCorrection(3));
+    EXPECT_TRUE(store.review().zones.empty());
+    for (int i = 0; i < 6; ++i) store.undo();
+    EXPECT_TRUE(readReview(project_, 1).corrections.empty());
+    while (store.redo()) {
+    }
+    EXPECT_EQ(store.review().corrections, read.corrections);
+}
+
+TEST_F(ReviewStoreTest, ASecondProgramReadsCorrectionsAndMayNotMakeAny) {
+    ReviewStore store(project_, 1);
+    ProjectFile second_project = ProjectFile::open(path_);
+    ReviewStore second(second_project, 1);
+    ASSERT_TRUE(second.readOnly());
+    store.apply(test::sampleCorrecting(1));
+    EXPECT_TRUE(second.refresh());
+    EXPECT_EQ(second.review().corrections.at(1), test::sampleCorrection(1));
+    EXPECT_FALSE(second.refresh());
+    errorOf([&] { second.apply(test::sampleCorrecting(2)); }, ErrorKind::output);
+    store.undo();
+    EXPECT_TRUE(second.refresh());
+    EXPECT_TRUE(second.review().corrections.empty());
+}
+
+TEST_F(ReviewStoreTest, CorrectionsThatCannotBeAreRefusedAndChangeNothing) {
+    ReviewStore store(project_, 1);
+    const auto refused = [&](int like, const std::function<void(TrackCorrection&)>& change) {
+        ReviewEdit edit = test::sampleCorrecting(like);
+        change(*edit.corrections.front().after);
+        errorOf([&] { store.apply(edit); }, ErrorKind::internal);
+        EXPECT_TRUE(store.review().corrections.empty());
+    };
+    refused(3, [](TrackCorrection& adding) { adding.track.clear(); });
+    refused(3, [](TrackCorrection& adding) { adding.other = adding.track; });
+    refused(3, [](TrackCorrection& adding) { adding.track[2].frame = adding.track[1].frame; });
+    refused(3, [](TrackCorrection& adding) { adding.track[1].box.length = 0; });
+    refused(3, [](TrackCorrection& adding) { adding.track[1].box.heading = std::nan(""); });
+    refused(3, [](TrackCorrection& adding) { adding.track[1].box.centre.x = 2e6; });
+    refused(1, [](TrackCorrection& joining) { joining.other.clear(); });
+    refused(2, [](TrackCorrection& splitting) { splitting.frame = splitting.track.front().frame; });
+    refused(2, [](TrackCorrection& splitting) { splitting.frame = splitting.track.back().frame + 1; });
+    refused(2, [](TrackCorrection& splitting) { splitting.id = 0; });
+}
+
+TEST_F(ReviewStoreTest, BytesOfACorrectionThatNoWriterWroteAreNothing) {
+    const Bytes good = packReview(test::sampleCorrecting(1));
+    ASSERT_TRUE(unpackReview(good).has_value());
+    EXPECT_EQ(unpackReview(good)->corrections.front().after, test::sampleCorrection(1));
+    for (std::size_t length = 0; length < good.size(); ++length)
+        EXPECT_FALSE(unpackReview(ByteView(good).first(length)).has_value()) << length;
+    Bytes longer = good;
+    longer.push_back(std::byte{0});
+    EXPECT_FALSE(unpackReview(longer).has_value());
+    Bytes later = good;
+    later[0] = std::byte{4};
+    EXPECT_FALSE(unpackReview(later).has_value());
+    const Bytes boxes = packSightings(test::sampleCorrection(1).track);
+    EXPECT_EQ(unpackSightings(boxes), test::sampleCorrection(1).track);
+    for (std::size_t length = 2; length < boxes.size(); ++length)
+        EXPECT_EQ(unpackSightings(ByteView(boxes).first(length)).has_value(), length % 44 == 1) << length;
+    EXPECT_FALSE(unpackSightings({}).has_value());
+}
+
 TEST_F(ReviewStoreTest, ZonesThatCannotBeAreRefusedInWords) {
     ReviewStore store(project_, 1);
     store.apply(test::sampleZoning(1));

@@ -1,5 +1,7 @@
 #include "canvas/layers/track_layer.h"
 
+#include <QCoreApplication>
+
 #include "canvas/drawing/edged_painter.h"
 #include "canvas/drawing/track_captions.h"
 
@@ -9,7 +11,11 @@ void TrackLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     if (scene.style.trails) paintTrails(painter, scene);
     paintBoxes(painter, scene);
     if (scene.style.labels)
-        paintTrackCaptions(painter, scene, [](const TrackState& state) { return QString::number(state.id); });
+        paintTrackCaptions(painter, scene, [](const TrackState& state) {
+            const QString id = QString::number(state.id);
+            return state.origin == StateOrigin::by_hand ? QCoreApplication::translate("Overlay", "%1 by hand").arg(id)
+                                                        : id;
+        });
 }
 
 void TrackLayer::paintTrails(QPainter& painter, const OverlayScene& scene) const {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/utc_time.h"
+#include "correction/corrected_run.h"
 #include "session/project/person_name.h"
 #include "widgets/wiring.h"
 
@@ -15,6 +16,12 @@ namespace eyrie::ui {
 namespace {
 constexpr int kSearchDelay_ms = 250;  ///< while a threshold is being changed
 constexpr int kRereadVerdicts_ms = 2000;
+
+std::vector<int> correctionsIn(const ReviewStore& store) {
+    std::vector<int> ids;  // what a number stands for never changes
+    for (const auto& [id, correction] : store.review().corrections) ids.push_back(id);
+    return ids;
+}
 }  // namespace
 
 /// Verdicts as they were read in the background.
@@ -61,7 +68,7 @@ void EventReview::refresh() {
         if (!current || (key_ && (key_->run != *current || key_->project != session_.project()))) close();
         return;
     }
-    const RunKey key{session_.project(), data->record.id, data->frames.size(), data->tracks.size()};
+    const RunKey key{session_.project(), data->record.id, data->frames.size(), ownTracks(*data)};
     const RunRecord* own = session_.ownRun();
     if (data->record.live || (own != nullptr && own->id == data->record.id && session_.running())) {
         if (state_ == State::at_work) return;
@@ -140,12 +147,16 @@ void EventReview::search() {
     search_due_.stop();
     if (!key_ || !store_) return;
     const auto work = [this, key = *key_, data = data_, tracks = tracks_, options = options_,
-                       verdicts = store_->review().verdicts, zones = zonesOf(store_->review().zones),
-                       version = store_->version()](const BackgroundTask& task) mutable {
+                       verdicts = store_->review().verdicts, corrections = store_->review().corrections,
+                       zones = zonesOf(store_->review().zones), version = store_->version(),
+                       corrections_made = corrections_made_](const BackgroundTask& task) mutable {
         if (!tracks) {
             ProjectFile project = ProjectFile::open(key.project, ProjectFile::Mode::read_only);
-            tracks = std::make_shared<const StoredTracks>(readTracks(RunStore(project), data->record));
-            task.tell([this, tracks] {
+            const RunStore store(project);
+            tracks = std::make_shared<const StoredTracks>(
+                readTracks(store, data->record, correctedTracksOf(store, data->record, corrections)));
+            task.tell([this, tracks, made = corrections_made] {
+                if (made != corrections_made_) return;  // others by now: they are read next
                 tracks_ = tracks;
                 answers_.show_zones();
             });
@@ -177,79 +188,17 @@ void EventReview::refreshReadOnly() {
     }
     try {
         // Events of verdicts that another window made are found; when it is closed, the right to judge is ours.
+        const auto corrections = correctionsIn(*store_);
         if (!store_->tryToWrite() && !store_->refresh()) return;
         answers_.show_zones();
-        search();
+        if (correctionsIn(*store_) != corrections)
+            useOtherCorrections();
+        else
+            search();
     } catch (const std::exception& error) {
         reread_.stop();
         answers_.tell_problem(QString::fromUtf8(error.what()));
     }
-}
-
-// ---- zones ----------------------------------------------------------------------------------------------------------
-
-const std::map<int, StoredZone>& EventReview::zones() const {
-    static const std::map<int, StoredZone> none;
-    return store_ ? store_->review().zones : none;
-}
-
-bool EventReview::changeZones(const std::function<ReviewEdit(const ReviewSet&, const Judge&, const NewId&)>& step) {
-    const std::vector<Zone> before = zonesOf(zones());
-    if (!applyStep([&] { return step(store_->review(), whoJudges(), [this] { return store_->newZoneId(); }); }))
-        return false;
-    if (zonesOf(zones()) != before) search();
-    return true;
-}
-
-// ---- bookmarks ------------------------------------------------------------------------------------------------------
-
-const std::map<int, Bookmark>& EventReview::bookmarks() const {
-    static const std::map<int, Bookmark> none;
-    return store_ ? store_->review().bookmarks : none;
-}
-
-bool EventReview::setBookmark(FrameIndex frame, const QString& note) {
-    return applyStep([&] {
-        std::optional<Bookmark> before;
-        for (const auto& [id, bookmark] : bookmarks())
-            if (bookmark.frame == frame) before = bookmark;
-        Bookmark after = before.value_or(Bookmark{});
-        if (before && after.note == note.toStdString()) return ReviewEdit{};
-        if (!before) after.id = store_->newBookmarkId();
-        after.frame = frame;
-        after.seconds = tracks_ ? tracks_->secondsOf(frame) : after.seconds;
-        after.note = note.toStdString();
-        const Judge judge = whoJudges();
-        after.person = judge.person;
-        after.when_utc = judge.when_utc;
-        return changeBookmark(before, after);
-    });
-}
-
-bool EventReview::removeBookmark(int id) {
-    return applyStep([&] {
-        const auto found = bookmarks().find(id);
-        return found == bookmarks().end() ? ReviewEdit{} : changeBookmark(found->second, std::nullopt);
-    });
-}
-
-/// What is not said about one event: zones and bookmarks.
-bool EventReview::applyStep(const std::function<ReviewEdit()>& step) {
-    if (!mayWrite()) return false;
-    try {
-        const ReviewEdit edit = step();
-        if (edit.empty()) return false;
-        store_->apply(edit);
-    } catch (const Error& error) {
-        const QString text = QString::fromUtf8(error.what());
-        error.kind() == ErrorKind::parameter ? answers_.tell_notice(text) : answers_.tell_problem(text);
-        return false;
-    } catch (const std::exception& error) {
-        answers_.tell_problem(QString::fromUtf8(error.what()));
-        return false;
-    }
-    answers_.show_zones();
-    return true;
 }
 
 // ---- verdicts -------------------------------------------------------------------------------------------------------
@@ -393,7 +342,10 @@ void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step)
     }
     std::sort(positions.begin(), positions.end());
     if (!edit->zones.empty() || !edit->bookmarks.empty()) answers_.show_zones();
-    if (lost || zonesOf(zones()) != zones_before) search();
+    if (!edit->corrections.empty())
+        useOtherCorrections();
+    else if (lost || zonesOf(zones()) != zones_before)
+        search();
     answers_.show_verdicts(positions);
     answers_.go_back_to(positions);
 }

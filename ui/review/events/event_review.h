@@ -81,7 +81,13 @@ class EventReview : public QObject {
     /// Marks a frame, or gives the bookmark that is there another note. Steps that can be undone, as all below.
     bool setBookmark(FrameIndex frame, const QString& note);
     bool removeBookmark(int id);
-    /// How the camera moved over the ground; null until the run was read.
+    /// Corrections of the video's tracks; none until the verdicts were read.
+    const std::map<int, TrackCorrection>& corrections() const;
+    /// Makes one, number and person are given here; answers its number, 0 when it was not made.
+    int correct(TrackCorrection correction, const QString& step);
+    /// Takes them back.
+    bool removeCorrections(const std::vector<int>& ids, const QString& step);
+    /// The tracks as people corrected them, and how the camera moved over the ground; null until the run was read.
     const std::shared_ptr<const StoredTracks>& tracks() const { return tracks_; }
 
     /// Each is one step that can be undone. What goes wrong is told as a problem, or as a notice where another window
@@ -123,6 +129,7 @@ class EventReview : public QObject {
     bool mayWrite();
     bool mayJudge();
     bool applyStep(const std::function<ReviewEdit()>& step);
+    void useOtherCorrections();
     bool apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions);
     std::vector<Judged> judgedAt(const std::vector<std::size_t>& positions) const;
     Judge whoJudges() const;
@@ -136,6 +143,7 @@ class EventReview : public QObject {
     std::shared_ptr<const RunData> data_;
     EventOptions options_;
     std::shared_ptr<const StoredTracks> tracks_;  ///< of the run above, once they were read
+    std::uint64_t corrections_made_ = 0;          ///< grows with every change of corrections
     std::shared_ptr<const FoundEvents> found_;
     CarriedVerdicts carried_;  ///< which event has which verdict now
     std::filesystem::path store_project_;

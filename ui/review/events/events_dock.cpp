@@ -6,6 +6,7 @@
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "review/bookmarks/bookmarks.h"
+#include "review/correct/track_correcting.h"
 #include "review/events/event_review.h"
 #include "review/events/event_text.h"
 #include "review/events/event_thresholds.h"
@@ -50,6 +51,7 @@ EventsDock::EventsDock(const EventsParts& parts)
     panel_ = new EventsPanel(model_, parts_.actions);
     zones_ = new ZoneReview({parts_.session, parts_.canvas, parts_.actions, parts_.messages, *review_}, this);
     bookmarks_ = new Bookmarks(parts_.session, parts_.actions, *review_, this);
+    correcting_ = new TrackCorrecting({parts_.session, parts_.canvas, parts_.actions, parts_.messages, *review_}, this);
     panel_->setZones(&zones_->panel());
     connect(zones_, &ZoneReview::listWanted, this, [this] {
         parts_.docks.raise(DockId::events);
@@ -131,6 +133,7 @@ void EventsDock::bindCommands() {
 void EventsDock::setActive(bool active) {
     active_ = active;
     zones_->setActive(active);
+    correcting_->setActive(active);
     enableActions();
     showMarks();
 }
@@ -144,11 +147,26 @@ void EventsDock::showEvents() {
     listed_run_ = found ? found->run : nullptr;
     if (review_->state() != EventReview::State::failed) parts_.messages.dismissTopic(kEventsTopic);
     model_->setEvents(found, [this](std::size_t place) { return review_->verdictAt(place); });
-    panel_->showCounts(review_->leftCount());
+    panel_->showCounts(review_->leftCount(), leftCorrections());
     zones_->showZones();
     showMarks();
     enableActions();
     emit eventsShown();
+}
+
+QStringList EventsDock::leftCorrections() const {
+    QStringList left;
+    const auto& tracks = review_->tracks();
+    if (!tracks) return left;
+    for (const auto& [id, state] : tracks->corrections.states) {
+        const auto correction = review_->corrections().find(id);
+        if (!isLeft(state) || correction == review_->corrections().end()) continue;
+        left << tr("%1 at frame %2 by %3: %4")
+                    .arg(QString::fromUtf8(nameOf(correction->second.kind)))
+                    .arg(correction->second.frame)
+                    .arg(QString::fromStdString(correction->second.person), QString::fromUtf8(nameOf(state)));
+    }
+    return left;
 }
 
 void EventsDock::explainNothing() {
@@ -184,7 +202,7 @@ void EventsDock::showVerdicts(const std::vector<std::size_t>& positions) {
         model_->setEvents(review_->found(), [this](std::size_t place) { return review_->verdictAt(place); });
     else
         for (const std::size_t place : positions) model_->setVerdict(place, review_->verdictAt(place));
-    panel_->showCounts(review_->leftCount());
+    panel_->showCounts(review_->leftCount(), leftCorrections());
     marks_due_.start();
     enableActions();
 }
@@ -220,6 +238,7 @@ void EventsDock::enableActions() {
                             actions.not_relevant, actions.unsure, actions.take_back, actions.star, actions.note})
         action->setEnabled(any);
     bookmarks_->enableActions(active_);
+    correcting_->enableActions();
     actions.undo_verdict->setEnabled(active_ && review_->canUndo());
     actions.redo_verdict->setEnabled(active_ && review_->canRedo());
     const auto named = [](const QString& verb, const QString& step) {

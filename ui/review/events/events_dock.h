@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <QPointF>
+#include <QStringList>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@ enum class Judgement;
 namespace eyrie::ui {
 
 class Bookmarks;
+class TrackCorrecting;
 class DockRegistry;
 class EventReview;
 struct EventReviewAnswers;
@@ -51,6 +53,7 @@ class EventsDock : public QObject {
     EventsModel& model() { return *model_; }
     ZoneReview& zones() { return *zones_; }
     Bookmarks& bookmarks() { return *bookmarks_; }
+    TrackCorrecting& correcting() { return *correcting_; }
 
     /// Whether keys and marks are wanted: labelling has others.
     void setActive(bool active);
@@ -75,6 +78,8 @@ class EventsDock : public QObject {
     void wireLists();
     void showEvents();
     void explainNothing();
+    /// Corrections of tracks that could not be carried over to the run shown.
+    QStringList leftCorrections() const;
     void showVerdicts(const std::vector<std::size_t>& positions);
     void showMarks();
     void enableActions();
@@ -93,6 +98,7 @@ class EventsDock : public QObject {
     EventsPanel* panel_;
     ZoneReview* zones_ = nullptr;
     Bookmarks* bookmarks_ = nullptr;
+    TrackCorrecting* correcting_ = nullptr;
     DelayedCall marks_due_;
     std::shared_ptr<const StoredTracks> listed_run_;  ///< whose events have their ids
     bool active_ = true;

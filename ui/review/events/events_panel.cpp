@@ -174,8 +174,9 @@ void EventsPanel::showHidden() {
 
 // ---- counting -------------------------------------------------------------------------------------------------------
 
-void EventsPanel::showCounts(std::size_t left) {
+void EventsPanel::showCounts(std::size_t left, const QStringList& corrections) {
     left_ = left;
+    left_corrections_ = corrections;
     EventKindsButton::Counts counts{};
     for (int row = 0; row < events_->rowCount(); ++row)
         ++counts.at(static_cast<std::size_t>(listedKindAt(*events_->found(), events_->recordAt(row)->position)));
@@ -205,6 +206,9 @@ QString EventsPanel::headerText() const {
     if (listed < all) text += tr(" · %1 of %2 shown").arg(listed).arg(all);
     if (left_ > 0)
         text += left_ == 1 ? tr(" · 1 verdict without an event") : tr(" · %1 verdicts without an event").arg(left_);
+    if (!left_corrections_.isEmpty())
+        text += left_corrections_.size() == 1 ? tr(" · 1 correction not carried over")
+                                              : tr(" · %1 corrections not carried over").arg(left_corrections_.size());
     return text;
 }
 
@@ -212,6 +216,9 @@ void EventsPanel::showHeader() {
     header_->setText(headerText());
     QStringList tips;
     if (seen_) tips << tr("Seen is what was shown at four times the speed or slower, with the window in front.");
+    if (!left_corrections_.isEmpty())
+        tips << tr("What was done to tracks and does not fit this run is kept: %1.")
+                    .arg(left_corrections_.join(QStringLiteral("; ")));
     if (left_ > 0) tips << tr("Verdicts on this video for which this run, with these limits, has no event, are kept.");
     header_->setToolTip(tips.join(QLatin1Char('\n')));
 }

@@ -43,8 +43,9 @@ class EventsPanel : public TablePanel {
     /// Which verdicts are listed: all, to judge, relevant, not relevant, unsure, starred, with a note.
     QComboBox& verdicts() { return *verdicts_; }
 
-    /// Counts kinds and verdicts anew; `left`: verdicts without an event in this run.
-    void showCounts(std::size_t left);
+    /// Counts kinds and verdicts anew; `left`: verdicts without an event in this run; `corrections`: what could not be
+    /// carried over to it of what was done to tracks, for people.
+    void showCounts(std::size_t left, const QStringList& corrections = {});
     /// The share of the run's frames that was watched, 0 … 1; nothing: not known.
     void showSeen(std::optional<double> share);
     /// "214 of 380 judged", "61 % of the time seen" and "38 of 380 shown".
@@ -95,6 +96,7 @@ class EventsPanel : public TablePanel {
     QToolButton* limits_button_ = nullptr;
     QToolButton* zones_button_ = nullptr;
     std::size_t left_ = 0;
+    QStringList left_corrections_;
     std::optional<double> seen_;
 };
 

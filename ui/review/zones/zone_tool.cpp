@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/tool_hint.h"
 #include "canvas/video_view.h"
 
 namespace eyrie::ui {
@@ -159,14 +160,7 @@ void ZoneTool::paintHint(QPainter& painter, const QRectF& view) const {
         *shape_ == ZoneShape::area
             ? tr("Click the corners. Double-click or Enter: done · Backspace: take one back · Esc: give up")
             : tr("Click along the line. Double-click or Enter: done · Backspace: take one back · Esc: give up");
-    const QRectF room(view.left() + 10, view.top(), view.width() - 20, view.height() - 10);
-    const int flags = Qt::AlignHCenter | Qt::AlignBottom | Qt::TextWordWrap;
-    QRectF plate = painter.fontMetrics().boundingRect(room.adjusted(10, 0, -10, -5).toRect(), flags, text);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(QColor(12, 12, 14, 200));
-    painter.drawRoundedRect(plate.adjusted(-10, -5, 10, 5), 4, 4);
-    painter.setPen(Qt::white);
-    painter.drawText(plate, flags, text);
+    paintToolHint(painter, view, text);
 }
 
 }  // namespace eyrie::ui

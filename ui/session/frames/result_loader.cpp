@@ -48,7 +48,7 @@ class ResultLoader::Worker {
 
     void useRun(const std::optional<RunReference>& run, int trail_length) {
         frames_.reset();
-        if (run) frames_ = std::make_unique<StoredFrames>(run->project, run->run_id, trail_length);
+        if (run) frames_ = std::make_unique<StoredFrames>(run->project, run->run_id, trail_length, run->corrected);
     }
 
     void setLook(const PictureLook& look) { look_ = look; }

@@ -7,6 +7,7 @@
 #include <stop_token>
 
 #include "canvas/view_frame.h"
+#include "correction/corrected_tracks.h"
 #include "imaging/picture_look.h"
 #include "session/background/background_query.h"
 #include "session/project/media.h"
@@ -17,6 +18,7 @@ namespace eyrie::ui {
 struct RunReference {
     std::filesystem::path project;
     int run_id = 0;
+    std::shared_ptr<const CorrectedTracks> corrected = {};  ///< what people made of its tracks; null: not shown
 };
 
 /// What is known of a video once it is open.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "correction/corrected_run.h"
 #include "session/frames/trail_history.h"
 #include "store/runs/doubtful_tracks.h"
 
@@ -23,11 +24,13 @@ std::size_t bytesOf(const FrameResult& result) {
 
 }  // namespace
 
-StoredFrames::StoredFrames(const std::filesystem::path& project, int run_id, int trail_length)
+StoredFrames::StoredFrames(const std::filesystem::path& project, int run_id, int trail_length,
+                           std::shared_ptr<const CorrectedTracks> corrected)
     : project_(ProjectFile::open(project, ProjectFile::Mode::read_only)),
       store_(project_),
       run_id_(run_id),
       trail_length_(trail_length),
+      corrected_(corrected ? std::move(corrected) : std::make_shared<const CorrectedTracks>()),
       results_(kResultBudget) {
     if (const auto run = store_.run(run_id)) scale_ = run->scale;
 }
@@ -50,6 +53,7 @@ std::shared_ptr<const FrameResult> StoredFrames::result(FrameIndex frame) {
     auto stored = store_.frameResult(run_id_, frame);
     // A frame that is missing may still come: the run may be at work. So only what exists is remembered.
     if (!stored) return nullptr;
+    stored->tracks = corrected_->in(frame, std::move(stored->tracks));
     auto shared = std::make_shared<const FrameResult>(std::move(*stored));
     results_.put(frame, shared, bytesOf(*shared));
     return shared;
@@ -75,7 +79,7 @@ std::vector<Trail> StoredFrames::trails(FrameIndex frame) {
         step = {};
     };
     FrameIndex current = -1;
-    std::vector<TrackFrame> states = store_.trackStatesUpTo(run_id_, frame, trail_length_);
+    std::vector<TrackFrame> states = trackStatesUpTo(store_, run_id_, frame, trail_length_, *corrected_);
     const auto doubtful = store_.doubtful().statesUpTo(run_id_, frame, trail_length_);
     const auto kept = static_cast<std::ptrdiff_t>(states.size());
     states.insert(states.end(), doubtful.begin(), doubtful.end());

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "canvas/view_frame.h"
+#include "correction/corrected_tracks.h"
 #include "session/background/lru_cache.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_store.h"
@@ -14,7 +15,9 @@ namespace eyrie::ui {
 /// The frames of one stored run, by an own connection; a few are kept in memory. For one thread. Throws Error.
 class StoredFrames {
  public:
-    StoredFrames(const std::filesystem::path& project, int run_id, int trail_length);
+    /// `corrected`: what people made of the run's tracks; null: they are shown as they are.
+    StoredFrames(const std::filesystem::path& project, int run_id, int trail_length,
+                 std::shared_ptr<const CorrectedTracks> corrected = {});
 
     /// Fills result, scale, trails and, if it has none, time; leaves the frame as it is when the run does not have it.
     void addTo(ViewFrame& frame);
@@ -30,6 +33,7 @@ class StoredFrames {
     RunStore store_;
     int run_id_;
     int trail_length_;
+    std::shared_ptr<const CorrectedTracks> corrected_;  ///< never null
     SceneScale scale_;
     LruCache<FrameIndex, std::shared_ptr<const FrameResult>> results_;
     std::map<FrameIndex, Homography> homographies_;  ///< current from previous, by current frame

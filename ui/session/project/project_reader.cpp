@@ -7,11 +7,13 @@
 
 #include "chain/recording/run_resume.h"
 #include "core/error.h"
+#include "correction/corrected_run.h"
 #include "session/project/project_copy.h"
 #include "session/project/project_location.h"
 #include "store/database/change_watch.h"
 #include "store/labels/annotation_store.h"
 #include "store/project/project_file.h"
+#include "store/review/review_store.h"
 #include "store/runs/doubtful_tracks.h"
 
 namespace eyrie::ui {
@@ -68,13 +70,14 @@ class ProjectReader::Worker {
         });
     }
 
-    void readRun(int run_id) {
-        guarded([this, run_id](RunStore& store) {
+    void readRun(int run_id, bool corrected) {
+        guarded([this, run_id, corrected](RunStore& store) {
             auto data = std::make_shared<RunData>();
             data->record = runOf(store, run_id);
             data->parameters = store.parameters(run_id);
             data->frames = store.frameSummaries(run_id);
-            data->tracks = store.tracks(run_id);
+            readCorrections(store, *data, corrected);
+            data->tracks = trackSummaries(store, run_id, *data->corrected);
             for (TrackSummary& doubtful : store.doubtful().summaries(run_id))
                 data->tracks.push_back(std::move(doubtful));
             std::stable_sort(data->tracks.begin(), data->tracks.end(),
@@ -92,9 +95,9 @@ class ProjectReader::Worker {
         });
     }
 
-    void readTrack(int run_id, TrackId track) {
-        guarded([this, run_id, track](RunStore& store) {
-            std::vector<TrackFrame> states = store.trackStates(run_id, track);
+    void readTrack(int run_id, TrackId track, const CorrectedTracks& corrected) {
+        guarded([this, run_id, track, &corrected](RunStore& store) {
+            std::vector<TrackFrame> states = trackStates(store, run_id, track, corrected);
             if (states.empty()) states = store.doubtful().statesOf(run_id, track);
             tell([this, run_id, track, states = std::move(states)] { emit owner_.trackRead(run_id, track, states); });
         });
@@ -162,6 +165,19 @@ class ProjectReader::Worker {
         }
     }
 
+    void readCorrections(const RunStore& store, RunData& data, bool wanted) {
+        std::map<int, TrackCorrection> corrections;
+        try {
+            corrections = readReview(*project_, data.record.sequence.id).corrections;
+        } catch (const Error&) {
+            return;  // whoever reads the verdicts says so; the run can be shown
+        }
+        data.correctable = !corrections.empty();
+        if (wanted)
+            data.corrected =
+                std::make_shared<const CorrectedTracks>(correctedTracksOf(store, data.record, corrections));
+    }
+
     static RunRecord runOf(const RunStore& store, int run_id) {
         auto record = store.run(run_id);
         if (!record) throw Error(ErrorKind::project, "the project has no run " + std::to_string(run_id));
@@ -223,17 +239,18 @@ void ProjectReader::readListsIfChanged() {
     post([](Worker& worker) { worker.readListsIfChanged(); });
 }
 
-void ProjectReader::readRun(int run_id) {
-    query_.ask([worker = worker_.get(), run_id](const BackgroundTask&) { worker->readRun(run_id); }, {},
-               BackgroundQuery::Former::finish);
+void ProjectReader::readRun(int run_id, bool corrected) {
+    query_.ask(
+        [worker = worker_.get(), run_id, corrected](const BackgroundTask&) { worker->readRun(run_id, corrected); }, {},
+        BackgroundQuery::Former::finish);
 }
 
 void ProjectReader::readFacts(int run_id) {
     post([run_id](Worker& worker) { worker.readFacts(run_id); });
 }
 
-void ProjectReader::readTrack(int run_id, TrackId track) {
-    post([run_id, track](Worker& worker) { worker.readTrack(run_id, track); });
+void ProjectReader::readTrack(int run_id, TrackId track, const std::shared_ptr<const CorrectedTracks>& corrected) {
+    post([run_id, track, corrected](Worker& worker) { worker.readTrack(run_id, track, *corrected); });
 }
 
 void ProjectReader::renameRun(int run_id, const QString& name) {

@@ -44,12 +44,13 @@ class ProjectReader : public QObject {
     void readLists();
     /// The same, but only if somebody changed the project or the runs may have changed their state by themselves.
     void readListsIfChanged();
-    /// Answers with runRead(), or failed() when there is no such run. Of several requests the newest wins.
-    void readRun(int run_id);
+    /// Answers with runRead(), or failed() when there is no such run. Of several requests the newest wins. `corrected`:
+    /// with the tracks as people corrected them.
+    void readRun(int run_id, bool corrected);
     /// How a run ended. Answers with factsRead().
     void readFacts(int run_id);
-    /// Answers with trackRead().
-    void readTrack(int run_id, TrackId track);
+    /// Answers with trackRead(). `corrected` is what is shown of the run.
+    void readTrack(int run_id, TrackId track, const std::shared_ptr<const CorrectedTracks>& corrected);
     /// Answer with read(), after failed() if it could not be done.
     void renameRun(int run_id, const QString& name);
     /// Takes a run out of the lists; until the project is closed it can be brought back.

@@ -29,13 +29,16 @@ QColor originColour(StateOrigin origin, const QPalette& palette) {
         case StateOrigin::standing:
             colour = QColor(0, 114, 178);
             break;
+        case StateOrigin::by_hand:
+            colour = QColor(204, 121, 167);
+            break;
     }
     return isDark(palette) ? colour.lighter(115) : colour;
 }
 
 OriginBar::OriginBar(QWidget* parent) : QWidget(parent) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    setToolTip(tr("The track's life: detected, reconstructed, predicted or standing. Click to go there."));
+    setToolTip(tr("The track's life: detected, reconstructed, predicted, standing or by hand. Click to go there."));
 }
 
 void OriginBar::setStates(const std::vector<TrackFrame>& states) {

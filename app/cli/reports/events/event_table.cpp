@@ -93,4 +93,22 @@ void printLeft(const JudgedEvents& judged, const ReviewSet& review) {
     }
 }
 
+void printCorrections(const CorrectedTracks& corrected, const ReviewSet& review) {
+    if (corrected.states.empty()) return;
+    std::printf("%s:\n", correctionsInWords(corrected).c_str());
+    for (const auto& [id, state] : corrected.states) {
+        const TrackCorrection& correction = review.corrections.at(id);
+        std::string tracks;
+        for (const auto& [track, made] : corrected.tracks) {
+            if (std::find(made.corrections.begin(), made.corrections.end(), id) != made.corrections.end())
+                tracks += (tracks.empty() ? "" : ", ") + std::to_string(track);
+        }
+        const auto covering = corrected.covering.find(id);
+        if (covering != corrected.covering.end()) tracks = std::to_string(covering->second);
+        std::printf("%-17s frame %-7d %-23s %s  %s  %s\n", nameOf(correction.kind), correction.frame,
+                    tracks.empty() ? "" : ("tracks " + tracks).c_str(), nameOf(state), correction.person.c_str(),
+                    correction.when_utc.c_str());
+    }
+}
+
 }  // namespace eyrie::cli

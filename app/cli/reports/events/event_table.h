@@ -20,4 +20,7 @@ void printEvents(const JudgedEvents& judged, const StoredTracks& stored);
 /// The verdicts that could not be carried over, with the reasons; nothing where there are none.
 void printLeft(const JudgedEvents& judged, const ReviewSet& review);
 
+/// What people corrected of the tracks, and what became of it in this run; nothing where they did not.
+void printCorrections(const CorrectedTracks& corrected, const ReviewSet& review);
+
 }  // namespace eyrie::cli

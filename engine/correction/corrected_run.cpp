@@ -1,0 +1,177 @@
+#include "correction/corrected_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "store/review/review_store.h"
+#include "store/runs/box_of_state.h"
+#include "store/runs/class_rule.h"
+
+namespace eyrie {
+namespace {
+
+/// Tracks of the run that lie on any box that a correction holds.
+std::map<TrackId, std::vector<TrackFrame>> tracksMeant(const RunStore& store, const RunRecord& run,
+                                                       const std::map<int, TrackCorrection>& corrections) {
+    constexpr std::size_t kStride = 48;  // of an added track, not every box is asked about
+    std::map<FrameIndex, std::vector<OrientedBox>> places;
+    for (const auto& [id, correction] : corrections) {
+        for (const std::vector<Sighting>* sightings : {&correction.track, &correction.other}) {
+            const std::size_t step = std::max<std::size_t>(1, sightings->size() / kStride);
+            for (std::size_t i = 0; i < sightings->size(); i += step)
+                places[(*sightings)[i].frame].push_back((*sightings)[i].box);
+        }
+    }
+    std::set<TrackId> meant;
+    for (const auto& [frame, boxes] : places) {
+        for (const TrackFrame& each : store.trackStatesUpTo(run.id, frame, 1)) {
+            const bool near = std::any_of(boxes.begin(), boxes.end(), [&](const OrientedBox& box) {
+                return likenessOf(box, each.state.box).has_value();
+            });
+            if (near) meant.insert(each.state.id);
+        }
+    }
+    std::map<TrackId, std::vector<TrackFrame>> tracks;
+    for (const TrackId id : meant) tracks[id] = store.trackStates(run.id, id);
+    return tracks;
+}
+
+TrackSummary summaryOf(TrackId id, const CorrectedTrack& track, const ClassRule& rule) {
+    TrackSummary summary;
+    summary.id = id;
+    summary.first_frame = track.states.front().frame;
+    summary.last_frame = track.states.back().frame;
+    summary.frames = static_cast<int>(track.states.size());
+    summary.confirmed = true;
+    summary.corrected = track.kind;
+    for (const TrackFrame& each : track.states) {
+        summary.mean_speed_px += std::hypot(each.state.velocity.x, each.state.velocity.y) / summary.frames;
+        summary.mean_length_px += each.state.box.length / summary.frames;
+        summary.mean_width_px += each.state.box.width / summary.frames;
+        summary.place += each.state.box.centre * (1.0 / summary.frames);
+    }
+    summary.score = track.states.back().state.score;
+    summary.track_class = rule.of(summary);
+    return summary;
+}
+
+/// Hands out the states of the run frame by frame, with what corrections make of them.
+class MergedFrames {
+ public:
+    MergedFrames(const CorrectedTracks& corrected, const RunStore::StateVisitor& visitor)
+        : corrected_(corrected), visitor_(visitor) {
+        for (const auto& [id, track] : corrected.tracks)
+            for (const TrackFrame& each : track.states) frames_.insert(each.frame);
+    }
+    void add(FrameIndex frame, const TrackState& state) {
+        if (frame != frame_) flush(frame);
+        frame_ = frame;
+        states_.push_back(state);
+    }
+    void finish() {
+        flush(-1);
+        for (const FrameIndex frame : std::exchange(frames_, {})) hand(frame, {});
+    }
+
+ private:
+    /// Hands over the frame gathered, and those without a state of the run before `next`.
+    void flush(FrameIndex next) {
+        while (frame_ >= 0 && !frames_.empty() && *frames_.begin() < frame_) handFirst();
+        if (frame_ >= 0) {
+            frames_.erase(frame_);
+            hand(frame_, std::exchange(states_, {}));
+        }
+        while (next >= 0 && !frames_.empty() && *frames_.begin() < next) handFirst();
+        frame_ = -1;
+    }
+    void handFirst() {
+        const FrameIndex frame = *frames_.begin();
+        frames_.erase(frames_.begin());
+        hand(frame, {});
+    }
+    void hand(FrameIndex frame, std::vector<TrackState> states) {
+        for (const TrackState& state : corrected_.in(frame, std::move(states))) visitor_(frame, state);
+    }
+
+    const CorrectedTracks& corrected_;
+    const RunStore::StateVisitor& visitor_;
+    std::set<FrameIndex> frames_;  ///< of corrected tracks, not handed over yet
+    FrameIndex frame_ = -1;
+    std::vector<TrackState> states_;
+};
+
+}  // namespace
+
+CorrectedTracks correctedTracksOf(const RunStore& store, const RunRecord& run,
+                                  const std::map<int, TrackCorrection>& corrections) {
+    if (corrections.empty() || run.live || run.frames_done == 0) return {};
+    TracksToCorrect work;
+    work.tracks = tracksMeant(store, run, corrections);
+    work.first_frame = run.first_frame;
+    work.last_frame = run.first_frame + run.frames_done - 1;
+    work.frame_rate_hz = run.scale.frame_rate_hz;
+    work.last_id = store.lastTrackId(run.id);
+    return correctTracks(work, corrections, CameraMotion::fromRegistrations(store.registrations(run.id)));
+}
+
+CorrectedTracks readCorrectedTracks(ProjectFile& project, const RunRecord& run) {
+    return correctedTracksOf(RunStore(project), run, readReview(project, run.sequence.id).corrections);
+}
+
+std::vector<TrackSummary> trackSummaries(const RunStore& store, int run_id, const CorrectedTracks& corrected) {
+    std::vector<TrackSummary> summaries = store.tracks(run_id);
+    if (corrected.empty()) return summaries;
+    std::erase_if(summaries, [&](const TrackSummary& each) { return corrected.replaced.contains(each.id); });
+    const ClassRule rule = classRuleOf(store, run_id);
+    for (const auto& [id, track] : corrected.tracks) summaries.push_back(summaryOf(id, track, rule));
+    std::sort(summaries.begin(), summaries.end(),
+              [](const TrackSummary& a, const TrackSummary& b) { return a.id < b.id; });
+    return summaries;
+}
+
+std::vector<TrackFrame> trackStates(const RunStore& store, int run_id, TrackId track,
+                                    const CorrectedTracks& corrected) {
+    if (const CorrectedTrack* known = corrected.track(track)) return known->states;
+    if (corrected.replaced.contains(track)) return {};
+    return store.trackStates(run_id, track);
+}
+
+std::vector<TrackFrame> trackStatesUpTo(const RunStore& store, int run_id, FrameIndex frame, int trail,
+                                        const CorrectedTracks& corrected) {
+    std::vector<TrackFrame> states = store.trackStatesUpTo(run_id, frame, trail);
+    if (corrected.empty()) return states;
+    std::erase_if(states, [&](const TrackFrame& each) { return corrected.replaced.contains(each.state.id); });
+    for (const auto& [id, track] : corrected.tracks) {
+        for (const TrackFrame& each : track.states)
+            if (each.frame <= frame && each.frame > frame - trail) states.push_back(each);
+    }
+    std::sort(states.begin(), states.end(), [](const TrackFrame& a, const TrackFrame& b) {
+        return std::pair(a.frame, a.state.id) < std::pair(b.frame, b.state.id);
+    });
+    return states;
+}
+
+void visitTrackStates(const RunStore& store, int run_id, const CorrectedTracks& corrected,
+                      const RunStore::StateVisitor& visitor) {
+    if (corrected.empty()) return store.visitTrackStates(run_id, visitor);
+    MergedFrames frames(corrected, visitor);
+    store.visitTrackStates(run_id, [&](FrameIndex frame, const TrackState& state) { frames.add(frame, state); });
+    frames.finish();
+}
+
+void visitTrackBoxes(const RunStore& store, int run_id, const CorrectedTracks& corrected, const BoxVisitor& visitor) {
+    if (corrected.empty()) return store.visitTrackBoxes(run_id, visitor);
+    std::map<TrackId, const char*> classes;  // of what is part of the result
+    for (const TrackSummary& track : trackSummaries(store, run_id, corrected))
+        if (track.confirmed) classes[track.id] = wordOf(track.track_class);
+    visitTrackStates(store, run_id, corrected, [&](FrameIndex frame, const TrackState& state) {
+        const auto known = classes.find(state.id);
+        if (known == classes.end()) return;
+        BoxRecord record = boxOf(frame, state);
+        record.object_class = known->second;
+        visitor(frame, record);
+    });
+}
+
+}  // namespace eyrie

@@ -1,0 +1,143 @@
+#include "correction/corrected_run.h"
+
+#include <gmock/gmock.h>
+
+#include "correction/driven_states.h"
+#include "store/review/review_store.h"
+#include "support/run_rows.h"
+#include "support/temporary_folder.h"
+#include "support/written_run.h"
+
+namespace eyrie {
+namespace {
+
+using test::drivenSightings;
+using test::drivenStates;
+using testing::ElementsAre;
+
+constexpr int kFrames = 60;
+
+/// Tracks 3 and 7 are of one vehicle; 9 stays what it is; one that has no track drives at y = 20.
+class CorrectedRun : public testing::Test {
+ protected:
+    void SetUp() override {
+        const std::vector<std::vector<TrackFrame>> tracks{early_, late_, drivenStates(9, 0, 59, 10, 90)};
+        run_ = test::writeRun(path_, kFrames, [&](int frame, FrameResult& result) {
+            for (const auto& states : tracks)
+                for (const TrackFrame& each : states)
+                    if (each.frame == frame) result.tracks.push_back(each.state);
+        });
+        project_.emplace(ProjectFile::open(path_));
+    }
+    void correct(TrackCorrection correction) {
+        ReviewStore store(*project_, run_.sequence.id);
+        correction.id = store.newCorrectionId();
+        ReviewEdit edit{"Correct", {}, {}};
+        edit.corrections.push_back({std::nullopt, std::move(correction)});
+        store.apply(edit);
+    }
+
+    const std::vector<TrackFrame> early_ = drivenStates(3, 0, 20, 10), late_ = drivenStates(7, 25, 50, 10);
+    test::TemporaryFolder folder_;
+    std::filesystem::path path_ = folder_ / "clip.eyrie";
+    RunRecord run_;
+    std::optional<ProjectFile> project_;
+};
+
+TEST_F(CorrectedRun, IsReadAlikeInEveryWay) {
+    const RunStore store(*project_);
+    EXPECT_TRUE(readCorrectedTracks(*project_, run_).empty());
+    correct(joinOf(early_, late_));
+    correct(additionOf(drivenSightings(5, 58, 10, 20), 30));
+    const CorrectedTracks corrected = readCorrectedTracks(*project_, run_);
+    EXPECT_EQ(corrected.states.at(1), CorrectionState::applied);
+    EXPECT_EQ(corrected.states.at(2), CorrectionState::applied);
+    EXPECT_EQ(correctionsInWords(corrected), "tracks as people corrected them: 1 track added, 1 join");
+
+    std::map<TrackId, std::vector<FrameIndex>> visited;
+    std::pair<FrameIndex, TrackId> before{-1, 0};
+    visitTrackStates(store, run_.id, corrected, [&](FrameIndex frame, const TrackState& state) {
+        EXPECT_LT(before, std::pair(frame, state.id)) << "ordered by frame, then track";
+        before = {frame, state.id};
+        visited[state.id].push_back(frame);
+    });
+    ASSERT_EQ(visited.size(), 3U);
+    EXPECT_EQ(visited[3].size(), 51U);
+    EXPECT_EQ(visited[9].size(), 60U);
+    const TrackId added = 11;  // 9 is the highest of the run, 2 the number of the correction
+    EXPECT_EQ(visited[added].size(), 54U);
+
+    const std::vector<TrackSummary> summaries = trackSummaries(store, run_.id, corrected);
+    ASSERT_EQ(summaries.size(), 3U);
+    for (const TrackSummary& track : summaries) {
+        const std::vector<TrackFrame> states = trackStates(store, run_.id, track.id, corrected);
+        EXPECT_EQ(states.size(), visited[track.id].size());
+        EXPECT_EQ(track.first_frame, states.front().frame);
+        EXPECT_EQ(track.last_frame, states.back().frame);
+        EXPECT_EQ(track.frames, static_cast<int>(states.size()));
+        EXPECT_NEAR(track.mean_speed_px, 2, 1e-4);
+        EXPECT_NEAR(track.mean_length_px, 10, 1e-4);
+    }
+    EXPECT_EQ(summaries[0].corrected, CorrectionKind::join);
+    EXPECT_EQ(summaries[1].corrected, std::nullopt);
+    EXPECT_EQ(summaries[2].corrected, CorrectionKind::add);
+    EXPECT_TRUE(trackStates(store, run_.id, 7, corrected).empty()) << "it is a part of 3 now";
+
+    const auto trails = trackStatesUpTo(store, run_.id, 30, 10, corrected);
+    EXPECT_EQ(trails.size(), 30U);
+    EXPECT_EQ(trails.front().frame, 21);
+
+    std::map<std::string, int> origins;
+    visitTrackBoxes(store, run_.id, corrected, [&](FrameIndex frame, const BoxRecord& box) {
+        EXPECT_EQ(box.frame, frame);
+        ++origins[box.origin];
+    });
+    EXPECT_EQ(origins["by hand"], 54);
+    EXPECT_EQ(origins["predicted"], 4);
+    EXPECT_EQ(origins["detected"], 21 + 26 + 60);
+}
+
+TEST_F(CorrectedRun, TheRunItselfIsNeverTouched) {
+    const auto rows = test::rowsOf(path_, run_.id);
+    correct(joinOf(early_, late_));
+    correct(splitOf(drivenStates(9, 0, 59, 10, 90), 30));
+    EXPECT_FALSE(readCorrectedTracks(*project_, run_).empty());
+    EXPECT_EQ(test::rowsOf(path_, run_.id), rows);
+    EXPECT_EQ(RunStore(*project_).trackStates(run_.id, 7).size(), 26U);
+}
+
+TEST_F(CorrectedRun, WhatATrackOfOtherFramesIsAddedToIsThereToo) {
+    // Frames in which the run has no state at all still tell those of people.
+    correct(additionOf(drivenSightings(55, 58, 10, 20), 56));
+    const CorrectedTracks corrected = readCorrectedTracks(*project_, run_);
+    std::vector<FrameIndex> frames;
+    visitTrackStates(RunStore(*project_), run_.id, corrected, [&](FrameIndex frame, const TrackState& state) {
+        if (state.origin == StateOrigin::by_hand) frames.push_back(frame);
+    });
+    EXPECT_THAT(frames, ElementsAre(55, 56, 57, 58));
+}
+
+TEST_F(CorrectedRun, ANewRunOfTheVideoCarriesThemOver) {
+    correct(joinOf(early_, late_));
+    correct(additionOf(drivenSightings(5, 58, 10, 20), 30));
+    const auto found_now = drivenStates(1, 3, 59, 10, 20);
+    const RunRecord second = test::writeRun(path_, kFrames, [&](int frame, FrameResult& result) {
+        for (const auto& states : {found_now, drivenStates(2, 0, 20, 10), drivenStates(4, 24, 50, 11)})
+            for (const TrackFrame& each : states)
+                if (each.frame == frame) result.tracks.push_back(each.state);
+    });
+    const CorrectedTracks corrected = readCorrectedTracks(*project_, second);
+    EXPECT_EQ(corrected.states.at(1), CorrectionState::applied);
+    EXPECT_THAT(corrected.replaced, ElementsAre(2, 4));
+    EXPECT_EQ(corrected.states.at(2), CorrectionState::covered);
+    EXPECT_EQ(corrected.covering.at(2), 1);
+    const RunRecord third = test::writeRun(path_, kFrames, [](int, FrameResult&) {});
+    const CorrectedTracks left = readCorrectedTracks(*project_, third);
+    EXPECT_EQ(left.states.at(1), CorrectionState::no_track);
+    EXPECT_EQ(left.states.at(2), CorrectionState::applied);
+    EXPECT_EQ(correctionsInWords(left),
+              "tracks as people corrected them: 1 track added; 1 correction could not be carried over");
+}
+
+}  // namespace
+}  // namespace eyrie

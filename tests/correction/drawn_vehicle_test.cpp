@@ -1,0 +1,120 @@
+#include "correction/drawn_vehicle.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/geometry/angle.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kFrames = 60;
+constexpr double kPi = std::numbers::pi;
+
+/// A textured car of 22 × 10 px drives steeply down over a textured ground, in the frames 5 to 54.
+class DrivenPicture {
+ public:
+    static OrientedBox truth(FrameIndex frame) {
+        const double heading = 1.2;
+        const double way = 2.5 * (frame - 5);
+        return {{110 + way * std::cos(heading), 30 + way * std::sin(heading)}, 22, 10, heading};
+    }
+    cv::Mat operator()(FrameIndex frame) const {
+        if (frame < 0 || frame >= kFrames) return {};
+        cv::Mat picture = ground_.clone();
+        if (frame < 5 || frame > 54) return picture;
+        const OrientedBox box = truth(frame);
+        const cv::Point2d d = box.direction(), corner = box.toImage({-11, -5});
+        const cv::Matx23d place(d.x, -d.y, corner.x, d.y, d.x, corner.y);
+        cv::warpAffine(car_, picture, place, picture.size(), cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
+        return picture;
+    }
+
+ private:
+    static cv::Mat noise(cv::Size size, int seed, double blur, double low, double high) {
+        cv::Mat picture(size, CV_8UC1);
+        cv::RNG dice(static_cast<std::uint64_t>(seed));
+        dice.fill(picture, cv::RNG::UNIFORM, 0, 256);
+        cv::GaussianBlur(picture, picture, {}, blur);
+        cv::normalize(picture, picture, low, high, cv::NORM_MINMAX);
+        return picture;
+    }
+    cv::Mat ground_ = noise({240, 200}, 1, 2.5, 60, 140);
+    cv::Mat car_ = noise({23, 11}, 2, 1.2, 20, 250);
+};
+
+OrientedBox drawnIn(FrameIndex frame) {
+    return DrivenPicture::truth(frame).upright();
+}
+
+const CameraMotion kStill = CameraMotion::standing(0, kFrames - 1);
+
+TEST(DrawnVehicle, IsFollowedBothWaysAndTurnedIntoItsMotion) {
+    int told = 0;
+    const DrawnVehicle vehicle =
+        followBothWays(drawnIn(30), 30, 0, kFrames - 1, DrivenPicture(), kStill, [&](FrameIndex) { ++told; });
+    ASSERT_TRUE(areSightings(vehicle.sightings));
+    EXPECT_LE(vehicle.sightings.front().frame, 7) << vehicle.ended_before;
+    EXPECT_GE(vehicle.sightings.front().frame, 4) << "before that it was not there";
+    EXPECT_GE(vehicle.sightings.back().frame, 52) << vehicle.ended_after;
+    EXPECT_LE(vehicle.sightings.back().frame, 56);
+    EXPECT_EQ(told, static_cast<int>(vehicle.sightings.size()) - 1);
+    for (const Sighting& each : vehicle.sightings) {
+        if (each.frame < 5 || each.frame > 54) continue;
+        const OrientedBox truth = DrivenPicture::truth(each.frame);
+        EXPECT_GT(overlap(each.box, truth), 0.5) << each.frame;
+        EXPECT_LT(std::abs(turnBetween(each.box.heading, truth.heading)), 0.2) << each.frame;
+    }
+}
+
+TEST(DrawnVehicle, WhatWasFollowedIsKeptWhenItIsStopped) {
+    std::stop_source stop;
+    const DrawnVehicle vehicle = followBothWays(
+        drawnIn(30), 30, 0, kFrames - 1, DrivenPicture(), kStill,
+        [&](FrameIndex frame) { frame == 40 ? stop.request_stop() : false; }, stop.get_token());
+    ASSERT_EQ(vehicle.sightings.size(), 11U);
+    EXPECT_EQ(vehicle.sightings.front().frame, 30);
+    EXPECT_EQ(vehicle.sightings.back().frame, 40);
+    EXPECT_THAT(vehicle.ended_after, testing::HasSubstr("by hand"));
+}
+
+TEST(DrawnVehicle, AtTheEndsOfTheRunThereIsOneWayOnly) {
+    const DrawnVehicle vehicle = followBothWays(drawnIn(30), 30, 30, 33, DrivenPicture(), kStill);
+    ASSERT_EQ(vehicle.sightings.size(), 4U);
+    EXPECT_EQ(vehicle.sightings.front().frame, 30);
+    EXPECT_THROW(followBothWays({{50, 50}, 1, 1, 0}, 30, 0, 33, DrivenPicture(), kStill), Error);
+}
+
+TEST(TurnedIntoMotion, AVehicleThatDrivesDownThePictureIsLongDownwards) {
+    std::vector<Sighting> seen;
+    for (int frame = 0; frame < 30; ++frame) seen.push_back({frame, {{50, 20 + 2.0 * frame}, 10, 24, 0}});
+    for (const Sighting& each : turnedIntoMotion(seen, kStill)) {
+        EXPECT_NEAR(each.box.heading, kPi / 2, 1e-9);
+        EXPECT_NEAR(each.box.length, 24, 1e-9);
+        EXPECT_NEAR(each.box.width, 10, 1e-9);
+    }
+}
+
+TEST(TurnedIntoMotion, OnTheDiagonalTheUsualShapeIsTaken) {
+    std::vector<Sighting> seen;
+    for (int frame = 0; frame < 30; ++frame) seen.push_back({frame, {{50 - 2.0 * frame, 20 + 2.0 * frame}, 20, 20, 0}});
+    for (const Sighting& each : turnedIntoMotion(seen, kStill)) {
+        EXPECT_NEAR(each.box.heading, 3 * kPi / 4, 1e-9);
+        EXPECT_NEAR(each.box.length / each.box.width, 2.2, 1e-6);
+        EXPECT_NEAR(each.box.upright().length, 20, 1e-6);
+    }
+}
+
+TEST(TurnedIntoMotion, WhatStandsOrIsNotConnectedStaysAsItWasDrawn) {
+    std::vector<Sighting> seen;
+    for (int frame = 0; frame < 30; ++frame) seen.push_back({frame, {{50.0 + (frame % 2), 20}, 12, 24, 0}});
+    EXPECT_EQ(turnedIntoMotion(seen, kStill), seen);
+    for (Sighting& each : seen) each.box.centre.x = 3.0 * each.frame;
+    EXPECT_EQ(turnedIntoMotion(seen, CameraMotion()), seen);
+}
+
+}  // namespace
+}  // namespace eyrie

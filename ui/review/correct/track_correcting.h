@@ -1,0 +1,76 @@
+#pragma once
+
+#include <QObject>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+#include "correction/corrected_tracks.h"
+#include "session/background/background_query.h"
+
+namespace eyrie::ui {
+
+class EventReview;
+class MessageBar;
+class ProjectSession;
+class VehicleBoxTool;
+class VideoView;
+class WindowActions;
+
+/// What correcting works on. All must outlive it.
+struct CorrectingParts {
+    ProjectSession& session;
+    VideoView& canvas;
+    WindowActions& actions;
+    MessageBar& messages;
+    EventReview& review;
+};
+
+/// Tracks added, joined and split by hand. What is asked for is tried on the run that is shown, in the background, and
+/// kept if something comes of it; it can be undone as verdicts are.
+class TrackCorrecting : public QObject {
+    Q_OBJECT
+
+ public:
+    explicit TrackCorrecting(const CorrectingParts& parts, QObject* parent = nullptr);
+    ~TrackCorrecting() override;
+
+    /// Whether keys are wanted: labelling has others.
+    void setActive(bool active);
+    /// To be called when verdicts were read or changed.
+    void enableActions();
+    /// Whether something is tried or followed now.
+    bool working() const { return working_; }
+
+ private:
+    struct Tried;
+    struct Trial;
+    /// What is to be tried, made in the background from the tracks as they are shown.
+    using Make = std::function<TrackCorrection(const Trial&)>;
+    using Kept = std::function<void(int id, const Tried&)>;
+
+    void startDrawing(bool wanted);
+    void follow(const OrientedBox& box);
+    void startJoin(bool wanted);
+    void endJoin();
+    void joinWithSelected();
+    void split();
+    void removeLast();
+    void attempt(const QString& step, const Make& make, const Kept& kept);
+    void finish(const QString& step, const Tried& tried, const Kept& kept);
+    void tellRefused(const Tried& tried);
+    void tell(const QString& text);
+    void warn(const QString& text);
+    void showFollowing(FrameIndex frame);
+
+    CorrectingParts parts_;
+    VehicleBoxTool* tool_;
+    bool active_ = true;
+    bool working_ = false;
+    std::optional<TrackId> join_with_;  ///< waits for the other one to be selected
+    std::stop_source following_;
+    BackgroundQuery query_;  ///< last: stops before the rest goes
+};
+
+}  // namespace eyrie::ui
