@@ -1,4 +1,5 @@
-// At what scale something that moves looks like a vehicle: the drawn one is 40 × 16 px and, as the options say, 4.4 × 1.76 m.
+// At what scale something that moves looks like a vehicle: the drawn one is 40 × 16 px and, as the options say, 4.4
+// × 1.76 m.
 #include "detection/sliding_window/scale_votes.h"
 
 #include <gtest/gtest.h>
