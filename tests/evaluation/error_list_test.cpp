@@ -216,6 +216,28 @@ TEST(ErrorList, trackEvalEndsARunWithTheObjectsAbsence) {
     EXPECT_THAT(ofKind(listOf(truth, result), ResultErrorKind::fragment), IsEmpty());
 }
 
+TEST(ErrorList, aMergeIsToldBesideABoxThatMergesNothing) {
+    // The first two objects have boxes of their own, so that the wide one over them is a false alarm; over the other
+    // two lies nothing else.
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(0, 2, 72), car(0, 3, 250), car(0, 4, 272)});
+    const auto merges =
+        ofKind(listOf(truth, boxes({part(0, 7, 61, 42), car(0, 8, 50), car(0, 9, 72), part(0, 10, 261, 42)})),
+               ResultErrorKind::merge);
+    ASSERT_EQ(merges.size(), 1U);
+    EXPECT_THAT(merges[0].tracks, ElementsAre(10));
+}
+
+TEST(ErrorList, whatIsLostInFramesWithoutAnyResultIsLostFromTheFirstOfThem) {
+    EvaluationOptions options;
+    options.convention = Convention::trackeval;
+    // Frames 1 and 2 have no result at all, which trackeval passes over; frame 3 has one elsewhere.
+    const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50), car(4, 1, 50)});
+    const BoxesByFrame result = boxes({car(0, 7, 50), car(3, 8, 300), car(4, 7, 50)});
+    const auto fragments = ofKind(listOf(truth, result, options), ResultErrorKind::fragment);
+    ASSERT_EQ(fragments.size(), 1U);
+    EXPECT_EQ(fragments[0].first_frame, 1);
+}
+
 TEST(ErrorList, isOrderedByTime) {
     const BoxesByFrame truth = boxes({car(0, 1, 50), car(1, 1, 50), car(2, 1, 50), car(3, 1, 50)});
     const auto errors =

@@ -78,6 +78,22 @@ TEST(MethodDifference, SwitchesBelongToTheirObjectAndFalseBoxesToTheirTime) {
     EXPECT_NEAR(difference.mota->value, 5.0 / 200, 1e-12);
 }
 
+TEST(MethodDifference, FramesWithoutTruthOrWithoutHitsCountToo) {
+    BoxesByFrame boxes = truth();
+    boxes[3].clear();
+    const PairedTallies tallies = tallied(boxes);
+    for (std::size_t unit = 0; unit < 10; ++unit) {
+        EXPECT_EQ(tallies.units[unit].missed, 1) << unit;
+        EXPECT_EQ(tallies.units[unit].matched, 19) << unit;
+    }
+    // A frame that the truth does not name, of which all is false.
+    FrameMatch beyond;
+    beyond.frame = 12;
+    beyond.false_results = {0, 1};
+    const PairedTallies false_only = pairedTallies(truth(), {beyond}, nullptr, {0, 100}, 5);
+    EXPECT_EQ(false_only.units[10 + 12 / 5].false_positives, 2);
+}
+
 TEST(MethodDifference, OfEqualResultsIsExactlyZero) {
     const PairedTallies tallies = tallied(result(2, 1));
     const MethodDifference difference = methodDifference(tallies, tallies);

@@ -350,6 +350,22 @@ TEST(ContourReference, ASegmentsBorderIsAsStrongAsTheMeanAlongIt) {
     EXPECT_EQ(hierarchy.segmentsAt(mean + 1e-3).at<int>(3, 8), 0);
 }
 
+TEST(ContourReference, ABorderTakesTheStrengthOfItsOwnDirection) {
+    // Two pixels down for each across, 63 degrees: of the eight directions 67.5 is the nearest; downwards the one way
+    // or the other.
+    for (const bool leans : {false, true}) {
+        for (int direction = 0; direction < 8; ++direction) {
+            DirectedPictures contours = empty({30, 24});
+            for (int y = 0; y < 24; ++y)
+                contours[std::size_t(direction)].at<float>(y, leans ? 21 - y / 2 : 9 + y / 2) = 1;
+            double strongest = 0;
+            cv::minMaxLoc(ContourHierarchy(contours).contourMap(), nullptr, &strongest);
+            const bool its_own = direction == (leans ? 5 : 3);
+            EXPECT_EQ(strongest > 0.6, its_own) << direction << ", " << leans << ": " << strongest;
+        }
+    }
+}
+
 TEST(ContourReference, JoinedBordersAddUp) {
     // Three basins side by side of a 15 × 6 picture, the lower half of the right one apart: strengths 1, 3 and 2.
     DirectedPictures contours = empty({15, 6});

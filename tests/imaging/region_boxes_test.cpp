@@ -69,6 +69,9 @@ TEST(BoxWithin, IsTheBoxOfTheRegionsOwnPixels) {
     EXPECT_EQ(boxWithin(labels, regions[0], {2, 3, 6, 4}), cv::Rect(4, 3, 3, 4));
     EXPECT_TRUE(boxWithin(labels, regions[0], {7, 0, 2, 2}).empty());
     EXPECT_TRUE(boxWithin(labels, regions[0], {-9, -9, 2, 2}).empty());
+    EXPECT_EQ(boxWithin(labels, regions[0], {4, 1, 3, 3}), cv::Rect(4, 1, 1, 3)) << "of its first column alone";
+    EXPECT_EQ(boxWithin(labels, regions[0], {5, 5, 2, 1}), cv::Rect(5, 5, 2, 1));
+    EXPECT_EQ(boxWithin(labels, regions[0], {6, 4, 4, 3}), cv::Rect(6, 5, 1, 1)) << "of one pixel";
 }
 
 TEST(FindRegions, TakesEmptyAndSinglePixels) {

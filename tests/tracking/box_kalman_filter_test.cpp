@@ -90,6 +90,18 @@ struct TextbookFilter {
 
 }  // namespace
 
+TEST(BoxKalmanFilter, ItsPlaceIsAsUncertainAsMeasuredInEveryDirection) {
+    // .8 px along the heading, .5 px across it.
+    for (const double heading : {0.0, 0.6, 2.0, -1.2}) {
+        const BoxKalmanFilter filter(measured({{100, 50}, 20, 10, heading}));
+        const cv::Point2d ahead(std::cos(heading), std::sin(heading));
+        EXPECT_NEAR(filter.positionDeviation(ahead), 0.8, 1e-9) << heading;
+        EXPECT_NEAR(filter.positionDeviation({-ahead.y, ahead.x}), 0.5, 1e-9) << heading;
+        const cv::Point2d between = (ahead + cv::Point2d(-ahead.y, ahead.x)) / std::sqrt(2);
+        EXPECT_NEAR(filter.positionDeviation(between), std::sqrt((0.64 + 0.25) / 2), 1e-9) << heading;
+    }
+}
+
 TEST(BoxKalmanFilter, agreesWithTheTextbook) {
     std::mt19937 random(3);
     std::normal_distribution<double> noise(0, 1);

@@ -138,7 +138,12 @@ TEST(Tracker, rejectedAndBrokenDetectionsAreIgnored) {
         detections.push_back({{{nan, 300}, 20, 10, 0}, 1, {1, 0}, 0, {}, Rejection::none});
         detections.push_back({{{300, 300}, 0, 10, 0}, 1, {1, 0}, 0, {}, Rejection::none});
         detections.push_back({{{300, 300}, 20, 10, nan}, 1, {1, 0}, 0, {}, Rejection::none});
+        detections.push_back({{{300, nan}, 20, 10, 0}, 1, {1, 0}, 0, {}, Rejection::none});
+        detections.push_back({{{300, 300}, nan, 10, 0}, 1, {1, 0}, 0, {}, Rejection::none});
+        detections.push_back({{{300, 300}, 20, nan, 0}, 1, {1, 0}, 0, {}, Rejection::none});
+        detections.push_back({{{300, 300}, 20, 0, 0}, 1, {1, 0}, 0, {}, Rejection::none});
         detections.push_back({{{300, 300}, 20, 10, 0}, 1, {nan, 0}, 0, {}, Rejection::none});
+        detections.push_back({{{300, 300}, 20, 10, 0}, 1, {1, nan}, 0, {}, Rejection::none});
         FrameMotion motion = scene.motion(frame);
         motion.motion_vectors.push_back({5000, {float(nan), 3}, {1, 1}, 9});
         if (frame == 5) motion.registration.current_from_previous.matrix = cv::Matx33d::all(nan);

@@ -56,6 +56,10 @@ TEST(DropSharers, TheOneDetectedLessOftenGivesWayWhereTheyShareMoreThanIsAllowed
     other.wobble = [](int frame) { return cv::Point2d(0.2 * (frame - 19.5), frame < 40 ? 0 : 40); };
     car.count = 40;
     expectLeft(90, car, other);
+    for (const int count : {81, 79, 66}) {  // of a life that is shared for 40 frames
+        other.count = count;
+        expectLeft(count == 81 ? 41 : 0, car, other);
+    }
 }
 
 TEST(DropSharers, NeedFiveFramesAndThreeTenthsOfTheShorterLife) {
