@@ -60,8 +60,13 @@ TEST(ComponentBoxes, AKerbKeepsOnlyItsPartNearTheVectors) {
     options.core_margin_m = 0.5;
     const auto boxes = scene.select(options);
     ASSERT_EQ(boxes.size(), 1U);
-    EXPECT_NEAR(boxes[0].height, 38, 2);  // vectors 41 … 69 and 5 px on either side
-    EXPECT_NEAR(boxes[0].width, 16, 1);
+    EXPECT_EQ(boxes[0], cv::Rect2d(19.5, 35.5, 16, 39));  // vectors 41 … 69 and 5 px on either side
+    // One that crosses from side to side: vectors 21 … 34, and 5 px.
+    scene.binary(cv::Rect(34, 0, 2, 120)).setTo(0);
+    scene.binary(cv::Rect(0, 50, 60, 2)).setTo(255);
+    ASSERT_EQ(scene.select(options).size(), 1U);
+    EXPECT_EQ(scene.select(options)[0].x, 15.5);
+    EXPECT_EQ(scene.select(options)[0].width, 24);
 }
 
 TEST(ComponentBoxes, JoinsFrontAndRearOfOneVehicleButNotTwoVehicles) {

@@ -13,6 +13,7 @@
 #include "detection/sliding_window/sliding_window_detector.h"
 #include "detection/sliding_window/window_hypotheses.h"
 #include "detection/trained_window_model.h"
+#include "imaging/upright_patch.h"
 #include "learning/classifiers/gentle_adaboost.h"
 
 namespace eyrie {
@@ -160,6 +161,23 @@ TEST(ScanAtScale, BoxesLieAroundTheMiddleOfTheirWindows) {
     }
 }
 
+TEST(ScanAtScale, WhatIsShrunkInOneDirectionIsAveraged) {
+    // Across nothing is scaled, along two pixels become one.
+    SlidingWindowOptions options = drivenSceneWindow();
+    options.car_length_m = 21.5 * kContractScale.gsd_m_per_px;
+    options.car_width_m = 10 * kContractScale.gsd_m_per_px;
+    options.rejection_margin = SlidingWindowOptions::kNoRejection;
+    const WindowScanner scanner(loadModel(test::drivenSceneModel()));
+    const cv::Mat area = roiOf(drivenScene(0.5)).image.rowRange(0, 80);
+    cv::Mat shrunk, of_area, of_shrunk;
+    cv::resize(area, shrunk, {area.cols, 40}, 0, 0, cv::INTER_AREA);
+    scanAtScale(scanner, area, 2, options, kContractScale, of_area);
+    scanAtScale(scanner, shrunk, 1, options, kContractScale, of_shrunk);
+    ASSERT_FALSE(of_shrunk.empty());
+    ASSERT_EQ(of_area.size(), of_shrunk.size());
+    EXPECT_EQ(cv::norm(of_area, of_shrunk, cv::NORM_INF), 0);
+}
+
 TEST(SlidingWindow, ScoresAreDecisionValuesAndTheThresholdHolds) {
     SlidingWindowOptions options = drivenSceneWindow();
     const MotionRoi roi = roiOf(drivenScene(0.5));
@@ -202,6 +220,19 @@ TEST(SlidingWindow, WithoutVectorsInsideAWindowIsDropped) {
     EXPECT_FALSE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty());
     roi.inside = cv::Mat::zeros(roi.image.size(), CV_8UC1);
     EXPECT_TRUE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty()) << "beyond the video";
+}
+
+TEST(SlidingWindow, TheMiddleOfAWindowMustLieInTheVideo) {
+    MotionRoi roi = roiOf(drivenScene(0.5));
+    const auto detector = makeSlidingWindowDetector(drivenSceneWindow(), kContractScale, 0.5);
+    const auto best = detector->detect(roi).at(0);
+    const cv::Point middle(toPatch(roi.image_from_roi, best.box.centre));
+    roi.inside = cv::Scalar(0);
+    cv::circle(roi.inside, middle, 3, 255, cv::FILLED);
+    ASSERT_FALSE(detector->detect(roi).empty());
+    EXPECT_EQ(detector->detect(roi)[0].box.centre, best.box.centre);
+    roi.inside = 255 - roi.inside;
+    for (const Detection& other : detector->detect(roi)) EXPECT_GT(cv::norm(other.box.centre - best.box.centre), 2);
 }
 
 TEST(SlidingWindow, TheGlobalOneFindsTheVehicleWithoutMotion) {
