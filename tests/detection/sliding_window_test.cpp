@@ -248,6 +248,26 @@ TEST(SlidingWindow, TheGlobalOneFindsTheVehicleWithoutMotion) {
     }
 }
 
+TEST(SlidingWindow, TheGlobalOnePlacesItsBoxesToTheFractionOfAPixel) {
+    // One direction, downwards: the picture turned upside down, and its windows turned back.
+    const cv::Mat picture = drivenScene(kPi / 2).frame.gray;
+    SlidingWindowOptions options = drivenSceneWindow();
+    options.smallest_scale = options.largest_scale = 1;
+    options.rejection_margin = SlidingWindowOptions::kNoRejection;
+    const WindowScanner scanner(loadModel(test::drivenSceneModel()));
+    cv::Mat turned, decision;
+    cv::rotate(picture, turned, cv::ROTATE_180);
+    const auto windows = suppressOverlapping(scanAtScale(scanner, turned, 1, options, kContractScale, decision), 0.1);
+    const auto found = globalSlidingWindow(scanner, picture, options, kContractScale, 1);
+    ASSERT_FALSE(windows.empty());
+    ASSERT_FALSE(found.empty());
+    const cv::Rect2d& best = windows[0].box;
+    EXPECT_NEAR(found[0].box.centre.x, picture.cols - 1 - best.x - best.width / 2, 1e-9);
+    EXPECT_NEAR(found[0].box.centre.y, picture.rows - 1 - best.y - best.height / 2, 1e-9);
+    EXPECT_NEAR(found[0].box.length, best.height, 1e-9);
+    EXPECT_NEAR(found[0].box.width, best.width, 1e-9);
+}
+
 TEST(ModelLocation, SaysWhereItLooked) {
     EXPECT_THAT(messageOf([] { modelLocation("nowhere/at/all.eyriemodel"); }),
                 testing::HasSubstr("nowhere/at/all.eyriemodel: there is no such model"));

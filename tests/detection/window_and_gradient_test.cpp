@@ -39,6 +39,7 @@ std::vector<Detection> together(double decision, const std::vector<OrientedBox>&
     MotionRoi roi;
     roi.image = cv::Mat(60, 40, CV_8UC1, cv::Scalar(9));
     roi.inside = cv::Mat(60, 40, CV_8UC1, cv::Scalar(255));
+    roi.image_from_roi = {1, 0, 0, 0, 1, 0};
     return detector.detect(roi, trace);
 }
 
@@ -78,11 +79,17 @@ TEST(WindowAndGradient, TellsSharesOnlyBesideASureWindow) {
     trace = {};
     together(7, {kCar}, {kRear, kOther}, &trace);
     std::vector<double> shares;
-    for (const auto& check : trace.checks)
-        if (check.parameter == std::string("window_and_gradient.most_covered")) shares.push_back(check.value);
+    std::vector<cv::Rect2d> boxes;
+    for (const auto& check : trace.checks) {
+        if (check.parameter != std::string("window_and_gradient.most_covered")) continue;
+        shares.push_back(check.value);
+        boxes.push_back(check.box);
+    }
     ASSERT_EQ(shares.size(), 2U);
     EXPECT_NEAR(shares[0], 0.9, 1e-6) << "half a pixel of five lies behind the car";
     EXPECT_EQ(shares[1], 0);
+    EXPECT_EQ(boxes[0], cv::Rect2d(11, 17.5, 6, 5)) << "upright in the area: its length points upwards";
+    EXPECT_EQ(boxes[1], cv::Rect2d(16.5, 33, 7, 14));
 }
 
 TEST(WindowAndGradient, SegmentsBesideEachOtherDoNotCoverOneAnother) {

@@ -51,6 +51,40 @@ TEST(DetectionProbability, FallsWithWhatSpeaksAgainstIt) {
     EXPECT_LT(probabilityOf(slow), probabilityOf(segment)) << "a house under a moving camera";
 }
 
+TEST(DetectionProbability, IsTheLogisticSumOfWhatWasLearned) {
+    // ln(1 + 2 px of flow) = 1.0986, ln(1 + 6 vectors) = 1.9459; ratios are of the own speed to 2.05 px.
+    const auto withOf = [](bool whole, double score, cv::Point2d velocity) {
+        Detection detection = vehicleAtWork();
+        detection.complete = whole;
+        detection.score = score;
+        detection.velocity = velocity;
+        return probabilityOf(detection);
+    };
+    // −4.349 + .553 + .184 · 1.2 + 2.469 · 1.9459 − 3.29 · 1.0986 + 2.292 · 1.0986 · 1.5 + .881 · 1.0986 = 2.3597
+    EXPECT_NEAR(withOf(true, 1.2, {0, 4}), 0.9137, 1e-4) << "beyond 1.5 a ratio tells nothing more";
+    // Without .553, .184 · 1.2 and the last, but −.559 · 1.2, 1.352 · 1.0986 and a ratio of .7317: −.5020
+    EXPECT_NEAR(withOf(false, 1.2, {-1.5, 0}), 0.3771, 1e-4) << "against the flow";
+    EXPECT_NEAR(withOf(false, 1.2, {-0.75, 0.75 * std::sqrt(3)}), 0.2236, 1e-4) << "half against it";
+    EXPECT_NEAR(withOf(false, 1.2, {-2.5, 0}), 0.3189, 1e-4) << "too fast to be a thing that stands";
+    EXPECT_NEAR(withOf(true, 9, {0, 4}), withOf(true, 3, {0, 4}), 1e-12);
+    EXPECT_NEAR(withOf(false, 9, {0, 4}), withOf(false, 3, {0, 4}), 1e-12);
+    EXPECT_NEAR(withOf(true, -2, {0, 4}), withOf(true, 0, {0, 4}), 1e-12);
+    // 6 px of flow count as 4; a ratio of 4 / 6.05: −3.29, 2.292 · .6612 and .881 times 1.6094, a decision of 3: .1222
+    FrameMotion fast = flyingMotion();
+    fast.registration.current_from_previous.matrix(0, 2) = 6;
+    std::vector<Detection> one{vehicleAtWork()};
+    one[0].score = 5;
+    judgeDetections(one, fast);
+    EXPECT_NEAR(one[0].probability, 0.5305, 1e-4);
+    // Under a camera that stands nothing is told by motion: −4.349 − .559 + 2.469 · 1.9459 = −.1035
+    fast.registration.current_from_previous.matrix(0, 2) = 0;
+    one = {vehicleAtWork()};
+    one[0].complete = false;
+    one[0].score = 1;
+    judgeDetections(one, fast);
+    EXPECT_NEAR(one[0].probability, 0.4741, 1e-4);
+}
+
 TEST(DetectionProbability, WhatWasRejectedHasNone) {
     Detection rejected = vehicleAtWork();
     rejected.rejection = Rejection::outlier;

@@ -33,6 +33,20 @@ TEST(PartJoining, FrontAndRearOfABusButNotTwoCars) {
     EXPECT_EQ(kept(joinParts({detection(100, 100, 8, 9), detection(160, 100, 8, 9)}, {}, {}, kScale)), 2) << "17 m";
 }
 
+TEST(PartJoining, LimitsInMetresAreThoseOfThePlace) {
+    // 40 px are 10 m in the middle, a bus; where a metre has half as many pixels they are no one vehicle's.
+    SceneScale oblique = kScale;
+    oblique.slope = ScaleSlope::ofPicture({640, 480}, 0, 0.003);
+    const auto partsAt = [](double y) {
+        return std::vector<Detection>{detection(400, y, 8, 9), detection(432, y, 8, 9)};
+    };
+    ASSERT_LT(oblique.slope.factorAt({416, 60}), 0.5);
+    ASSERT_GT(oblique.slope.factorAt({416, 300}), 1);
+    EXPECT_EQ(kept(joinParts(partsAt(300), {}, {}, oblique)), 1);
+    EXPECT_EQ(kept(joinParts(partsAt(60), {}, {}, oblique)), 2);
+    EXPECT_EQ(kept(joinParts(partsAt(60), {}, {}, kScale)), 1);
+}
+
 TEST(PartJoining, NotBesideEachOtherNorAtDifferentSpeed) {
     EXPECT_EQ(kept(joinParts({detection(100, 100, 8, 4), detection(100, 107, 8, 4)}, {}, {}, kScale)), 2);
     EXPECT_EQ(kept(joinParts({detection(100, 100, 5, 7, {1, 0}), detection(112, 100, 5, 7, {1.1, 0})}, {}, {}, kScale)),
