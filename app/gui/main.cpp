@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "core/values/scene_scale.h"
 #include "gui/ending_signals.h"
 #include "window/main_window.h"
 #include "window/screenshot.h"
@@ -77,6 +78,8 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
     if (inputs.size() > 1) refuse(QStringLiteral("expected one video or project, got %1").arg(inputs.size()));
     if (!inputs.isEmpty()) options.input = asGiven(inputs.front(), argc, argv);
     options.gsd_m_per_px = positive(parser, gsd);
+    if (const std::string why = eyrie::whyNotAGsd(options.gsd_m_per_px); parser.isSet(gsd) && !why.empty())
+        refuse(QStringLiteral("--gsd %1: %2").arg(parser.value(gsd), QString::fromStdString(why)));
     options.frame_rate_hz = positive(parser, rate);
     options.demo = parser.isSet(demo) || (inputs.isEmpty() && !parser.isSet(empty));
     options.run = parser.isSet(run);

@@ -226,11 +226,16 @@ SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions
                        const std::stop_token& stop, const ScaleProgress& told, std::optional<ScaleEstimate>* estimated,
                        std::string* why_not) {
     SceneScale scale = middleScale(source, range, options, gsd_m_per_px, stop, told, estimated, why_not);
+    scale.slope = slopeFor(source, range, options, scale, stop, told);
+    return scale;
+}
+
+ScaleSlope slopeFor(FrameSource& source, FrameRange range, const ChainOptions& options, const SceneScale& scale,
+                    const std::stop_token& stop, const ScaleProgress& told) {
     // Where nothing is known of the scale, nothing looked like vehicles either. What knows its own scale is a rendered
     // scene, which is seen from above; its later frames are dear to come by.
-    if (options.view.oblique && hasMetricLimits(scale) && !(source.info().gsd_m_per_px > 0))
-        scale.slope = estimateSlope(source, range, options, scale, stop, told);
-    return scale;
+    if (!options.view.oblique || !hasMetricLimits(scale) || source.info().gsd_m_per_px > 0) return {};
+    return estimateSlope(source, range, options, scale, stop, told);
 }
 
 }  // namespace eyrie

@@ -43,6 +43,11 @@ SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions
                        const std::stop_token& stop, const ScaleProgress& told = {},
                        std::optional<ScaleEstimate>* estimated = nullptr, std::string* why_not = nullptr);
 
+/// How a scale that is known in the middle of the picture changes over it, where `view.oblique` asks for that; flat
+/// otherwise, and where nothing of the scale is known. Part of what chooseScale() does.
+ScaleSlope slopeFor(FrameSource& source, FrameRange range, const ChainOptions& options, const SceneScale& scale,
+                    const std::stop_token& stop, const ScaleProgress& told = {});
+
 /// Where a scale comes from that chooseScale() chose, with what it said about its estimate. A known one counts as
 /// given: that it is the metadata's only knows who took it from there.
 ScaleBasis basisOf(const SceneScale& scale, const std::optional<ScaleEstimate>& estimated);

@@ -1,8 +1,6 @@
 #include "events/event_csv.h"
 
-#include <cmath>
-#include <cstdio>
-
+#include "core/time_text.h"
 #include "events/stored_events.h"
 #include "io/atomic_file.h"
 #include "io/tables/csv_reader.h"
@@ -20,20 +18,6 @@ std::string verdictFields(const Verdict* verdict) {
 }
 
 }  // namespace
-
-std::string videoClockText(double seconds) {
-    const auto tenths = static_cast<long long>(std::floor(std::abs(seconds) * 10 + 1e-6));
-    const long long minutes = tenths / 600;
-    const char* sign = seconds < 0 && tenths > 0 ? "-" : "";
-    char text[64];
-    if (minutes >= 60) {
-        std::snprintf(text, sizeof text, "%s%lld:%02lld:%02lld.%lld", sign, minutes / 60, minutes % 60,
-                      tenths / 10 % 60, tenths % 10);
-    } else {
-        std::snprintf(text, sizeof text, "%s%lld:%02lld.%lld", sign, minutes, tenths / 10 % 60, tenths % 10);
-    }
-    return text;
-}
 
 void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock,
                    const std::vector<const Verdict*>& verdicts, const std::vector<int>& numbers,

@@ -13,9 +13,6 @@ namespace eyrie {
 /// Seconds from the beginning of the video at which a frame is shown.
 using FrameClock = std::function<double(FrameIndex)>;
 
-/// "1:02:03.4", "2:03.4": hours where there are any, tenths of seconds.
-std::string videoClockText(double seconds);
-
 /// Columns kind, first_frame, last_frame, start_s, end_s, clock, tracks (separated by blanks), figure, unit, zone,
 /// sense, frame, x, y, ground_frame, ground_x, ground_y, verdict, note, tags, starred, person, when_utc, by
 /// ("machine", or what a person did to the tracks: "person: added"), number. `verdicts`: of each event, null for none;

@@ -28,8 +28,4 @@ std::optional<FramePoint> carriedTo(const GroundStretches& ground, const FramePo
     return FramePoint{frame, *at};
 }
 
-double metresByPlace(const SceneScale& scale, const GroundStretches& ground, FrameIndex frame, cv::Point2d place) {
-    return scale.slope.isFlat() ? 1 : scale.at(place).gsd_m_per_px / ground.metresPerPixel(frame, place);
-}
-
 }  // namespace eyrie

@@ -28,8 +28,4 @@ GroundMeasure measureInFrame(const SceneScale& scale, cv::Point2d from, cv::Poin
 /// The place in another frame; nothing where that does not carry the same ground.
 std::optional<FramePoint> carriedTo(const GroundStretches& ground, const FramePoint& point, FrameIndex frame);
 
-/// Metres by the scale at a place of a frame, of a metre on the ground, which knows the scale in the middle: 1 unless
-/// the view is oblique.
-double metresByPlace(const SceneScale& scale, const GroundStretches& ground, FrameIndex frame, cv::Point2d place);
-
 }  // namespace eyrie

@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "core/robust_statistics.h"
 #include "events/ground/ground_path.h"
-#include "ground/ground_measure.h"
 
 namespace eyrie {
 namespace {
@@ -87,12 +86,11 @@ class PathMaker {
         for (std::size_t i = 0; i < path.samples.size(); ++i) {
             const GroundSample& sample = path.samples[i];
             if (path.measured && !sample.moving && !driven.empty()) continue;
-            const double by_place = metresByPlace(run_.footage.scale, ground_, sample.frame, path.box(i).box.centre);
             if (!driven.empty()) {
                 total += cv::norm(sample.at * unit_ - driven.back().at);
                 if (i > 0) seconds += secondsBetween(path, i - 1, i, run_.footage.scale);
             }
-            driven.push_back({sample.at * unit_, sample.speed * unit_ * by_place, by_place});
+            driven.push_back({sample.at * unit_, sample.speed * unit_, sample.by_place});
             way.push_back(total);
         }
         if (driven.empty()) return;
@@ -116,7 +114,7 @@ class PathMaker {
         for (const TrackedBox& box : track.boxes) {
             if (ground_.of(box.frame) == nullptr) continue;
             const OrientedBox there = ground_.toGround(box.frame, box.box);
-            const double metres = unit_ * metresByPlace(run_.footage.scale, ground_, box.frame, box.box.centre);
+            const double metres = unit_ * ground_.metresByPlace(box.frame, box.box.centre);
             lengths.push_back(there.length * metres);
             widths.push_back(there.width * metres);
         }
@@ -251,7 +249,7 @@ double unitOf(const StoredTracks& run, const GroundStretches& ground) {
         const TrackedBox& middle = track.boxes[track.boxes.size() / 2];
         if (ground.of(middle.frame) != nullptr)
             lengths.push_back(ground.toGround(middle.frame, middle.box).length *
-                              metresByPlace(run.footage.scale, ground, middle.frame, middle.box.centre));
+                              ground.metresByPlace(middle.frame, middle.box.centre));
     }
     const double median = medianOrNone(std::move(lengths));
     return median > 0 ? kUsualLength_m / median : 1;

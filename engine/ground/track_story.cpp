@@ -5,7 +5,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "events/ground/ground_path.h"
-#include "ground/ground_measure.h"
 
 namespace eyrie {
 std::vector<StoryPoint> storyOf(const StoredTracks& run, const GroundStretches& ground, TrackId track,
@@ -21,10 +20,9 @@ std::vector<StoryPoint> storyOf(const StoredTracks& run, const GroundStretches& 
         for (std::size_t i = 0; i < path.samples.size(); ++i) {
             const GroundSample& sample = path.samples[i];
             const OrientedBox& box = path.box(i).box;
-            const double corrected = metresByPlace(run.footage.scale, ground, sample.frame, box.centre);
-            if (i > 0) way += cv::norm(sample.at - path.samples[i - 1].at) * corrected;
-            story.push_back({sample.frame, run.secondsOf(sample.frame), path.measured ? sample.speed * corrected : 0,
-                             way, sample.at, box.centre, box.length});
+            if (i > 0) way += metresBetween(path.samples[i - 1], sample);
+            story.push_back({sample.frame, run.secondsOf(sample.frame), path.measured ? sample.speed : 0, way,
+                             sample.at, box.centre, box.length});
         }
     }
     return story;

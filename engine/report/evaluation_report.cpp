@@ -34,7 +34,7 @@ void tellWhat(ReportPage& page, const RunEvaluation& e, const ReportOptions& opt
     };
     fact("Video", run.sequence.path);
     fact("Image", std::to_string(run.sequence.size.width) + " × " + std::to_string(run.sequence.size.height) + " px, " +
-                      fixedText(run.sequence.frame_rate_hz, 3) + " frames/s");
+                      fixedText(run.scale.frame_rate_hz, 3) + " frames/s" + (run.rate_assumed ? " (assumed)" : ""));
     fact("Scale", (run.scale.gsd_known ? "" : "not known; worked with ") +
                       describe(run.scale, run.scale_basis, run.sequence.size));
     fact("Run", std::to_string(run.id) + (run.name.empty() ? "" : ", " + run.name) + ", frames " +

@@ -39,6 +39,8 @@ class ClipFrames {
         std::unique_ptr<FrameSource> own_;  ///< where frames are not kept
     };
     Reader reader() const { return Reader(*this); }
+    /// The video once more. Throws Error(input).
+    std::unique_ptr<FrameSource> openAnew() const { return open_(); }
 
  private:
     Frame kept(FrameIndex index) const;

@@ -70,8 +70,9 @@ void OpenedClips::add(SweepClip clip, SweepInput input) {
 void OpenedClips::add(StoredRun run, const ClipFrames::Open& open, const GroundTruthSource& truth, ProjectFile& project,
                       const EvaluationOptions& wishes, const StageCacheOptions& options) {
     run.clip.ground_truth = truth.file.string();
-    SweepInput input =
-        openClip(run.clip, open, run.range, readGroundTruth(truth, project, run.record), wishes, options);
+    StageCacheOptions cache = options;
+    cache.looked_for_slope = run.options.view.oblique;
+    SweepInput input = openClip(run.clip, open, run.range, readGroundTruth(truth, project, run.record), wishes, cache);
     if (run.motion.empty()) {
         remarks.push_back("run " + std::to_string(run.record.id) +
                           " keeps no motion vectors of all its frames (recording.details): they are found anew");

@@ -10,6 +10,7 @@
 
 #include "chain/chain.h"
 #include "chain/recording/classified_vehicles.h"
+#include "chain/scale_estimation.h"
 #include "core/error.h"
 #include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
@@ -125,6 +126,21 @@ void StageCache::useStoredMotion(const ChainOptions& options, std::vector<FrameM
     motion_.get(signatureUpTo(options, ChainStage::motion), [&] { return shared; });
 }
 
+SceneScale StageCache::scaleFor(const ChainOptions& options, const std::stop_token& stop) {
+    SceneScale scale = scale_;
+    if (options.view.oblique && options_.looked_for_slope) return scale;
+    scale.slope = {};
+    if (!options.view.oblique) return scale;
+    scale.slope = *slopes_.get(signatureUpTo(options, ChainStage::detection), [&] {
+        const auto source = frames_.openAnew();
+        auto slope = std::make_shared<const ScaleSlope>(
+            slopeFor(*source, {frames_.first(), frames_.last()}, options, scale, stop));
+        leaveIf(stop);
+        return slope;
+    });
+    return scale;
+}
+
 std::shared_ptr<StageCache::Motion> StageCache::computeMotion(const ChainOptions& options,
                                                               const std::stop_token& stop) {
     count(ChainStage::motion);
@@ -141,7 +157,7 @@ std::shared_ptr<StageCache::Motion> StageCache::computeMotion(const ChainOptions
             }
         });
     }
-    MotionHalf half(options, scale_);
+    MotionHalf half(options, scaleFor(options, stop));
     ClipFrames::Reader reader = frames_.reader();
     for (FrameIndex i = frames_.first(); i <= frames_.last(); ++i) {
         leaveIf(stop);
@@ -159,7 +175,7 @@ std::shared_ptr<const StageCache::Motion> StageCache::motion(const ChainOptions&
 std::shared_ptr<StageCache::Clusters> StageCache::differenceClusters(const ChainOptions& options, const Motion& motion,
                                                                      const std::stop_token& stop) {
     auto clusters = std::make_shared<Clusters>();
-    DifferenceMotion difference(options.difference, scale_);
+    DifferenceMotion difference(options.difference, scaleFor(options, stop));
     ClipFrames::Reader reader = frames_.reader();
     for (const FrameMotion& frame : motion) {
         leaveIf(stop);
@@ -175,7 +191,7 @@ std::shared_ptr<const StageCache::Clusters> StageCache::clusters(const ChainOpti
         count(ChainStage::clustering);
         if (options.difference.method != MotionMethod::vectors) return differenceClusters(options, motion, stop);
         auto clusters = std::make_shared<Clusters>(motion.size());
-        const MotionClustering clustering(options.clustering, scale_);
+        const MotionClustering clustering(options.clustering, scaleFor(options, stop));
         forFrames(stop, [&](std::size_t i, ClipFrames::Reader&) { (*clusters)[i] = clustering.cluster(motion[i]); });
         return clusters;
     });
@@ -196,7 +212,8 @@ std::shared_ptr<const StageCache::Detections> StageCache::found(const ChainOptio
             std::const_pointer_cast<AreaTable<std::vector<Detection>>>(areas_.get(areaSignature(options), [&] {
                 return std::make_shared<const AreaTable<std::vector<Detection>>>(frame_count, options_.area_bytes / 8);
             }));
-        const std::unique_ptr<Detector> detector = makeDetector(options.detection, scale_);
+        const SceneScale scale = scaleFor(options, stop);
+        const std::unique_ptr<Detector> detector = makeDetector(options.detection, scale);
         auto detections = std::make_shared<Detections>(frame_count);
         forFrames(stop, [&](std::size_t i, ClipFrames::Reader& reader) {
             std::optional<Frame> frame;
@@ -209,7 +226,7 @@ std::shared_ptr<const StageCache::Detections> StageCache::found(const ChainOptio
                     if (!area) {
                         if (!frame) frame = reader.read(motion[i].frame);
                         auto made = std::make_shared<Prepared>();
-                        made->roi = cutMotionRoi(*frame, cluster, 0, motion[i], options.detection, scale_);
+                        made->roi = cutMotionRoi(*frame, cluster, 0, motion[i], options.detection, scale);
                         made->area = detector->prepare(made->roi);
                         prepared->keep(i, cluster, made, made->bytes());
                         area = std::move(made);
@@ -233,7 +250,7 @@ StageCache::Detections StageCache::detectionsByStacks(const ChainOptions& option
                                                       const std::stop_token& stop) {
     count(ChainStage::stacking);
     Detections detections;
-    TrackHalf half(options, scale_);
+    TrackHalf half(options, scaleFor(options, stop));
     ClipFrames::Reader reader = frames_.reader();
     for (const FrameMotion& frame : motion) {
         leaveIf(stop);
@@ -253,9 +270,10 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const ChainOpti
         } else {
             const auto found = this->found(options, motion, stop);
             count(ChainStage::removal);
+            const SceneScale scale = scaleFor(options, stop);
             detected->frames.resize(motion.size());
             forFrames(stop, [&](std::size_t i, ClipFrames::Reader&) {
-                detected->frames[i] = removed((*found)[i], motion[i], options, scale_);
+                detected->frames[i] = removed((*found)[i], motion[i], options, scale);
             });
         }
         detected->boxes = keptBoxes(motion, detected->frames);
@@ -269,7 +287,7 @@ std::shared_ptr<const std::vector<TimedState>> StageCache::states(const ChainOpt
     return states_.get(signatureUpTo(options, ChainStage::tracking), [&] {
         count(ChainStage::tracking);
         auto states = std::make_shared<std::vector<TimedState>>();
-        Tracker tracker(options.tracking, scale_);
+        Tracker tracker(options.tracking, scaleFor(options, stop));
         ClipFrames::Reader reader = frames_.reader();
         for (std::size_t i = 0; i < motion.size(); ++i) {
             leaveIf(stop);
@@ -283,8 +301,10 @@ std::shared_ptr<const std::vector<TimedState>> StageCache::states(const ChainOpt
 
 std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& options, const Motion& motion,
                                                        const std::vector<std::vector<Detection>>& detections,
-                                                       const std::vector<TimedState>& states) {
+                                                       const std::vector<TimedState>& states,
+                                                       const std::stop_token& stop) {
     return tracks_.get(signatureUpTo(options, ChainStage::finishing), [&] {
+        const SceneScale scale = scaleFor(options, stop);
         count(ChainStage::finishing);
         auto boxes = std::make_shared<BoxesByFrame>();
         const auto placeOf = [&motion](FrameIndex frame) -> std::optional<std::size_t> {
@@ -302,10 +322,10 @@ std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& optio
             const auto place = placeOf(frame);
             return place && *place < detections.size() ? vehiclesOf(detections[*place]) : std::vector<OrientedBox>{};
         };
-        for (const auto& [frame, state] : finishTracks(states, summariesOf(motion), options.finishing, scale_,
+        for (const auto& [frame, state] : finishTracks(states, summariesOf(motion), options.finishing, scale,
                                                        {vectors_at, classifiedVehicles(options, vehicles_at)}))
             (*boxes)[frame].push_back(recordOf(frame, state));
-        nameClasses(*boxes, scale_, options.classes);
+        nameClasses(*boxes, scale, options.classes);
         return boxes;
     });
 }
@@ -317,7 +337,7 @@ std::optional<ClipResult> StageCache::run(const ChainOptions& options, const std
         const auto states = this->states(options, *motion, detected->frames, stop);
         ClipResult result;
         result.detections = std::shared_ptr<const BoxesByFrame>(detected, &detected->boxes);
-        result.tracks = tracks(options, *motion, detected->frames, *states);
+        result.tracks = tracks(options, *motion, detected->frames, *states, stop);
         return result;
     } catch (const Stopped&) {
         return std::nullopt;

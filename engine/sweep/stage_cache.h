@@ -29,6 +29,9 @@ struct StageCacheOptions {
     std::size_t area_bytes = std::size_t{1} << 30U;   ///< what detectors prepared, kept in memory
     /// False: everything is done on the thread that asks, at its priority, for work behind a window.
     bool all_cores = true;
+    /// Whether it was looked, when the scale was chosen, how it changes over the picture (view.oblique). Where not,
+    /// that is done for points that ask for it; points that do not have a scale that is the same everywhere.
+    bool looked_for_slope = true;
 };
 
 /// Runs the chain over one clip again and again with changed parameters. Each time only what lies behind the first
@@ -53,7 +56,6 @@ class StageCache {
     std::optional<ClipResult> run(const ChainOptions& options, const std::stop_token& stop);
 
     const ClipFrames& frames() const { return frames_; }
-    const SceneScale& scale() const { return scale_; }
     /// How often each stage was computed for the whole clip so far.
     int timesComputed(ChainStage stage) const { return computed_[static_cast<std::size_t>(stage)]; }
     /// Search areas in which a detector worked, and those whose detections were known already.
@@ -70,6 +72,8 @@ class StageCache {
         BoxesByFrame boxes;  ///< kept ones
     };
 
+    /// The scale that a run with these options works with.
+    SceneScale scaleFor(const ChainOptions& options, const std::stop_token& stop);
     std::shared_ptr<const Motion> motion(const ChainOptions& options, const std::stop_token& stop);
     std::shared_ptr<const Clusters> clusters(const ChainOptions& options, const Motion& motion,
                                              const std::stop_token& stop);
@@ -81,7 +85,7 @@ class StageCache {
                                                           const Detections& detections, const std::stop_token& stop);
     std::shared_ptr<const BoxesByFrame> tracks(const ChainOptions& options, const Motion& motion,
                                                const std::vector<std::vector<Detection>>& detections,
-                                               const std::vector<TimedState>& states);
+                                               const std::vector<TimedState>& states, const std::stop_token& stop);
 
     std::shared_ptr<Motion> computeMotion(const ChainOptions& options, const std::stop_token& stop);
     std::shared_ptr<Clusters> differenceClusters(const ChainOptions& options, const Motion& motion,
@@ -96,6 +100,7 @@ class StageCache {
     SceneScale scale_;
     StageCacheOptions options_;
     Progress progress_;
+    Memo<ScaleSlope> slopes_{2};
     Memo<Motion> motion_{2};
     Memo<Clusters> clusters_{6};
     Memo<AreaTable<Prepared>> prepared_{2};

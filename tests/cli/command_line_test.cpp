@@ -16,6 +16,7 @@ namespace eyrie {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string program = test::programPath("eyrie-cli");
 
@@ -84,6 +85,33 @@ TEST_F(CommandLine, aRunThatFollowsNothingSaysWhy) {
     EXPECT_THAT(result.output, HasSubstr("Vehicles followed: 0: no frame could be registered"));
 }
 
+TEST_F(CommandLine, aScaleWithWhichNothingCanBeFoundIsTheCauseThatIsTold) {
+    const auto result = cli({"run", clip(), "--gsd", "9", "--project", at("p.eyrie"), "--quiet"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr("--gsd 9: at 9 m/px a car is 0.5 px long")) << "before the run";
+    EXPECT_THAT(result.output, HasSubstr("Vehicles followed: 0: at 9 m/px a car is 0.5 px long"));
+    EXPECT_THAT(result.output, HasSubstr("if 9 is in cm, give 0.09"));
+}
+
+TEST_F(CommandLine, whoeverChoosesNoRunIsToldWhichOneIsTaken) {
+    const std::string input = clip(6);
+    const std::vector<std::string> report{"report", "--project",  at("p.eyrie"), "--events",
+                                          "--out",  at("r.html"), "--force"};
+    for (const char* name : {"morning", "evening"}) {
+        ASSERT_EQ(cli({"run", input, "--gsd", "0.2", "--project", at("p.eyrie"), "--name", name}).exit_code, 0);
+        if (std::string(name) == "morning") {
+            EXPECT_THAT(cli(report).errors, Not(HasSubstr("taking"))) << "the only one";
+        }
+    }
+    EXPECT_THAT(cli(report).errors, HasSubstr("taking run 2 (evening), the last of 2 in"));
+    EXPECT_THAT(cli(report).errors, HasSubstr("--run takes another"));
+    EXPECT_THAT(cli(report).output, HasSubstr("r.html, run 2 (evening), "));
+    std::vector<std::string> chosen = report;
+    chosen.insert(chosen.end(), {"--run", "1"});
+    EXPECT_THAT(cli(chosen).errors, Not(HasSubstr("taking")));
+    EXPECT_THAT(cli(chosen).output, HasSubstr("r.html, run 1 (morning), "));
+}
+
 TEST_F(CommandLine, frameRangeIsInclusiveAndChecked) {
     const auto result = cli({"run", clip(), "--frames", "5:14", "--project", at("p.eyrie")});
     EXPECT_EQ(result.exit_code, 0) << result.errors;
@@ -113,6 +141,8 @@ TEST_F(CommandLine, numbersThatCannotBeAreRefusedWithTheRemedy) {
         EXPECT_THAT(result.errors, HasSubstr("--gsd")) << gsd;
     }
     EXPECT_EQ(cli({"run", input, "--gsd", "abc"}).exit_code, 2);
+    EXPECT_THAT(cli({"run", input, "--gsd", "80", "--project", at("p.eyrie")}).errors,
+                HasSubstr("if 80 is in cm, give 0.8"));
     EXPECT_EQ(cli({"run", input, "--fps", "0", "--project", at("p.eyrie")}).exit_code, 2);
     const auto unknown = cli({"run", input, "--set", "motion.min_sped=1", "--project", at("p.eyrie")});
     EXPECT_EQ(unknown.exit_code, 2);

@@ -167,7 +167,7 @@ TEST_F(EventsCommand, ZonesAreWatchedOnTheGround) {
     const std::string table = textOf("e.csv");
     EXPECT_THAT(table,
                 StartsWith("kind,first_frame,last_frame,start_s,end_s,clock,tracks,figure,unit,zone,sense,frame"));
-    EXPECT_THAT(table, HasSubstr("\ncrosses,237,237,9.48,9.48,0:09.4,5,27,km/h,gate,to the left,237,"));
+    EXPECT_THAT(table, HasSubstr("\ncrosses,237,237,9.48,9.48,0:09.5,5,27,km/h,gate,to the left,237,"));
     EXPECT_THAT(table, HasSubstr("\nenters,304,304,"));
 }
 

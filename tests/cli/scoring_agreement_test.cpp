@@ -128,6 +128,8 @@ class ScoringAgreement : public testing::TestWithParam<std::tuple<std::string, b
         const auto report = nlohmann::json::parse(
             call({"evaluate", "--project", at("p.eyrie"), "--json", "--overlap", "0.2"}, withDetections(how)));
         EXPECT_EQ(report["upright"], file() == "gt.txt");
+        const std::string noted = report["remarks"].dump();
+        EXPECT_EQ(noted.find("enclosing upright boxes are compared") != std::string::npos, file() == "gt.txt");
         return figuresOf(report["measures"][0]);
     }
     Figures sweep(const std::vector<std::string>& how) const {

@@ -31,6 +31,30 @@ TEST(BorderEvents, AVehicleThatDrivesThroughAppearsAndLeavesAndIsNotLost) {
     EXPECT_NEAR(event.first_frame, 50 + 220 / (50 / 3.6) * 25, 2);
 }
 
+TEST(EventScale, SpeedsAndLengthsAreThoseOfThePlaceInAnObliqueView) {
+    DrivenTracks scene;
+    scene.scale.slope = ScaleSlope::ofPicture(scene.size, 0, 0.002);
+    const double far = scene.scale.slope.factorAt({500, 100});  // a metre there has fewer pixels
+    const double near = scene.scale.slope.factorAt({500, 500});
+    ASSERT_LT(far, 0.7);
+    ASSERT_GT(near, 1.3);
+    scene.drive({-20, 20}, 0, {{30, 50, 50}}, 50);
+    scene.drive({-20, 100}, 0, {{30, 50, 50}}, 50);
+    const auto leaving = scene.events(EventKind::leaves);
+    ASSERT_EQ(leaving.size(), 2U);
+    for (const Event& event : leaving) EXPECT_NEAR(event.figure, 50 / (event.tracks.front() == 1 ? far : near), 4);
+    // What is over a limit there need not be so here.
+    EventOptions limits;
+    limits.over_kmh = 60;
+    std::set<TrackId> over;
+    for (const Event& event : findEvents(scene.tracks, scene.footage(), limits))
+        if (event.kind == EventKind::over_speed) over.insert(event.tracks.front());
+    EXPECT_EQ(over, (std::set<TrackId>{1}));
+    // Where no scale is known, figures are in pixels as they are seen.
+    scene.scale.gsd_known = false;
+    for (const Event& event : scene.events(EventKind::leaves)) EXPECT_NEAR(event.figure, 50 / 3.6 / 0.2 / 25, 0.2);
+}
+
 TEST(BorderEvents, ATrackThatEndsInMidPictureIsLost) {
     DrivenTracks scene;
     scene.drive({20, 60}, 0, {{30, 50, 50}}, 50);

@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "io/numbered_video.h"
+#include "io/video/video_decoder.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
@@ -161,6 +162,33 @@ TEST_F(DamagedVideo, ChangingSizeIsNamedWithFrameAndBothSizes) {
     EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { source->read(12, false); }),
                 AllOf(HasSubstr("both.ts"), HasSubstr("frame 12"), HasSubstr("200×80"), HasSubstr("160×64")));
     EXPECT_EQ(test::numberIn(source->read(2, false).gray), 2);
+}
+
+int failsToRead(void*, std::uint8_t*, int) {
+    return AVERROR(EIO);
+}
+
+int countPackets(const std::filesystem::path& path, AVFormatContext& demuxer) {
+    const libav::Packet packet(av_packet_alloc());
+    int count = 0;
+    for (; readNext(path, demuxer, *packet); ++count) av_packet_unref(packet.get());
+    return count;
+}
+
+TEST_F(DamagedVideo, ADiskThatFailsAmidAVideoIsNotItsEnd) {
+    for (const char* name : {"whole.mp4", "whole.ts"}) {
+        const auto path = folder_ / name;
+        test::writeNumberedVideo(path, 400, {}, {320, 240});
+        EXPECT_EQ(countPackets(path, *openContainer(path)), 400) << "its end is its end";
+        const libav::Demuxer failing = openContainer(path);
+        failing->pb->read_packet = failsToRead;
+        EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { countPackets(path, *failing); }),
+                    AllOf(HasSubstr(name), HasSubstr("cannot be read to its end"), HasSubstr("check the disk")));
+    }
+    const auto end = openContainer(cut(folder_ / "whole.ts", 0.6));
+    const int left = countPackets(folder_ / "cut-whole.ts", *end);
+    EXPECT_GT(left, 100) << "what was cut off has an end";
+    EXPECT_LT(left, 400);
 }
 
 TEST_F(DamagedVideo, TwoRecordingsInOneFileKeepTheirOrder) {

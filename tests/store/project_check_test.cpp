@@ -112,6 +112,7 @@ TEST_F(CheckTest, FindsImpossibleValues) {
           "UPDATE run SET state = 'asleep'", "UPDATE run SET scale_origin = 'perhaps'",
           "UPDATE run SET scale_origin = 'estimated'", "UPDATE run SET scale_uncertainty = 0.5",
           "UPDATE run SET scale_vehicles = -1", "UPDATE run SET scale_growth_down = -1.5",
+          "UPDATE run SET rate_assumed = 7", "UPDATE sequence SET rate_assumed = -1",
           "UPDATE frame SET width = -1 WHERE frame = 3", "UPDATE motion_vectors SET data = x'0102' WHERE frame = 3",
           "UPDATE stationary_corners SET data = x'ff02' WHERE frame = 3",
           "UPDATE labelled_object SET keyframes = x'0901' WHERE id = 2",

@@ -139,6 +139,8 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP VIEW v_track_states",
                   "DROP VIEW v_tracks",
                   "DROP VIEW v_runs",
+                  "ALTER TABLE run DROP COLUMN rate_assumed",
+                  "ALTER TABLE sequence DROP COLUMN rate_assumed",
                   "ALTER TABLE run DROP COLUMN scale_growth_right",
                   "ALTER TABLE run DROP COLUMN scale_growth_down",
                   "ALTER TABLE detection DROP COLUMN probability",
@@ -319,6 +321,29 @@ TEST_F(ProjectFileTest, RunsOfOlderProjectsTellWhereTheirScaleComesFromAsFarAsCa
     EXPECT_EQ(
         other.execAndGet("SELECT group_concat(scale_origin, ' ') FROM (SELECT * FROM v_runs ORDER BY run)").getString(),
         "given assumed estimated given");
+}
+
+TEST_F(ProjectFileTest, ViewsTellTracksByTheScaleAtTheirPlace) {
+    const int run = test::writeSampleProject(path_, 8);
+    ProjectFile project = ProjectFile::open(path_);
+    project.database().exec("UPDATE run SET scale_growth_right = 0.0005, scale_growth_down = -0.001");
+    const SceneScale scale = RunStore(project).runs().at(0).scale;
+    ASSERT_FALSE(scale.slope.isFlat());
+    SQLite::Database other(path_.string(), SQLite::OPEN_READONLY);
+    int told = 0;
+    for (const TrackSummary& track : RunStore(project).tracks(run)) {
+        if (!track.confirmed) continue;
+        SQLite::Statement row(other, "SELECT length_m, width_m, speed_kmh, scale_factor FROM v_tracks WHERE track = ?");
+        row.bind(1, static_cast<std::int64_t>(track.id));
+        ASSERT_TRUE(row.executeStep());
+        const SceneScale here = scale.at(track.place);
+        EXPECT_NEAR(row.getColumn(0).getDouble(), here.metres(track.mean_length_px), 1e-6);
+        EXPECT_NEAR(row.getColumn(1).getDouble(), here.metres(track.mean_width_px), 1e-6);
+        EXPECT_NEAR(row.getColumn(2).getDouble(), here.metresPerSecond(track.mean_speed_px) * 3.6, 1e-6);
+        EXPECT_NEAR(row.getColumn(3).getDouble(), scale.slope.factorAt(track.place), 1e-9);
+        ++told;
+    }
+    EXPECT_GT(told, 0);
 }
 
 TEST_F(ProjectFileTest, ViewsTellTracksInUnitsOfPeople) {

@@ -71,6 +71,8 @@ TEST_F(RunStoreTest, RunsKeepWhatTheyWereStartedWith) {
     EXPECT_EQ(run->sequence.size, cv::Size(768, 576));
     EXPECT_EQ(run->sequence.frame_count, 100);
     EXPECT_EQ(run->sequence.frame_rate_hz, 29.97);
+    EXPECT_TRUE(run->sequence.rate_assumed && run->rate_assumed);
+    EXPECT_EQ(run->sequence.rememberedRate(), 0) << "what nobody said is not remembered as if somebody had";
     EXPECT_EQ(run->name, "first try");
     EXPECT_EQ(run->engine_version, "0.1.0");
     EXPECT_EQ(run->preset, "thesis");

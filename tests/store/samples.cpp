@@ -97,6 +97,8 @@ RunRecord sampleRun() {
     run.sequence.size = {768, 576};
     run.sequence.frame_count = 100;
     run.sequence.frame_rate_hz = 29.97;
+    run.sequence.rate_assumed = true;
+    run.rate_assumed = true;
     run.name = "first try";
     run.engine_version = "0.1.0";
     run.preset = "thesis";

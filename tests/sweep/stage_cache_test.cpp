@@ -129,6 +129,37 @@ TEST(StageCache, GivesWhatARunOfItsOwnGivesWhateverChangesAndInWhateverOrder) {
     }
 }
 
+TEST(StageCache, AScaleThatIsTheSameEverywhereIsThatOfPointsThatLookForNoOther) {
+    SceneScale sloped = kScale;
+    sloped.slope = ScaleSlope::ofPicture({320, 240}, 0, 0.008);
+    ChainOptions looks = base();
+    looks.view.oblique = true;
+    ChainOptions flat = base();
+    flat.view.oblique = false;
+    StageCache oblique(opener(), {}, sloped);
+    const auto by_place = oblique.run(looks, {});
+    // As a run of its own whose scale has no slope; with it other boxes are found.
+    expectAsARunOfItsOwn(oblique, flat, "view.oblique = false");
+    StageCache straight_down(opener(), {}, kScale);
+    const auto everywhere = straight_down.run(looks, {});
+    ASSERT_TRUE(by_place && everywhere);
+    const auto sizes = [](const BoxesByFrame& boxes) {
+        std::vector<double> lengths;
+        for (const auto& [frame, records] : boxes)
+            for (const BoxRecord& record : records) lengths.push_back(record.box.length);
+        return lengths;
+    };
+    EXPECT_NE(sizes(*by_place->tracks), sizes(*everywhere->tracks));
+}
+
+TEST(StageCache, ASlopeThatNobodyLookedForIsLookedForWhereAPointAsks) {
+    // Two vehicles tell no slope; the look changes nothing else.
+    StageCache cache(opener(), {}, kScale, {.looked_for_slope = false});
+    ChainOptions looks = base();
+    looks.view.oblique = true;
+    expectAsARunOfItsOwn(cache, looks, "view.oblique = true");
+}
+
 TEST(StageCache, DoesOnlyWhatLiesBehindTheChange) {
     StageCache cache(opener(), {}, kScale);
     ChainOptions options = base();

@@ -1,6 +1,7 @@
 #include "label/label_lists.h"
 
 #include <QCoreApplication>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -83,6 +84,17 @@ QString sourceText(const LabelledBox& box, bool lives, const Keyframe* keyframe)
     return {};
 }
 
+cv::Point2d placeOf(const LabelledObject& object) {
+    cv::Point2d sum(0, 0);
+    for (const Keyframe& keyframe : object.keyframes) sum += keyframe.box.centre;
+    return sum / static_cast<double>(object.keyframes.size());
+}
+
+int computedKeyframesOf(const LabelledObject& object) {
+    return static_cast<int>(std::count_if(object.keyframes.begin(), object.keyframes.end(),
+                                          [](const Keyframe& keyframe) { return keyframe.computed; }));
+}
+
 }  // namespace
 
 std::vector<ObjectRow> objectRows(const LabelSession& labels) {
@@ -96,7 +108,9 @@ std::vector<ObjectRow> objectRows(const LabelSession& labels) {
         row.first_frame = firstFrameOf(object);
         row.last_frame = object.last_frame;
         row.keyframes = static_cast<int>(object.keyframes.size());
+        row.computed = computedKeyframesOf(object);
         row.speed_px = meanSpeed(object, labels.camera());
+        row.place = placeOf(object);
         row.origin = object.origin;
         row.notes = QString::fromStdString(object.notes);
         addState(row, labels.review().spansOf(id));
@@ -149,20 +163,21 @@ ObjectDetails objectDetails(const LabelSession& labels, const LabelEditor& edito
     if (labels.selection().size() > 1)
         details.title += tr(" and %1 more").arg(static_cast<int>(labels.selection().size()) - 1);
     const auto keyframes = static_cast<int>(object.keyframes.size());
-    details.life = (keyframes == 1 ? tr("frames %1 to %2, %3 keyframe, %4") : tr("frames %1 to %2, %3 keyframes, %4"))
+    const int computed = computedKeyframesOf(object);
+    details.life = tr("frames %1 to %2, %3; origin: %4")
                        .arg(firstFrameOf(object))
                        .arg(object.last_frame)
-                       .arg(keyframes)
-                       .arg(originText(object.origin));
+                       .arg(keyframesText(keyframes, computed), originText(object.origin, keyframes, computed));
     if (const auto box = editor.shownBox()) {
         double degrees = std::fmod(box->heading * 180 / std::numbers::pi, 360);
         if (degrees < 0) degrees += 360;
-        details.box = tr("%1 · %2, %3 px · %4 × %5 · %6°")
-                          .arg(sourceText(shown, shown.exists(), keyframeAt(object, frame)))
-                          .arg(box->centre.x, 0, 'f', 1)
-                          .arg(box->centre.y, 0, 'f', 1)
-                          .arg(lengthText(box->length, scale), lengthText(box->width, scale))
-                          .arg(degrees, 0, 'f', 1);
+        details.box =
+            tr("%1 · %2, %3 px · %4 × %5 · %6°")
+                .arg(sourceText(shown, shown.exists(), keyframeAt(object, frame)))
+                .arg(box->centre.x, 0, 'f', 1)
+                .arg(box->centre.y, 0, 'f', 1)
+                .arg(lengthText(box->length, scale.at(box->centre)), lengthText(box->width, scale.at(box->centre)))
+                .arg(degrees, 0, 'f', 1);
         // Lines break between the parts only.
         details.box.replace(QLatin1Char(' '), QChar(QChar::Nbsp));
         details.box.replace(QStringLiteral("\u00a0·\u00a0"), QStringLiteral("\u00a0· "));

@@ -48,6 +48,7 @@ void LabelSession::refreshOpen() {
     sequence_.size = video->size;
     sequence_.frame_count = video->frame_count;
     sequence_.frame_rate_hz = video->frame_rate_hz;
+    sequence_.rate_assumed = video->frame_rate_assumed;
     const auto work = [this, path = project_path_, sequence = sequence_](const BackgroundTask& task) {
         auto opened = std::make_shared<Opened>();
         opened->project = std::make_unique<ProjectFile>(ProjectFile::open(path));

@@ -5,6 +5,7 @@
 #include <QMenuBar>
 #include <QTimer>
 #include <QToolBar>
+#include <QVBoxLayout>
 #include <functional>
 #include <numbers>
 
@@ -14,6 +15,7 @@
 #include "label/canvas/label_tool.h"
 #include "label/computing/label_fitting.h"
 #include "label/computing/label_tracking.h"
+#include "label/computing/tracking_strip.h"
 #include "label/identity_commands.h"
 #include "label/label_actions.h"
 #include "label/label_classes.h"
@@ -32,6 +34,7 @@ namespace eyrie::ui {
 
 namespace {
 const QString kRightTopic = QStringLiteral("right to label");
+const QString kNoRunTopic = QStringLiteral("labelling without a run");
 
 QString asSentence(const std::string& reason) {
     const QString text = QString::fromStdString(reason);
@@ -103,7 +106,10 @@ void LabelWorkspace::buildMenu() {
 
 void LabelWorkspace::setActive(bool active) {
     if (active == active_) return;
-    if (!active) tool_->cancel();
+    if (!active) {
+        tool_->cancel();
+        around_.messages.dismissTopic(kNoRunTopic);
+    }
     active_ = active;
     bar_->setVisible(active);
     menu_->menuAction()->setVisible(active);
@@ -131,11 +137,12 @@ void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::opened, this, &LabelWorkspace::labelsOpened);
     connect(labels_, &LabelSession::selectionChanged, this, &LabelWorkspace::selectionChanged);
     whenChanged(around_.session, this,
-                {{SessionChange::picture, [this] { pictureChanged(); }}, {SessionChange::frame, [this] {
-                                                                              if (active_)
-                                                                                  objects_->setFrame(
-                                                                                      around_.session.currentFrame());
-                                                                          }}});
+                {{SessionChange::picture, [this] { pictureChanged(); }},
+                 {{SessionChange::current_run, SessionChange::run_started, SessionChange::video},
+                  [this] { around_.messages.dismissTopic(kNoRunTopic); }},
+                 {SessionChange::frame, [this] {
+                      if (active_) objects_->setFrame(around_.session.currentFrame());
+                  }}});
     for (QAction* action : {actions_->follow, actions_->follow_upright})
         bindSwitches(this, {{action, [this] { followObject(); }}});
 }
@@ -146,7 +153,8 @@ void LabelWorkspace::labelsOpened() {
         around_.messages.showTopic(kRightTopic, MessageKind::warning, asSentence(labels_->store()->readOnlyReason()),
                                    tr("Try again"), [this] { labels_->tryToWrite(); });
     else if (active_ && !around_.session.currentRun() && labels_->annotations().objects.empty())
-        parts().tell(
+        around_.messages.showTopic(
+            kNoRunTopic, MessageKind::info,
             tr("This video has no run yet: boxes are interpolated in the image. After a run they follow the ground, "
                "however the camera moves."));
     enableActions();
@@ -210,10 +218,21 @@ void LabelWorkspace::chooseProposal(TrackId track, bool add) {
 /// What goes on by itself: boxes that are followed and refined.
 void LabelWorkspace::buildWork() {
     const auto enable = [this] { enableActions(); };
+    strip_ = new TrackingStrip([this] { tracking_->stop(); });
+    if (auto* column = qobject_cast<QVBoxLayout*>(around_.canvas.parentWidget()->layout()))
+        column->insertWidget(column->indexOf(&around_.canvas), strip_);
     fitting_ = new LabelFitting(around_.session, *labels_, enable, this);
     tracking_ = new LabelTracking(around_.session, *labels_,
-                                  {.working_changed = enable,
-                                   .show_advance = [this](FrameIndex frame) { around_.session.goToFrame(frame); },
+                                  {.working_changed =
+                                       [this, enable] {
+                                           if (!tracking_->working()) strip_->hide();
+                                           enable();
+                                       },
+                                   .show_advance =
+                                       [this](const TrackingAdvance& advance) {
+                                           strip_->showAdvance(advance);
+                                           if (advance.done > 0) around_.session.goToFrame(advance.frame);
+                                       },
                                    .show_end =
                                        [this](FrameIndex frame, const QString& reason) {
                                            around_.session.goToFrame(frame);

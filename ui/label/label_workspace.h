@@ -21,6 +21,7 @@ class ObjectInspector;
 class ObjectPictures;
 class ObjectsModel;
 class ObjectsPanel;
+class TrackingStrip;
 struct ObjectEdits;
 
 /// The label workspace: its docks, its bars and its tool on the canvas, which show the labels of the video. What its
@@ -82,6 +83,7 @@ class LabelWorkspace : public QObject {
     LabelTool* tool_;
     LabelActions* actions_;
     LabelTracking* tracking_;
+    TrackingStrip* strip_;
     LabelFitting* fitting_;
     ObjectsModel* model_;
     ObjectsPanel* objects_;

@@ -130,7 +130,9 @@ InspectorPanel::InspectorPanel(ProjectSession& session, QWidget* parent) : QWidg
                  {SessionChange::selection, [this] { showSelection(); }}});
     connect(&session_, &ProjectSession::trackStatesRead, this,
             [this](TrackId track, const std::vector<TrackFrame>& states) {
-                track_->showTrack(track, states, session_.scale(), classOfTrack(session_, track));
+                const RunRecord* run = session_.shownRun();
+                track_->showTrack(track, states, session_.scale(), classOfTrack(session_, track),
+                                  run != nullptr && run->rate_assumed);
                 track_->showScore(scoreOfTrack(session_, track));
                 track_->setCurrentFrame(session_.currentFrame());
             });

@@ -50,6 +50,10 @@ QString scaleText(const RunRecord& run) {
 }
 
 QString whyNoTracks(const RunFacts& facts) {
+    if (QString doubt = QString::fromStdString(doubtfulScaleOf(facts)); !doubt.isEmpty()) {
+        doubt[0] = doubt[0].toUpper();
+        return doubt + QLatin1Char('.');
+    }
     switch (facts.nothing) {
         case NothingFollowed::has_tracks:
             return {};
@@ -90,6 +94,9 @@ QString runSummaryText(const RunRecord& run, const RunFacts& facts) {
                                        tracks == 1 ? tr("1 track") : tr("%1 tracks").arg(QLocale().toString(tracks)));
     if (facts.counts.unregistered > 0) sentences << unregisteredText(facts.counts) + QLatin1Char('.');
     sentences << tr("Scale: %1.").arg(scaleText(run));
+    if (run.rate_assumed)
+        sentences << tr("Nobody said the frame rate: %1 per second are assumed, so times and speeds may be wrong.")
+                         .arg(QLocale().toString(run.scale.frame_rate_hz, 'g', 4));
     return sentences.join(QLatin1Char(' '));
 }
 

@@ -142,7 +142,7 @@ QString RunsModel::stateText(const RunRecord& run) const {
 QString RunsModel::toolTipOf(const RunRecord& run) const {
     QStringList lines{shownName(run), QString::fromStdString(run.sequence.path),
                       tr("frames %1 to %2, %3 processed").arg(run.first_frame).arg(run.last_frame).arg(run.frames_done),
-                      tr("%1 frames/s, Eyrie %2")
+                      (run.rate_assumed ? tr("%1 frames/s (assumed), Eyrie %2") : tr("%1 frames/s, Eyrie %2"))
                           .arg(numberText(run.scale.frame_rate_hz, 2), QString::fromStdString(run.engine_version))};
     lines << tr("Scale: %1").arg(scaleText(run));
     if (run.live && run.id != live_run_) lines << tr("Written by %1").arg(QString::fromStdString(run.writer));

@@ -98,7 +98,8 @@ void TrackInspector::activate(bool last) {
 }
 
 void TrackInspector::showTrack(TrackId track, std::vector<TrackFrame> states, const SceneScale& scale,
-                               TrackClass track_class) {
+                               TrackClass track_class, bool rate_assumed) {
+    rate_assumed_ = rate_assumed;
     track_ = track;
     track_class_ = track_class;
     states_ = std::move(states);
@@ -151,7 +152,10 @@ void TrackInspector::showWhole() {
                        .arg(first)
                        .arg(last)
                        .arg(durationText((last - first + 1) / std::max(scale_.frame_rate_hz, 1e-9))));
-    speed_->setText(tr("%1, at most %2").arg(speedText(speed, scale_), speedText(fastest, scale_)));
+    QString speeds = tr("%1, at most %2").arg(speedText(speed, scale_), speedText(fastest, scale_));
+    if (rate_assumed_ && scale_.gsd_known)
+        speeds += tr(" (if there are %1 frames per second, which is assumed)").arg(numberText(scale_.frame_rate_hz, 0));
+    speed_->setText(speeds);
     size_->setText(sizeText(length, width, scale_));
     QStringList counts;
     for (const StateOrigin origin : {StateOrigin::detected, StateOrigin::reconstructed, StateOrigin::predicted,

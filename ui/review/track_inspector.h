@@ -22,8 +22,10 @@ class TrackInspector : public QWidget {
  public:
     explicit TrackInspector(QWidget* parent = nullptr);
 
-    /// `states` ascend by frame. A track without states shows as nothing.
-    void showTrack(TrackId track, std::vector<TrackFrame> states, const SceneScale& scale, TrackClass track_class);
+    /// `states` ascend by frame. A track without states shows as nothing. `rate_assumed`: nobody said the frame rate,
+    /// from which speeds and times follow.
+    void showTrack(TrackId track, std::vector<TrackFrame> states, const SceneScale& scale, TrackClass track_class,
+                   bool rate_assumed = false);
     /// The track's probability of being a moving vehicle, in words, and that of what was detected there in the present
     /// frame; empty: not known.
     void showScore(const QString& score) { showOrDash(score_, score); }
@@ -47,6 +49,7 @@ class TrackInspector : public QWidget {
 
     TrackId track_ = 0;
     std::vector<TrackFrame> states_;
+    bool rate_assumed_ = false;
     SceneScale scale_;
     TrackClass track_class_ = TrackClass::unknown;
     FrameIndex frame_ = 0;

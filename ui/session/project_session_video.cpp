@@ -17,7 +17,7 @@ namespace {
 constexpr double kSameRate = 0.005;
 
 Media mediaOf(const SequenceRecord& sequence) {
-    return mediaOfIdentity(sequence.path, {.remembered_hz = sequence.frame_rate_hz});
+    return mediaOfIdentity(sequence.path, {.remembered_hz = sequence.rememberedRate()});
 }
 }  // namespace
 
@@ -153,7 +153,8 @@ void ProjectSession::projectOpened(const ProjectLists& lists) {
     if (media_->given_rate_hz > 0) {
         keepFrameRate();
     } else if (known != nullptr &&
-               std::abs(known->frame_rate_hz - video_->frame_rate_hz) > kSameRate * video_->frame_rate_hz) {
+               (std::abs(known->frame_rate_hz - video_->frame_rate_hz) > kSameRate * video_->frame_rate_hz ||
+                (video_->frame_rate_assumed && !known->rate_assumed))) {
         beginOpening({mediaOf(*known), Purpose::remembered_rate});
         return;
     }
@@ -237,6 +238,7 @@ void ProjectSession::keepFrameRate() {
     sequence.size = video_->size;
     sequence.frame_count = video_->frame_count;
     sequence.frame_rate_hz = video_->frame_rate_hz;
+    sequence.rate_assumed = video_->frame_rate_assumed;
     reader_.storeSequence(sequence);
 }
 
@@ -248,13 +250,13 @@ void ProjectSession::findMovedVideo(const Pending& pending, const QString& messa
         showWithoutVideo(*pending.sequence, pending.run, message);
         return;
     }
-    const Media media = videoMedia(*candidate, {.remembered_hz = pending.sequence->frame_rate_hz});
+    const Media media = videoMedia(*candidate, {.remembered_hz = pending.sequence->rememberedRate()});
     beginOpening({media, Purpose::moved, project_, pending.sequence, pending.run});
 }
 
 void ProjectSession::locateVideo(const fs::path& path) {
     if (!missing_) return;
-    const Media media = videoMedia(path, {.remembered_hz = missing_->frame_rate_hz});
+    const Media media = videoMedia(path, {.remembered_hz = missing_->rememberedRate()});
     beginOpening({media, Purpose::moved, project_, missing_, current_run_});
 }
 
@@ -276,6 +278,7 @@ void ProjectSession::showWithoutVideo(const SequenceRecord& sequence, std::optio
     info.size = sequence.size;
     info.frame_count = sequence.frame_count;
     info.frame_rate_hz = sequence.frame_rate_hz;
+    info.frame_rate_assumed = sequence.rate_assumed;
     video.times_us.resize(static_cast<size_t>(std::max(0, info.frame_count)));
     for (size_t i = 0; i < video.times_us.size(); ++i)
         video.times_us[i] = std::llround(static_cast<double>(i) * 1e6 / std::max(0.001, info.frame_rate_hz));

@@ -7,7 +7,7 @@
 
 namespace eyrie::ui {
 
-std::optional<double> gsdFromText(const QString& text) {
+std::optional<double> numberFromText(const QString& text) {
     QString plain;
     for (const QChar c : text.trimmed()) {
         if (c.isDigit())
@@ -16,10 +16,16 @@ std::optional<double> gsdFromText(const QString& text) {
             // Nobody groups the thousands of such a number: a comma is a decimal one, also the Arabic.
             plain += c == QLatin1Char(',') || c == QChar(0x066B) ? QLatin1Char('.') : c;
     }
-    if (plain.isEmpty()) return 0;
     bool understood = false;
     const double value = QLocale::c().toDouble(plain, &understood);
-    if (!understood || !std::isfinite(value) || value < kSmallestGsd || value > kLargestGsd) return std::nullopt;
+    if (!understood || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::optional<double> gsdFromText(const QString& text) {
+    if (text.trimmed().isEmpty()) return 0;
+    const auto value = numberFromText(text);
+    if (!value || !whyNotAGsd(*value).empty()) return std::nullopt;
     return value;
 }
 

@@ -33,6 +33,7 @@
 #include "review/watch/watch_commands.h"
 #include "review/watch/watched_ground.h"
 #include "tune/compare/live_preview.h"
+#include "tune/evaluate/evaluation_session.h"
 #include "tune/inspect/inspection.h"
 #include "tune/inspect/stacks_panel.h"
 #include "tune/inspect/stage_chips.h"
@@ -86,7 +87,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     guard_ = new RunGuard(session_, *this);
     inspection_ = new Inspection(session_, this);
     docks_ = new DockRegistry(*this);
-    review_ = new ReviewDocks({session_, *inspection_, *docks_, *actions_, overlays_, *guard_, *messages_});
+    measured_ = new EvaluationSession(session_, this);
+    review_ = new ReviewDocks({session_, *inspection_, *measured_, *docks_, *actions_, overlays_, *guard_, *messages_});
     events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
     review_->setDoingsWanted([this] { events_->review().setWanted(); });
     connect(events_, &EventsDock::eventsShown, this, [this] {
@@ -230,12 +232,9 @@ void MainWindow::buildWatching() {
     like_ = new LikeTracks({session_, review_->tracks(), *docks_, *actions_, *messages_}, this);
     review_->setLikenessWanted([this](std::optional<TrackId> track) { like_->want(track); });
     whenAny(
-        events_, ground_,
-        [this] {
-            ground_->setRun(events_->review().tracks());
-            like_->setRun(events_->review().tracks());
-        },
-        &EventsDock::tracksRead);
+        events_, ground_, [this] { ground_->setRun(events_->review().tracks()); }, &EventsDock::tracksRead);
+    whenAny(
+        ground_, like_, [this] { like_->setGround(ground_->ground()); }, &WatchedGround::changed);
     steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
     watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
     seen_ = new SeenWatch(
@@ -251,7 +250,7 @@ void MainWindow::buildWatching() {
 }
 
 void MainWindow::buildEvaluation() {
-    evaluation_ = new EvaluationDocks(session_, *canvas_, *actions_, overlays_, *docks_, *messages_, *this);
+    evaluation_ = new EvaluationDocks(session_, *measured_, *canvas_, *actions_, overlays_, *docks_, *messages_, *this);
     connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
     // A preview takes the verdicts away, which are those of the stored run; they come back with it.
     connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {

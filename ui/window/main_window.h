@@ -15,6 +15,7 @@ namespace eyrie::ui {
 class CardDock;
 class DockRegistry;
 class EvaluationDocks;
+class EvaluationSession;
 class EventReport;
 class EventsDock;
 class Inspection;
@@ -129,6 +130,7 @@ class MainWindow : public QMainWindow {
     MosaicPanel* mosaic_;
     CardDock* card_;
     EventReport* event_report_;
+    EvaluationSession* measured_;
     EvaluationDocks* evaluation_;
     Tuning* tuning_;
     LabelWorkspace* labelling_;

@@ -60,6 +60,8 @@ const char* nameOf(DockId id) {
             return "mosaic";
         case DockId::card:
             return "card";
+        case DockId::bookmarks:
+            return "bookmarks";
     }
     return "";
 }
@@ -73,7 +75,8 @@ struct Columns {
 Columns columnsOf(WorkspaceKind workspace) {
     switch (workspace) {
         case WorkspaceKind::review:
-            return {{DockId::events, DockId::tracks, DockId::runs}, {DockId::card, DockId::inspector, DockId::mosaic}};
+            return {{DockId::events, DockId::tracks, DockId::runs, DockId::bookmarks},
+                    {DockId::card, DockId::inspector, DockId::mosaic}};
         case WorkspaceKind::label:
             return {{DockId::objects}, {DockId::object, DockId::object_chips}};
         case WorkspaceKind::tune:
@@ -128,7 +131,8 @@ void DockRegistry::raise(DockId id) {
     if (wanted->isHidden()) {
         const Columns here = columnsOf(arranged_);
         if (!(here.left + here.right).contains(id)) {
-            const bool on_left = columnsOf(WorkspaceKind::tune).left.contains(id);
+            const bool on_left =
+                columnsOf(WorkspaceKind::tune).left.contains(id) || columnsOf(WorkspaceKind::review).left.contains(id);
             QDockWidget* beside = dock(on_left ? here.left.back() : here.right.back());
             if (beside != nullptr && !beside->isHidden()) window_.tabifyDockWidget(beside, wanted);
         }

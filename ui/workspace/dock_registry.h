@@ -31,9 +31,10 @@ enum class DockId {
     object,
     object_chips,
     mosaic,
-    card
+    card,
+    bookmarks
 };
-inline constexpr int kDockCount = 18;
+inline constexpr int kDockCount = 19;
 
 constexpr std::array<DockId, kDockCount> allDocks() {
     std::array<DockId, kDockCount> ids{};

@@ -9,7 +9,7 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr int kLayoutVersion = 4;  ///< counts up when stored layouts no longer fit the docks
+constexpr int kLayoutVersion = 5;  ///< counts up when stored layouts no longer fit the docks
 const QString kCurrent = QStringLiteral("current");
 const QString kLayout = QStringLiteral("/layout");
 const QString kOverlays = QStringLiteral("/overlays");

@@ -12,7 +12,7 @@ double rememberedRate(const std::filesystem::path& project, const std::string& i
     if (!std::filesystem::exists(project, failure)) return 0;
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     for (const SequenceRecord& sequence : sequencesOf(file))
-        if (std::filesystem::equivalent(sequence.path, input, failure)) return sequence.frame_rate_hz;
+        if (std::filesystem::equivalent(sequence.path, input, failure)) return sequence.rememberedRate();
     return 0;
 }
 

@@ -61,7 +61,7 @@ OpenedClips openSequences(const SweepSources& sources, const ChainOptions& optio
         const double gsd = sources.gsds.empty() ? 0 : sources.gsds[sources.gsds.size() == 1 ? 0 : i];
         clip.scale = chooseScale(*source, range, options, gsd, stop);
         SweepInput input = openClip(clip, opener(clip.sequence, rate, remembered), range, std::move(truth),
-                                    sources.evaluation.options);
+                                    sources.evaluation.options, {.looked_for_slope = options.view.oblique});
         opened.add(std::move(clip), std::move(input));
     }
     return opened;

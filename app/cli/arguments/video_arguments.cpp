@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "cli/reports/figure_text.h"
 #include "core/error.h"
@@ -63,11 +64,10 @@ std::optional<std::int64_t> startOf(const std::string& text) {
 }
 
 void checkGsd(double gsd) {
-    if (!(gsd >= kSmallestGsd && gsd <= kLargestGsd)) {
-        throw Error(ErrorKind::parameter, "--gsd " + numberText(gsd) + ": expected metres per pixel from " +
-                                              numberText(kSmallestGsd) + " to " + numberText(kLargestGsd) +
-                                              ", e.g. 0.3; leave it out when unknown");
-    }
+    if (const std::string why = whyNotAGsd(gsd); !why.empty())
+        throw Error(ErrorKind::parameter, "--gsd " + numberText(gsd) + ": " + why + "; leave it out when unknown");
+    if (const std::string doubt = doubtOfGsd(gsd); !doubt.empty())
+        std::fprintf(stderr, "eyrie-cli: --gsd %s: %s\n", numberText(gsd).c_str(), doubt.c_str());
 }
 
 }  // namespace eyrie::cli

@@ -32,7 +32,8 @@ std::optional<std::int64_t> startOf(const std::string& text);
 inline constexpr const char* kStartHelp =
     "When the video begins, UTC, e.g. 2026-11-21T08:00:00Z (default: by its metadata)";
 
-/// Throws Error(parameter) unless `gsd` is a usable number of metres per pixel.
+/// Throws Error(parameter) unless `gsd` is a usable number of metres per pixel, and warns of one with which nothing can
+/// be found.
 void checkGsd(double gsd_m_per_px);
 
 }  // namespace eyrie::cli

@@ -50,7 +50,8 @@ Json factsOf(RunStore& store, const RunRecord& run) {
                {"first_frame", run.first_frame},
                {"last_frame", run.last_frame},
                {"frames_done", run.frames_done},
-               {"frame_rate_hz", sequence.frame_rate_hz}};
+               {"frame_rate_hz", run.scale.frame_rate_hz},
+               {"frame_rate_assumed", run.rate_assumed}};
     facts["gsd_m_per_px"] = run.scale.gsd_known ? Json(run.scale.gsd_m_per_px) : Json(nullptr);
     if (!run.scale.gsd_known) {
         facts["worked_with_m_per_px"] = run.scale.gsd_m_per_px;
@@ -88,8 +89,9 @@ void printProject(const Json& facts) {
                     run["state"].get<std::string>().c_str(), message.empty() ? "" : ", ", message.c_str());
         std::printf("    %s, %d×%d px\n", run["video"].get<std::string>().c_str(), run["width"].get<int>(),
                     run["height"].get<int>());
-        std::printf("    frames %d to %d, %d of %d done, %d tracks\n", run["first_frame"].get<int>(),
-                    run["last_frame"].get<int>(), run["frames_done"].get<int>(), planned, run["tracks"].get<int>());
+        std::printf("    frames %d to %d, %d of %d done, %d tracks%s\n", run["first_frame"].get<int>(),
+                    run["last_frame"].get<int>(), run["frames_done"].get<int>(), planned, run["tracks"].get<int>(),
+                    run["frame_rate_assumed"].get<bool>() ? ", frame rate assumed" : "");
         const char* scale = run["gsd_m_per_px"].is_null() ? "scale unknown, worked with " : "";
         std::printf("    %s, engine %s, preset %s, %s%s\n", run["started"].get<std::string>().c_str(),
                     run["engine_version"].get<std::string>().c_str(), run["preset"].get<std::string>().c_str(), scale,

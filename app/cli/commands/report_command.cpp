@@ -84,8 +84,8 @@ int makeEventReport(const ReportArguments& arguments) {
     }
     if (interrupt.token().stop_requested()) return exit_stopped;
     writeHtmlReport(arguments.out, report);
-    std::printf("Report: %s, %zu of %zu events\n", arguments.out.c_str(), countOfEvents(input),
-                input.reviewed.events.size());
+    std::printf("Report: %s, %s, %zu of %zu events\n", arguments.out.c_str(), runText(run).c_str(),
+                countOfEvents(input), input.reviewed.events.size());
     if (countOfEvents(input) == 0 && !input.reviewed.events.empty())
         std::fputs("None was judged so; --verdict all tells every event\n", stderr);
     return exit_ok;
@@ -114,8 +114,9 @@ void makeReport(const ReportArguments& arguments) {
     options.made_utc = nowUtc();
     options.chips = arguments.chips;
     writeHtmlReport(arguments.out, makeEvaluationReport(*evaluation, pixels.get(), options));
-    std::printf("Report: %s, f-score %.4f at T_ov %g, %zu errors\n", arguments.out.c_str(),
-                evaluation->shown.detection.f_score, evaluation->options.overlap, evaluation->errors.size());
+    std::printf("Report: %s, %s, f-score %.4f at T_ov %g, %zu errors\n", arguments.out.c_str(),
+                runText(evaluation->run).c_str(), evaluation->shown.detection.f_score, evaluation->options.overlap,
+                evaluation->errors.size());
 }
 
 }  // namespace

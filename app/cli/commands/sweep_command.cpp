@@ -11,6 +11,7 @@
 #include "cli/arguments/sweep_arguments.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/project_runs.h"
 #include "cli/reports/console_progress.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -146,7 +147,8 @@ int sweep(const SweepArguments& arguments) {
     if (!arguments.sources.project.empty()) {
         ProjectFile project = ProjectFile::open(arguments.sources.project, ProjectFile::Mode::read_only);
         for (const int run : arguments.sources.runs) runs.push_back(readStoredRun(project, run));
-        if (runs.empty()) runs.push_back(readStoredRun(project));
+        if (runs.empty())
+            runs.push_back(readStoredRun(project, chosenRun(RunStore(project), project.path().string(), {}).id));
     }
     const ChainOptions base = baseOptions(arguments, runs);
     SweepPlan plan;

@@ -115,7 +115,10 @@ std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunS
     if (confirmed > 0) text += formatted(", mean speed %s", speedText(run.scale, speed / confirmed).c_str());
     if (two_wheelers + persons > 0)
         text += formatted(" (by their size two-wheelers %d, persons %d)", two_wheelers, persons);
-    if (facts.nothing != NothingFollowed::has_tracks) text += formatted(": %s", whyNothing(facts.nothing));
+    if (facts.nothing != NothingFollowed::has_tracks) {
+        const std::string doubt = doubtfulScaleOf(facts);
+        text += ": " + (doubt.empty() ? whyNothing(facts.nothing) : doubt);
+    }
     text += "\nMedian per frame:";
     for (int i = 0; i < kStageCount; ++i) {
         const float ms = summary.median_ms[static_cast<std::size_t>(i)];

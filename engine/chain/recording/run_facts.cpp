@@ -16,6 +16,14 @@ NothingFollowed firstGap(const RunCounts& counts) {
 
 }  // namespace
 
+std::string doubtfulScaleOf(const RunFacts& facts) {
+    const bool empty = facts.nothing != NothingFollowed::has_tracks && facts.nothing != NothingFollowed::no_frames &&
+                       facts.nothing != NothingFollowed::not_registered;
+    const bool stated =
+        facts.scale_basis.origin == ScaleOrigin::given || facts.scale_basis.origin == ScaleOrigin::metadata;
+    return empty && stated ? doubtOfGsd(facts.gsd_m_per_px) : std::string();
+}
+
 RunFacts factsOf(ProjectFile& project, const RunRecord& run) {
     RunFacts facts;
     facts.state = run.state == RunState::running && !run.live ? RunState::stopped : run.state;

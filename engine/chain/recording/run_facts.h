@@ -27,6 +27,10 @@ struct RunFacts {
     NothingFollowed nothing = NothingFollowed::has_tracks;
 };
 
+/// Why a run without tracks could not have any with the scale that was given for it, doubtOfGsd(); empty where its
+/// scale is not the cause. It comes before what `nothing` says.
+std::string doubtfulScaleOf(const RunFacts& facts);
+
 /// Throws Error(project).
 RunFacts factsOf(ProjectFile& project, const RunRecord& run);
 

@@ -104,6 +104,8 @@ RunRecord plannedRun(const VideoInfo& video, const SceneScale& scale, FrameRange
     run.sequence.size = video.size;
     run.sequence.frame_count = video.frame_count;
     run.sequence.frame_rate_hz = video.frame_rate_hz;
+    run.sequence.rate_assumed = video.frame_rate_assumed;
+    run.rate_assumed = video.frame_rate_assumed;
     run.engine_version = engineVersion();
     run.preset = preset;
     run.scale = scale;

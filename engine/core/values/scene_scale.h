@@ -1,12 +1,22 @@
 #pragma once
 
+#include <string>
+
 #include "core/values/scale_slope.h"
 
 namespace eyrie {
 
-/// The smallest and the largest ground sampling distance that a person may give, metres per pixel.
+/// The smallest and the largest ground sampling distance that a person may give, metres per pixel. At the largest one a
+/// lorry is a single pixel.
 inline constexpr double kSmallestGsd = 0.001;
-inline constexpr double kLargestGsd = 100;
+inline constexpr double kLargestGsd = 10;
+
+/// What is wrong with a ground sampling distance that a person gave, with what was probably meant; empty when it can be
+/// used. Command line and window say the same.
+std::string whyNotAGsd(double gsd_m_per_px);
+/// Why nothing will be found with one that can be used, with the remedy; empty where vehicles have a size that is
+/// looked for.
+std::string doubtOfGsd(double gsd_m_per_px);
 
 /// Turns physical lengths and speeds into pixels. What a stage measures at a place it asks of the scale there, `at()`;
 /// what it needs once for the whole picture is that of the picture's centre.

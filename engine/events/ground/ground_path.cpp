@@ -35,7 +35,7 @@ void measure(GroundPath& path, const std::vector<cv::Point2d>& raw, double half_
         if (end - begin < kFewestInWindow) continue;
         slope *= 1 / spread;
         sample.at = mean - slope * mean_time;
-        sample.velocity = slope * rate_hz;
+        sample.velocity = slope * (rate_hz * sample.by_place);
         sample.speed = std::hypot(sample.velocity.x, sample.velocity.y);
     }
 }
@@ -72,8 +72,8 @@ void removeShortSpans(GroundPath& path, double min_way, const EventOptions& opti
         return span.first == 0 && span.last + 1 == path.samples.size();
     };
     for (const SampleSpan& span : spansOf(path, true)) {
-        const cv::Point2d moved = path.samples[span.last].at - path.samples[span.first].at;
-        if (!isWhole(span) && std::hypot(moved.x, moved.y) < min_way) set(path, span, false);
+        const double moved = metresBetween(path.samples[span.first], path.samples[span.last]);
+        if (!isWhole(span) && moved < min_way) set(path, span, false);
     }
     for (const SampleSpan& span : spansOf(path, false)) {
         if (!isWhole(span) && secondsBetween(path, span.first, span.last, scale) < options.min_standing_s)
@@ -96,6 +96,7 @@ GroundPath pieceFrom(const EventTrack& track, std::size_t first, const GroundStr
         GroundSample sample;
         sample.frame = box.frame;
         sample.at = ground.toGround(box.frame, box.box.centre);
+        sample.by_place = ground.metresByPlace(box.frame, box.box.centre);
         raw.push_back(sample.at);
         path.samples.push_back(sample);
     }
@@ -120,12 +121,14 @@ double secondsBetween(const GroundPath& path, std::size_t from, std::size_t to, 
     return (path.samples[to].frame - path.samples[from].frame) / scale.frame_rate_hz;
 }
 
+double metresBetween(const GroundSample& a, const GroundSample& b) {
+    return std::hypot(b.at.x - a.at.x, b.at.y - a.at.y) * (a.by_place + b.by_place) / 2;
+}
+
 double wayBetween(const GroundPath& path, std::size_t from, std::size_t to) {
     double way = 0;
     for (std::size_t i = from + 1; i <= to; ++i) {
-        if (!path.samples[i].moving) continue;
-        const cv::Point2d step = path.samples[i].at - path.samples[i - 1].at;
-        way += std::hypot(step.x, step.y);
+        if (path.samples[i].moving) way += metresBetween(path.samples[i - 1], path.samples[i]);
     }
     return way;
 }
@@ -155,7 +158,7 @@ std::vector<GroundPath> groundPaths(const std::vector<EventTrack>& tracks, const
             if (path.measured) {
                 measure(path, raw, half_window, scale.frame_rate_hz);
                 const TrackedBox& middle = path.box(path.samples.size() / 2);
-                const double noise_m = options.noise_px * ground.metresPerPixel(middle.frame, middle.box.centre);
+                const double noise_m = options.noise_px * ground.metresHere(middle.frame, middle.box.centre);
                 const double noise = speedOfNoise(noise_m, half_window, scale.frame_rate_hz);
                 const double standing = std::max(options.standing_kmh / 3.6, noise);
                 tellMoving(path, standing, std::max({options.moving_kmh / 3.6, standing, 1.5 * noise}));

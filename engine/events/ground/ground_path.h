@@ -12,9 +12,10 @@ namespace eyrie {
 /// A vehicle at one moment, on the ground.
 struct GroundSample {
     FrameIndex frame = 0;
-    cv::Point2d at;        ///< m, smoothed
-    cv::Point2d velocity;  ///< m/s
+    cv::Point2d at;        ///< on the ground, m by the scale in the middle of the picture, smoothed
+    cv::Point2d velocity;  ///< m/s by the scale at the place, as all below
     double speed = 0;      ///< m/s
+    double by_place = 1;   ///< metres there, of a metre on the ground; 1 unless the view is oblique
     bool moving = false;   ///< with hysteresis
 };
 
@@ -43,6 +44,8 @@ std::vector<SampleSpan> spansOf(const GroundPath& path, bool moving);
 
 /// The samples' frames in seconds.
 double secondsBetween(const GroundPath& path, std::size_t from, std::size_t to, const SceneScale& scale);
+/// Between two places of one ground, m by the scale there.
+double metresBetween(const GroundSample& a, const GroundSample& b);
 /// How far the vehicle drives from one sample to another, m; what it seems to move while it stands does not count.
 double wayBetween(const GroundPath& path, std::size_t from, std::size_t to);
 /// The first sample at or after a frame; the number of samples where there is none.

@@ -68,6 +68,16 @@ double GroundStretches::metresPerPixel(FrameIndex frame, cv::Point2d image) cons
     return HomographyJacobian(map(frame), image).scale() * of(frame)->metres_per_px;
 }
 
+double GroundStretches::metresByPlace(FrameIndex frame, cv::Point2d image) const {
+    const SceneScale& scale = footage_.scale;
+    return scale.slope.isFlat() ? 1 : scale.at(image).gsd_m_per_px / metresPerPixel(frame, image);
+}
+
+double GroundStretches::metresHere(FrameIndex frame, cv::Point2d image) const {
+    const SceneScale& scale = footage_.scale;
+    return scale.slope.isFlat() ? metresPerPixel(frame, image) : scale.at(image).gsd_m_per_px;
+}
+
 bool GroundStretches::inImage(cv::Point2d image) const {
     return image.x >= -0.5 && image.y >= -0.5 && image.x <= footage_.image_size.width - 0.5 &&
            image.y <= footage_.image_size.height - 0.5;

@@ -46,8 +46,12 @@ class GroundStretches {
     OrientedBox toGround(FrameIndex frame, const OrientedBox& box) const;
     /// px in a frame of the stretch, from metres on its ground; nothing for what lies behind the camera.
     std::optional<cv::Point2d> toImage(FrameIndex frame, cv::Point2d ground) const;
-    /// Metres on the ground for a pixel here.
+    /// Metres on the ground for a pixel here; the ground knows the scale in the middle of the picture.
     double metresPerPixel(FrameIndex frame, cv::Point2d image) const;
+    /// Metres by the scale at a place, of a metre on the ground: 1 unless the view is oblique.
+    double metresByPlace(FrameIndex frame, cv::Point2d image) const;
+    /// Metres by the scale at a place for a pixel there.
+    double metresHere(FrameIndex frame, cv::Point2d image) const;
     bool inImage(cv::Point2d image) const;
 
     const Footage& footage() const { return footage_; }

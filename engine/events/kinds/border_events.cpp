@@ -31,7 +31,7 @@ double depthInImage(cv::Point2d place, cv::Size size) {
 bool isAtBorder(const EventScene& scene, const GroundPath& path, bool at_end) {
     const Footage& footage = scene.ground.footage();
     const TrackedBox& box = path.box(at_end ? path.samples.size() - 1 : 0);
-    const double metres = scene.ground.metresPerPixel(box.frame, box.box.centre);
+    const double metres = scene.ground.metresHere(box.frame, box.box.centre);
     const double border = std::max(kLeastBorder_px, scene.options.border_m / metres);
     for (const cv::Point2d& corner : box.box.corners()) {
         if (depthInImage(corner, footage.image_size) < border) return true;
@@ -71,7 +71,7 @@ void findBorderEvents(const EventScene& scene, std::vector<Event>& events) {
             if (at_border || !isAtEdgeOfSearch(scene, path, false)) {
                 Event event = eventAt(scene, EventKind::appears, path, {0, 0}, 0);
                 const double depth = std::max(0.0, depthInImage(event.place, size));
-                setLength(event, scene, depth * scene.ground.metresPerPixel(event.frame, event.place));
+                setLength(event, scene, depth * scene.ground.metresHere(event.frame, event.place));
                 events.push_back(event);
             }
         }

@@ -33,9 +33,8 @@ std::optional<double> headwayOf(const EventScene& scene, const GroundPath& follo
                                 const GroundSample& leader) {
     const EventOptions& o = scene.options;
     const GroundSample& now = follower.samples[at];
-    const cv::Point2d ahead = leader.at - now.at;
     const double furthest = o.convoy_headway_s * std::max(now.speed, leader.speed) * kSameSpeed;
-    if (ahead.dot(ahead) > furthest * furthest) return std::nullopt;
+    if (metresBetween(now, leader) > furthest) return std::nullopt;
     if (now.speed > kSameSpeed * leader.speed || leader.speed > kSameSpeed * now.speed) return std::nullopt;
     double nearest = o.convoy_lane_m;
     std::optional<double> headway;
@@ -43,8 +42,7 @@ std::optional<double> headwayOf(const EventScene& scene, const GroundPath& follo
         const double seconds = secondsBetween(follower, at, i, scene.scale);
         if (seconds > o.convoy_headway_s) break;
         const GroundSample& then = follower.samples[i];
-        const cv::Point2d beside = leader.at - then.at;
-        const double distance = std::hypot(beside.x, beside.y);
+        const double distance = metresBetween(then, leader);
         if (distance >= nearest) continue;
         if (then.velocity.dot(leader.velocity) < kSameWayCos * then.speed * leader.speed) continue;
         nearest = distance;

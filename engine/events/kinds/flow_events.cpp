@@ -88,7 +88,8 @@ std::pair<std::size_t, double> furthestBeside(const GroundPath& path, const Grou
     std::pair<std::size_t, double> furthest{span.first, 0};
     for (std::size_t i = span.first; i <= span.last; ++i) {
         const cv::Point2d way = path.samples[i].at - from.at;
-        const double beside = std::abs(from.velocity.x * way.y - from.velocity.y * way.x) / from.speed;
+        const double beside =
+            std::abs(from.velocity.x * way.y - from.velocity.y * way.x) / from.speed * path.samples[i].by_place;
         if (beside > furthest.second) furthest = {i, beside};
     }
     return furthest;

@@ -13,6 +13,7 @@ struct Standstill {
     const GroundPath* path = nullptr;
     SampleSpan span;
     OrientedBox box;       ///< on the ground, m
+    double by_place = 1;   ///< metres by the scale there, of one on the ground
     double direction = 0;  ///< from which it came; or into which it leaves, or how it stands
 };
 
@@ -33,7 +34,8 @@ double gapBetween(const OrientedBox& a, const OrientedBox& b) {
 
 Standstill standstillOf(const EventScene& scene, const GroundPath& path, const SampleSpan& span) {
     const std::size_t middle = (span.first + span.last) / 2;
-    Standstill found{&path, span, scene.ground.toGround(path.samples[middle].frame, path.box(middle).box), 0};
+    Standstill found{&path, span, scene.ground.toGround(path.samples[middle].frame, path.box(middle).box),
+                     path.samples[middle].by_place, 0};
     found.box.centre = path.samples[middle].at;
     found.direction = found.box.heading;
     // Where it drove last, or drives next, at a speed whose direction can be trusted.
@@ -61,10 +63,11 @@ void addMeeting(const EventScene& scene, const Standstill& a, const Standstill& 
     const FrameIndex last = std::min(lastOf(a), lastOf(b));
     if ((last - first) / scene.scale.frame_rate_hz < o.meeting_s) return;
     const cv::Point2d apart = a.box.centre - b.box.centre;
-    const double reach = (a.box.length + a.box.width + b.box.length + b.box.width) / 2 + o.meeting_distance_m;
+    const double most = o.meeting_distance_m / ((a.by_place + b.by_place) / 2);  // on the ground
+    const double reach = (a.box.length + a.box.width + b.box.length + b.box.width) / 2 + most;
     if (apart.dot(apart) > reach * reach) return;
     const double gap = gapBetween(a.box, b.box);
-    if (gap > o.meeting_distance_m) return;
+    if (gap > most) return;
     if (std::abs(turnBetween(a.direction, b.direction)) < radiansFromDegrees(o.meeting_deg)) return;
     const std::size_t from = std::min(sampleAt(*a.path, first), a.path->samples.size() - 1);
     const std::size_t to = std::min(sampleAt(*a.path, last), a.path->samples.size() - 1);

@@ -24,8 +24,7 @@ double wayInDirection(const GroundPath& path, std::size_t sample, bool onwards, 
         const std::size_t next = onwards ? i + 1 : i - 1;
         if (path.samples[next].moving) {
             if (std::abs(turnBetween(direction, directionOf(path.samples[next]))) > kKeepsDirection) break;
-            const cv::Point2d step = path.samples[next].at - path.samples[i].at;
-            way += std::hypot(step.x, step.y);
+            way += metresBetween(path.samples[i], path.samples[next]);
         }
         i = next;
     }
@@ -44,7 +43,8 @@ bool isTurnBack(const EventOptions& o, const GroundPath& path, std::size_t befor
     const GroundSample& to = path.samples[after];
     if (from.velocity.dot(to.velocity) > cosine * from.speed * to.speed) return false;
     const cv::Point2d between = to.at - from.at;
-    const double beside = std::abs(from.velocity.x * between.y - from.velocity.y * between.x) / from.speed;
+    const double beside =
+        std::abs(from.velocity.x * between.y - from.velocity.y * between.x) / from.speed * from.by_place;
     return beside <= o.turn_back_offset_m &&
            wayInDirection(path, before, false, o.turn_back_way_m) >= o.turn_back_way_m &&
            wayInDirection(path, after, true, o.turn_back_way_m) >= o.turn_back_way_m;
@@ -118,6 +118,7 @@ void findBeyond(const EventScene& scene, const GroundPath& path, bool over, std:
 std::size_t staysUntil(const GroundPath& path, std::size_t first, double diameter, std::size_t step) {
     double left = 1e300, right = -1e300, top = 1e300, bottom = -1e300;
     std::size_t last = first;
+    diameter /= path.samples[first].by_place;
     for (std::size_t i = first; i < path.samples.size(); i += step) {
         const cv::Point2d at = path.samples[i].at;
         left = std::min(left, at.x), right = std::max(right, at.x);

@@ -29,9 +29,9 @@ std::optional<cv::Point2d> placeOf(const EventScene& scene, const PlacedZone& zo
 
 /// How far over the edge a vehicle must come, in the zone's own measure.
 double marginOf(const EventScene& scene, const PlacedZone& zone, const GroundPath& path, std::size_t sample) {
-    if (!zone.in_image) return scene.options.zone_margin_m;
+    if (!zone.in_image) return scene.options.zone_margin_m / path.samples[sample].by_place;
     const TrackedBox& box = path.box(sample);
-    return scene.options.zone_margin_m / scene.ground.metresPerPixel(box.frame, box.box.centre);
+    return scene.options.zone_margin_m / scene.ground.metresHere(box.frame, box.box.centre);
 }
 
 Event passing(const EventScene& scene, EventKind kind, const GroundPath& path, std::size_t sample,

@@ -55,7 +55,7 @@ std::optional<double> VehicleDistance::between(const ReviewSubject& subject, con
 std::optional<double> VehicleDistance::ofTrack(const ReviewSubject& subject, const EventTrack& track) const {
     const cv::Point2d place = subject.place;
     if (const TrackedBox* box = boxIn(track, subject.frame)) {
-        return onGround(cv::norm(box->box.centre - place) * ground_.metresPerPixel(subject.frame, place));
+        return onGround(cv::norm(box->box.centre - place) * ground_.metresHere(subject.frame, place));
     }
     // It was lost before, or found after: where would it be?
     const bool before = track.boxes.back().frame < subject.frame;
@@ -74,13 +74,14 @@ std::optional<double> VehicleDistance::ofTrack(const ReviewSubject& subject, con
         const cv::Point2d way = at - ground_.toGround(from->frame, from->box.centre);
         at += way * (static_cast<double>(subject.frame - end.frame) / (end.frame - from->frame));
     }
-    return onGround(cv::norm(at - ground_.toGround(subject.frame, place)));
+    return onGround(cv::norm(at - ground_.toGround(subject.frame, place)) *
+                    ground_.metresByPlace(subject.frame, place));
 }
 
 std::optional<double> VehicleDistance::ofPlace(const ReviewSubject& subject, const Event& event) const {
     if (const auto map = run_.footage.camera.map(subject.frame, event.frame)) {
         const cv::Point2d there = HomographyJacobian(map->matrix, subject.place).point();
-        return onGround(cv::norm(there - event.place) * ground_.metresPerPixel(event.frame, event.place));
+        return onGround(cv::norm(there - event.place) * ground_.metresHere(event.frame, event.place));
     }
     const double px = cv::norm(subject.place - event.place);
     if (!(px <= options_.carry_picture_px)) return std::nullopt;

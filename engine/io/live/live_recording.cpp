@@ -126,6 +126,13 @@ bool LiveRecording::write(AVPacket& packet, const AVFormatContext& demuxer, std:
     return true;
 }
 
+void LiveRecording::discard() {
+    if (!muxer_) return;
+    muxer_.reset();
+    std::error_code left_behind;
+    std::filesystem::remove(path_, left_behind);
+}
+
 void LiveRecording::finish() {
     if (!muxer_) return;
     int written = av_write_trailer(muxer_.get());

@@ -29,6 +29,8 @@ class LiveRecording {
     bool write(AVPacket& packet, const AVFormatContext& demuxer, std::int64_t gap_us);
     /// Completes the file, if there is one. Throws Error(output).
     void finish();
+    /// Takes the file away, if it was made: nothing in it can be shown.
+    void discard();
 
  private:
     struct CloseRecording {

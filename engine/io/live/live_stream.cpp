@@ -94,6 +94,17 @@ struct LiveStream::Receiver {
 
     void receiveAll() {
         LiveRecording recording(options.recording);
+        try {
+            receiveInto(recording);
+        } catch (...) {
+            if (facts.frames == 0) recording.discard();
+            throw;
+        }
+        if (facts.frames == 0) return recording.discard();
+        recording.finish();
+    }
+
+    void receiveInto(LiveRecording& recording) {
         auto connection = std::make_unique<LiveConnection>(address, options.connect_s, ending.get_token());
         while (connection) {
             if (!goesOnWith(*connection)) break;
@@ -102,7 +113,6 @@ struct LiveStream::Receiver {
             connection.reset();
             if (goes_on) connection = connectAgain();
         }
-        recording.finish();
     }
 
     /// Whether a connection sends what those before it sent. Nothing else may lie in one recording.

@@ -58,7 +58,7 @@ std::vector<DataStream> readDataStreams(const std::filesystem::path& path,
     const libav::Packet packet(av_packet_alloc());
     int pictures = 0;
     int told_percent = -1;
-    while (av_read_frame(demuxer.get(), packet.get()) >= 0) {
+    while (readNext(path, *demuxer, *packet)) {
         if (stop.stop_requested())
             throw Error(ErrorKind::input, path.string() + ": stopped while reading its metadata");
         const AVStream& stream = *demuxer->streams[packet->stream_index];

@@ -57,16 +57,12 @@ class StreamCopy {
 
     /// The next packet of the original, copied; nothing at its end.
     bool next() {
-        while (av_read_frame(demuxer_.get(), packet_.get()) >= 0) {
+        while (readNext(from_, *demuxer_, *packet_)) {
             // Tracks of a transport stream may begin in its midst: those cannot be copied any more.
             const auto track = static_cast<std::size_t>(packet_->stream_index);
             if (track < places_.size() && places_[track] >= 0) return true;
             av_packet_unref(packet_.get());
         }
-        if (demuxer_->pb != nullptr && demuxer_->pb->error < 0)
-            throw Error(ErrorKind::input, from_.string() + ": cannot be read to its end (" +
-                                              libav::errorText(demuxer_->pb->error) +
-                                              "); check the disk or the net that it lies on");
         return false;
     }
     /// When it is decoded, µs; kNoStamp where it has no stamp or is no picture.

@@ -51,6 +51,15 @@ libav::Demuxer openContainer(const std::filesystem::path& path) {
     return demuxer;
 }
 
+bool readNext(const std::filesystem::path& path, AVFormatContext& demuxer, AVPacket& packet) {
+    if (av_read_frame(&demuxer, &packet) >= 0) return true;
+    if (demuxer.pb != nullptr && demuxer.pb->error < 0)
+        throw Error(ErrorKind::input, path.string() + ": cannot be read to its end (" +
+                                          libav::errorText(demuxer.pb->error) +
+                                          "); check the disk or the net that it lies on");
+    return false;
+}
+
 int findVideoStream(const std::filesystem::path& path, AVFormatContext& demuxer) {
     const int stream = av_find_best_stream(&demuxer, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
     if (stream < 0 || (demuxer.streams[stream]->disposition & AV_DISPOSITION_ATTACHED_PIC))
@@ -105,7 +114,7 @@ int VideoDecoder::numberOf(const AVPacket& packet) const {
 bool VideoDecoder::readPacket() {
     while (true) {
         av_packet_unref(packet_.get());
-        if (av_read_frame(demuxer_.get(), packet_.get()) < 0) return false;
+        if (!readNext(path_, *demuxer_, *packet_)) return false;
         if (packet_->stream_index == index_.stream) return true;
     }
 }

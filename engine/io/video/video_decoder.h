@@ -12,6 +12,10 @@ namespace eyrie {
 /// Opens a container read-only, local files only. Throws Error(input).
 libav::Demuxer openContainer(const std::filesystem::path& path);
 
+/// Reads the next packet of any stream; false at the end of the file, also where a recording was cut off. Throws
+/// Error(input) where the disk or the net does not hand over what is there.
+bool readNext(const std::filesystem::path& path, AVFormatContext& demuxer, AVPacket& packet);
+
 /// Number of the video stream to read. Throws Error(input) when there is none.
 int findVideoStream(const std::filesystem::path& path, AVFormatContext& demuxer);
 

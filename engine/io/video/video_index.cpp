@@ -97,7 +97,7 @@ Scan scanPackets(const std::filesystem::path& path, VideoIndex& index, Progress&
 
     const std::int64_t file_size = std::max<std::int64_t>(1, avio_size(demuxer->pb));
     const libav::Packet packet(av_packet_alloc());
-    while (av_read_frame(demuxer.get(), packet.get()) >= 0) {
+    while (readNext(path, *demuxer, *packet)) {
         if (packet->stream_index == index.stream) {
             index.packets.push_back(
                 {packet->pts, packet->dts, packet->pos, packet->size, (packet->flags & AV_PKT_FLAG_KEY) != 0});

@@ -1,3 +1,4 @@
+#include "core/time_text.h"
 #include "events/event_csv.h"
 #include "io/tables/number_text.h"
 #include "report/report_parts.h"
@@ -123,8 +124,8 @@ void tellReviewedVideo(ReportPage& page, const ReviewScene& scene) {
     fact("Video", run.sequence.path);
     fact("SHA-256", input.video_digest.empty() ? "not known" : input.video_digest);
     fact("Image", std::to_string(run.sequence.size.width) + " × " + std::to_string(run.sequence.size.height) + " px, " +
-                      fixedText(run.sequence.frame_rate_hz, 3) + " frames/s, " +
-                      std::to_string(run.sequence.frame_count) + " frames");
+                      fixedText(run.scale.frame_rate_hz, 3) + " frames/s" + (run.rate_assumed ? " (assumed)" : "") +
+                      ", " + std::to_string(run.sequence.frame_count) + " frames");
     std::string searched = std::to_string(run.id) + (run.name.empty() ? "" : ", " + run.name);
     if (footage.last_frame >= footage.first_frame)
         searched += ", frames " + std::to_string(footage.first_frame) + " to " + std::to_string(footage.last_frame) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/time_text.h"
 #include "core/utc_time.h"
 #include "events/event_csv.h"
 #include "georeference/video_world.h"

@@ -157,6 +157,8 @@ std::vector<RowRule> rowRules() {
              areShort("name, started_utc, engine_version, preset, message"),
          "range, scale or state of a run is impossible"},
         {"run", fittingScaleOrigin(), "where the scale of a run comes from, or how sure it is, is impossible", 12},
+        {"sequence", "rate_assumed IN (0, 1)", "whether the frame rate of a video is assumed is impossible", 19},
+        {"run", "rate_assumed IN (0, 1)", "whether the frame rate of a run is assumed is impossible", 19},
         {"run", fittingScaleSlope(), "how the scale of a run changes over the picture is impossible", 14},
         {"frame",
          frame + " AND width" + kPixels + " AND height" + kPixels + " AND corner_count >= 0 AND " +

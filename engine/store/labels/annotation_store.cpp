@@ -23,8 +23,8 @@ void relocateSequence(ProjectFile& project, int sequence_id, const std::string& 
 std::vector<SequenceRecord> sequencesOf(ProjectFile& project) {
     return guarded(project.path(), "listing the videos", [&] {
         SQLite::Statement statement(project.database(),
-                                    "SELECT id, path, width, height, frame_count, frame_rate_hz FROM sequence ORDER BY "
-                                    "id");
+                                    "SELECT id, path, width, height, frame_count, frame_rate_hz, rate_assumed "
+                                    "FROM sequence ORDER BY id");
         std::vector<SequenceRecord> sequences;
         while (statement.executeStep()) {
             RowReader row(statement);
@@ -35,6 +35,7 @@ std::vector<SequenceRecord> sequencesOf(ProjectFile& project) {
             sequence.size.height = row.integer();
             sequence.frame_count = row.integer();
             sequence.frame_rate_hz = row.real();
+            sequence.rate_assumed = row.integer() != 0;
             checkSequence(sequence);
             sequences.push_back(std::move(sequence));
         }

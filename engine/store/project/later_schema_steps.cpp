@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "core/values/scale_slope.h"
 #include "store/project/schema.h"
 
 namespace eyrie::schema {
@@ -367,6 +368,44 @@ CREATE VIEW v_corrections AS
 SELECT correction.id AS correction, sequence.path AS video, correction.kind, correction.frame, correction.person,
     correction.when_utc
 FROM correction JOIN sequence ON sequence.id = correction.sequence_id;
+)sql");
+}
+
+// Metres and km/h of tracks by the scale at their place; by that in the middle of the picture until then. As
+// SceneScale::at() has it, for the mean of a track's centres.
+void addLocalScales(SQLite::Database& database) {
+    static_assert(ScaleSlope::kLeast == 0.2 && ScaleSlope::kMost == 4);
+    database.exec(R"sql(
+DROP VIEW IF EXISTS v_tracks;
+CREATE VIEW v_tracks AS
+SELECT run, track, first_frame, last_frame, frames, (last_frame - first_frame) / rate AS seconds,
+    length_px, width_px, speed_px_per_frame,
+    length_px * gsd / factor AS length_m, width_px * gsd / factor AS width_m,
+    speed_px_per_frame * gsd / factor * rate * 3.6 AS speed_kmh, factor AS scale_factor
+FROM (SELECT track.run_id AS run, track.id AS track, track.first_frame, track.last_frame, track.frames,
+        track.length_sum / track.frames AS length_px, track.width_sum / track.frames AS width_px,
+        track.speed_sum / track.frames AS speed_px_per_frame,
+        run.frame_rate_hz AS rate, CASE WHEN run.gsd_known THEN run.gsd_m_per_px END AS gsd,
+        CASE WHEN run.scale_growth_right = 0 AND run.scale_growth_down = 0 THEN 1.0 ELSE min(4.0, max(0.2, (
+            SELECT 1 + run.scale_growth_right * (avg(x) - (sequence.width - 1) / 2.0)
+                     + run.scale_growth_down * (avg(y) - (sequence.height - 1) / 2.0)
+            FROM track_state WHERE track_state.run_id = track.run_id AND track_state.track_id = track.id))) END AS factor
+    FROM track JOIN run ON run.id = track.run_id JOIN sequence ON sequence.id = run.sequence_id
+    WHERE track.confirmed <> 0 AND run.removed_utc = '');
+)sql");
+}
+
+// Whether the frame rate of a video, and that of a run, is only assumed: folders of pictures do not tell theirs.
+void addAssumedRates(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE sequence ADD COLUMN rate_assumed INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE run ADD COLUMN rate_assumed INTEGER NOT NULL DEFAULT 0;
+DROP VIEW IF EXISTS v_runs;
+CREATE VIEW v_runs AS
+SELECT run.id AS run, sequence.path AS video, run.name, run.started_utc, run.state, run.first_frame, run.last_frame,
+    run.frame_rate_hz, CASE WHEN run.gsd_known THEN run.gsd_m_per_px END AS gsd_m_per_px, run.scale_origin,
+    run.scale_growth_right, run.scale_growth_down, run.rate_assumed
+FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE run.removed_utc = '';
 )sql");
 }
 

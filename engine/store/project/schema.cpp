@@ -20,7 +20,8 @@ constexpr std::array kMigrations{addRuns,          addLabels,      addComparison
                                  addRemovalOfRuns, addRunStates,   addRegistrationFaults,
                                  addViews,         addReview,      addScaleOrigins,
                                  addZones,         addScaleSlopes, addKeptDetails,
-                                 addEvidence,      addCorrections};
+                                 addEvidence,      addCorrections, addLocalScales,
+                                 addAssumedRates};
 
 }  // namespace
 

@@ -25,5 +25,7 @@ void addScaleSlopes(SQLite::Database& database);
 void addKeptDetails(SQLite::Database& database);
 void addEvidence(SQLite::Database& database);
 void addCorrections(SQLite::Database& database);
+void addLocalScales(SQLite::Database& database);
+void addAssumedRates(SQLite::Database& database);
 
 }  // namespace eyrie::schema

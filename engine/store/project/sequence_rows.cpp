@@ -29,15 +29,17 @@ void checkSequence(const SequenceRecord& sequence) {
 
 int storeSequence(SQLite::Database& database, const SequenceRecord& sequence) {
     SQLite::Statement statement(database,
-                                "INSERT INTO sequence (path, width, height, frame_count, frame_rate_hz) "
-                                "VALUES (?, ?, ?, ?, ?) ON CONFLICT (path, width, height) DO UPDATE SET "
-                                "frame_count = excluded.frame_count, frame_rate_hz = excluded.frame_rate_hz "
+                                "INSERT INTO sequence (path, width, height, frame_count, frame_rate_hz, rate_assumed) "
+                                "VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT (path, width, height) DO UPDATE SET "
+                                "frame_count = excluded.frame_count, frame_rate_hz = excluded.frame_rate_hz, "
+                                "rate_assumed = excluded.rate_assumed "
                                 "RETURNING id");
     statement.bind(1, sequence.path);
     statement.bind(2, sequence.size.width);
     statement.bind(3, sequence.size.height);
     statement.bind(4, sequence.frame_count);
     statement.bind(5, sequence.frame_rate_hz);
+    statement.bind(6, sequence.rate_assumed ? 1 : 0);
     statement.executeStep();
     return statement.getColumn(0).getInt();
 }

@@ -23,8 +23,8 @@ int storeRun(SQLite::Database& database, const RunRecord& run) {
         database,
         "INSERT INTO run (sequence_id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, "
         "frame_rate_hz, scale_origin, scale_uncertainty, scale_vehicles, scale_growth_right, scale_growth_down, "
-        "first_frame, last_frame, state, message) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        "first_frame, last_frame, state, message, rate_assumed) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     const ScaleBasis basis = agreeing(run.scale_basis, run.scale);
     RowWriter(statement)
         .integer(run.sequence.id)
@@ -44,6 +44,7 @@ int storeRun(SQLite::Database& database, const RunRecord& run) {
         .integer(run.last_frame)
         .word(stored::kRunStates, run.state)
         .text(run.message)
+        .integer(run.rate_assumed)
         .run();
     return static_cast<int>(database.getLastInsertRowid());
 }

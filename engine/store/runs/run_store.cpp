@@ -71,6 +71,8 @@ RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& pro
         run.scale.slope = ScaleSlope::ofPicture(run.sequence.size, growth_right, growth_down);
     run.sequence.frame_count = row.integer();
     run.sequence.frame_rate_hz = row.real();
+    run.sequence.rate_assumed = row.integer() != 0;
+    run.rate_assumed = row.integer() != 0;
     run.frames_done = row.integer();
     check(run);
     if (run.state == RunState::running) {
@@ -90,7 +92,8 @@ std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, 
         "last_frame, "
         "state, message, sequence.id, path, "
         "width, height, frame_count, "
-        "sequence.frame_rate_hz, (SELECT count(*) FROM frame WHERE frame.run_id = run.id) "
+        "sequence.frame_rate_hz, sequence.rate_assumed, run.rate_assumed, (SELECT count(*) FROM frame WHERE "
+        "frame.run_id = run.id) "
         "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE " +
             where + " ORDER BY run.id");
     if (run_id > 0) statement.bind(1, run_id);

@@ -28,6 +28,10 @@ struct SequenceRecord {
     cv::Size size;     ///< px
     int frame_count = 0;
     double frame_rate_hz = 25;
+    bool rate_assumed = false;  ///< neither the video nor anybody said the frame rate
+
+    /// The rate to open it with, SourceOptions::remembered_rate_hz.
+    double rememberedRate() const { return rate_assumed ? 0 : frame_rate_hz; }
 };
 
 /// One run of the chain over a sequence.
@@ -40,6 +44,7 @@ struct RunRecord {
     std::string preset;  ///< name of the preset it started from
     SceneScale scale;
     ScaleBasis scale_basis;      ///< where `scale` comes from; stored as agreeing() with it
+    bool rate_assumed = false;   ///< the frame rate of `scale` is nobody's
     FrameIndex first_frame = 0;  ///< planned range, inclusive
     FrameIndex last_frame = 0;
     int frames_done = 0;                 ///< whole frames in the file

@@ -183,6 +183,17 @@ TEST_F(LiveStreams, MetadataWithoutPicturesAreAStall) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(25));
 }
 
+TEST_F(LiveStreams, WhatNeverShowsAPictureLeavesNoRecording) {
+    // Without key frames nothing can be shown: the first slices of H.264 are made ordinary ones.
+    std::string stream = test::bytesOf(film("a.ts", 60));
+    const std::string key("\0\0\1\x65", 4);
+    for (std::size_t at = stream.find(key); at != std::string::npos; at = stream.find(key, at)) stream[at + 3] = '\x61';
+    const test::LiveServer server({stream});
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { LiveStream("tcp://" + server.place(), options(), {}); }),
+                HasSubstr("ended before its first picture"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "recorded.ts"));
+}
+
 TEST_F(LiveStreams, ATrackThatIsSilentHoldsNothingOfTheRecordingBack) {
     copyWithKlv(
         film("film.ts", 60), []() { return std::optional<AddedPacket>(); }, folder_ / "a.ts");

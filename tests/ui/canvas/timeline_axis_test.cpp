@@ -113,14 +113,6 @@ class TimelineAxisTest : public QObject {
             }
         QVERIFY(found);
     }
-
-    void timeTexts() {
-        QCOMPARE(timeText(0), std::string("0:00.00"));
-        QCOMPARE(timeText(62'480'000, 3), std::string("1:02.480"));
-        QCOMPARE(timeText(3'602'000'000, 0), std::string("1:00:02"));
-        QCOMPARE(timeText(59'996'000, 2), std::string("1:00.00"));  // rounding carries
-        QCOMPARE(timeText(-500'000, 1), std::string("-0:00.5"));
-    }
 };
 
 }  // namespace eyrie::ui

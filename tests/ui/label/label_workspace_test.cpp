@@ -1,4 +1,5 @@
 #include <QDockWidget>
+#include <QPushButton>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,9 +9,12 @@
 #include "label/canvas/label_timeline.h"
 #include "label/computing/label_fitting.h"
 #include "label/computing/label_tracking.h"
+#include "label/computing/tracking_strip.h"
 #include "label/lists/object_inspector.h"
+#include "label/lists/objects_model.h"
 #include "label/lists/objects_panel.h"
 #include "ui/label/labelling.h"
+#include "widgets/message_bar.h"
 
 namespace eyrie::ui {
 
@@ -117,6 +121,55 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         key(*window, Qt::Key_Z);
         QVERIFY(waitFor([&] { return !window->labelling().tracking().working(); }));
         QVERIFY(!object(*window, id).keyframes.empty());
+    }
+
+    void whatIsBeingTrackedIsSaidWithAButtonThatEndsIt() {
+        const auto window = labellingWindow(60);
+        QVERIFY(window);
+        draw(*window, {20, 55}, {42, 55});
+        auto* strip = window->findChild<TrackingStrip*>();
+        QVERIFY(strip != nullptr && !strip->isVisible());
+        window->labelling().actions().track_on->trigger();
+        QVERIFY(strip->isVisible());
+        QCOMPARE(strip->text(), QStringLiteral("Tracking car 1 from frame 0, at most 59 frames"));
+        strip->findChild<QPushButton*>()->click();
+        QVERIFY(waitFor([&] { return !window->labelling().tracking().working(); }));
+        QVERIFY(!strip->isVisible());
+        strip->showAdvance({QStringLiteral("car 1"), 20, 20, 59, 3.4});
+        QCOMPARE(strip->text(), QStringLiteral("Tracking car 1: frame 20, 20 of at most 59 frames, at most 0:04 left"));
+    }
+
+    void whatTrackingPlacedIsCalledComputed() {
+        const auto window = labellingWindow(40);
+        QVERIFY(window);
+        const ObjectId id = draw(*window, {20, 55}, {42, 55});
+        const auto* list = window->findChild<ObjectsModel*>();
+        const auto shown = [&](int column, int role) { return list->data(list->index(0, column), role).toString(); };
+        QVERIFY(waitFor([&] { return list->rowCount() == 1; }));
+        QCOMPARE(shown(ObjectsModel::origin_column, Qt::DisplayRole), QStringLiteral("by hand"));
+        QVERIFY(shown(0, Qt::ToolTipRole).contains(QStringLiteral("1 keyframe. Origin: by hand.")));
+        window->labelling().actions().track_on->trigger();
+        QVERIFY(waitFor([&] { return !window->labelling().tracking().working(); }));
+        const auto computed = static_cast<int>(object(*window, id).keyframes.size()) - 1;
+        QVERIFY(computed > 0);
+        QVERIFY(waitFor([&] {
+            return shown(ObjectsModel::origin_column, Qt::DisplayRole) == QStringLiteral("by hand, then computed");
+        }));
+        QVERIFY(shown(0, Qt::ToolTipRole).contains(QStringLiteral("%1 of them computed").arg(computed)));
+    }
+
+    void thatThereIsNoRunIsSaidUntilThereIsOne() {
+        const auto window = labellingWindow(12);
+        QVERIFY(window);
+        const auto said = [&] {
+            return window->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("has no run yet"));
+        };
+        QVERIFY(said());
+        QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
+        window->session().startRun();
+        QVERIFY(finished.wait(test::kPatience_ms));
+        QVERIFY(window->labelling().active());
+        QVERIFY(!said());
     }
 
     void anObjectMayHaveAColourOfItsOwn() {

@@ -14,9 +14,12 @@
 #include <csignal>
 #include <fstream>
 
+#include "tune/evaluate/evaluation_panel.h"
+#include "tune/evaluate/truth_choice.h"
 #include "tune/sweep/sweep_form.h"
 #include "ui/support/ui_support.h"
 #include "widgets/charts/sweep_chart.h"
+#include "window/docks/evaluation_docks.h"
 #include "window/docks/review_docks.h"
 #include "window/main_window.h"
 
@@ -144,6 +147,43 @@ class SweepPanelTest : public QObject {
         QCOMPARE(panel.chart().data().x_label, QStringLiteral("recall"));
         panel.setView(SweepView::precision_recall);
         QCOMPARE(panel.chart().data().series.size(), std::size_t(3));
+    }
+
+    void pointsAreMeasuredAgainstWhatTheEvaluationIs() {
+        const auto window = windowWithRun(24);
+        QVERIFY(window);
+        SweepPanel& panel = window->review().sweeps();
+        EvaluationSession& evaluation = window->evaluation().evaluation();
+        const auto* chosen = panel.form().findChild<TruthChoice*>();
+        QVERIFY(chosen != nullptr);
+        QCOMPARE(chosen->currentText(), QStringLiteral("Labels of the project"));
+        QVERIFY(panel.form().request().truth_file.empty());
+        // Chosen beside the evaluation …
+        window->evaluation().panel().useTruthFile(QString::fromStdString(truth_.string()));
+        QCOMPARE(chosen->currentText(), QStringLiteral("truth.csv"));
+        QCOMPARE(panel.form().request().truth_file, truth_);
+        panel.form().setAxis(0, QStringLiteral("gradient.quantile"), QStringLiteral("0.1,0.2"));
+        panel.sweeps().start(panel.form().request());
+        QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
+        QCOMPARE(panel.sweeps().table()->plan.clips.front().ground_truth, truth_.string());
+        bool told = false;
+        for (const auto* label : panel.findChildren<QLabel*>())
+            told = told || label->text().contains(QStringLiteral("Measured against truth.csv."));
+        QVERIFY(told);
+        // … or beside the sweep, it is one choice.
+        panel.form().findChild<TruthChoice*>()->useFile(QString());
+        QVERIFY(evaluation.settings().truth_file.empty());
+        QCOMPARE(window->evaluation().panel().findChild<TruthChoice*>()->currentText(),
+                 QStringLiteral("Labels of the project"));
+    }
+
+    void aNarrowDockCutsNothing() {
+        const auto window = windowWithRun(12);
+        QVERIFY(window);
+        SweepPanel& panel = window->review().sweeps();
+        panel.form().setAxis(0, QStringLiteral("sliding_window.descriptor"), QStringLiteral("dct"));
+        panel.form().setAxis(1, QStringLiteral("gradient.quantile"), QStringLiteral("0.1,0.2"));
+        QVERIFY2(panel.minimumSizeHint().width() <= 300, qPrintable(QString::number(panel.minimumSizeHint().width())));
     }
 
     void aPointGoesIntoTheNextRun() {

@@ -1,11 +1,16 @@
+#include <QAbstractButton>
 #include <QAction>
+#include <QLineEdit>
+#include <QTableView>
 #include <QTest>
 
 #include "canvas/timeline/timeline_view.h"
 #include "review/bookmarks/bookmarks.h"
+#include "review/bookmarks/bookmarks_panel.h"
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
 #include "ui/session/session_support.h"
+#include "widgets/empty_state.h"
 #include "widgets/message_bar.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
@@ -115,6 +120,56 @@ class BookmarksTest : public QObject {
         QVERIFY(window->events().bookmarks().markText(mark).contains(QStringLiteral("blue van")));
         QTest::mouseClick(&timeline, Qt::LeftButton, {}, timeline.placeOfMark(mark)->toPoint());
         QCOMPARE(window->session().currentFrame(), 12);
+    }
+
+    void theListLeadsThereChangesNotesAndRemoves() {
+        const auto window = windowWithRun({QStringLiteral("late"), QStringLiteral("early")});
+        QVERIFY(window);
+        window->docks().raise(DockId::bookmarks);
+        BookmarksPanel& panel = window->events().bookmarks().panel();
+        QVERIFY(panel.isVisible());
+        const QAbstractItemModel& list = *panel.table()->model();
+        QCOMPARE(list.rowCount(), 0);
+        QVERIFY(panel.emptyState()->isVisible());
+        QVERIFY(panel.emptyState()->explanation().contains(QStringLiteral("Ctrl+F9 marks the frame that is shown")));
+        go(*window, 20);
+        panel.emptyState()->button()->click();
+        go(*window, 4);
+        window->actions().bookmark->trigger();
+        const auto shown = [&](int row, int column) { return list.index(row, column).data().toString(); };
+        QCOMPARE(list.rowCount(), 2);
+        QCOMPARE(shown(0, BookmarksModel::note_column), QStringLiteral("early"));
+        QCOMPARE(shown(1, BookmarksModel::frame_column), QStringLiteral("20"));
+        QCOMPARE(shown(1, BookmarksModel::time_column), QStringLiteral("0:00.8"));
+        QVERIFY(!shown(1, BookmarksModel::made_column).isEmpty());
+        const QPoint second = panel.table()->visualRect(list.index(1, BookmarksModel::note_column)).center();
+        QTest::mouseClick(panel.table()->viewport(), Qt::LeftButton, {}, second);
+        QTest::mouseDClick(panel.table()->viewport(), Qt::LeftButton, {}, second);
+        QCOMPARE(window->session().currentFrame(), 20);
+        // F2 writes another note in place.
+        QTest::keyClick(panel.table(), Qt::Key_F2);
+        auto* line = panel.table()->findChild<QLineEdit*>();
+        QVERIFY(line != nullptr);
+        line->selectAll();
+        QTest::keyClicks(line, QStringLiteral("a lorry"));
+        QTest::keyClick(line, Qt::Key_Return);
+        QTRY_COMPARE(shown(1, BookmarksModel::note_column), QStringLiteral("a lorry"));
+        QTest::keyClick(panel.table(), Qt::Key_Delete);
+        QCOMPARE(bookmarks(*window).size(), std::size_t(1));
+        QCOMPARE(bookmarks(*window).begin()->second.note, "early");
+        QCOMPARE(list.rowCount(), 1);
+        window->actions().undo_verdict->trigger();
+        QCOMPARE(list.rowCount(), 2);
+    }
+
+    void withoutARunTheListSaysWhatItNeeds() {
+        MainWindow window;
+        window.show();
+        QVERIFY(test::openAndWait(window.session(), test::sceneUnderTest(5)));
+        window.docks().raise(DockId::bookmarks);
+        const BookmarksPanel& panel = window.events().bookmarks().panel();
+        QVERIFY(panel.emptyState()->explanation().contains(QStringLiteral("the video needs a run first")));
+        QVERIFY(!panel.emptyState()->button()->isVisible());
     }
 
     void labellingHasOtherKeys() {

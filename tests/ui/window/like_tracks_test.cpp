@@ -1,5 +1,6 @@
 #include <QTableView>
 #include <QTest>
+#include <QToolButton>
 
 #include "review/tracks/filter_chips.h"
 #include "review/tracks_panel.h"
@@ -51,6 +52,30 @@ class LikeTracksTest : public QObject {
 
         QVERIFY(test::runAndWait(window.session()));
         QVERIFY2(!panel.chips().filter().like, "the number means another vehicle in another run");
+    }
+
+    void whileARunWorksTheChipSaysThatItWaits() {
+        MainWindow window;
+        window.show();
+        QVERIFY(test::openAndWait(window.session(), test::sceneUnderTest(60)));
+        const auto chip_says = [&](const QString& text) {
+            for (const auto* button : window.review().tracks().chips().findChildren<QToolButton*>())
+                if (button->text().contains(text)) return true;
+            return false;
+        };
+        window.session().startRun();
+        QVERIFY(
+            QTest::qWaitFor([&] { return window.session().running() && window.session().currentRun(); }, kPatience_ms));
+        window.review().tracks().listLike(1);
+        QVERIFY(chip_says(QStringLiteral("when the run ends")));
+        // Then they are looked for, on the ground that is watched.
+        QVERIFY(QTest::qWaitFor([&] { return !window.session().running(); }, kPatience_ms));
+        QVERIFY(QTest::qWaitFor(
+            [&] {
+                return !chip_says(QStringLiteral("when the run ends")) &&
+                       !chip_says(QStringLiteral("being looked for"));
+            },
+            kPatience_ms));
     }
 
     void aTrackThatIsNoPartOfTheResultIsSaidToBeNone() {

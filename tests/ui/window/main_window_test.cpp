@@ -312,6 +312,16 @@ class MainWindowTest : public QObject {
             QCOMPARE(window->session().settings().gsd_m_per_px, 0.25);
         }
         window->messages().dismissAll();
+        field->setText(QStringLiteral("80"));
+        field->setFocus();
+        QTest::keyClick(field, Qt::Key_Return);
+        QVERIFY(window->messages().texts().front().contains(QStringLiteral("if 80 is in cm, give 0.8")));
+        // One that can be used, but with which nothing can be found, is taken, and that is said.
+        field->setText(QStringLiteral("9"));
+        QTest::keyClick(field, Qt::Key_Return);
+        QCOMPARE(window->session().settings().gsd_m_per_px, 9.0);
+        QVERIFY(window->messages().texts().front().contains(QStringLiteral("at 9 m/px a car is 0.5 px long")));
+        QCOMPARE(window->messages().texts().size(), 1);
         field->setFocus();
         field->setText(QString());
         QTest::keyClick(field, Qt::Key_Return);

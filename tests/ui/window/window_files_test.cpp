@@ -1,4 +1,6 @@
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <QApplication>
+#include <QDoubleSpinBox>
 #include <QDropEvent>
 #include <QLabel>
 #include <QLineEdit>
@@ -7,6 +9,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QStatusBar>
 #include <QTableView>
 #include <QTest>
 
@@ -85,6 +88,43 @@ class WindowFilesTest : public QObject {
         QVERIFY(waitFor([&] { return window.session().runs().size() == 2; }));
         QVERIFY(window.session().runs()[1].scale.gsd_known);
         QCOMPARE(window.session().runs()[1].scale.gsd_m_per_px, 0.08);
+    }
+
+    void aFrameRateThatNobodySaidIsAskedForMarkedAndRemembered() {
+        const auto folder = images("a");
+        const QString asked = QStringLiteral("25 per second are assumed until you say it");
+        {
+            MainWindow window;
+            QVERIFY(runs(window, folder));
+            QVERIFY(says(window, asked));
+            QVERIFY(QApplication::activeModalWidget() == nullptr);
+            QVERIFY(waitFor([&] { return says(window, QStringLiteral("Nobody said the frame rate: 25 per second")); }));
+            auto* rate = window.findChild<QDoubleSpinBox*>(QStringLiteral("frame_rate"));
+            QCOMPARE(rate->suffix(), QStringLiteral(" fps?"));
+            const auto status = [&] {
+                for (const auto* label : window.statusBar()->findChildren<QLabel*>())
+                    if (label->text().contains(QStringLiteral("at 25 fps (assumed)"))) return true;
+                return false;
+            };
+            QVERIFY(waitFor(status));
+            QVERIFY(window.session().runs().front().rate_assumed);
+            // Passing through the field says nothing, Return in it does.
+            rate->setFocus();
+            window.canvas().setFocus();
+            QVERIFY(window.session().video()->frame_rate_assumed);
+            QVERIFY(waitFor([&] { return rate->isEnabled(); }));
+            rate->setFocus();
+            QTest::keyClick(rate, Qt::Key_Return);
+            QVERIFY(waitFor([&] { return !window.session().video()->frame_rate_assumed; }));
+            QVERIFY(!says(window, asked));
+            QVERIFY(waitFor([&] { return !status(); }));
+            QCOMPARE(rate->suffix(), QStringLiteral(" fps"));
+        }
+        MainWindow window;
+        QVERIFY(open(window, folder));
+        QVERIFY(!says(window, asked));
+        QVERIFY(!window.session().video()->frame_rate_assumed);
+        QVERIFY2(window.session().runs().front().rate_assumed, "that run was made before anybody said it");
     }
 
     void aGsdOfTheMetadataStaysOneUntilSomebodyTypesAnother() {

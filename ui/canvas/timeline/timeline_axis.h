@@ -61,7 +61,4 @@ class TimelineAxis {
     double pixels_per_frame_ = 1;
 };
 
-/// "1:02.480" or, from an hour on, "1:00:02.480"; `decimals` of the seconds, 0 … 3.
-std::string timeText(std::int64_t time_us, int decimals = 2);
-
 }  // namespace eyrie::ui

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/time_text.h"
 #include "widgets/theme_colours.h"
 
 namespace eyrie::ui {

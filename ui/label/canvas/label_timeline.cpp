@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "canvas/timeline/timeline_view.h"
+#include "label/lists/objects_model.h"
 
 namespace eyrie::ui {
 
@@ -179,11 +180,12 @@ bool LabelTimeline::viewportEvent(QEvent* event) {
             QToolTip::hideText();
         } else {
             const ObjectTimelineRow& hit = rows_[static_cast<std::size_t>(row)];
-            QToolTip::showText(help->globalPos(), tr("%1: frames %2 to %3, %4 keyframes. Click to go there.")
+            QToolTip::showText(help->globalPos(), tr("%1: frames %2 to %3, %4. Click to go there.")
                                                       .arg(hit.name)
                                                       .arg(hit.first)
                                                       .arg(hit.last)
-                                                      .arg(hit.keyframes.size()));
+                                                      .arg(keyframesText(static_cast<int>(hit.keyframes.size()),
+                                                                         static_cast<int>(hit.computed.size()))));
         }
         return true;
     }

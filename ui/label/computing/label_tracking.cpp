@@ -1,6 +1,8 @@
 #include "label/computing/label_tracking.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <exception>
 #include <utility>
 
@@ -14,7 +16,8 @@ namespace eyrie::ui {
 
 namespace {
 constexpr double kTolerance_px = 1;
-}
+constexpr std::chrono::milliseconds kBetweenTold(100);
+}  // namespace
 
 LabelTracking::LabelTracking(ProjectSession& session, LabelSession& labels, LabelTrackingAnswers answers,
                              QObject* parent)
@@ -44,7 +47,8 @@ void LabelTracking::start(int direction) {
         if (!failure.isEmpty()) emit labels_.problem(failure);
         take(id, from, box, result);
     };
-    const auto work = [this, ended_with, media = *session_.media(), box = *box, from, last,
+    const TrackingAdvance advance{QString::fromStdString(nameOf(*object)), from, 0, std::abs(last - from), -1};
+    const auto work = [this, ended_with, advance, media = *session_.media(), box = *box, from, last,
                        camera = labels_.sharedCamera()](const BackgroundTask& task) {
         const auto source = media.open({}, task.stop());
         const GrayFrames frames = [&](FrameIndex frame) {
@@ -54,13 +58,24 @@ void LabelTracking::start(int direction) {
                 return cv::Mat();
             }
         };
-        const FollowProgress progress = [&](const FollowedBox& followed) {
-            if (followed.frame % 5 == 0) task.tell([this, frame = followed.frame] { answers_.show_advance(frame); });
+        const auto begin = std::chrono::steady_clock::now();
+        auto told = begin;
+        const FollowProgress progress = [&, advance](const FollowedBox& followed) {
+            const auto now = std::chrono::steady_clock::now();
+            if (now - told < kBetweenTold) return;
+            told = now;
+            TrackingAdvance reached = advance;
+            reached.frame = followed.frame;
+            reached.done = std::abs(followed.frame - from);
+            reached.seconds_left =
+                std::chrono::duration<double>(now - begin).count() * (reached.most - reached.done) / reached.done;
+            task.tell([this, reached] { answers_.show_advance(reached); });
         };
         const FollowResult result = followBox(box, from, last, frames, *camera, {}, progress, task.stop());
         task.tell([ended_with, result] { ended_with(result, {}); });
     };
     tracking_ = query_.post(work, [ended_with](const QString& failure) { ended_with({}, failure); });
+    answers_.show_advance(advance);
     answers_.working_changed();
 }
 

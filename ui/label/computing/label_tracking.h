@@ -9,11 +9,20 @@
 
 namespace eyrie::ui {
 
+/// How far tracking has come.
+struct TrackingAdvance {
+    QString object;            ///< "car 3"
+    FrameIndex frame = 0;      ///< the last sure box
+    int done = 0;              ///< frames
+    int most = 0;              ///< it ends earlier where it gets unsure
+    double seconds_left = -1;  ///< for all of them; < 0: not known yet
+};
+
 /// Whom tracking tells what. All are called on its thread.
 struct LabelTrackingAnswers {
     std::function<void()> working_changed;
-    /// One more box is sure.
-    std::function<void(FrameIndex frame)> show_advance;
+    /// It began, or more boxes are sure.
+    std::function<void(const TrackingAdvance& advance)> show_advance;
     /// It ended there, for this reason; empty: it came to its end.
     std::function<void(FrameIndex frame, const QString& reason)> show_end;
 };

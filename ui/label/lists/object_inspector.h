@@ -31,7 +31,7 @@ struct JoinOffer {
 struct ObjectDetails {
     int id = 0;
     QString title;   ///< "car 12"
-    QString life;    ///< "frames 0 to 120, 3 keyframes, by hand"
+    QString life;    ///< "frames 0 to 120, 3 keyframes; origin: by hand"
     QString box;     ///< "keyframe · 512.0, 233.5 px · 17.9 × 7.1 px · 45°"
     QString review;  ///< "checked by kim, today 12:40"
     QString object_class;

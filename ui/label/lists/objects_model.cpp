@@ -13,10 +13,19 @@ QString reviewText(const ObjectRow& row) {
     return ObjectsModel::tr("new");
 }
 
-QString originText(ObjectOrigin origin) {
+QString keyframesText(int keyframes, int computed) {
+    const QString text =
+        keyframes == 1 ? ObjectsModel::tr("1 keyframe") : ObjectsModel::tr("%1 keyframes").arg(keyframes);
+    if (computed == 0) return text;
+    return computed == keyframes ? ObjectsModel::tr("%1, computed").arg(text)
+                                 : ObjectsModel::tr("%1, %2 of them computed").arg(text).arg(computed);
+}
+
+QString originText(ObjectOrigin origin, int keyframes, int computed) {
     switch (origin) {
         case ObjectOrigin::hand:
-            return ObjectsModel::tr("by hand");
+            if (computed == 0) return ObjectsModel::tr("by hand");
+            return computed == keyframes ? ObjectsModel::tr("computed") : ObjectsModel::tr("by hand, then computed");
         case ObjectOrigin::proposal_accepted:
             return ObjectsModel::tr("proposal");
         case ObjectOrigin::proposal_corrected:
@@ -47,13 +56,13 @@ QVariant ObjectsModel::data(const QModelIndex& index, int role) const {
         case Qt::DecorationRole:
             return index.column() == class_column ? QVariant(swatch(row->colour, 12)) : QVariant();
         case Qt::ToolTipRole:
-            return tr("%1 %2: frames %3 to %4, %5 keyframes, %6. Click to go to it.")
+            return tr("%1 %2: frames %3 to %4, %5. Origin: %6. Click to go to it.")
                 .arg(row->object_class)
                 .arg(row->id)
                 .arg(row->first_frame)
                 .arg(row->last_frame)
-                .arg(row->keyframes)
-                .arg(originText(row->origin));
+                .arg(keyframesText(row->keyframes, row->computed),
+                     originText(row->origin, row->keyframes, row->computed));
         case Qt::TextAlignmentRole: {
             const int column = index.column();
             const bool words = column == class_column || column >= state_column;
@@ -83,11 +92,11 @@ QString ObjectsModel::textOf(const ObjectRow& row, int column) const {
         case life_column:
             return numberText(secondsOf(row), 1);
         case speed_column:
-            return numberText(shownSpeed(row.speed_px, scale_), scale_.gsd_known ? 1 : 2);
+            return numberText(shownSpeed(row.speed_px, scale_.at(row.place)), scale_.gsd_known ? 1 : 2);
         case state_column:
             return reviewText(row);
         case origin_column:
-            return originText(row.origin);
+            return originText(row.origin, row.keyframes, row.computed);
         case notes_column:
             return row.notes;
         default:
@@ -108,7 +117,7 @@ QVariant ObjectsModel::sortValueOf(const ObjectRow& row, int column) const {
         case life_column:
             return row.last_frame - row.first_frame;
         case speed_column:
-            return row.speed_px;
+            return shownSpeed(row.speed_px, scale_.at(row.place));
         case state_column:
             return row.state == ReviewState::questionable ? -1.0
                    : row.state == ReviewState::checked    ? 2.0
@@ -127,7 +136,7 @@ QString ObjectsModel::helpOf(int column) const {
         case last_column:
             return tr("Last frame");
         case keyframes_column:
-            return tr("Number of keyframes");
+            return tr("Number of keyframes, set by hand or computed");
         case life_column:
             return tr("From first to last frame, in seconds");
         case speed_column:
@@ -135,7 +144,10 @@ QString ObjectsModel::helpOf(int column) const {
         case state_column:
             return tr("Review: new (not checked), partly or fully checked, or questionable");
         case origin_column:
-            return tr("Drawn by hand, accepted from a run, corrected since then, or imported");
+            return tr(
+                "Drawn by hand, drawn by hand and then tracked (computed), accepted from a run, corrected since then, "
+                "or "
+                "imported");
         default:
             return {};
     }

@@ -18,7 +18,9 @@ struct ObjectRow {
     FrameIndex first_frame = 0;
     FrameIndex last_frame = 0;
     int keyframes = 0;
-    double speed_px = 0;  ///< mean, px/frame over the ground
+    int computed = 0;         ///< of the keyframes: those that no hand set or confirmed
+    double speed_px = 0;      ///< mean, px/frame over the ground
+    cv::Point2d place{0, 0};  ///< mean of its keyframes' centres: where the scale is asked for
     ReviewState state = ReviewState::unseen;
     double checked_share = 0;  ///< of its frames
     ObjectOrigin origin = ObjectOrigin::hand;
@@ -27,7 +29,10 @@ struct ObjectRow {
 
 /// For people: "checked", "34 % checked", "questionable", "new".
 QString reviewText(const ObjectRow& row);
-QString originText(ObjectOrigin origin);
+/// Where an object and its keyframes come from: "by hand", "by hand, then computed" …
+QString originText(ObjectOrigin origin, int keyframes, int computed);
+/// "1 keyframe", "5 keyframes, 4 of them computed".
+QString keyframesText(int keyframes, int computed);
 
 /// The labelled objects of a video, one row each, ascending id.
 class ObjectsModel : public RecordModel<ObjectRow> {

@@ -1,9 +1,11 @@
 #include "review/bookmarks/bookmarks.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QInputDialog>
 #include <algorithm>
 
+#include "review/bookmarks/bookmarks_panel.h"
 #include "review/events/event_review.h"
 #include "session/project_session.h"
 #include "widgets/wiring.h"
@@ -30,7 +32,20 @@ std::optional<QString> askWithDialog(const QString& note, FrameIndex frame) {
 }  // namespace
 
 Bookmarks::Bookmarks(ProjectSession& session, WindowActions& actions, EventReview& review, QObject* parent)
-    : QObject(parent), session_(session), actions_(actions), review_(review), ask_(askWithDialog) {
+    : QObject(parent),
+      session_(session),
+      actions_(actions),
+      review_(review),
+      model_(new BookmarksModel(this)),
+      panel_(new BookmarksPanel(model_)),
+      ask_(askWithDialog) {
+    panel_->setCommands({.go_to = [this](int id) { goTo(-id); },
+                         .remove = [this](int id) { review_.removeBookmark(id); },
+                         .add = [this] { actions_.bookmark->trigger(); }});
+    connect(model_, &BookmarksModel::noteEdited, this, [this](int id, const QString& note) {
+        const auto found = review_.bookmarks().find(id);
+        if (found != review_.bookmarks().end()) review_.setBookmark(found->second.frame, note);
+    });
     bindCommands(this, {
                            {actions.bookmark, [this] { edit(); }},
                            {actions.remove_bookmark, [this] { remove(); }},
@@ -38,6 +53,12 @@ Bookmarks::Bookmarks(ProjectSession& session, WindowActions& actions, EventRevie
                            {actions.previous_bookmark, [this] { step(-1); }},
                        });
     whenChanged(session_, this, {{SessionChange::frame, [this] { enableActions(active_); }}});
+    showList();
+}
+
+void Bookmarks::showList() {
+    model_->setBookmarks(review_.bookmarks());
+    panel_->explainNothing(review_.canMark(), actions_.bookmark->shortcut().toString(QKeySequence::NativeText));
 }
 
 const Bookmark* Bookmarks::at(FrameIndex frame) const {
@@ -72,6 +93,7 @@ void Bookmarks::goTo(int mark_id) {
 
 void Bookmarks::enableActions(bool active) {
     active_ = active;
+    showList();
     const bool can = active && review_.canMark();
     const auto& bookmarks = review_.bookmarks();
     const FrameIndex here = session_.currentFrame();

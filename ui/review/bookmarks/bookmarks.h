@@ -12,6 +12,8 @@
 
 namespace eyrie::ui {
 
+class BookmarksModel;
+class BookmarksPanel;
 class EventReview;
 class ProjectSession;
 class WindowActions;
@@ -37,8 +39,10 @@ class Bookmarks : public QObject {
     QString markText(int mark_id) const;
     void goTo(int mark_id);
 
-    /// Whether keys are wanted: labelling has others. To be called again when bookmarks have changed.
+    /// Whether keys are wanted: labelling has others. To be called again when bookmarks have changed: the list follows.
     void enableActions(bool active);
+    /// Their list, for a dock.
+    BookmarksPanel& panel() { return *panel_; }
 
  private:
     /// Marks the frame that is shown, or changes the note of the bookmark that is there.
@@ -46,10 +50,13 @@ class Bookmarks : public QObject {
     void remove();
     void step(int direction);
     const Bookmark* at(FrameIndex frame) const;
+    void showList();
 
     ProjectSession& session_;
     WindowActions& actions_;
     EventReview& review_;
+    BookmarksModel* model_;
+    BookmarksPanel* panel_;
     AskForNote ask_;
     bool active_ = true;
 };

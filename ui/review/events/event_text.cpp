@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "canvas/timeline/timeline_axis.h"
+#include "core/time_text.h"
 #include "widgets/display_text.h"
 
 namespace eyrie::ui {

@@ -6,6 +6,7 @@
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "review/bookmarks/bookmarks.h"
+#include "review/bookmarks/bookmarks_panel.h"
 #include "review/correct/track_correcting.h"
 #include "review/events/event_review.h"
 #include "review/events/event_text.h"
@@ -59,6 +60,10 @@ EventsDock::EventsDock(const EventsParts& parts)
     });
     parts_.docks.add(DockId::events, tr("Events"), panel_);
     parts_.docks.watch(DockId::events, panel_, [this](bool visible) {
+        if (visible) review_->setWanted();
+    });
+    parts_.docks.add(DockId::bookmarks, tr("Bookmarks"), &bookmarks_->panel());
+    parts_.docks.watch(DockId::bookmarks, panel_, [this](bool visible) {
         if (visible) review_->setWanted();
     });
     wireLists();

@@ -11,6 +11,7 @@
 
 #include "canvas/overlay_settings.h"
 #include "canvas/timeline/timeline_axis.h"
+#include "core/time_text.h"
 #include "review/mosaic/mosaic_view.h"
 #include "review/watch/watched_ground.h"
 #include "widgets/display_text.h"

@@ -100,6 +100,12 @@ void FilterChips::setLike(std::optional<TrackId> track) {
     });
 }
 
+void FilterChips::setLikeWaiting(const QString& why) {
+    if (why == like_waits_) return;
+    like_waits_ = why;
+    refresh();
+}
+
 void FilterChips::change(const std::function<void(TrackFilter&)>& what) {
     const TrackFilter before = filter_;
     what(filter_);
@@ -120,7 +126,9 @@ void FilterChips::setDoings(std::shared_ptr<const DoingsByTrack> doings) {
 void FilterChips::refresh() {
     for (const TrackQuality quality : allQualities()) {
         const Chip& chip = chips_.at(static_cast<std::size_t>(quality));
-        chip.button->setText(chipText(filter_, quality, scale_));
+        QString text = chipText(filter_, quality, scale_);
+        if (quality == TrackQuality::like && !like_waits_.isEmpty()) text += QStringLiteral(": ") + like_waits_;
+        chip.button->setText(text);
         chip.whole->setVisible(filter_.has(quality));
     }
     updateGeometry();

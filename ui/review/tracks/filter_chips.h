@@ -29,6 +29,8 @@ class FilterChips : public QWidget {
     void clear() { setFilter({}); }
     /// Tracks like this one; none: of any kind.
     void setLike(std::optional<TrackId> track);
+    /// What its chip waits for, e.g. "when the run ends"; empty: for nothing.
+    void setLikeWaiting(const QString& why);
     /// The units of the limits.
     void setScale(const SceneScale& scale);
     /// What there is to choose from; null while nobody knows.
@@ -68,6 +70,7 @@ class FilterChips : public QWidget {
     void refresh();
 
     TrackFilter filter_;
+    QString like_waits_;
     SceneScale scale_;
     std::shared_ptr<const DoingsByTrack> doings_;
     QToolButton* add_;

@@ -1,7 +1,9 @@
 #include "review/tracks/like_tracks.h"
 
 #include "ground/track_likeness.h"
+#include "review/tracks/filter_chips.h"
 #include "review/tracks_panel.h"
+#include "review/watch/watched_ground.h"
 #include "session/project_session.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
@@ -37,9 +39,9 @@ void LikeTracks::enableAction() {
     parts_.actions.like_track->setEnabled(parts_.session.selectedTrack().has_value());
 }
 
-void LikeTracks::setRun(const std::shared_ptr<const StoredTracks>& run) {
-    if (run_ == run) return;
-    run_ = run;
+void LikeTracks::setGround(const std::shared_ptr<const RunGround>& ground) {
+    if (ground_ == ground) return;
+    ground_ = ground;
     search();
 }
 
@@ -51,19 +53,31 @@ void LikeTracks::want(std::optional<TrackId> track) {
 
 void LikeTracks::search() {
     query_.cancel();
-    if (!wanted_ || !run_) return;
-    const auto work = [this, run = run_, track = *wanted_](const BackgroundTask& task) {
-        const GroundStretches ground(run->footage);
+    sayWaiting(wanted_.has_value());
+    if (!wanted_ || !ground_) return;
+    const auto work = [this, ground = ground_, track = *wanted_](const BackgroundTask& task) {
         auto likeness = std::make_shared<LikenessByTrack>();
         likeness->chosen = track;
-        for (const TrackLikeness& each : tracksLike(*run, ground, track))
+        for (const TrackLikeness& each : tracksLike(*ground->run, ground->stretches, track))
             likeness->likeness[each.track] = each.likeness;
-        task.tell([this, likeness] { parts_.panel.setLikeness(likeness); });
+        task.tell([this, likeness] {
+            sayWaiting(false);
+            parts_.panel.setLikeness(likeness);
+        });
     };
     query_.ask(work, [this](const QString& message) { fail(message); });
 }
 
+void LikeTracks::sayWaiting(bool waits) {
+    const RunRecord* run = parts_.session.shownRun();
+    const bool at_work = parts_.session.running() || (run != nullptr && run->live);
+    QString why;
+    if (waits) why = at_work && !ground_ ? tr("when the run ends") : tr("being looked for …");
+    parts_.panel.chips().setLikeWaiting(why);
+}
+
 void LikeTracks::fail(const QString& text) {
+    sayWaiting(false);
     parts_.panel.listLike(std::nullopt);
     parts_.messages.showTopic(
         kLikeTopic, MessageKind::warning,

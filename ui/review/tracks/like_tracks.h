@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "events/stored_events.h"
+#include "core/values/ids.h"
 #include "session/background/background_query.h"
 
 namespace eyrie::ui {
@@ -12,6 +12,7 @@ namespace eyrie::ui {
 class DockRegistry;
 class MessageBar;
 class ProjectSession;
+struct RunGround;
 class TracksPanel;
 class WindowActions;
 
@@ -31,19 +32,20 @@ class LikeTracks : public QObject {
  public:
     explicit LikeTracks(const LikeParts& parts, QObject* parent = nullptr);
 
-    /// The tracks of the run shown; null for none, or while they are read. A list of tracks like one of another run
-    /// ends.
-    void setRun(const std::shared_ptr<const StoredTracks>& run);
+    /// The tracks of the run shown with the ground under them; null for none, or until they are there. A list of tracks
+    /// like one of another run ends.
+    void setGround(const std::shared_ptr<const RunGround>& ground);
     /// What the list asks for: TrackListCommands::want_likeness.
     void want(std::optional<TrackId> track);
 
  private:
     void search();
+    void sayWaiting(bool waits);
     void fail(const QString& text);
     void enableAction();
 
     LikeParts parts_;
-    std::shared_ptr<const StoredTracks> run_;
+    std::shared_ptr<const RunGround> ground_;
     std::optional<TrackId> wanted_;
     std::optional<int> shown_run_;
     BackgroundQuery query_;  ///< last: stops before the rest goes

@@ -4,6 +4,7 @@
 
 #include "canvas/timeline/timeline_axis.h"
 #include "canvas/video_view.h"
+#include "core/time_text.h"
 #include "session/project_session.h"
 
 namespace eyrie::ui {

@@ -4,23 +4,19 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QEvent>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "formats/label_formats.h"
 #include "tune/evaluate/evaluation_wording.h"
+#include "tune/evaluate/truth_choice.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
 namespace {
-enum TruthEntry { labels_entry, file_entry, choose_entry };
-
 QString shownClasses(const std::optional<TrackClass>& one_class) {
     switch (one_class.value_or(TrackClass::unknown)) {
         case TrackClass::unknown:
@@ -40,14 +36,7 @@ EvaluationChoices::EvaluationChoices(ProjectSession& session, EvaluationSession&
     : QWidget(parent), session_(session), evaluation_(evaluation) {
     buildFields();
     bindSwitches(this, {{more_, [this](bool on) { details_->setVisible(on); }}});
-    bindCommands(this, {{truth_,
-                         [this](int entry) {
-                             if (entry == choose_entry)
-                                 chooseTruthFile();
-                             else
-                                 applySettings();
-                         }},
-                        {measured_, [this] { applySettings(); }},
+    bindCommands(this, {{measured_, [this] { applySettings(); }},
                         {other_, [this] { applySettings(); }},
                         {class_, [this] { applySettings(); }}});
     onEdited(this, &EvaluationChoices::applySettings, overlap_, border_, vehicles_, upright_);
@@ -57,12 +46,7 @@ EvaluationChoices::EvaluationChoices(ProjectSession& session, EvaluationSession&
 }
 
 void EvaluationChoices::buildFields() {
-    truth_ = new QComboBox;
-    truth_->addItem(tr("Labels of the project"));
-    truth_->addItem(QString());
-    truth_->addItem(tr("Choose a file…"));
-    truth_->setToolTip(tr("What the run is compared with"));
-    truth_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    truth_ = new TruthChoice(evaluation_);
     measured_ = new QComboBox;
     measured_->addItems({tr("Tracks"), tr("Detections")});
     overlap_ = new QDoubleSpinBox;
@@ -94,7 +78,7 @@ void EvaluationChoices::buildFields() {
     border_->setToolTip(
         tr("Results that come this close to the image's edge are left out, for ground truth that leaves "
            "cut objects out"));
-    for (QWidget* field : std::initializer_list<QWidget*>{truth_, measured_, other_, overlap_, border_, class_}) {
+    for (QWidget* field : std::initializer_list<QWidget*>{measured_, other_, overlap_, border_, class_}) {
         field->installEventFilter(this);
         field->setFocusPolicy(Qt::StrongFocus);
     }
@@ -134,14 +118,8 @@ bool EvaluationChoices::eventFilter(QObject* watched, QEvent* event) {
 
 void EvaluationChoices::showSettings() {
     const EvaluationSettings& settings = evaluation_.settings();
-    const QSignalBlocker blockers[] = {QSignalBlocker(truth_),    QSignalBlocker(measured_), QSignalBlocker(overlap_),
-                                       QSignalBlocker(vehicles_), QSignalBlocker(upright_),  QSignalBlocker(border_),
-                                       QSignalBlocker(class_)};
-    const QString path = QString::fromStdString(settings.truth_file.string());
-    truth_->setItemText(file_entry, path.isEmpty() ? tr("No file chosen") : QFileInfo(path).fileName());
-    truth_->setItemData(file_entry, path, Qt::UserRole);
-    truth_->setItemData(file_entry, path, Qt::ToolTipRole);
-    truth_->setCurrentIndex(path.isEmpty() ? labels_entry : file_entry);
+    const QSignalBlocker blockers[] = {QSignalBlocker(measured_), QSignalBlocker(overlap_), QSignalBlocker(vehicles_),
+                                       QSignalBlocker(upright_),  QSignalBlocker(border_),  QSignalBlocker(class_)};
     measured_->setCurrentIndex(settings.detections ? 1 : 0);
     overlap_->setValue(settings.wishes.overlap);
     border_->setValue(settings.wishes.border.value_or(0));
@@ -171,9 +149,6 @@ void EvaluationChoices::showRuns() {
 
 void EvaluationChoices::applySettings() {
     EvaluationSettings settings = evaluation_.settings();
-    settings.truth_file = truth_->currentIndex() == file_entry
-                              ? truth_->itemData(file_entry, Qt::UserRole).toString().toStdString()
-                              : std::string();
     settings.detections = measured_->currentIndex() == 1;
     settings.wishes.overlap = overlap_->value();
     settings.wishes.border = border_->value() > 0 ? std::optional(border_->value()) : std::nullopt;
@@ -187,20 +162,7 @@ void EvaluationChoices::applySettings() {
 }
 
 void EvaluationChoices::useTruthFile(const QString& path) {
-    truth_->setItemData(file_entry, path, Qt::UserRole);
-    const QSignalBlocker blocker(truth_);
-    truth_->setCurrentIndex(file_entry);
-    applySettings();
-}
-
-void EvaluationChoices::chooseTruthFile() {
-    const QString patterns = QString::fromStdString(labelFilePatterns());
-    const QString path = QFileDialog::getOpenFileName(this, tr("Ground truth"), QString(),
-                                                      tr("Labels (%1);;All files (*)").arg(patterns));
-    if (path.isEmpty())
-        showSettings();
-    else
-        useTruthFile(path);
+    truth_->useFile(path);
 }
 
 }  // namespace eyrie::ui

@@ -11,6 +11,8 @@ class QToolButton;
 
 namespace eyrie::ui {
 
+class TruthChoice;
+
 /// What the run shown is compared with, and how: the fields of the settings of its evaluation.
 class EvaluationChoices : public QWidget {
     Q_OBJECT
@@ -30,11 +32,10 @@ class EvaluationChoices : public QWidget {
     void showSettings();
     void showRuns();
     void applySettings();
-    void chooseTruthFile();
 
     ProjectSession& session_;
     EvaluationSession& evaluation_;
-    QComboBox* truth_;
+    TruthChoice* truth_;
     QComboBox* measured_;
     QComboBox* other_;
     QDoubleSpinBox* overlap_;

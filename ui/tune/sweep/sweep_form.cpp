@@ -2,9 +2,8 @@
 
 #include <QComboBox>
 #include <QCompleter>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QLocale>
@@ -15,9 +14,9 @@
 #include <cmath>
 #include <set>
 
-#include "formats/label_formats.h"
 #include "io/tables/number_text.h"
 #include "tune/evaluate/evaluation_session.h"
+#include "tune/evaluate/truth_choice.h"
 #include "widgets/theme_colours.h"
 #include "widgets/wiring.h"
 
@@ -46,13 +45,21 @@ QString suggestionFor(const Parameter& parameter) {
 
 }  // namespace
 
-SweepForm::SweepForm(QWidget* parent) : QWidget(parent) {
+SweepForm::SweepForm(EvaluationSession& evaluation, QWidget* parent) : QWidget(parent), evaluation_(evaluation) {
+    // One field below the other: a dock is narrow.
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(8, 6, 8, 6);
     grid->setHorizontalSpacing(6);
     grid->setVerticalSpacing(4);
-    axes_.push_back(addAxis(*grid, 0, tr("Change")));
-    axes_.push_back(addAxis(*grid, 2, tr("and")));
+    axes_.push_back(addAxis(*grid, tr("Change")));
+    axes_.push_back(addAxis(*grid, tr("and")));
+    const auto add = [&](const QString& title, QWidget* field) {
+        const int row = grid->rowCount();
+        auto* label = new QLabel(title, this);
+        label->setBuddy(field);
+        grid->addWidget(label, row, 0);
+        grid->addWidget(field, row, 1);
+    };
     over_ = new QToolButton(this);
     over_->setPopupMode(QToolButton::InstantPopup);
     over_->setToolButtonStyle(Qt::ToolButtonTextOnly);
@@ -61,48 +68,40 @@ SweepForm::SweepForm(QWidget* parent) : QWidget(parent) {
     over_->setToolTip(
         tr("Runs whose motion vectors are swept over together, with the parameters of the run that is shown. The "
            "figures of a point are those over all of them"));
-    grid->addWidget(new QLabel(tr("Over"), this), 4, 0);
-    grid->addWidget(over_, 4, 1, 1, 2);
-    grid->addWidget(new QLabel(tr("Against"), this), 5, 0);
-    truth_ = new QComboBox(this);
-    truth_->addItems({tr("labels of the project"), tr("a file …")});
-    truth_->setToolTip(
-        tr("The ground truth that every point is measured against; what counts is chosen in the Evaluation dock"));
-    grid->addWidget(truth_, 5, 1);
+    add(tr("Over"), over_);
+    add(tr("Against"), new TruthChoice(evaluation_, this));
     overlaps_ = new QLineEdit(QStringLiteral("0.1, 0.2, 0.3"), this);
     overlaps_->setToolTip(tr("Smallest overlap T_ov at which a box counts as found; several are possible"));
-    auto* overlap_label = new QLabel(tr("T_ov"), this);
-    auto* overlap_line = new QHBoxLayout;
-    overlap_line->setSpacing(6);
-    overlap_line->addWidget(overlap_label);
-    overlap_line->addWidget(overlaps_);
-    grid->addLayout(overlap_line, 5, 2);
+    add(tr("T_ov"), overlaps_);
     count_ = new QLabel(this);
     start_ = new QPushButton(tr("Start"), this);
     start_->setObjectName(QStringLiteral("sweep_start"));
-    grid->addWidget(count_, 6, 0, 1, 2);
-    grid->addWidget(start_, 6, 2);
-    grid->setColumnStretch(1, 3);
-    grid->setColumnStretch(2, 2);
-    bindCommands(this, {{truth_, [this](int index) { chooseTruth(index); }}, {start_, [this] { start(); }}});
+    auto* last = new QHBoxLayout;
+    last->addWidget(count_, 1);
+    last->addWidget(start_);
+    grid->addLayout(last, grid->rowCount(), 0, 1, 2);
+    grid->setColumnStretch(1, 1);
+    bindCommands(this, {{start_, [this] { start(); }}});
     refresh();
 }
 
-SweepForm::Axis SweepForm::addAxis(QGridLayout& grid, int row, const QString& title) {
+SweepForm::Axis SweepForm::addAxis(QGridLayout& grid, const QString& title) {
     Axis axis{new QComboBox(this), new QLineEdit(this), new QLabel(this)};
+    const bool first = axes_.empty();
     axis.name->setEditable(true);
     axis.name->setInsertPolicy(QComboBox::NoInsert);
     axis.name->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    axis.name->setMinimumContentsLength(16);
+    axis.name->setMinimumContentsLength(14);
     axis.name->completer()->setFilterMode(Qt::MatchContains);
     axis.name->completer()->setCompletionMode(QCompleter::PopupCompletion);
-    axis.name->lineEdit()->setPlaceholderText(row == 0 ? tr("parameter") : tr("a second parameter, if wanted"));
+    axis.name->lineEdit()->setPlaceholderText(first ? tr("parameter") : tr("a second one, if wanted"));
     axis.values->setPlaceholderText(tr("first:step:last, or a list"));
     axis.hint->setWordWrap(true);
+    const int row = grid.rowCount();
     grid.addWidget(new QLabel(title, this), row, 0);
     grid.addWidget(axis.name, row, 1);
-    grid.addWidget(axis.values, row, 2);
-    grid.addWidget(axis.hint, row + 1, 1, 1, 2);
+    grid.addWidget(axis.values, row + 1, 1);
+    grid.addWidget(axis.hint, row + 2, 1);
     const auto index = axes_.size();
     connect(axis.name, &QComboBox::currentTextChanged, this, [this, index] {
         if (index < axes_.size()) suggestValues(axes_[index]);
@@ -202,7 +201,7 @@ void SweepForm::refresh() {
         const Parameter* parameter = parameterOf(axis);
         const QString name = axis.name->currentText().trimmed();
         axis.hint->setVisible(!name.isEmpty());
-        axis.values->setEnabled(!name.isEmpty());
+        axis.values->setVisible(!name.isEmpty());
         if (name.isEmpty()) continue;
         if (parameter == nullptr) {
             axis.hint->setText(tr("There is no such parameter."));
@@ -230,22 +229,6 @@ void SweepForm::refresh() {
             : tr("Motion vectors are taken from the run; every stage behind the changed parameters is computed again"));
 }
 
-void SweepForm::chooseTruth(int index) {
-    if (index == 0) {
-        truth_file_.clear();
-        return;
-    }
-    const QString patterns = QString::fromStdString(labelFilePatterns());
-    const QString file = QFileDialog::getOpenFileName(this, tr("Ground truth"), QFileInfo(truth_file_).path(),
-                                                      tr("Labels (%1);;All files (*)").arg(patterns));
-    if (!file.isEmpty()) {
-        truth_file_ = file;
-        truth_->setItemText(1, QFileInfo(file).fileName() + tr(" …"));
-        truth_->setItemData(1, file, Qt::ToolTipRole);
-    }
-    truth_->setCurrentIndex(truth_file_.isEmpty() ? 0 : 1);
-}
-
 SweepRequest SweepForm::request() const {
     SweepRequest request;
     for (const Axis& axis : axes_) {
@@ -255,8 +238,8 @@ SweepRequest SweepForm::request() const {
     }
     for (const auto& [run, action] : runs_)
         if (action->isChecked() && action->isEnabled()) request.other_runs.push_back(run);
-    request.truth_file = truth_file_.toStdString();
-    request.wishes = storedWishes();
+    request.truth_file = evaluation_.settings().truth_file;
+    request.wishes = evaluation_.settings().wishes;
     request.overlaps.clear();
     for (const QString& part : overlaps_->text().split(QLatin1Char(','), Qt::SkipEmptyParts))
         request.overlaps.push_back(parseReal(part.trimmed().toStdString()).value_or(-1));

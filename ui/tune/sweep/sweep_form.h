@@ -18,12 +18,15 @@ class QAction;
 
 namespace eyrie::ui {
 
+class EvaluationSession;
+
 /// What a sweep is to try: one or two parameters with values, ground truth and overlaps.
 class SweepForm : public QWidget {
     Q_OBJECT
 
  public:
-    explicit SweepForm(QWidget* parent = nullptr);
+    /// What points are measured against is what the evaluation is; it must outlive the form.
+    explicit SweepForm(EvaluationSession& evaluation, QWidget* parent = nullptr);
 
     /// The parameters of the run that would be swept over.
     void setParameters(const std::vector<Parameter>& parameters);
@@ -48,24 +51,22 @@ class SweepForm : public QWidget {
         QLineEdit* values;
         QLabel* hint;
     };
-    Axis addAxis(QGridLayout& grid, int row, const QString& title);
+    Axis addAxis(QGridLayout& grid, const QString& title);
     const Parameter* parameterOf(const Axis& axis) const;
     void refresh();
     void suggestValues(const Axis& axis);
     void showRuns();
-    void chooseTruth(int index);
     void start();
 
+    EvaluationSession& evaluation_;
     std::vector<Parameter> parameters_;
     std::vector<Axis> axes_;
     QToolButton* over_;
     std::map<int, QAction*> runs_;  ///< those that may be swept over, too
-    QComboBox* truth_;
     QLineEdit* overlaps_;
     QLabel* count_;
     QPushButton* start_;
     QString run_;
-    QString truth_file_;
     bool running_ = false;
 };
 

@@ -18,6 +18,7 @@
 #include "tune/sweep/sweep_form.h"
 #include "widgets/charts/sweep_chart.h"
 #include "widgets/empty_state.h"
+#include "widgets/layout/flow_layout.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 
@@ -48,14 +49,27 @@ QString titleOf(const SweepRecord& record) {
     return QStringLiteral("%1  %2  (%3)").arg(record.id).arg(axes, state);
 }
 
+/// What the points of a sweep were measured against.
+QString truthText(const SweepPlan& plan) {
+    QStringList names;
+    for (const SweepClip& clip : plan.clips) {
+        const QString name = clip.ground_truth.empty()
+                                 ? QObject::tr("the labels of the project")
+                                 : QFileInfo(QString::fromStdString(clip.ground_truth)).fileName().toHtmlEscaped();
+        if (!names.contains(name)) names << name;
+    }
+    return QObject::tr("Measured against %1.").arg(names.join(QStringLiteral(", ")));
+}
+
 }  // namespace
 
-SweepPanel::SweepPanel(ProjectSession& session, ParameterBinding& parameters, MessageBar& messages, QWidget* parent)
+SweepPanel::SweepPanel(ProjectSession& session, EvaluationSession& evaluation, ParameterBinding& parameters,
+                       MessageBar& messages, QWidget* parent)
     : QWidget(parent), session_(session), parameters_(parameters), messages_(messages), sweeps_(session) {
     auto* rows = new QVBoxLayout(this);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(2);
-    form_ = new SweepForm(this);
+    form_ = new SweepForm(evaluation, this);
     rows->addWidget(form_);
     progress_line_ = new QWidget(this);
     auto* line = new QHBoxLayout(progress_line_);
@@ -106,7 +120,8 @@ QWidget* SweepPanel::buildResult() {
     first->addWidget(resume_);
     first->addWidget(remove_);
     rows->addLayout(first);
-    auto* second = new QHBoxLayout;
+    auto* choices = new QWidget(result);
+    auto* second = new FlowLayout(choices);
     view_ = new QComboBox(result);
     view_->addItems({tr("measure"), tr("precision, recall, f"), tr("precision over recall"), tr("recall over alarms")});
     view_->setToolTip(
@@ -120,29 +135,29 @@ QWidget* SweepPanel::buildResult() {
     for (QComboBox* box : {view_, measure_, of_, overlap_}) {
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(6);
-        second->addWidget(box, box == view_ ? 2 : 1);
+        second->addWidget(box);
         bindCommands(this, {{box, [this] { showTable(); }}});
     }
-    rows->addLayout(second);
+    rows->addWidget(choices);
     chart_ = new SweepChart(result);
     rows->addWidget(chart_, 1);
     best_ = new QLabel(result);
     best_->setWordWrap(true);
     best_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     rows->addWidget(best_);
-    auto* last = new QHBoxLayout;
+    auto* commands = new QWidget(result);
+    auto* last = new FlowLayout(commands);
     apply_ = new QPushButton(tr("Use for the next run"), result);
     save_ = new QPushButton(tr("Save as preset …"), result);
     last->addWidget(apply_);
     last->addWidget(save_);
-    last->addStretch(1);
     auto* copy = new QToolButton(result);
     copy->setText(tr("Copy table"));
     auto* picture = new QToolButton(result);
     picture->setText(tr("Copy picture"));
     last->addWidget(copy);
     last->addWidget(picture);
-    rows->addLayout(last);
+    rows->addWidget(commands);
     bindButtons(copy, picture);
     return result;
 }
@@ -308,7 +323,7 @@ void SweepPanel::showTable() {
     const SweepCriterion judged = criterion();
     chart_->setData(chartOf(*table, static_cast<SweepView>(view_->currentIndex()), judged,
                             [this](const std::string& name) { return form_->unitOf(name); }));
-    QString text = bestPointText(*table, judged);
+    QString text = bestPointText(*table, judged) + QStringLiteral("<br>") + truthText(table->plan);
     if (clicked_ && *clicked_ < table->plan.pointCount())
         text += QStringLiteral("<br>") + tr("Chosen: %1").arg(pointText(*table, *clicked_, judged));
     best_->setText(text);

@@ -17,6 +17,7 @@ namespace eyrie::ui {
 
 class EmptyState;
 class MessageBar;
+class EvaluationSession;
 class ParameterBinding;
 class SweepChart;
 class SweepForm;
@@ -27,7 +28,8 @@ class SweepPanel : public QWidget {
 
  public:
     /// All must outlive the panel. The parameters of a point go to `parameters`, what there is to say to `messages`.
-    SweepPanel(ProjectSession& session, ParameterBinding& parameters, MessageBar& messages, QWidget* parent = nullptr);
+    SweepPanel(ProjectSession& session, EvaluationSession& evaluation, ParameterBinding& parameters,
+               MessageBar& messages, QWidget* parent = nullptr);
 
     SweepSession& sweeps() { return sweeps_; }
     SweepForm& form() { return *form_; }

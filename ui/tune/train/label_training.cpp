@@ -35,7 +35,7 @@ struct LabelledSequence {
 LabelledSequence readSequence(const SequenceRecord& record, const LabelBoxes& boxes, int every, const Say& say,
                               const std::stop_token& stop) {
     LabelledSequence sequence;
-    const Media media = mediaOfIdentity(record.path, {.remembered_hz = record.frame_rate_hz});
+    const Media media = mediaOfIdentity(record.path, {.remembered_hz = record.rememberedRate()});
     sequence.name = media.name;
     const auto source = media.open({}, stop);
     TrainingBoxes training;

@@ -21,6 +21,7 @@ namespace {
 
 /// What messages are about a GSD that cannot be used.
 const QString kGsdTopic = QStringLiteral("gsd");
+const QString kRateTopic = QStringLiteral("frame rate");
 
 QToolButton* toolButtonOf(QAction* action, QWidget* parent) {
     auto* button = new QToolButton(parent);
@@ -58,13 +59,12 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
     connect(gsd_, &QLineEdit::returnPressed, this, &RunBar::editingDone);
 
     frame_rate_ = new QDoubleSpinBox(this);
+    frame_rate_->setObjectName(QStringLiteral("frame_rate"));
     frame_rate_->setRange(0, 1000);  // 0: no video
     frame_rate_->setDecimals(3);
     frame_rate_->setSuffix(tr(" fps"));
     frame_rate_->setSpecialValueText(QStringLiteral("–"));
     frame_rate_->setKeyboardTracking(false);
-    frame_rate_->setToolTip(tr(
-        "Frames per second of the video. Folders of images do not state it: give it here. The project remembers it."));
     frame_rate_->setAccessibleName(tr("Frames per second"));
     onFinished(this, &RunBar::frameRateEdited, frame_rate_);
 
@@ -102,6 +102,12 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
         session_, this,
         {
             {{SessionChange::video, SessionChange::opened, SessionChange::scale}, [this] { refresh(); }},
+            // Asked for once, when the project is known that may remember it.
+            {SessionChange::opened, [this] { tellAssumedRate(); }},
+            {SessionChange::video,
+             [this] {
+                 if (!session_.video() || !session_.video()->frame_rate_assumed) messages_.dismissTopic(kRateTopic);
+             }},
             {{SessionChange::runs, SessionChange::current_run}, [this] { showOrigin(); }},
             {{SessionChange::following, SessionChange::run_started, SessionChange::run_ended}, [this] { enable(); }},
         });
@@ -112,12 +118,29 @@ void RunBar::forgetRefusal() {
     messages_.dismissTopic(kGsdTopic);
 }
 
+void RunBar::tellDoubt() {
+    const double gsd = session_.settings().gsd_m_per_px;
+    const std::string doubt = gsd > 0 && session_.video() ? doubtOfGsd(gsd) : std::string();
+    if (doubt.empty())
+        forgetRefusal();
+    else
+        messages_.showTopic(kGsdTopic, MessageKind::warning,
+                            tr("GSD %1: %2.").arg(gsdOfSettings(), QString::fromStdString(doubt)));
+}
+
 void RunBar::refresh() {
     refreshing_ = true;
     const RunSettings& settings = session_.settings();
     gsd_->setText(gsdOfSettings());
     if (const auto& video = session_.video()) {
         frame_rate_->setValue(video->frame_rate_hz);
+        frame_rate_->setSuffix(video->frame_rate_assumed ? tr(" fps?") : tr(" fps"));
+        frame_rate_->setToolTip(video->frame_rate_assumed
+                                    ? tr("Assumed: nobody said how many frames per second these "
+                                         "pictures are. Type it and press Return; the project "
+                                         "remembers it.")
+                                    : tr("Frames per second of the video. Folders of images do not "
+                                         "state it: give it here. The project remembers it."));
         const int last = std::max(0, video->frame_count - 1);
         first_frame_->setRange(0, last);
         last_frame_->setRange(0, last);
@@ -127,7 +150,7 @@ void RunBar::refresh() {
         frame_rate_->setValue(0);
     }
     refreshing_ = false;
-    forgetRefusal();
+    tellDoubt();
     showOrigin();
     enable();
 }
@@ -156,7 +179,7 @@ bool RunBar::takeEdits() {
     first_frame_->interpretText();
     last_frame_->interpretText();
     takeRange();
-    takeFrameRate();
+    takeFrameRate(false);
     return takeGsd();
 }
 
@@ -173,33 +196,52 @@ bool RunBar::takeGsd() {
     if (refreshing_) return true;
     const auto value = gsdFromText(gsd_->text());
     if (!value) {
+        const auto number = numberFromText(gsd_->text());
         messages_.showTopic(kGsdTopic, MessageKind::error,
-                            tr("GSD “%1” is not a number of metres per pixel from %2 to %3. Leave the field empty if "
-                               "it is not known.")
-                                .arg(gsd_->text().trimmed())
-                                .arg(kSmallestGsd)
-                                .arg(kLargestGsd));
+                            tr("GSD “%1”: %2. Leave the field empty if it is not known.")
+                                .arg(gsd_->text().trimmed(), QString::fromStdString(whyNotAGsd(number.value_or(0)))));
         return false;
     }
-    forgetRefusal();
     // What nobody changed keeps its digits that are not shown, and where it comes from.
     if (gsd_->text() != gsdOfSettings()) session_.settings().useGsd(*value);
+    tellDoubt();
     return true;
 }
 
 void RunBar::frameRateEdited() {
     if (refreshing_ || !session_.video()) return;
+    // Return in the field says that what stands there is right; leaving it says nothing.
+    const bool confirmed = frame_rate_->hasFocus();
     emit editingDone();
-    takeFrameRate();
+    takeFrameRate(confirmed);
 }
 
-void RunBar::takeFrameRate() {
+void RunBar::askForFrameRate() {
+    frame_rate_->setFocus();
+    frame_rate_->selectAll();
+}
+
+void RunBar::tellAssumedRate() {
+    const auto& video = session_.video();
+    if (!video || !video->frame_rate_assumed || session_.videoMissing()) {
+        messages_.dismissTopic(kRateTopic);
+        return;
+    }
+    messages_.showTopic(kRateTopic, MessageKind::warning,
+                        tr("A folder of pictures does not tell its frame rate: %1 per second are assumed until you say "
+                           "it. Times, speeds and what a run finds depend on it.")
+                            .arg(locale().toString(video->frame_rate_hz, 'g', 4)),
+                        tr("Enter the rate"), [this] { askForFrameRate(); });
+}
+
+void RunBar::takeFrameRate(bool confirmed) {
     if (!session_.video() || !frame_rate_->isEnabled()) return;
     if (frame_rate_->value() <= 0) {
         refresh();
         return;
     }
-    if (std::abs(frame_rate_->value() - session_.video()->frame_rate_hz) < 5e-4) return;
+    const bool same = std::abs(frame_rate_->value() - session_.video()->frame_rate_hz) < 5e-4;
+    if (same && !(confirmed && session_.video()->frame_rate_assumed)) return;
     session_.setFrameRate(frame_rate_->value());
 }
 

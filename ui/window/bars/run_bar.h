@@ -37,13 +37,19 @@ class RunBar : public QWidget {
  private:
     /// The GSD is being mended, or is good: what was said about it no longer holds.
     void forgetRefusal();
+    /// Says where nothing can be found with the GSD of the settings.
+    void tellDoubt();
     bool takeGsd();
     /// As the field shows that of the settings; empty where it is not known.
     QString gsdOfSettings() const;
     /// Where the scale of the run shown comes from.
     void showOrigin();
     void frameRateEdited();
-    void takeFrameRate();
+    /// `confirmed`: what stands there is meant even if it is what was assumed.
+    void takeFrameRate(bool confirmed);
+    void askForFrameRate();
+    /// Asks for the frame rate where the video does not tell it.
+    void tellAssumedRate();
     void rangeEdited();
     void takeRange();
     void enable();

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "canvas/timeline/timeline_axis.h"
+#include "core/time_text.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -92,7 +93,10 @@ void StatusFields::showFrame() {
     const QString time = static_cast<size_t>(frame) < times.size()
                              ? QString::fromStdString(timeText(times[static_cast<size_t>(frame)]))
                              : QString();
-    frame_->setText(tr("frame %1 / %2   %3").arg(frame).arg(video->frame_count - 1).arg(time));
+    QString text = tr("frame %1 / %2   %3").arg(frame).arg(video->frame_count - 1).arg(time);
+    if (video->frame_rate_assumed)
+        text += tr("   at %1 fps (assumed)").arg(QLocale().toString(video->frame_rate_hz, 'g', 4));
+    frame_->setText(text);
 }
 
 void StatusFields::showCursor(std::optional<QPointF> image_point) {

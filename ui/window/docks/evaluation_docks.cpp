@@ -62,9 +62,9 @@ const ErrorPlace& placeOf(const DiagnosedError& one) {
 
 }  // namespace
 
-EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, WindowActions& actions,
-                                 OverlaySettings& overlays, DockRegistry& docks, MessageBar& messages,
-                                 QMainWindow& window)
+EvaluationDocks::EvaluationDocks(ProjectSession& session, EvaluationSession& evaluation, VideoView& canvas,
+                                 WindowActions& actions, OverlaySettings& overlays, DockRegistry& docks,
+                                 MessageBar& messages, QMainWindow& window)
     : QObject(&window),
       session_(session),
       canvas_(canvas),
@@ -72,8 +72,8 @@ EvaluationDocks::EvaluationDocks(ProjectSession& session, VideoView& canvas, Win
       overlays_(overlays),
       docks_(docks),
       messages_(messages),
-      window_(window) {
-    evaluation_ = new EvaluationSession(session_, this);
+      window_(window),
+      evaluation_(&evaluation) {
     panel_ = new EvaluationPanel(session_, *evaluation_);
     model_ = new ErrorsModel(this);
     errors_ = new ErrorsPanel(model_);

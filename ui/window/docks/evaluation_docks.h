@@ -30,8 +30,8 @@ class EvaluationDocks : public QObject {
 
  public:
     /// Everything named must outlive it; `window` is the parent of dialogs.
-    EvaluationDocks(ProjectSession& session, VideoView& canvas, WindowActions& actions, OverlaySettings& overlays,
-                    DockRegistry& docks, MessageBar& messages, QMainWindow& window);
+    EvaluationDocks(ProjectSession& session, EvaluationSession& evaluation, VideoView& canvas, WindowActions& actions,
+                    OverlaySettings& overlays, DockRegistry& docks, MessageBar& messages, QMainWindow& window);
     ~EvaluationDocks() override;
 
     /// Makes "the truth is wrong" work.

@@ -32,7 +32,7 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
     stages_ = new StagesPanel(session_, parts_.inspection);
     stacks_ = new StacksPanel(session_, parts_.inspection);
     statistics_ = new MotionStatisticsPanel(session_);
-    sweeps_ = new SweepPanel(session_, *parameters_, parts_.messages);
+    sweeps_ = new SweepPanel(session_, parts_.evaluation, *parameters_, parts_.messages);
     DockRegistry& docks = parts_.docks;
     docks.add(DockId::runs, tr("Runs"), runs_);
     docks.add(DockId::tracks, tr("Tracks"), tracks_);

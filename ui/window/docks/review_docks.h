@@ -11,6 +11,7 @@
 namespace eyrie::ui {
 
 class DockRegistry;
+class EvaluationSession;
 class Inspection;
 class InspectorPanel;
 class MessageBar;
@@ -31,6 +32,7 @@ class WindowActions;
 struct ReviewParts {
     ProjectSession& session;
     Inspection& inspection;
+    EvaluationSession& evaluation;
     DockRegistry& docks;
     WindowActions& actions;
     OverlaySettings& overlays;

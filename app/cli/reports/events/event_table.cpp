@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "core/time_text.h"
 #include "events/event_csv.h"
 
 namespace eyrie::cli {

@@ -1,0 +1,27 @@
+#include "core/time_text.h"
+
+#include <gtest/gtest.h>
+
+namespace eyrie {
+
+TEST(TimeText, IsRoundedToItsDecimals) {
+    EXPECT_EQ(timeText(0), "0:00.00");
+    EXPECT_EQ(timeText(62'480'000, 3), "1:02.480");
+    EXPECT_EQ(timeText(3'602'000'000, 0), "1:00:02");
+    EXPECT_EQ(timeText(59'996'000, 2), "1:00.00") << "rounding carries";
+    EXPECT_EQ(timeText(-500'000, 1), "-0:00.5");
+    EXPECT_EQ(timeText(-4'000, 1), "0:00.0") << "nothing is before or behind zero";
+}
+
+TEST(TimeText, TheClockOfAnEventIsThatOfTheTimelineInTenths) {
+    EXPECT_EQ(videoClockText(0), "0:00.0");
+    EXPECT_EQ(videoClockText(12.96), "0:13.0") << "as the window shows frame 324 of 25 a second";
+    EXPECT_EQ(videoClockText(62.449), "1:02.4");
+    EXPECT_EQ(videoClockText(3723.4), "1:02:03.4");
+    for (const double seconds : {0.05, 1.25, 59.96, 7200.349}) {
+        const auto time_us = static_cast<std::int64_t>(seconds * 1e6 + 0.5);
+        EXPECT_EQ(videoClockText(seconds), timeText(time_us, 1)) << seconds;
+    }
+}
+
+}  // namespace eyrie
