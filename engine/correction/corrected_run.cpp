@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "store/review/review_store.h"
@@ -14,14 +15,10 @@ namespace {
 /// Tracks of the run that lie on any box that a correction holds.
 std::map<TrackId, std::vector<TrackFrame>> tracksMeant(const RunStore& store, const RunRecord& run,
                                                        const std::map<int, TrackCorrection>& corrections) {
-    constexpr std::size_t kStride = 48;  // of an added track, not every box is asked about
     std::map<FrameIndex, std::vector<OrientedBox>> places;
     for (const auto& [id, correction] : corrections) {
-        for (const std::vector<Sighting>* sightings : {&correction.track, &correction.other}) {
-            const std::size_t step = std::max<std::size_t>(1, sightings->size() / kStride);
-            for (std::size_t i = 0; i < sightings->size(); i += step)
-                places[(*sightings)[i].frame].push_back((*sightings)[i].box);
-        }
+        for (const std::vector<Sighting>* sightings : {&correction.track, &correction.other})
+            for (const Sighting& each : comparedOf(*sightings)) places[each.frame].push_back(each.box);
     }
     std::set<TrackId> meant;
     for (const auto& [frame, boxes] : places) {
@@ -69,26 +66,16 @@ class MergedFrames {
         frame_ = frame;
         states_.push_back(state);
     }
-    void finish() {
-        flush(-1);
-        for (const FrameIndex frame : std::exchange(frames_, {})) hand(frame, {});
-    }
+    void finish() { flush(std::numeric_limits<FrameIndex>::max()); }
 
  private:
     /// Hands over the frame gathered, and those without a state of the run before `next`.
     void flush(FrameIndex next) {
-        while (frame_ >= 0 && !frames_.empty() && *frames_.begin() < frame_) handFirst();
         if (frame_ >= 0) {
             frames_.erase(frame_);
             hand(frame_, std::exchange(states_, {}));
         }
-        while (next >= 0 && !frames_.empty() && *frames_.begin() < next) handFirst();
-        frame_ = -1;
-    }
-    void handFirst() {
-        const FrameIndex frame = *frames_.begin();
-        frames_.erase(frames_.begin());
-        hand(frame, {});
+        while (!frames_.empty() && *frames_.begin() < next) hand(frames_.extract(frames_.begin()).value(), {});
     }
     void hand(FrameIndex frame, std::vector<TrackState> states) {
         for (const TrackState& state : corrected_.in(frame, std::move(states))) visitor_(frame, state);

@@ -13,15 +13,20 @@ namespace {
 constexpr double kLongestGap_s = 10;
 constexpr double kMostOfALife = 0.6;        ///< share of boxes that cover an added track
 constexpr std::size_t kBoxesOfATrack = 12;  ///< by which a track is found again
-constexpr std::size_t kBoxesCompared = 48;  ///< of an added track
-constexpr double kSameCentre = 0.35;        ///< of a length: boxes that hardly overlap may be one vehicle still
+constexpr std::size_t kMostCompared = 48;
+constexpr double kSameCentre = 0.35;  ///< of a length: boxes that hardly overlap may be one vehicle still
 constexpr double kLeastOverlap = 0.1;
 
 using States = std::vector<TrackFrame>;
 
+/// The first state in a frame or after it.
+States::const_iterator from(const States& states, FrameIndex frame) {
+    return std::lower_bound(states.begin(), states.end(), frame,
+                            [](const TrackFrame& each, FrameIndex at) { return each.frame < at; });
+}
+
 const TrackState* stateIn(const States& states, FrameIndex frame) {
-    const auto found = std::lower_bound(states.begin(), states.end(), frame,
-                                        [](const TrackFrame& each, FrameIndex at) { return each.frame < at; });
+    const auto found = from(states, frame);
     return found != states.end() && found->frame == frame ? &found->state : nullptr;
 }
 
@@ -109,7 +114,7 @@ class Workbench {
     CorrectionState add(const TrackCorrection& correction) {
         const std::vector<Sighting> seen = ofRun(correction.track);
         if (seen.empty()) return CorrectionState::not_searched;
-        const std::vector<Sighting> compared = thinned(seen, kBoxesCompared);
+        const std::vector<Sighting> compared = comparedOf(seen);
         std::map<TrackId, int> on_track;
         int covered = 0;
         for (const Sighting& each : compared) {
@@ -168,8 +173,7 @@ class Workbench {
             return CorrectionState::covered;
         }
         const CorrectedTrack whole = present_[id];
-        const auto cut = std::lower_bound(whole.states.begin(), whole.states.end(), correction.frame,
-                                          [](const TrackFrame& each, FrameIndex at) { return each.frame < at; });
+        const auto cut = from(whole.states, correction.frame);
         drop(id);
         CorrectedTrack before{CorrectionKind::split, whole.corrections, {whole.states.begin(), cut}};
         CorrectedTrack after{CorrectionKind::split, whole.corrections, {cut, whole.states.end()}};
@@ -220,6 +224,10 @@ const char* nameOf(CorrectionState state) {
 
 bool isLeft(CorrectionState state) {
     return state != CorrectionState::applied && state != CorrectionState::covered;
+}
+
+std::vector<Sighting> comparedOf(const std::vector<Sighting>& sightings) {
+    return thinned(sightings, kMostCompared);
 }
 
 std::optional<double> likenessOf(const OrientedBox& a, const OrientedBox& b) {
@@ -277,7 +285,7 @@ std::string correctionsInWords(const CorrectedTracks& corrected) {
     if (left > 0)
         text += (text.empty() ? "" : "; ") + std::to_string(left) + (left == 1 ? " correction" : " corrections") +
                 " could not be carried over";
-    return text.empty() ? text : "tracks as people corrected them: " + text;
+    return text;
 }
 
 TrackCorrection additionOf(std::vector<Sighting> boxes, FrameIndex drawn) {
@@ -305,8 +313,7 @@ TrackCorrection splitOf(const std::vector<TrackFrame>& track, FrameIndex frame) 
         throw Error(ErrorKind::parameter, "the track can be split between its first and its last frame, not at frame " +
                                               std::to_string(frame) + "; go to where the next vehicle takes it over");
     }
-    const auto cut = std::lower_bound(track.begin(), track.end(), frame,
-                                      [](const TrackFrame& each, FrameIndex at) { return each.frame < at; });
+    const auto cut = from(track, frame);
     TrackCorrection correction;
     correction.kind = CorrectionKind::split;
     correction.frame = frame;

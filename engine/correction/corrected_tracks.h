@@ -66,8 +66,7 @@ struct TracksToCorrect {
 CorrectedTracks correctTracks(const TracksToCorrect& run, const std::map<int, TrackCorrection>& corrections,
                               const CameraMotion& camera);
 
-/// "tracks as people corrected them: 2 tracks added, 1 join, 1 split; 1 correction could not be carried over"; empty
-/// where nobody corrected anything.
+/// "2 tracks added, 1 join, 1 split; 1 correction could not be carried over"; empty where nobody corrected anything.
 std::string correctionsInWords(const CorrectedTracks& corrected);
 
 /// The corrections that make it so, without number and person. Tracks as they are shown when it is made.
@@ -76,6 +75,8 @@ TrackCorrection joinOf(const std::vector<TrackFrame>& one, const std::vector<Tra
 /// `frame` is the first of the later part. Throws Error(parameter) where it leaves nothing of the track.
 TrackCorrection splitOf(const std::vector<TrackFrame>& track, FrameIndex frame);
 
+/// Those of many boxes by which tracks are compared with what a correction holds: a few dozen, evenly.
+std::vector<Sighting> comparedOf(const std::vector<Sighting>& sightings);
 /// Whether two boxes of one frame may be the same vehicle; higher is likelier, nothing: they are not.
 std::optional<double> likenessOf(const OrientedBox& a, const OrientedBox& b);
 

@@ -191,7 +191,7 @@ LabelStream labelStreamOf(const RunStore& store, const RunRecord& run, Corrected
         streamOf(run, [&store, id = run.id, corrected = std::move(corrected)](const BoxVisitor& visitor) {
             visitTrackBoxes(store, id, corrected, visitor);
         });
-    if (!told.empty()) labels.about.notes.push_back(told);
+    if (!told.empty()) labels.about.notes.push_back("tracks as people corrected them: " + told);
     return labels;
 }
 

@@ -52,7 +52,7 @@ TEST_F(CorrectedRun, IsReadAlikeInEveryWay) {
     const CorrectedTracks corrected = readCorrectedTracks(*project_, run_);
     EXPECT_EQ(corrected.states.at(1), CorrectionState::applied);
     EXPECT_EQ(corrected.states.at(2), CorrectionState::applied);
-    EXPECT_EQ(correctionsInWords(corrected), "tracks as people corrected them: 1 track added, 1 join");
+    EXPECT_EQ(correctionsInWords(corrected), "1 track added, 1 join");
 
     std::map<TrackId, std::vector<FrameIndex>> visited;
     std::pair<FrameIndex, TrackId> before{-1, 0};
@@ -135,8 +135,7 @@ TEST_F(CorrectedRun, ANewRunOfTheVideoCarriesThemOver) {
     const CorrectedTracks left = readCorrectedTracks(*project_, third);
     EXPECT_EQ(left.states.at(1), CorrectionState::no_track);
     EXPECT_EQ(left.states.at(2), CorrectionState::applied);
-    EXPECT_EQ(correctionsInWords(left),
-              "tracks as people corrected them: 1 track added; 1 correction could not be carried over");
+    EXPECT_EQ(correctionsInWords(left), "1 track added; 1 correction could not be carried over");
 }
 
 }  // namespace

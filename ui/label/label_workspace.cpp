@@ -25,6 +25,7 @@
 #include "label/lists/object_inspector.h"
 #include "label/lists/objects_panel.h"
 #include "label/object_pictures.h"
+#include "widgets/display_text.h"
 #include "widgets/empty_state.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
@@ -38,7 +39,7 @@ const QString kNoRunTopic = QStringLiteral("labelling without a run");
 
 QString asSentence(const std::string& reason) {
     const QString text = QString::fromStdString(reason);
-    return text.left(1).toUpper() + text.mid(1) + QLatin1Char('.');
+    return capitalised(text) + QLatin1Char('.');
 }
 }  // namespace
 

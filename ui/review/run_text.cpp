@@ -5,6 +5,7 @@
 #include <QStringList>
 
 #include "review/runs_model.h"
+#include "widgets/display_text.h"
 
 namespace eyrie::ui {
 namespace {
@@ -50,10 +51,8 @@ QString scaleText(const RunRecord& run) {
 }
 
 QString whyNoTracks(const RunFacts& facts) {
-    if (QString doubt = QString::fromStdString(doubtfulScaleOf(facts)); !doubt.isEmpty()) {
-        doubt[0] = doubt[0].toUpper();
-        return doubt + QLatin1Char('.');
-    }
+    if (const QString doubt = QString::fromStdString(doubtfulScaleOf(facts)); !doubt.isEmpty())
+        return capitalised(doubt) + QLatin1Char('.');
     switch (facts.nothing) {
         case NothingFollowed::has_tracks:
             return {};

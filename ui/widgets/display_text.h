@@ -35,6 +35,9 @@ QString shownName(TrackClass track_class);
 /// time.
 QString localTimeText(const std::string& utc);
 
+/// With a capital letter at its beginning.
+QString capitalised(QString text);
+
 /// What a person did to a track: "by hand", "joined", "split".
 QString shownName(CorrectionKind kind);
 

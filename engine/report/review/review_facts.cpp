@@ -1,5 +1,4 @@
 #include "core/time_text.h"
-#include "events/event_csv.h"
 #include "io/tables/number_text.h"
 #include "report/report_parts.h"
 #include "report/review/review_parts.h"
@@ -143,7 +142,7 @@ void tellReviewedVideo(ReportPage& page, const ReviewScene& scene) {
     const std::string corrections = correctionsInWords(input.reviewed.tracks.corrections);
     fact("Tracks", input.choice.uncorrected ? "as the machine found them, corrections left out"
                    : corrections.empty()    ? "as the machine found them"
-                                            : corrections.substr(corrections.find("as ")));
+                                            : "as people corrected them: " + corrections);
     fact("Told here", std::to_string(countOfEvents(input)) + ": " + chosenText(input.choice));
     if (!input.made_utc.empty()) fact("Report made", input.made_utc);
     page.endTable();

@@ -5,7 +5,6 @@
 
 #include "core/time_text.h"
 #include "core/utc_time.h"
-#include "events/event_csv.h"
 #include "georeference/video_world.h"
 #include "io/tables/number_text.h"
 #include "metadata/metadata_scale.h"

@@ -12,6 +12,7 @@
 #include "review/events/events_panel.h"
 #include "review/tracks_panel.h"
 #include "ui/session/session_support.h"
+#include "ui/window/window_with_run.h"
 #include "widgets/message_bar.h"
 #include "widgets/tables/table_roles.h"
 #include "window/docks/review_docks.h"
@@ -29,15 +30,9 @@ class CorrectingWindowTest : public QObject {
 
     std::unique_ptr<test::OwnHome> home_;
 
-    /// The run is made where there is none yet.
     static std::unique_ptr<MainWindow> windowWithRun() {
-        auto window = std::make_unique<MainWindow>();
-        window->resize(1280, 720);
-        window->show();
-        if (!QTest::qWaitForWindowActive(window.get())) return nullptr;
-        if (!test::openAndWait(window->session(), test::sceneUnderTest(60))) return nullptr;
-        if (window->session().runs().empty() && !test::runAndWait(window->session())) return nullptr;
-        return readyAgain(*window) ? std::move(window) : nullptr;
+        auto window = test::windowWithRun();
+        return window && readyAgain(*window) ? std::move(window) : nullptr;
     }
     static bool readyAgain(MainWindow& window) {
         return QTest::qWaitFor(

@@ -10,6 +10,7 @@
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
 #include "ui/session/session_support.h"
+#include "ui/window/window_with_run.h"
 #include "widgets/message_bar.h"
 #include "window/docks/event_report.h"
 #include "window/main_window.h"
@@ -27,12 +28,8 @@ class EventsWindowTest : public QObject {
     std::unique_ptr<test::OwnHome> home_;
 
     static std::unique_ptr<MainWindow> windowWithEvents() {
-        auto window = std::make_unique<MainWindow>();
-        window->resize(1280, 720);
-        window->show();
-        if (!QTest::qWaitForWindowActive(window.get())) return nullptr;
-        if (!test::openAndWait(window->session(), test::sceneUnderTest(60)) || !test::runAndWait(window->session()))
-            return nullptr;
+        auto window = test::windowWithRun();
+        if (!window) return nullptr;
         window->messages().setMaximumHeight(0);  // notices pass
         EventThresholds& limits = window->events().panel().thresholds();
         limits.setValue(QStringLiteral("events.over"), QStringLiteral("5"));

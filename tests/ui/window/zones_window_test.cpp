@@ -17,6 +17,7 @@
 #include "review/zones/zones_model.h"
 #include "review/zones/zones_panel.h"
 #include "ui/session/session_support.h"
+#include "ui/window/window_with_run.h"
 #include "widgets/message_bar.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
@@ -40,14 +41,9 @@ class ZonesWindowTest : public QObject {
 
     std::unique_ptr<test::OwnHome> home_;
 
-    /// The run is made where there is none yet.
     static std::unique_ptr<MainWindow> windowWithRun() {
-        auto window = std::make_unique<MainWindow>();
-        window->resize(1280, 720);
-        window->show();
-        if (!QTest::qWaitForWindowActive(window.get())) return nullptr;
-        if (!test::openAndWait(window->session(), test::sceneUnderTest(60))) return nullptr;
-        if (window->session().runs().empty() && !test::runAndWait(window->session())) return nullptr;
+        auto window = test::windowWithRun();
+        if (!window) return nullptr;
         window->docks().raise(DockId::events);
         const auto ready = [&] { return window->events().review().state() == EventReview::State::found; };
         if (!QTest::qWaitFor(ready, kPatience_ms)) return nullptr;

@@ -8,6 +8,7 @@
 #include "annotation/edits/object_pieces.h"
 #include "annotation/review/proposals.h"
 #include "session/background/lru_cache.h"
+#include "session/project/media.h"
 
 namespace eyrie::ui {
 
@@ -59,15 +60,10 @@ void LabelFitting::start() {
         std::vector<Fitted> fitted;
         const auto source = media.open({}, task.stop());
         LruCache<FrameIndex, cv::Mat> kept(kFittingBudget_bytes);
-        const GrayFrames frames = [&](FrameIndex frame) {
+        const GrayFrames frames = [&kept, read = grayReader(*source)](FrameIndex frame) {
             if (const cv::Mat* known = kept.find(frame)) return *known;
-            cv::Mat picture;
-            try {
-                picture = source->read(frame, false).gray.clone();
-            } catch (const std::exception&) {
-                return cv::Mat();  // compared with others, then
-            }
-            kept.put(frame, picture, picture.total());
+            cv::Mat picture = read(frame).clone();
+            if (!picture.empty()) kept.put(frame, picture, picture.total());  // else it is compared with others
             return picture;
         };
         for (const LabelledObject& object : objects) {

@@ -11,6 +11,7 @@
 #include "annotation/keyframes/keyframe_reduction.h"
 #include "annotation/review/proposals.h"
 #include "label/editor/label_editor.h"
+#include "session/project/media.h"
 
 namespace eyrie::ui {
 
@@ -51,13 +52,7 @@ void LabelTracking::start(int direction) {
     const auto work = [this, ended_with, advance, media = *session_.media(), box = *box, from, last,
                        camera = labels_.sharedCamera()](const BackgroundTask& task) {
         const auto source = media.open({}, task.stop());
-        const GrayFrames frames = [&](FrameIndex frame) {
-            try {
-                return source->read(frame, false).gray;
-            } catch (const std::exception&) {
-                return cv::Mat();
-            }
-        };
+        const GrayFrames frames = grayReader(*source);
         const auto begin = std::chrono::steady_clock::now();
         auto told = begin;
         const FollowProgress progress = [&, advance](const FollowedBox& followed) {

@@ -9,7 +9,9 @@
 #include "correction/drawn_vehicle.h"
 #include "review/correct/vehicle_box_tool.h"
 #include "review/events/event_review.h"
+#include "session/project/media.h"
 #include "session/project_session.h"
+#include "widgets/display_text.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "workspace/window_actions.h"
@@ -21,10 +23,6 @@ namespace {
 const QString kCorrectingTopic = QStringLiteral("correcting tracks");
 constexpr int kToldFrames = 10;
 constexpr double kThereAlready = 0.3;  ///< overlap of a box that is drawn with one that is shown
-
-QString capitalised(const QString& text) {
-    return text.left(1).toUpper() + text.mid(1);
-}
 
 }  // namespace
 
@@ -277,13 +275,7 @@ void TrackCorrecting::follow(const OrientedBox& box) {
     const auto make = [this, box, frame, tracks, media = *parts_.session.media()](const Trial& trial) {
         const std::stop_token& stop = trial.task.stop();
         const auto source = media.open({}, stop);
-        const GrayFrames gray = [&](FrameIndex each) {
-            try {
-                return source->read(each, false).gray;
-            } catch (const std::exception&) {
-                return cv::Mat();
-            }
-        };
+        const GrayFrames gray = grayReader(*source);
         const auto progress = [this, &trial](FrameIndex each) {
             if (each % kToldFrames == 0) trial.task.tell([this, each] { showFollowing(each); });
         };

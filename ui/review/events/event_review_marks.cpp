@@ -53,7 +53,7 @@ bool EventReview::removeBookmark(int id) {
     });
 }
 
-/// What is not said about one event: zones and bookmarks.
+/// What is not said about one event.
 bool EventReview::applyStep(const std::function<ReviewEdit()>& step) {
     if (!mayWrite()) return false;
     try {

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "canvas/timeline/timeline_axis.h"
 #include "core/time_text.h"
 #include "widgets/display_text.h"
 
@@ -54,9 +53,7 @@ QPixmap judgementPixmap(Judgement judgement, bool dark) {
 
 QString listedKindText(int listed_kind) {
     if (listed_kind >= kEventKinds) return eventWord(QT_TRANSLATE_NOOP("Events", "Not searched"));
-    QString text = QString::fromLatin1(nameOf(static_cast<EventKind>(listed_kind)));
-    text[0] = text[0].toUpper();
-    return text;
+    return capitalised(QString::fromLatin1(nameOf(static_cast<EventKind>(listed_kind))));
 }
 
 QString eventKindText(const FoundEvents& found, std::size_t position) {
@@ -113,9 +110,7 @@ QString eventTipText(const FoundEvents& found, std::size_t position) {
 
 QString judgementText(Judgement judgement) {
     if (judgement == Judgement::open) return {};
-    QString text = QString::fromLatin1(nameOf(judgement));
-    text[0] = text[0].toUpper();
-    return text;
+    return capitalised(QString::fromLatin1(nameOf(judgement)));
 }
 
 QColor judgementColour(Judgement judgement, bool dark) {

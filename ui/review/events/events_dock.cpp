@@ -15,6 +15,7 @@
 #include "review/run_text.h"
 #include "review/zones/zone_review.h"
 #include "review/zones/zones_panel.h"
+#include "widgets/display_text.h"
 #include "widgets/empty_state.h"
 #include "widgets/message_bar.h"
 #include "widgets/theme_colours.h"
@@ -93,7 +94,7 @@ EventReviewAnswers EventsDock::reviewAnswers() {
             [this](const QString& text) { parts_.messages.showTopic(kEventsTopic, MessageKind::error, text); },
         .tell_notice =
             [this](const QString& text) {
-                parts_.messages.showTopic(kEventsTopic, MessageKind::warning, text.left(1).toUpper() + text.mid(1));
+                parts_.messages.showTopic(kEventsTopic, MessageKind::warning, capitalised(text));
             },
     };
 }

@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "canvas/overlay_settings.h"
-#include "canvas/timeline/timeline_axis.h"
 #include "core/time_text.h"
 #include "review/mosaic/mosaic_view.h"
 #include "review/watch/watched_ground.h"

@@ -2,7 +2,6 @@
 
 #include <QFileInfo>
 
-#include "canvas/timeline/timeline_axis.h"
 #include "canvas/video_view.h"
 #include "core/time_text.h"
 #include "session/project_session.h"

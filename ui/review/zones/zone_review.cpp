@@ -12,6 +12,7 @@
 #include "review/zones/zone_tool.h"
 #include "review/zones/zones_model.h"
 #include "review/zones/zones_panel.h"
+#include "widgets/display_text.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "workspace/window_actions.h"
@@ -23,7 +24,7 @@ namespace {
 const QString kZonesTopic = QStringLiteral("zones");
 
 QString sentence(const QString& text) {
-    return text.left(1).toUpper() + text.mid(1) + QLatin1Char('.');
+    return capitalised(text) + QLatin1Char('.');
 }
 
 }  // namespace

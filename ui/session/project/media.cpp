@@ -48,4 +48,14 @@ Media mediaOfIdentity(const std::string& identity, FrameRate rate) {
     return videoMedia(identity, rate);
 }
 
+std::function<cv::Mat(FrameIndex)> grayReader(FrameSource& source) {
+    return [&source](FrameIndex frame) {
+        try {
+            return source.read(frame, false).gray;
+        } catch (const std::exception&) {
+            return cv::Mat();
+        }
+    };
+}
+
 }  // namespace eyrie::ui

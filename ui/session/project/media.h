@@ -39,4 +39,7 @@ bool isScene(const std::string& identity);
 /// What a project's sequence path stands for.
 Media mediaOfIdentity(const std::string& identity, FrameRate rate = {});
 
+/// The grey pictures of a video, empty where one cannot be read. The source must outlive it.
+std::function<cv::Mat(FrameIndex)> grayReader(FrameSource& source);
+
 }  // namespace eyrie::ui

@@ -8,7 +8,6 @@
 #include <QToolButton>
 #include <cmath>
 
-#include "canvas/timeline/timeline_axis.h"
 #include "core/time_text.h"
 #include "widgets/wiring.h"
 

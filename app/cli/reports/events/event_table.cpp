@@ -5,7 +5,6 @@
 #include <map>
 
 #include "core/time_text.h"
-#include "events/event_csv.h"
 
 namespace eyrie::cli {
 namespace {
@@ -96,7 +95,7 @@ void printLeft(const JudgedEvents& judged, const ReviewSet& review) {
 
 void printCorrections(const CorrectedTracks& corrected, const ReviewSet& review) {
     if (corrected.states.empty()) return;
-    std::printf("%s:\n", correctionsInWords(corrected).c_str());
+    std::printf("tracks as people corrected them: %s:\n", correctionsInWords(corrected).c_str());
     for (const auto& [id, state] : corrected.states) {
         const TrackCorrection& correction = review.corrections.at(id);
         std::string tracks;

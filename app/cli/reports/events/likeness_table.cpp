@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/time_text.h"
-#include "events/event_csv.h"
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"
 
