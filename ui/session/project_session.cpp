@@ -306,7 +306,9 @@ void ProjectSession::liveFrameCame() {
     if (project_ != run_project_) return;
     if (!summaries.empty()) {
         for (RunRecord& run : runs_)
-            if (own_run_ == run.id) run.frames_done += static_cast<int>(summaries.size());
+            // Not counted one by one: a list that was read meanwhile may know of some of them already.
+            if (own_run_ == run.id)
+                run.frames_done = std::max(run.frames_done, summaries.back().frame - run.first_frame + 1);
         emit liveFrames(summaries);
     }
     if (!frame || !following_) return;
