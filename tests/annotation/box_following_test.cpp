@@ -147,7 +147,7 @@ TEST(BoxFollowing, FollowsRealVehicles) {
         if (!frames.count(frame)) frames[frame] = source->read(frame, false).gray;
         return frames[frame];
     };
-    const CameraMotion camera = CameraMotion::fromCommonFrame(readHomographyCsv(folder / "homography.csv"));
+    const CameraMotion camera = test::cameraOf(readHomographyCsv(folder / "homography.csv"));
     std::map<int, std::map<FrameIndex, OrientedBox>> tracks;
     for (const auto& [frame, records] : readBoxCsv(folder / "ground_truth.csv")) {
         for (const BoxRecord& record : records) {

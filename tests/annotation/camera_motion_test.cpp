@@ -131,18 +131,5 @@ TEST(CameraMotion, KnowsNothingWithoutSteps) {
     EXPECT_EQ(CameraMotion::standing(0, 9).map(2, 9)->apply({3, 4}), cv::Point2d(3, 4));
 }
 
-TEST(CameraMotion, TakesMapsIntoACommonFrame) {
-    std::vector<Homography> common;
-    for (int frame = 0; frame <= 30; ++frame) {
-        Homography map;
-        map.matrix = test::flyingView(frame).inv();
-        map.from_frame = frame;
-        common.push_back(map);
-    }
-    Homography truth;
-    truth.matrix = test::flyingView(25) * test::flyingView(4).inv();
-    EXPECT_LT(distance(CameraMotion::fromCommonFrame(common).map(4, 25)->apply({7, 8}), truth.apply({7, 8})), 1e-9);
-}
-
 }  // namespace
 }  // namespace eyrie

@@ -107,7 +107,7 @@ TEST(CollageKeyframes, TheGroundNeedsHalfOfWhatTheImageNeeds) {
     for (const char* name : {"collage_day", "collage_small"}) {
         const auto folder = test::sharedData(name);
         const auto tracks = tracksOf(readBoxCsv(folder / "ground_truth.csv"));
-        const CameraMotion camera = CameraMotion::fromCommonFrame(readHomographyCsv(folder / "homography.csv"));
+        const CameraMotion camera = test::cameraOf(readHomographyCsv(folder / "homography.csv"));
         const Effort ground = effortOf(tracks, camera, PathShape::smooth, Way::as_annotators_do);
         const Effort smooth = effortOf(tracks, CameraMotion(), PathShape::smooth, Way::as_annotators_do);
         const Effort peers = effortOf(tracks, CameraMotion(), PathShape::straight, Way::as_annotators_do, true);

@@ -34,6 +34,19 @@ inline std::vector<Homography> stepsOf(const std::function<cv::Matx33d(double)>&
     return steps;
 }
 
+/// The camera of homography.csv, from maps of each frame into one common frame.
+inline CameraMotion cameraOf(const std::vector<Homography>& common_from_frame) {
+    std::vector<Homography> steps;
+    for (std::size_t i = 1; i < common_from_frame.size(); ++i) {
+        Homography step;
+        step.matrix = common_from_frame[i].matrix.inv() * common_from_frame[i - 1].matrix;
+        step.from_frame = common_from_frame[i - 1].from_frame;
+        step.to_frame = common_from_frame[i].from_frame;
+        steps.push_back(step);
+    }
+    return CameraMotion(steps);
+}
+
 /// A box on the ground as a frame shows it.
 inline OrientedBox seen(const OrientedBox& on_ground, const cv::Matx33d& frame_from_ground) {
     Homography map;

@@ -259,7 +259,7 @@ TEST(ErrorList, sumsAreTheMeasures) {
     EYRIE_NEED_SHARED_DATA("trackeval_parity");
     for (const char* name : {"clean", "noisy", "harsh"}) {
         const auto folder = test::sharedData("trackeval_parity") / name;
-        const BoxesByFrame truth = readMotTruth(folder / "gt.txt", {});
+        const BoxesByFrame truth = plainBoxes(readMotTruth(folder / "gt.txt"));
         const BoxesByFrame result = readMotResult(folder / "result.txt", {});
         ASSERT_FALSE(result.empty());
         for (const Convention convention : {Convention::thesis, Convention::trackeval}) {

@@ -77,8 +77,8 @@ TEST_P(TrackEvalParity, EveryFigureAgrees) {
     options.overlap = std::stod(overlap);
     options.convention = Convention::trackeval;
     options.frame_count = readMotSequence(folder / "seqinfo.ini").frame_count;
-    const auto ours =
-        underTrackEvalNames(evaluate(readMotTruth(folder / "gt.txt"), readMotResult(folder / "result.txt"), options));
+    const auto ours = underTrackEvalNames(
+        evaluate(plainBoxes(readMotTruth(folder / "gt.txt")), readMotResult(folder / "result.txt"), options));
 
     const auto name = std::string("expected_iou_") + overlap + ".json";
     const auto theirs = nlohmann::json::parse(std::ifstream(folder / name));

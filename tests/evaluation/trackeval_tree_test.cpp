@@ -69,7 +69,7 @@ class TrackEvalTree : public testing::Test {
         writeLabels(fileOf(traffic.truth, frames), root(), "trackeval", options);
         options.tracker = "ours";
         writeLabels(fileOf(traffic.result, frames), root(), "trackeval", options);
-        return {readMotTruth(root() / "gt/mot_challenge/EYRIE-train/clip/gt/gt.txt"),
+        return {plainBoxes(readMotTruth(root() / "gt/mot_challenge/EYRIE-train/clip/gt/gt.txt")),
                 readMotResult(root() / "trackers/mot_challenge/EYRIE-train/ours/data/clip.txt")};
     }
     static EvaluationOptions options(double overlap, int frames) {
@@ -108,7 +108,8 @@ TEST_F(TrackEvalTree, GivesTheFiguresThatTrackEvalRecorded) {
     EYRIE_NEED_SHARED_DATA("trackeval_parity");
     const auto folder = test::sharedData("trackeval_parity") / "noisy";
     const int frames = readMotSequence(folder / "seqinfo.ini").frame_count.value();
-    const Traffic read = throughTree({readMotTruth(folder / "gt.txt"), readMotResult(folder / "result.txt")}, frames);
+    const Traffic read =
+        throughTree({plainBoxes(readMotTruth(folder / "gt.txt")), readMotResult(folder / "result.txt")}, frames);
     for (const std::string overlap : {"0.3", "0.5"}) {
         const auto recorded = nlohmann::json::parse(std::ifstream(folder / ("expected_iou_" + overlap + ".json")));
         const Measures m = evaluate(read.truth, read.result, options(std::stod(overlap), frames));

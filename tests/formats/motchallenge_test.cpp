@@ -25,7 +25,11 @@ class MotChallenge : public testing::Test {
     }
     std::string messageFor(const std::string& text, bool truth = true) {
         try {
-            truth ? readMotTruth(write(text)) : readMotResult(write(text));
+            if (truth) {
+                readMotTruth(write(text));
+            } else {
+                readMotResult(write(text));
+            }
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::input);
             return error.what();
@@ -42,7 +46,7 @@ class MotChallenge : public testing::Test {
 };
 
 TEST_F(MotChallenge, FirstPixelAndFirstFrameAreOne) {
-    const BoxesByFrame boxes = readMotTruth(write("1,4,1,1,1,1,1,3,0.5\n"));
+    const LabelBoxes boxes = readMotTruth(write("1,4,1,1,1,1,1,3,0.5\n"));
     ASSERT_EQ(boxes.size(), 1u);
     const BoxRecord& record = boxes.at(0).at(0);
     EXPECT_EQ(record.frame, 0);
@@ -60,7 +64,7 @@ TEST_F(MotChallenge, PixelsMayBeginElsewhere) {
 }
 
 TEST_F(MotChallenge, FlagZeroIsIgnoredAndMayRepeatAnId) {
-    const BoxesByFrame boxes = readMotTruth(write("3,1,10,10,5,5,0,8,1\n3,1,40,10,5,5,0,8,1\n3,1,70,10,5,5,1,3,1\n"));
+    const LabelBoxes boxes = readMotTruth(write("3,1,10,10,5,5,0,8,1\n3,1,40,10,5,5,0,8,1\n3,1,70,10,5,5,1,3,1\n"));
     EXPECT_TRUE(boxes.at(2)[0].ignore);
     EXPECT_EQ(boxes.at(2)[0].object_class, "other");
     EXPECT_FALSE(boxes.at(2)[2].ignore);
@@ -122,7 +126,7 @@ TEST_F(MotChallenge, UprightTruthComesBackAsItWas) {
     const MotLosses losses = writeMotTruth(folder_ / "gt.txt", before);
     EXPECT_EQ(losses.boxes, 9);
     EXPECT_EQ(losses.turned + losses.classes + losses.velocities, 0);
-    const BoxesByFrame after = readMotTruth(folder_ / "gt.txt");
+    const LabelBoxes after = readMotTruth(folder_ / "gt.txt");
     ASSERT_EQ(after.size(), before.size());
     for (const auto& [frame, records] : before) {
         for (std::size_t k = 0; k < records.size(); ++k) {
@@ -198,7 +202,7 @@ TEST_F(MotChallenge, RealGroundTruthMeetsTheDerivedTable) {
     EYRIE_NEED_SHARED_DATA("uavdt_m1303");
     // ground_truth.csv says of the first object in frame 0: centre (251, 274.5), 97 × 56 px; UAVDT counts from 0.
     const auto path = test::sharedData("uavdt_m1303") / "gt" / "M1303_gt.txt";
-    const BoxesByFrame boxes = readMotTruth(path, {.first_pixel_edge = 0});
+    const LabelBoxes boxes = readMotTruth(path, {.first_pixel_edge = 0});
     const BoxRecord& first = boxes.at(0).at(0);
     EXPECT_EQ(first.box.centre, cv::Point2d(251, 274.5));
     EXPECT_EQ(first.box.length, 97);

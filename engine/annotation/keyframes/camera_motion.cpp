@@ -57,22 +57,6 @@ CameraMotion CameraMotion::fromRegistrations(const std::vector<Registration>& re
     return CameraMotion(steps);
 }
 
-CameraMotion CameraMotion::fromCommonFrame(const std::vector<Homography>& common_from_frame) {
-    std::vector<Homography> steps;
-    for (std::size_t i = 1; i < common_from_frame.size(); ++i) {
-        const Homography& previous = common_from_frame[i - 1];
-        const Homography& current = common_from_frame[i];
-        if (current.from_frame != previous.from_frame + 1) continue;
-        bool invertible = false;
-        Homography step;
-        step.matrix = current.matrix.inv(cv::DECOMP_LU, &invertible) * previous.matrix;
-        step.from_frame = previous.from_frame;
-        step.to_frame = current.from_frame;
-        if (invertible) steps.push_back(step);
-    }
-    return CameraMotion(steps);
-}
-
 CameraMotion CameraMotion::standing(FrameIndex first, FrameIndex last) {
     CameraMotion camera;
     if (last <= first) return camera;

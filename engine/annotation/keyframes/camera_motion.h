@@ -25,8 +25,6 @@ class CameraMotion {
     explicit CameraMotion(const std::vector<Homography>& steps);
     /// The same of a run's registration; frames whose registration failed break the chain.
     static CameraMotion fromRegistrations(const std::vector<Registration>& registrations);
-    /// From maps of each frame into one common frame (as in homography.csv).
-    static CameraMotion fromCommonFrame(const std::vector<Homography>& common_from_frame);
     /// A camera that stands still over [first, last].
     static CameraMotion standing(FrameIndex first, FrameIndex last);
 

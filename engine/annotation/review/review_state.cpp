@@ -91,37 +91,6 @@ double ReviewIndex::checkedShare() const {
     return all > 0 ? checked / all : 0;
 }
 
-std::vector<float> ReviewIndex::checkedShares(FrameIndex first, FrameIndex last) const {
-    if (last < first) return {};
-    // Differences first, sums after: a span costs two steps however long it is.
-    const auto size = static_cast<std::size_t>(last - first + 1);
-    std::vector<int> all(size + 1);
-    std::vector<int> checked(size + 1);
-    for (const auto& [id, spans] : spans_) {
-        for (const ReviewSpan& span : spans) {
-            const FrameIndex begin = std::max(first, span.first_frame);
-            const FrameIndex end = std::min(last, span.last_frame);
-            if (begin > end) continue;
-            const auto from = static_cast<std::size_t>(begin - first);
-            const auto to = static_cast<std::size_t>(end - first + 1);
-            ++all[from];
-            --all[to];
-            if (span.state != ReviewState::checked) continue;
-            ++checked[from];
-            --checked[to];
-        }
-    }
-    std::vector<float> shares(size);
-    int objects = 0;
-    int done = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-        objects += all[i];
-        done += checked[i];
-        shares[i] = objects > 0 ? static_cast<float>(done) / static_cast<float>(objects) : 1.F;
-    }
-    return shares;
-}
-
 std::optional<ReviewIndex::Place> ReviewIndex::nextUnchecked(ObjectId object, FrameIndex frame) const {
     const auto firstUnchecked = [](const std::vector<ReviewSpan>& spans, FrameIndex from) -> std::optional<FrameIndex> {
         for (const ReviewSpan& span : spans) {
@@ -141,21 +110,6 @@ std::optional<ReviewIndex::Place> ReviewIndex::nextUnchecked(ObjectId object, Fr
         if (const auto there = firstUnchecked(it->second, 0)) return Place{it->first, *there};
     }
     return std::nullopt;
-}
-
-std::optional<ReviewIndex::Place> ReviewIndex::nextUncheckedInTime(FrameIndex frame) const {
-    std::optional<Place> next;
-    std::optional<Place> first;
-    for (const auto& [id, spans] : spans_) {
-        for (const ReviewSpan& span : spans) {
-            if (span.state == ReviewState::checked) continue;
-            if (!first || span.first_frame < first->frame) first = Place{id, span.first_frame};
-            if (span.last_frame <= frame) continue;
-            const FrameIndex there = std::max(frame + 1, span.first_frame);
-            if (!next || there < next->frame) next = Place{id, there};
-        }
-    }
-    return next ? next : first;
 }
 
 }  // namespace eyrie

@@ -28,8 +28,6 @@ class ReviewIndex {
     const std::vector<ReviewSpan>& spansOf(ObjectId object) const;
     /// Share of all frames of all objects that are checked, 0 … 1; 0 when there is nothing.
     double checkedShare() const;
-    /// Per frame of [first, last]: share of the objects there that are checked; 1 where there is none.
-    std::vector<float> checkedShares(FrameIndex first, FrameIndex last) const;
 
     struct Place {
         ObjectId object = 0;
@@ -38,8 +36,6 @@ class ReviewIndex {
     /// The next object and frame nobody has checked: later frames of the same object first, then the objects with
     /// higher ids from their first unchecked frame on, then from the lowest id on. Nothing when all is checked.
     std::optional<Place> nextUnchecked(ObjectId object, FrameIndex frame) const;
-    /// In the order of time: the first unchecked box after a frame, whichever object it is of; then from the start on.
-    std::optional<Place> nextUncheckedInTime(FrameIndex frame) const;
 
  private:
     std::map<ObjectId, std::vector<ReviewSpan>> spans_;

@@ -46,7 +46,7 @@ LabelFile readTruth(const std::filesystem::path& path, const ImportOptions& opti
     LabelFile labels;
     const std::filesystem::path file = textIn(path);
     const MotOptions mot = optionsFor(file, options, labels);
-    labels.boxes = readMotTruthLabels(file, mot);
+    labels.boxes = readMotTruth(file, mot);
     return withSequence(std::move(labels), file);
 }
 

@@ -27,13 +27,11 @@ struct MotOptions {
     std::optional<std::vector<std::string>> class_list = std::nullopt;
 };
 
-/// Reads ground truth: flag 0 sets BoxRecord::ignore. Six to ten columns; a missing flag counts as 1, a missing or
-/// negative class as none. Throws Error(input) "file:line:column: …" for anything malformed, among it frames below 1,
-/// negative sizes and an id that a line above gave to another counting box of the frame.
-BoxesByFrame readMotTruth(const std::filesystem::path& file, const MotOptions& options = {});
-
-/// The same with the visibility as occlusion: 0 fully, below 1 partly.
-LabelBoxes readMotTruthLabels(const std::filesystem::path& file, const MotOptions& options = {});
+/// Reads ground truth: flag 0 sets BoxRecord::ignore; a visibility of 0 means fully hidden, below 1 partly. Six to ten
+/// columns; a missing flag counts as 1, a missing or negative class as none. Throws Error(input) "file:line:column: …"
+/// for anything malformed, among it frames below 1, negative sizes and an id that a line above gave to another counting
+/// box of the frame.
+LabelBoxes readMotTruth(const std::filesystem::path& file, const MotOptions& options = {});
 
 /// Reads tracks or detections (id −1 or lower: no id). Column 7 is the score; column 8 is a class only with a list of
 /// classes. Throws as readMotTruth().

@@ -80,7 +80,7 @@ Number iniNumber(const std::filesystem::path& file, int line, const std::string&
 
 }  // namespace
 
-LabelBoxes readMotTruthLabels(const std::filesystem::path& file, const MotOptions& options) {
+LabelBoxes readMotTruth(const std::filesystem::path& file, const MotOptions& options) {
     return readLines(file, options, [&](const TextLine& line, LabelBox& record) {
         if (line.size() > kFlag) record.ignore = line.number(kFlag, "flag (0: ignored)") == 0;
         if (line.size() > kClass) record.object_class = classOf(line.integer(kClass, "class"), options);
@@ -89,10 +89,6 @@ LabelBoxes readMotTruthLabels(const std::filesystem::path& file, const MotOption
         if (visibility == 0) record.occlusion = options.class_list ? Occlusion::partly : Occlusion::fully;
         if (visibility > 0 && visibility < 1) record.occlusion = Occlusion::partly;
     });
-}
-
-BoxesByFrame readMotTruth(const std::filesystem::path& file, const MotOptions& options) {
-    return plainBoxes(readMotTruthLabels(file, options));
 }
 
 BoxesByFrame readMotResult(const std::filesystem::path& file, const MotOptions& options) {

@@ -55,13 +55,6 @@ std::shared_ptr<const Frame> FrameCache::tryGet(FrameIndex index) {
     return found == frames_.end() ? nullptr : found->second;
 }
 
-std::optional<std::string> FrameCache::errorOf(FrameIndex index) const {
-    if (index < 0 || index >= info_.frame_count) return noSuchFrame(index);
-    const std::lock_guard lock(mutex_);
-    const auto found = errors_.find(index);
-    return found == errors_.end() ? std::nullopt : std::optional(found->second);
-}
-
 std::shared_ptr<const Frame> FrameCache::get(FrameIndex index) {
     if (index < 0 || index >= info_.frame_count) throw Error(ErrorKind::input, noSuchFrame(index));
     std::unique_lock lock(mutex_);

@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -44,8 +43,6 @@ class FrameCache {
     /// The frame if it is there; nullptr if not: then it is read next, and `Arrived` tells when. Never waits for
     /// decoding.
     std::shared_ptr<const Frame> tryGet(FrameIndex index);
-    /// Why a frame cannot be read, once that is known.
-    std::optional<std::string> errorOf(FrameIndex index) const;
     /// Waits for the frame. Throws Error(input) when it cannot be read.
     std::shared_ptr<const Frame> get(FrameIndex index);
 

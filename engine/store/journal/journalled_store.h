@@ -42,7 +42,6 @@ class JournalledStore {
     JournalledStore(const JournalledStore&) = delete;
     JournalledStore& operator=(const JournalledStore&) = delete;
 
-    int sequenceId() const { return sequence_id_; }
     /// Grows with every change of the content, for caches.
     std::uint64_t version() const { return version_; }
 
