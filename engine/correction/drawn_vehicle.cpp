@@ -57,9 +57,14 @@ std::vector<Sighting> turnedIntoMotion(std::vector<Sighting> sightings, const Ca
 
 DrawnVehicle followBothWays(const OrientedBox& box, FrameIndex frame, FrameIndex first, FrameIndex last,
                             const GrayFrames& gray, const CameraMotion& camera,
-                            const std::function<void(FrameIndex)>& progress, const std::stop_token& stop) {
+                            const std::function<void(const DrawnVehicleAdvance&)>& progress,
+                            const std::stop_token& stop) {
+    int done = 0;
     const FollowProgress told = [&](const FollowedBox& followed) {
-        if (progress) progress(followed.frame);
+        const bool backwards = followed.frame < frame;
+        const int forwards_left = backwards ? 0 : last - followed.frame;
+        const int backwards_left = std::min(followed.frame, frame) - first;
+        if (progress) progress({followed.frame, backwards, ++done, forwards_left + backwards_left});
     };
     const FollowResult after = followBox(box, frame, last, gray, camera, {}, told, stop);
     const FollowResult before = followBox(box, frame, first, gray, camera, {}, told, stop);

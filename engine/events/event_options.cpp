@@ -15,10 +15,10 @@ void describeMotion(EventOptions& options, const ParameterDeclarer& declare) {
                   "How far boxes stray from their vehicles (standard deviation). What moves no faster than this could "
                   "pretend is taken to stand.",
                   ""});
-    declare.real("events.standing_speed", options.standing_kmh, 0, 50,
+    declare.real("events.standing_speed", options.standing_speed_kmh, 0, 50,
                  {"km/h", "A vehicle that drove stands once it is slower than this.", ""});
     declare.real(
-        "events.moving_speed", options.moving_kmh, 0, 100,
+        "events.moving_speed", options.moving_speed_kmh, 0, 100,
         {"km/h",
          "A vehicle that stood drives once it was faster than this, from when it passed standing_speed. Between the "
          "two it goes on with what it did.",
@@ -31,15 +31,15 @@ void describeMotion(EventOptions& options, const ParameterDeclarer& declare) {
 
 void describeBorder(EventOptions& options, const ParameterDeclarer& declare) {
     declare.real(
-        "events.border_time", options.border_s, 0, 10,
+        "events.border_time", options.border_time_s, 0, 10,
         {"s",
          "A track that would reach the border of the picture within this time has left, not been lost. Longer: "
          "fewer are lost.",
          ""});
-    declare.real("events.border_distance", options.border_m, 0, 50,
+    declare.real("events.border_distance", options.border_distance_m, 0, 50,
                  {"m", "A box that comes as near to the border as this lies at it.", ""});
     declare.real(
-        "events.edge_time", options.edge_s, 0, 60,
+        "events.edge_time", options.edge_time_s, 0, 60,
         {"s",
          "Tracks that begin or end in mid-picture so soon after the beginning or before the end of what could be "
          "searched neither appear nor get lost.",
@@ -48,22 +48,22 @@ void describeBorder(EventOptions& options, const ParameterDeclarer& declare) {
 
 void describeOne(EventOptions& options, const ParameterDeclarer& declare) {
     declare.real("events.stands", options.stands_s, 0, 3600, {"s", "Shortest standstill that is told as such.", ""});
-    declare.real("events.turn_back_angle", options.turn_back_deg, 90, 180,
+    declare.real("events.turn_back_angle", options.turn_back_angle_deg, 90, 180,
                  {"degrees", "Directions before and after turning back differ by at least this.", ""});
-    declare.real("events.turn_back_time", options.turn_back_s, 1, 600,
+    declare.real("events.turn_back_time", options.turn_back_time_s, 1, 600,
                  {"s", "Longest time from the one direction to the other; standing in between counts.", ""});
     declare.real("events.turn_back_way", options.turn_back_way_m, 0, 200,
                  {"m", "How far the vehicle drives in either direction at least.", ""});
     declare.real("events.turn_back_offset", options.turn_back_offset_m, 0, 500,
                  {"m", "How far beside its first way the vehicle comes back at most; more is a loop or a bend.", ""});
     declare.real("events.over", options.over_kmh, 1, 400, {"km/h", "Speed above which a vehicle is told as fast.", ""});
-    declare.real("events.over_time", options.over_s, 0, 600, {"s", "For at least so long.", ""});
+    declare.real("events.over_time", options.over_time_s, 0, 600, {"s", "For at least so long.", ""});
     declare.real("events.under", options.under_kmh, 0, 400,
                  {"km/h", "Speed below which a vehicle that moves is told as slow.", ""});
-    declare.real("events.under_time", options.under_s, 0, 600, {"s", "For at least so long.", ""});
+    declare.real("events.under_time", options.under_time_s, 0, 600, {"s", "For at least so long.", ""});
     declare.real("events.loiter_radius", options.loiter_radius_m, 1, 1000,
                  {"m", "A vehicle loiters that stays within such a circle …", ""});
-    declare.real("events.loiter_time", options.loiter_s, 1, 3600,
+    declare.real("events.loiter_time", options.loiter_time_s, 1, 3600,
                  {"s", "… for at least so long, and drives at least twice the circle's diameter meanwhile.", ""});
 }
 
@@ -77,17 +77,17 @@ void describeOthers(EventOptions& options, const ParameterDeclarer& declare) {
     declare.real(
         "events.flow_share", options.flow_share, 0, 1,
         {"", "Largest share of the tracks of a place that go the same way as one that drives against the flow.", ""});
-    declare.real("events.against_angle", options.against_deg, 90, 180,
+    declare.real("events.against_angle", options.against_angle_deg, 90, 180,
                  {"degrees", "Directions that differ by more than this are against each other.", ""});
     declare.real("events.flow_way", options.flow_way_m, 0, 500,
                  {"m", "How far a vehicle drives against the flow, or off it, at least.", ""});
     declare.real("events.off_flow", options.off_flow_m, 1, 100,
                  {"m", "A vehicle has left the flow where no other came as near as this.", ""});
-    declare.real("events.off_flow_seen", options.off_flow_s, 0, 3600,
+    declare.real("events.off_flow_seen", options.off_flow_seen_s, 0, 3600,
                  {"s", "Such a place must have been in the picture for at least so long.", ""});
     declare.integer("events.convoy_vehicles", options.convoy_vehicles, 2, 100,
                     {"", "Fewest vehicles of a convoy.", ""});
-    declare.real("events.convoy_time", options.convoy_s, 1, 3600,
+    declare.real("events.convoy_time", options.convoy_time_s, 1, 3600,
                  {"s", "Shortest time for which they follow each other.", ""});
     declare.real("events.convoy_headway", options.convoy_headway_s, 0.5, 60,
                  {"s", "Longest time from one vehicle passing a place to the next.", ""});
@@ -98,9 +98,10 @@ void describeOthers(EventOptions& options, const ParameterDeclarer& declare) {
         {"", "By which share the time between two vehicles of a convoy may vary. More: traffic is a convoy, too.", ""});
     declare.real("events.meeting_distance", options.meeting_distance_m, 0, 100,
                  {"m", "Largest gap between two vehicles that meet.", ""});
-    declare.real("events.meeting_time", options.meeting_s, 0, 3600, {"s", "Shortest time for which both stand.", ""});
+    declare.real("events.meeting_time", options.meeting_time_s, 0, 3600,
+                 {"s", "Shortest time for which both stand.", ""});
     declare.real(
-        "events.meeting_angle", options.meeting_deg, 0, 180,
+        "events.meeting_angle", options.meeting_angle_deg, 0, 180,
         {"degrees",
          "Directions from which they came differ by at least this. 0: whoever stands in a queue meets the next "
          "one.",

@@ -280,7 +280,6 @@ const TrackState* storedTrackAt(const PlaceEvidence& evidence) {
 }  // namespace explaining
 
 OrientedBox placeAt(cv::Point2d point, const SceneScale& scale) {
-    constexpr double kCarLength_m = 4.5;
     constexpr double kSmallest = 8;
     const double side = std::max(scale.at(point).px(kCarLength_m), kSmallest);
     return {point, side, side, 0};

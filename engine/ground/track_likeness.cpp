@@ -17,7 +17,6 @@ namespace eyrie {
 namespace {
 
 constexpr double kLane_m = 3;
-constexpr double kUsualLength_m = 4.5;     ///< of the median vehicle where no scale is known
 constexpr double kFarthest = 4;            ///< lanes, further away is nowhere near
 constexpr double kLeastStep_m = 2;         ///< between compared places of a path
 constexpr int kMostSteps = 128;            ///< of one path; longer ones are compared in longer steps
@@ -252,7 +251,7 @@ double unitOf(const StoredTracks& run, const GroundStretches& ground) {
                               ground.metresByPlace(middle.frame, middle.box.centre));
     }
     const double median = medianOrNone(std::move(lengths));
-    return median > 0 ? kUsualLength_m / median : 1;
+    return median > 0 ? kCarLength_m / median : 1;
 }
 
 }  // namespace

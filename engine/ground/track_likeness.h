@@ -12,7 +12,7 @@ namespace eyrie {
 /// same.
 ///
 /// Lengths are metres by the scale at the place. Where no scale is known, they are lengths of vehicles: the median
-/// vehicle of the run is taken to be 4.5 m long.
+/// vehicle of the run is taken to be as long as a usual car.
 struct TrackLikeness {
     TrackId track = 0;
     /// path^½ · speed^¼ · size^¼: what is unlike in one of them is not like.

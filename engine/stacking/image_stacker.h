@@ -34,7 +34,7 @@ struct StackingOptions {
     int neighbours = 3;                  ///< k of the k-NN vote
     double max_speed_difference = 0.25;  ///< of the cluster's speed
     double max_turn_degrees = 20;
-    double vehicle_length_m = 4.5;  ///< for k of k-means
+    double vehicle_length_m = kCarLength_m;  ///< for k of k-means
 
     void describe(ParameterVisitor& visitor);
     static StackingOptions thesis();

@@ -1,6 +1,7 @@
 #include "sweep/stage_cache.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
@@ -54,6 +55,20 @@ BoxesByFrame keptBoxes(const std::vector<FrameMotion>& motion, const std::vector
         }
     }
     return boxes;
+}
+
+/// The name of what is found with these parameters at that scale. A slope that was looked for depends on more of them
+/// than the stage does.
+std::string named(std::string signature, const SceneScale& scale) {
+    if (scale.slope.isFlat()) return signature;
+    std::array<char, 128> slope{};
+    std::snprintf(slope.data(), slope.size(), "slope %a %a from %a %a\n", scale.slope.right_per_px,
+                  scale.slope.down_per_px, scale.slope.centre_x, scale.slope.centre_y);
+    return std::move(signature) + slope.data();
+}
+
+std::string nameUpTo(const ChainOptions& options, const SceneScale& scale, ChainStage last) {
+    return named(signatureUpTo(options, last), scale);
 }
 
 std::vector<FrameMotionSummary> summariesOf(const std::vector<FrameMotion>& motion) {
@@ -123,7 +138,7 @@ void StageCache::useStoredMotion(const ChainOptions& options, std::vector<FrameM
                       motion.front().frame == frames_.first() && motion.back().frame == frames_.last();
     if (!fits) throw Error(ErrorKind::internal, "the stored motion vectors are not those of the frames to be swept");
     const auto shared = std::make_shared<const Motion>(std::move(motion));
-    motion_.get(signatureUpTo(options, ChainStage::motion), [&] { return shared; });
+    motion_.get(nameUpTo(options, scaleFor(options, {}), ChainStage::motion), [&] { return shared; });
 }
 
 SceneScale StageCache::scaleFor(const ChainOptions& options, const std::stop_token& stop) {
@@ -132,17 +147,20 @@ SceneScale StageCache::scaleFor(const ChainOptions& options, const std::stop_tok
     scale.slope = {};
     if (!options.view.oblique) return scale;
     scale.slope = *slopes_.get(signatureUpTo(options, ChainStage::detection), [&] {
-        const auto source = frames_.openAnew();
-        auto slope = std::make_shared<const ScaleSlope>(
-            slopeFor(*source, {frames_.first(), frames_.last()}, options, scale, stop));
+        ScaleSlope slope;
+        if (options_.look_for_slope) {
+            slope = options_.look_for_slope(options, stop);
+        } else {
+            const auto source = frames_.openAnew();
+            slope = slopeFor(*source, {frames_.first(), frames_.last()}, options, scale, stop);
+        }
         leaveIf(stop);
-        return slope;
+        return std::make_shared<const ScaleSlope>(slope);
     });
     return scale;
 }
 
-std::shared_ptr<StageCache::Motion> StageCache::computeMotion(const ChainOptions& options,
-                                                              const std::stop_token& stop) {
+std::shared_ptr<StageCache::Motion> StageCache::computeMotion(const Point& point) {
     count(ChainStage::motion);
     auto motion = std::make_shared<Motion>();
     motion->reserve(static_cast<std::size_t>(frames_.count()));
@@ -157,10 +175,10 @@ std::shared_ptr<StageCache::Motion> StageCache::computeMotion(const ChainOptions
             }
         });
     }
-    MotionHalf half(options, scaleFor(options, stop));
+    MotionHalf half(point.options, point.scale);
     ClipFrames::Reader reader = frames_.reader();
     for (FrameIndex i = frames_.first(); i <= frames_.last(); ++i) {
-        leaveIf(stop);
+        leaveIf(point.stop);
         StageTimes times{};
         motion->push_back(half.next(reader.read(i), times));
         tell(ChainStage::motion, i - frames_.first() + 1);
@@ -168,54 +186,51 @@ std::shared_ptr<StageCache::Motion> StageCache::computeMotion(const ChainOptions
     return motion;
 }
 
-std::shared_ptr<const StageCache::Motion> StageCache::motion(const ChainOptions& options, const std::stop_token& stop) {
-    return motion_.get(signatureUpTo(options, ChainStage::motion), [&] { return computeMotion(options, stop); });
+std::shared_ptr<const StageCache::Motion> StageCache::motion(const Point& point) {
+    return motion_.get(nameUpTo(point.options, point.scale, ChainStage::motion), [&] { return computeMotion(point); });
 }
 
-std::shared_ptr<StageCache::Clusters> StageCache::differenceClusters(const ChainOptions& options, const Motion& motion,
-                                                                     const std::stop_token& stop) {
+std::shared_ptr<StageCache::Clusters> StageCache::differenceClusters(const Point& point, const Motion& motion) {
     auto clusters = std::make_shared<Clusters>();
-    DifferenceMotion difference(options.difference, scaleFor(options, stop));
+    DifferenceMotion difference(point.options.difference, point.scale);
     ClipFrames::Reader reader = frames_.reader();
     for (const FrameMotion& frame : motion) {
-        leaveIf(stop);
+        leaveIf(point.stop);
         clusters->push_back(difference.next(reader.read(frame.frame), frame).clusters);
         tell(ChainStage::clustering, static_cast<int>(clusters->size()));
     }
     return clusters;
 }
 
-std::shared_ptr<const StageCache::Clusters> StageCache::clusters(const ChainOptions& options, const Motion& motion,
-                                                                 const std::stop_token& stop) {
-    return clusters_.get(signatureUpTo(options, ChainStage::clustering), [&]() -> std::shared_ptr<const Clusters> {
-        count(ChainStage::clustering);
-        if (options.difference.method != MotionMethod::vectors) return differenceClusters(options, motion, stop);
-        auto clusters = std::make_shared<Clusters>(motion.size());
-        const MotionClustering clustering(options.clustering, scaleFor(options, stop));
-        forFrames(stop, [&](std::size_t i, ClipFrames::Reader&) { (*clusters)[i] = clustering.cluster(motion[i]); });
-        return clusters;
-    });
+std::shared_ptr<const StageCache::Clusters> StageCache::clusters(const Point& point, const Motion& motion) {
+    return clusters_.get(
+        nameUpTo(point.options, point.scale, ChainStage::clustering), [&]() -> std::shared_ptr<const Clusters> {
+            count(ChainStage::clustering);
+            if (point.options.difference.method != MotionMethod::vectors) return differenceClusters(point, motion);
+            auto clusters = std::make_shared<Clusters>(motion.size());
+            const MotionClustering clustering(point.options.clustering, point.scale);
+            forFrames(point.stop,
+                      [&](std::size_t i, ClipFrames::Reader&) { (*clusters)[i] = clustering.cluster(motion[i]); });
+            return clusters;
+        });
 }
 
-std::shared_ptr<const StageCache::Detections> StageCache::found(const ChainOptions& options, const Motion& motion,
-                                                                const std::stop_token& stop) {
-    const auto clusters = this->clusters(options, motion, stop);
-    return found_.get(signatureUpTo(options, ChainStage::detection), [&] {
+std::shared_ptr<const StageCache::Detections> StageCache::found(const Point& point, const Motion& motion) {
+    const auto clusters = this->clusters(point, motion);
+    return found_.get(nameUpTo(point.options, point.scale, ChainStage::detection), [&] {
         count(ChainStage::detection);
         const std::size_t frame_count = motion.size();
         // Tables are shared by all that agree in their parameters and only ever grow, hence the casts.
-        const auto prepared =
-            std::const_pointer_cast<AreaTable<Prepared>>(prepared_.get(preparationSignature(options), [&] {
-                return std::make_shared<const AreaTable<Prepared>>(frame_count, options_.area_bytes);
-            }));
-        const auto areas =
-            std::const_pointer_cast<AreaTable<std::vector<Detection>>>(areas_.get(areaSignature(options), [&] {
+        const auto prepared = std::const_pointer_cast<AreaTable<Prepared>>(prepared_.get(
+            named(preparationSignature(point.options), point.scale),
+            [&] { return std::make_shared<const AreaTable<Prepared>>(frame_count, options_.area_bytes); }));
+        const auto areas = std::const_pointer_cast<AreaTable<std::vector<Detection>>>(
+            areas_.get(named(areaSignature(point.options), point.scale), [&] {
                 return std::make_shared<const AreaTable<std::vector<Detection>>>(frame_count, options_.area_bytes / 8);
             }));
-        const SceneScale scale = scaleFor(options, stop);
-        const std::unique_ptr<Detector> detector = makeDetector(options.detection, scale);
+        const std::unique_ptr<Detector> detector = makeDetector(point.options.detection, point.scale);
         auto detections = std::make_shared<Detections>(frame_count);
-        forFrames(stop, [&](std::size_t i, ClipFrames::Reader& reader) {
+        forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader& reader) {
             std::optional<Frame> frame;
             for (std::size_t c = 0; c < (*clusters)[i].size(); ++c) {
                 const MotionCluster& cluster = (*clusters)[i][c];
@@ -226,7 +241,7 @@ std::shared_ptr<const StageCache::Detections> StageCache::found(const ChainOptio
                     if (!area) {
                         if (!frame) frame = reader.read(motion[i].frame);
                         auto made = std::make_shared<Prepared>();
-                        made->roi = cutMotionRoi(*frame, cluster, 0, motion[i], options.detection, scale);
+                        made->roi = cutMotionRoi(*frame, cluster, 0, motion[i], point.options.detection, point.scale);
                         made->area = detector->prepare(made->roi);
                         prepared->keep(i, cluster, made, made->bytes());
                         area = std::move(made);
@@ -246,34 +261,31 @@ std::shared_ptr<const StageCache::Detections> StageCache::found(const ChainOptio
     });
 }
 
-StageCache::Detections StageCache::detectionsByStacks(const ChainOptions& options, const Motion& motion,
-                                                      const std::stop_token& stop) {
+StageCache::Detections StageCache::detectionsByStacks(const Point& point, const Motion& motion) {
     count(ChainStage::stacking);
     Detections detections;
-    TrackHalf half(options, scaleFor(options, stop));
+    TrackHalf half(point.options, point.scale);
     ClipFrames::Reader reader = frames_.reader();
     for (const FrameMotion& frame : motion) {
-        leaveIf(stop);
+        leaveIf(point.stop);
         detections.push_back(half.next(reader.read(frame.frame), frame, {}).detections);
         tell(ChainStage::stacking, static_cast<int>(detections.size()));
     }
     return detections;
 }
 
-std::shared_ptr<const StageCache::Detected> StageCache::detected(const ChainOptions& options, const Motion& motion,
-                                                                 const std::stop_token& stop) {
-    return detected_.get(signatureUpTo(options, ChainStage::removal), [&] {
+std::shared_ptr<const StageCache::Detected> StageCache::detected(const Point& point, const Motion& motion) {
+    return detected_.get(nameUpTo(point.options, point.scale, ChainStage::removal), [&] {
         auto detected = std::make_shared<Detected>();
-        if (options.stacking.enabled) {
+        if (point.options.stacking.enabled) {
             // Stacks are started from the detections of the frame before: nothing behind can be done by itself.
-            detected->frames = detectionsByStacks(options, motion, stop);
+            detected->frames = detectionsByStacks(point, motion);
         } else {
-            const auto found = this->found(options, motion, stop);
+            const auto found = this->found(point, motion);
             count(ChainStage::removal);
-            const SceneScale scale = scaleFor(options, stop);
             detected->frames.resize(motion.size());
-            forFrames(stop, [&](std::size_t i, ClipFrames::Reader&) {
-                detected->frames[i] = removed((*found)[i], motion[i], options, scale);
+            forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader&) {
+                detected->frames[i] = removed((*found)[i], motion[i], point.options, point.scale);
             });
         }
         detected->boxes = keptBoxes(motion, detected->frames);
@@ -281,16 +293,15 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const ChainOpti
     });
 }
 
-std::shared_ptr<const std::vector<TimedState>> StageCache::states(const ChainOptions& options, const Motion& motion,
-                                                                  const Detections& detections,
-                                                                  const std::stop_token& stop) {
-    return states_.get(signatureUpTo(options, ChainStage::tracking), [&] {
+std::shared_ptr<const std::vector<TimedState>> StageCache::states(const Point& point, const Motion& motion,
+                                                                  const Detections& detections) {
+    return states_.get(nameUpTo(point.options, point.scale, ChainStage::tracking), [&] {
         count(ChainStage::tracking);
         auto states = std::make_shared<std::vector<TimedState>>();
-        Tracker tracker(options.tracking, scaleFor(options, stop));
+        Tracker tracker(point.options.tracking, point.scale);
         ClipFrames::Reader reader = frames_.reader();
         for (std::size_t i = 0; i < motion.size(); ++i) {
-            leaveIf(stop);
+            leaveIf(point.stop);
             const PictureOfFrame picture = [&] { return reader.read(motion[i].frame).gray; };
             for (const TrackState& state : tracker.next(motion[i], detections[i], nullptr, picture))
                 states->emplace_back(motion[i].frame, state);
@@ -299,12 +310,10 @@ std::shared_ptr<const std::vector<TimedState>> StageCache::states(const ChainOpt
     });
 }
 
-std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& options, const Motion& motion,
+std::shared_ptr<const BoxesByFrame> StageCache::tracks(const Point& point, const Motion& motion,
                                                        const std::vector<std::vector<Detection>>& detections,
-                                                       const std::vector<TimedState>& states,
-                                                       const std::stop_token& stop) {
-    return tracks_.get(signatureUpTo(options, ChainStage::finishing), [&] {
-        const SceneScale scale = scaleFor(options, stop);
+                                                       const std::vector<TimedState>& states) {
+    return tracks_.get(nameUpTo(point.options, point.scale, ChainStage::finishing), [&] {
         count(ChainStage::finishing);
         auto boxes = std::make_shared<BoxesByFrame>();
         const auto placeOf = [&motion](FrameIndex frame) -> std::optional<std::size_t> {
@@ -322,22 +331,25 @@ std::shared_ptr<const BoxesByFrame> StageCache::tracks(const ChainOptions& optio
             const auto place = placeOf(frame);
             return place && *place < detections.size() ? vehiclesOf(detections[*place]) : std::vector<OrientedBox>{};
         };
-        for (const auto& [frame, state] : finishTracks(states, summariesOf(motion), options.finishing, scale,
-                                                       {vectors_at, classifiedVehicles(options, vehicles_at)}))
+        for (const auto& [frame, state] :
+             finishTracks(states, summariesOf(motion), point.options.finishing, point.scale,
+                          {vectors_at, classifiedVehicles(point.options, vehicles_at)}))
             (*boxes)[frame].push_back(recordOf(frame, state));
-        nameClasses(*boxes, scale, options.classes);
+        nameClasses(*boxes, point.scale, point.options.classes);
         return boxes;
     });
 }
 
 std::optional<ClipResult> StageCache::run(const ChainOptions& options, const std::stop_token& stop) {
     try {
-        const auto motion = this->motion(options, stop);
-        const auto detected = this->detected(options, *motion, stop);
-        const auto states = this->states(options, *motion, detected->frames, stop);
+        const SceneScale scale = scaleFor(options, stop);
+        const Point point{options, scale, stop};
+        const auto motion = this->motion(point);
+        const auto detected = this->detected(point, *motion);
+        const auto states = this->states(point, *motion, detected->frames);
         ClipResult result;
         result.detections = std::shared_ptr<const BoxesByFrame>(detected, &detected->boxes);
-        result.tracks = tracks(options, *motion, detected->frames, *states, stop);
+        result.tracks = tracks(point, *motion, detected->frames, *states);
         return result;
     } catch (const Stopped&) {
         return std::nullopt;

@@ -10,10 +10,10 @@
 #include "chain/chain_options.h"
 #include "chain/parameter_stage.h"
 #include "core/labels/box_record.h"
+#include "core/memo.h"
 #include "core/values/frame_result.h"
 #include "sweep/area_table.h"
 #include "sweep/clip_frames.h"
-#include "sweep/memo.h"
 #include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
@@ -32,6 +32,8 @@ struct StageCacheOptions {
     /// Whether it was looked, when the scale was chosen, how it changes over the picture (view.oblique). Where not,
     /// that is done for points that ask for it; points that do not have a scale that is the same everywhere.
     bool looked_for_slope = true;
+    /// How that is done; slopeFor() where nothing is given.
+    std::function<ScaleSlope(const ChainOptions& options, const std::stop_token& stop)> look_for_slope = {};
 };
 
 /// Runs the chain over one clip again and again with changed parameters. Each time only what lies behind the first
@@ -72,25 +74,26 @@ class StageCache {
         BoxesByFrame boxes;  ///< kept ones
     };
 
-    /// The scale that a run with these options works with.
-    SceneScale scaleFor(const ChainOptions& options, const std::stop_token& stop);
-    std::shared_ptr<const Motion> motion(const ChainOptions& options, const std::stop_token& stop);
-    std::shared_ptr<const Clusters> clusters(const ChainOptions& options, const Motion& motion,
-                                             const std::stop_token& stop);
-    std::shared_ptr<const Detections> found(const ChainOptions& options, const Motion& motion,
-                                            const std::stop_token& stop);
-    std::shared_ptr<const Detected> detected(const ChainOptions& options, const Motion& motion,
-                                             const std::stop_token& stop);
-    std::shared_ptr<const std::vector<TimedState>> states(const ChainOptions& options, const Motion& motion,
-                                                          const Detections& detections, const std::stop_token& stop);
-    std::shared_ptr<const BoxesByFrame> tracks(const ChainOptions& options, const Motion& motion,
-                                               const std::vector<std::vector<Detection>>& detections,
-                                               const std::vector<TimedState>& states, const std::stop_token& stop);
+    /// What is to be found: with which parameters, and at which scale a run with them works.
+    struct Point {
+        const ChainOptions& options;
+        const SceneScale& scale;
+        const std::stop_token& stop;
+    };
 
-    std::shared_ptr<Motion> computeMotion(const ChainOptions& options, const std::stop_token& stop);
-    std::shared_ptr<Clusters> differenceClusters(const ChainOptions& options, const Motion& motion,
-                                                 const std::stop_token& stop);
-    Detections detectionsByStacks(const ChainOptions& options, const Motion& motion, const std::stop_token& stop);
+    SceneScale scaleFor(const ChainOptions& options, const std::stop_token& stop);
+    std::shared_ptr<const Motion> motion(const Point& point);
+    std::shared_ptr<const Clusters> clusters(const Point& point, const Motion& motion);
+    std::shared_ptr<const Detections> found(const Point& point, const Motion& motion);
+    std::shared_ptr<const Detected> detected(const Point& point, const Motion& motion);
+    std::shared_ptr<const std::vector<TimedState>> states(const Point& point, const Motion& motion,
+                                                          const Detections& detections);
+    std::shared_ptr<const BoxesByFrame> tracks(const Point& point, const Motion& motion, const Detections& detections,
+                                               const std::vector<TimedState>& states);
+
+    std::shared_ptr<Motion> computeMotion(const Point& point);
+    std::shared_ptr<Clusters> differenceClusters(const Point& point, const Motion& motion);
+    Detections detectionsByStacks(const Point& point, const Motion& motion);
     void forFrames(const std::stop_token& stop,
                    const std::function<void(std::size_t, ClipFrames::Reader&)>& work) const;
     void tell(ChainStage stage, int done) const;
@@ -100,7 +103,7 @@ class StageCache {
     SceneScale scale_;
     StageCacheOptions options_;
     Progress progress_;
-    Memo<ScaleSlope> slopes_{2};
+    Memo<ScaleSlope> slopes_{32};
     Memo<Motion> motion_{2};
     Memo<Clusters> clusters_{6};
     Memo<AreaTable<Prepared>> prepared_{2};

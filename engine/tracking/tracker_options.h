@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/parameter.h"
+#include "core/values/scene_scale.h"
 
 namespace eyrie {
 
@@ -38,8 +39,8 @@ struct TrackerOptions {
     int split_patience = 8;
     double size_gate = 1.8;
     int size_patience = 10;
-    double car_length_m = 4.5;
-    double car_width_m = 1.8;
+    double car_length_m = kCarLength_m;
+    double car_width_m = kCarWidth_m;
     double one_vehicle_factor = 1.3;
 
     // Association of motion vectors and reconstruction.

@@ -136,6 +136,59 @@ TEST(BoxFollowing, EndsAtTheBorderAtMissingPicturesAndOnDemand) {
     EXPECT_THROW(followBox({{90, 90}, 0, 9, 0}, 10, 20, gray, CameraMotion()), Error);
 }
 
+/// A car waits under a camera that pans, and a long lorry drives past in front of it in frames 15 to 31: over its lower
+/// part, over all of it where `high`. `leaves`: when it has passed, the car is gone.
+class WaitingScene {
+ public:
+    WaitingScene(bool high, bool leaves) : high_(high), leaves_(leaves) {}
+
+    static cv::Matx33d view(double frame) { return {1, 0, 20 - 0.4 * frame, 0, 1, 0.2 * frame, 0, 0, 1}; }
+    static OrientedBox truth(double frame) { return test::seen({{150, 120}, 40, 20, 0}, view(frame)); }
+
+    cv::Mat picture(FrameIndex frame) const {
+        cv::Mat scene = ground_.clone();
+        if (!leaves_ || frame < 25) car_.copyTo(scene(cv::Rect(130, 110, 40, 20)));
+        const int left = -50 + 7 * frame;
+        const cv::Rect lorry(left, high_ ? 106 : 119, 80, 30);
+        const cv::Rect seen = lorry & cv::Rect({}, scene.size());
+        if (!seen.empty()) lorry_(seen - lorry.tl()).copyTo(scene(seen));
+        const cv::Matx33d v = view(frame);
+        cv::Mat result;
+        cv::warpAffine(scene, result, cv::Matx23d(1, 0, v(0, 2), 0, 1, v(1, 2)), {320, 240}, cv::INTER_LINEAR,
+                       cv::BORDER_REFLECT);
+        return result;
+    }
+    FollowResult followed() const {
+        return followBox(
+            truth(0), 0, 60, [&](FrameIndex frame) { return picture(frame); }, CameraMotion(test::stepsOf(view, 60)));
+    }
+
+ private:
+    bool high_, leaves_;
+    cv::Mat ground_ = noise({400, 300}, 5, 2.5);
+    cv::Mat car_ = noise({40, 20}, 6, 1.2);
+    cv::Mat lorry_ = noise({80, 30}, 7, 1.5);
+};
+
+TEST(BoxFollowing, WhatWaitsIsFollowedWhileOthersPassInFrontOfIt) {
+    for (const bool high : {false, true}) {
+        const FollowResult result = WaitingScene(high, false).followed();
+        EXPECT_EQ(result.end, FollowEnd::end_of_range) << result.reason;
+        ASSERT_EQ(result.boxes.size(), 60U) << high;
+        for (const FollowedBox& each : result.boxes)
+            EXPECT_GT(overlap(each.box, WaitingScene::truth(each.frame)), 0.8) << each.frame;
+    }
+}
+
+TEST(BoxFollowing, WhatIsGoneWhenItCanBeSeenAgainEndsWhereItWasHidden) {
+    const FollowResult result = WaitingScene(true, true).followed();
+    EXPECT_NE(result.end, FollowEnd::end_of_range);
+    EXPECT_GT(result.end_frame, 14);
+    EXPECT_LT(result.end_frame, 26) << "by then it is hidden";
+    ASSERT_FALSE(result.boxes.empty());
+    EXPECT_EQ(result.boxes.back().frame, result.end_frame - 1);
+}
+
 /// Real vehicles of 22 × 9 px, followed from their first whole frame. Printed, because the figures are wanted in
 /// reports.
 TEST(BoxFollowing, FollowsRealVehicles) {

@@ -53,15 +53,12 @@ OrientedBox drawnIn(FrameIndex frame) {
 const CameraMotion kStill = CameraMotion::standing(0, kFrames - 1);
 
 TEST(DrawnVehicle, IsFollowedBothWaysAndTurnedIntoItsMotion) {
-    int told = 0;
-    const DrawnVehicle vehicle =
-        followBothWays(drawnIn(30), 30, 0, kFrames - 1, DrivenPicture(), kStill, [&](FrameIndex) { ++told; });
+    const DrawnVehicle vehicle = followBothWays(drawnIn(30), 30, 0, kFrames - 1, DrivenPicture(), kStill);
     ASSERT_TRUE(areSightings(vehicle.sightings));
     EXPECT_LE(vehicle.sightings.front().frame, 7) << vehicle.ended_before;
     EXPECT_GE(vehicle.sightings.front().frame, 4) << "before that it was not there";
     EXPECT_GE(vehicle.sightings.back().frame, 52) << vehicle.ended_after;
     EXPECT_LE(vehicle.sightings.back().frame, 56);
-    EXPECT_EQ(told, static_cast<int>(vehicle.sightings.size()) - 1);
     for (const Sighting& each : vehicle.sightings) {
         if (each.frame < 5 || each.frame > 54) continue;
         const OrientedBox truth = DrivenPicture::truth(each.frame);
@@ -70,11 +67,26 @@ TEST(DrawnVehicle, IsFollowedBothWaysAndTurnedIntoItsMotion) {
     }
 }
 
+TEST(DrawnVehicle, ItIsToldHowFarItIsAndHowMuchMayBeLeft) {
+    std::vector<DrawnVehicleAdvance> told;
+    followBothWays(drawnIn(30), 30, 20, 33, DrivenPicture(), kStill,
+                   [&](const DrawnVehicleAdvance& advance) { told.push_back(advance); });
+    ASSERT_EQ(told.size(), 13U);
+    for (int i = 0; i < 13; ++i) {
+        const DrawnVehicleAdvance& each = told[static_cast<std::size_t>(i)];
+        EXPECT_EQ(each.frame, i < 3 ? 31 + i : 32 - i);
+        EXPECT_EQ(each.backwards, i >= 3);
+        EXPECT_EQ(each.done, i + 1);
+        EXPECT_EQ(each.most_left, 12 - i);
+    }
+}
+
 TEST(DrawnVehicle, WhatWasFollowedIsKeptWhenItIsStopped) {
     std::stop_source stop;
     const DrawnVehicle vehicle = followBothWays(
         drawnIn(30), 30, 0, kFrames - 1, DrivenPicture(), kStill,
-        [&](FrameIndex frame) { frame == 40 ? stop.request_stop() : false; }, stop.get_token());
+        [&](const DrawnVehicleAdvance& advance) { advance.frame == 40 ? stop.request_stop() : false; },
+        stop.get_token());
     ASSERT_EQ(vehicle.sightings.size(), 11U);
     EXPECT_EQ(vehicle.sightings.front().frame, 30);
     EXPECT_EQ(vehicle.sightings.back().frame, 40);

@@ -143,7 +143,7 @@ TEST(Meetings, AQueueIsNone) {
     scene.drive({26, 60}, 0, come);
     EXPECT_THAT(scene.events(EventKind::meeting), IsEmpty());
     EventOptions options;
-    options.meeting_deg = 0;
+    options.meeting_angle_deg = 0;
     EXPECT_EQ(scene.events(EventKind::meeting, options).size(), 2U);
 }
 

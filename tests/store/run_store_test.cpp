@@ -1,5 +1,4 @@
 #include "store/runs/run_store.h"
-#include "store/runs/doubtful_tracks.h"
 
 #include <gmock/gmock.h>
 
@@ -16,6 +15,7 @@ namespace {
 
 using test::sampleFrame;
 using test::sampleRun;
+using test::twoTracks;
 
 class RunStoreTest : public testing::Test {
  protected:
@@ -153,26 +153,6 @@ TEST_F(RunStoreTest, HomographiesAreReadFromAFrameOn) {
         EXPECT_EQ(read.to_frame, 3 + i);
         EXPECT_EQ(read.matrix, written.motion.registration.current_from_previous.matrix);
     }
-}
-
-/// A track of id 1 that moves 3 px right and 4 px down per frame in frames 4 … 6, confirmed in the last; and a
-/// tentative track 2 in frame 5.
-std::vector<FrameResult> twoTracks() {
-    std::vector<FrameResult> frames(3);
-    for (int i = 0; i < 3; ++i) {
-        frames[static_cast<std::size_t>(i)].motion.frame = 4 + i;
-        TrackState state;
-        state.id = 1;
-        state.velocity = {3, 4};
-        state.box = {{10.0 + 3 * i, 20.0 + 4 * i}, 12.0 + i, 6, 0.5};
-        state.status = i == 2 ? TrackStatus::confirmed : TrackStatus::tentative;
-        state.score = 0.25 * i;
-        frames[static_cast<std::size_t>(i)].tracks.push_back(state);
-    }
-    TrackState second;
-    second.id = 2;
-    frames[1].tracks.push_back(second);
-    return frames;
 }
 
 TEST_F(RunStoreTest, RegistrationsSayHowTheyEnded) {
@@ -317,72 +297,6 @@ TEST_F(RunStoreTest, WhatFinishingLeftOutIsReadWithItsFrame) {
     EXPECT_TRUE(store.frameResult(writer.runId(), 5)->dropped.empty());
     store.replaceTrackStates(writer.runId(), {}, {{5, small}});
     EXPECT_EQ(store.frameResult(writer.runId(), 5)->dropped.size(), 1U);
-}
-
-TEST_F(RunStoreTest, DoubtfulTracksAreReadApartFromTheResult) {
-    ProjectFile project = ProjectFile::create(path_);
-    ResultWriter writer(path_, sampleRun(), {{"finishing.min_score", "0.35"}});
-    for (const FrameResult& frame : twoTracks()) writer.write(frame);
-    const int run = writer.runId();
-    RunStore store(project);
-    EXPECT_EQ(store.doubtful().scoreThreshold(run), 0) << "nothing was judged yet";
-    TrackState state = twoTracks().front().tracks.front();
-    state.id = 9;
-    state.status = TrackStatus::confirmed;
-    state.score = 0.25;
-    TracksOfRun tracks;
-    tracks.states = [&](const TracksOfRun::StateVisitor& visitor) {
-        TrackState kept = state;
-        kept.id = 1;
-        visitor(5, kept);
-    };
-    tracks.doubtful = [&](const TracksOfRun::StateVisitor& visitor) {
-        for (const FrameIndex frame : {4, 5}) visitor(frame, state);
-    };
-    TrackEvidence evidence;
-    evidence.detected = 0.5;
-    evidence.looked_alike = 0.125;
-    evidence.life_s = 2;
-    evidence.flow_px = 1.5;
-    evidence.flow_ratio = 0.75;
-    evidence.alignment = -0.25;
-    evidence.score = 0.25;
-    tracks.evidence[9] = evidence;
-    store.replaceTracks(run, tracks);
-
-    ASSERT_EQ(store.tracks(run).size(), 1U);
-    EXPECT_FALSE(store.tracks(run).front().doubtful);
-    EXPECT_EQ(store.frameResult(run, 5)->tracks.size(), 1U);
-    EXPECT_EQ(store.trackBoxes(run).at(5).size(), 1U);
-    ASSERT_EQ(store.doubtful().summaries(run).size(), 1U);
-    const TrackSummary doubtful = store.doubtful().summaries(run).front();
-    EXPECT_TRUE(doubtful.doubtful);
-    EXPECT_EQ(doubtful.id, 9);
-    EXPECT_EQ(doubtful.frames, 2);
-    EXPECT_EQ(doubtful.first_frame, 4);
-    EXPECT_EQ(doubtful.score, 0.25);
-    EXPECT_NEAR(doubtful.mean_length_px, state.box.length, 1e-9);
-    ASSERT_EQ(store.doubtful().statesIn(run, 5).size(), 1U);
-    EXPECT_EQ(store.doubtful().statesIn(run, 5).front().box.centre, state.box.centre);
-    EXPECT_TRUE(store.doubtful().statesIn(run, 6).empty());
-    EXPECT_EQ(store.doubtful().statesOf(run, 9).size(), 2U);
-    EXPECT_EQ(store.doubtful().statesUpTo(run, 5, 1).size(), 1U);
-    EXPECT_EQ(store.doubtful().boxes(run).at(4).front().id, 9);
-    EXPECT_FALSE(store.doubtful().evidence(run, 1));
-    const auto read = store.doubtful().evidence(run, 9);
-    ASSERT_TRUE(read);
-    EXPECT_EQ(read->detected, 0.5);
-    EXPECT_EQ(read->looked_alike, 0.125);
-    EXPECT_EQ(read->life_s, 2);
-    EXPECT_EQ(read->flow_px, 1.5);
-    EXPECT_EQ(read->flow_ratio, 0.75);
-    EXPECT_EQ(read->alignment, -0.25);
-    EXPECT_EQ(read->score, 0.25);
-    EXPECT_EQ(store.doubtful().scoreThreshold(run), 0.35);
-
-    store.replaceTrackStates(run, {});
-    EXPECT_TRUE(store.doubtful().summaries(run).empty());
-    EXPECT_FALSE(store.doubtful().evidence(run, 9));
 }
 
 TEST_F(RunStoreTest, ADetectionIsToldByItsProbabilityWhereItHasOne) {

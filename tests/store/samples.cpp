@@ -108,6 +108,24 @@ RunRecord sampleRun() {
     return run;
 }
 
+std::vector<FrameResult> twoTracks() {
+    std::vector<FrameResult> frames(3);
+    for (int i = 0; i < 3; ++i) {
+        frames[static_cast<std::size_t>(i)].motion.frame = 4 + i;
+        TrackState state;
+        state.id = 1;
+        state.velocity = {3, 4};
+        state.box = {{10.0 + 3 * i, 20.0 + 4 * i}, 12.0 + i, 6, 0.5};
+        state.status = i == 2 ? TrackStatus::confirmed : TrackStatus::tentative;
+        state.score = 0.25 * i;
+        frames[static_cast<std::size_t>(i)].tracks.push_back(state);
+    }
+    TrackState second;
+    second.id = 2;
+    frames[1].tracks.push_back(second);
+    return frames;
+}
+
 namespace {
 
 void expectSameBox(const OrientedBox& read, const OrientedBox& written) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/values/frame_result.h"
 #include "store/runs/run_store.h"
@@ -24,6 +25,10 @@ FrameResult sampleFrame(FrameIndex frame, const SampleSize& size = {});
 
 /// A run over "/videos/street.mp4", frames 0 … 99.
 RunRecord sampleRun();
+
+/// A track of id 1 that moves 3 px right and 4 px down per frame in frames 4 … 6, confirmed in the last; and a
+/// tentative track 2 in frame 5.
+std::vector<FrameResult> twoTracks();
 
 /// The times without that of storing, which the writer measures itself.
 StageTimes ofTheChain(StageTimes times);

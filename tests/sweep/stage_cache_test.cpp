@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <thread>
 
 #include "chain/chain.h"
@@ -79,6 +80,16 @@ void expectSame(const std::vector<OwnRun::Box>& expected, const BoxesByFrame& fo
     }
 }
 
+/// Frames, places and sizes of all boxes.
+std::vector<std::array<double, 5>> placesOf(const BoxesByFrame& boxes) {
+    std::vector<std::array<double, 5>> places;
+    for (const auto& [frame, records] : boxes)
+        for (const BoxRecord& record : records)
+            places.push_back({static_cast<double>(frame), record.box.centre.x, record.box.centre.y, record.box.length,
+                              record.box.width});
+    return places;
+}
+
 void expectAsARunOfItsOwn(StageCache& cache, const ChainOptions& options, const std::string& what) {
     const auto found = cache.run(options, {});
     ASSERT_TRUE(found.has_value());
@@ -143,13 +154,7 @@ TEST(StageCache, AScaleThatIsTheSameEverywhereIsThatOfPointsThatLookForNoOther) 
     StageCache straight_down(opener(), {}, kScale);
     const auto everywhere = straight_down.run(looks, {});
     ASSERT_TRUE(by_place && everywhere);
-    const auto sizes = [](const BoxesByFrame& boxes) {
-        std::vector<double> lengths;
-        for (const auto& [frame, records] : boxes)
-            for (const BoxRecord& record : records) lengths.push_back(record.box.length);
-        return lengths;
-    };
-    EXPECT_NE(sizes(*by_place->tracks), sizes(*everywhere->tracks));
+    EXPECT_NE(placesOf(*by_place->tracks), placesOf(*everywhere->tracks));
 }
 
 TEST(StageCache, ASlopeThatNobodyLookedForIsLookedForWhereAPointAsks) {
@@ -158,6 +163,28 @@ TEST(StageCache, ASlopeThatNobodyLookedForIsLookedForWhereAPointAsks) {
     ChainOptions looks = base();
     looks.view.oblique = true;
     expectAsARunOfItsOwn(cache, looks, "view.oblique = true");
+}
+
+TEST(StageCache, WhatIsFoundWithASlopeThatWasLookedForDoesNotDependOnThePointsBefore) {
+    // The look sees more in some points than in others, as one with another classifier would.
+    const StageCacheOptions looking{.looked_for_slope = false,
+                                    .look_for_slope = [](const ChainOptions& options, const std::stop_token&) {
+                                        const bool tells = options.detection.gradient.quantile < 0.3;
+                                        return tells ? ScaleSlope::ofPicture({320, 240}, 0, 0.008) : ScaleSlope{};
+                                    }};
+    std::vector<ChainOptions> points(2, base());
+    for (ChainOptions& point : points) point.view.oblique = true;
+    points[0].detection.gradient.quantile = 0.1;
+    points[1].detection.gradient.quantile = 0.5;
+    StageCache forwards(opener(), {}, kScale, looking), backwards(opener(), {}, kScale, looking);
+    const auto first = forwards.run(points[0], {}), second = forwards.run(points[1], {});
+    const auto second_alone = backwards.run(points[1], {}), first_after = backwards.run(points[0], {});
+    ASSERT_TRUE(first && second && second_alone && first_after);
+    EXPECT_EQ(placesOf(*first->detections), placesOf(*first_after->detections));
+    EXPECT_EQ(placesOf(*first->tracks), placesOf(*first_after->tracks));
+    EXPECT_EQ(placesOf(*second->detections), placesOf(*second_alone->detections));
+    EXPECT_EQ(placesOf(*second->tracks), placesOf(*second_alone->tracks));
+    EXPECT_NE(placesOf(*first->tracks), placesOf(*second->tracks));
 }
 
 TEST(StageCache, DoesOnlyWhatLiesBehindTheChange) {

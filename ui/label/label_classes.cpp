@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/values/scene_scale.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -31,10 +33,10 @@ void merge(std::vector<ObjectClass>& classes, const std::vector<ObjectClass>& ow
 
 const std::vector<ObjectClass>& builtInClasses() {
     static const std::vector<ObjectClass> classes = {
-        {"car", true, 0x4cc9ff, 4.5, 1.85},        {"truck", true, 0xffb020, 9.0, 2.5},
-        {"bus", true, 0xff6f91, 12.0, 2.55},       {"van", true, 0x9be15d, 5.6, 2.1},
-        {"motorcycle", false, 0xd59bff, 2.2, 0.8}, {"bicycle", false, 0xf4e04d, 1.8, 0.6},
-        {"person", false, 0xff8a5c, 0.6, 0.6},     {"other", false, 0xc8ccd4, 0, 0}};
+        {"car", true, 0x4cc9ff, kCarLength_m, 1.85}, {"truck", true, 0xffb020, 9.0, 2.5},
+        {"bus", true, 0xff6f91, 12.0, 2.55},         {"van", true, 0x9be15d, 5.6, 2.1},
+        {"motorcycle", false, 0xd59bff, 2.2, 0.8},   {"bicycle", false, 0xf4e04d, 1.8, 0.6},
+        {"person", false, 0xff8a5c, 0.6, 0.6},       {"other", false, 0xc8ccd4, 0, 0}};
     return classes;
 }
 

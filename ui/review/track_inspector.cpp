@@ -132,7 +132,7 @@ void TrackInspector::showWhole() {
     double fastest = 0;
     double length = 0;
     double width = 0;
-    std::array<int, 5> origins{};
+    std::array<int, kStateOrigins> origins{};
     bool confirmed = false;
     for (const TrackFrame& state : states_) {
         // In pixels of the middle of the picture, where they are to become metres of an oblique view.
@@ -158,13 +158,13 @@ void TrackInspector::showWhole() {
     speed_->setText(speeds);
     size_->setText(sizeText(length, width, scale_));
     QStringList counts;
-    for (const StateOrigin origin : {StateOrigin::detected, StateOrigin::reconstructed, StateOrigin::predicted,
-                                     StateOrigin::standing, StateOrigin::by_hand}) {
+    for (int i = 0; i < kStateOrigins; ++i) {
+        const auto origin = static_cast<StateOrigin>(i);
         const bool rare = origin == StateOrigin::standing || origin == StateOrigin::by_hand;
-        if (rare && origins[static_cast<std::size_t>(origin)] == 0) continue;
+        if (rare && origins[static_cast<std::size_t>(i)] == 0) continue;
         counts << QStringLiteral("<font color=\"%1\">■</font> %2 %3")
                       .arg(originColour(origin, palette()).name())
-                      .arg(origins[static_cast<std::size_t>(origin)])
+                      .arg(origins[static_cast<std::size_t>(i)])
                       .arg(shownName(origin));
     }
     origin_counts_->setText(counts.join(QStringLiteral(", ")));

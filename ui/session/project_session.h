@@ -93,6 +93,8 @@ class ProjectSession : public QObject {
     void showRun(int run_id);
     /// Whether tracks are shown as people corrected them, or as the run found them.
     void showCorrected(bool corrected);
+    /// What corrections make of tracks, for whoever needs it; never null.
+    const std::shared_ptr<CorrectedTracksMemo>& correctedTracks() const { return corrected_tracks_; }
     /// The corrections of tracks in the project are others now.
     void correctionsChanged();
     void renameRun(int run_id, const QString& name) { reader_.renameRun(run_id, name); }
@@ -241,7 +243,8 @@ class ProjectSession : public QObject {
     QTimer list_refresh_;  ///< reads what runs, here or in other programs, add to the project
     Playback playback_;
     ResultLoader loader_;
-    ProjectReader reader_;
+    std::shared_ptr<CorrectedTracksMemo> corrected_tracks_ = std::make_shared<CorrectedTracksMemo>();
+    ProjectReader reader_{corrected_tracks_};
     RunController controller_;
 };
 

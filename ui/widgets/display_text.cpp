@@ -4,6 +4,8 @@
 #include <QLocale>
 #include <cmath>
 
+#include "core/time_text.h"
+
 namespace eyrie::ui {
 namespace {
 
@@ -55,6 +57,11 @@ QString durationText(double seconds) {
         return QStringLiteral("%1:%2").arg(whole / 60).arg(rest, 4, zero);
     }
     return QStringLiteral("%1:%2:%3").arg(whole / 3600).arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
+}
+
+QString leftText(double seconds) {
+    const auto whole_us = static_cast<std::int64_t>(std::ceil(seconds)) * 1'000'000;
+    return QObject::tr("%1 left").arg(QString::fromStdString(timeText(whole_us, 0)));
 }
 
 QString capitalised(QString text) {

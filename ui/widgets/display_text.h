@@ -35,6 +35,9 @@ QString shownName(TrackClass track_class);
 /// time.
 QString localTimeText(const std::string& utc);
 
+/// How much longer something takes, rounded up to seconds: "0:05 left".
+QString leftText(double seconds);
+
 /// With a capital letter at its beginning.
 QString capitalised(QString text);
 

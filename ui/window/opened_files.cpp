@@ -141,7 +141,7 @@ QString OpenedFiles::chosenTarget(const QString& title) {
     QString path =
         QFileDialog::getSaveFileName(&parts_.window, title, text(session_.project()), tr("Eyrie projects (*.eyrie)"),
                                      nullptr, QFileDialog::DontConfirmOverwrite);
-    if (!path.isEmpty() && !hasProjectName(path.toStdString())) path += QStringLiteral(".eyrie");
+    if (!path.isEmpty() && !hasProjectName(path.toStdString())) path += QString::fromLatin1(kProjectEnding);
     return path;
 }
 

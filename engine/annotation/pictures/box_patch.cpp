@@ -28,7 +28,7 @@ cv::Size BoxPatch::samplesFor(const OrientedBox& box) {
     return {side(box.length), side(box.width)};
 }
 
-BoxPatch::BoxPatch(const cv::Mat& gray, const OrientedBox& box, cv::Size samples) {
+BoxPatch::BoxPatch(const cv::Mat& gray, const OrientedBox& box, cv::Size samples) : samples_(samples) {
     values_.reserve(static_cast<std::size_t>(samples.area()));
     // A little beyond the box, so that its outline counts.
     constexpr double kMargin = 1.12;
@@ -61,6 +61,39 @@ double BoxPatch::correlation(const BoxPatch& other) const {
     float sum = 0;
     for (std::size_t i = 0; i < values_.size(); ++i) sum += values_[i] * other.values_[i];
     return static_cast<double>(sum);
+}
+
+double BoxPatch::seenOf(const BoxPatch& other) const {
+    if (values_.size() != other.values_.size() || values_.empty()) return 0;
+    constexpr int kPartSamples = 8;         // along a side: enough of them to be like another by chance only
+    constexpr double kAlike = 0.7;          // correlation of a part
+    constexpr double kLeastTexture = 0.15;  // of a part, against the mean of all
+    const int columns = std::max(2, samples_.width / kPartSamples), rows = std::max(2, samples_.height / kPartSamples);
+    int parts = 0, alike = 0;
+    for (int row = 0; row < rows; ++row) {
+        const int top = samples_.height * row / rows, bottom = samples_.height * (row + 1) / rows;
+        for (int column = 0; column < columns; ++column) {
+            const int left = samples_.width * column / columns, right = samples_.width * (column + 1) / columns;
+            double count = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+            for (int y = top; y < bottom; ++y) {
+                for (int x = left; x < right; ++x) {
+                    const auto at = static_cast<std::size_t>(y * samples_.width + x);
+                    const double mine = values_[at], its = other.values_[at];
+                    ++count;
+                    a += mine;
+                    b += its;
+                    aa += mine * mine;
+                    bb += its * its;
+                    ab += mine * its;
+                }
+            }
+            const double mine = aa - a * a / count, its = bb - b * b / count;
+            if (its * columns * rows < kLeastTexture) continue;
+            ++parts;
+            alike += ab - a * b / count > kAlike * std::sqrt(mine * its) ? 1 : 0;
+        }
+    }
+    return parts == 0 ? 0 : static_cast<double>(alike) / parts;
 }
 
 void BoxPatch::learn(const BoxPatch& other, double share) {

@@ -20,11 +20,15 @@ class BoxPatch {
     bool empty() const { return values_.empty(); }
     /// Normalised cross-correlation, −1 … 1; 0 when either shows nothing but one grey.
     double correlation(const BoxPatch& other) const;
+    /// Share of its parts that look like those of the other one, 0 … 1, each compared by itself, so that what lies in
+    /// front of some takes nothing from the rest. Parts in which the other one shows nothing do not count.
+    double seenOf(const BoxPatch& other) const;
     /// Blends another patch of the same size in.
     void learn(const BoxPatch& other, double share);
 
  private:
     void normalise();
+    cv::Size samples_;
     std::vector<float> values_;  ///< mean 0, norm 1; all 0 when flat
 };
 

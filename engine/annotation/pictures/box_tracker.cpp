@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "annotation/pictures/box_flow.h"
 #include "annotation/pictures/box_patch.h"
@@ -29,6 +30,8 @@ class Follower {
     Follower(const OrientedBox& box, const cv::Mat& gray, const FollowOptions& options)
         : options_(options),
           box_(box),
+          sure_box_(box),
+          home_(box),
           samples_(BoxPatch::samplesFor(box)),
           start_(gray, box, samples_),
           recent_(start_) {}
@@ -37,17 +40,14 @@ class Follower {
         OrientedBox box;
         double certainty = 0;
         std::optional<FollowEnd> end;
+        bool hidden = false;  ///< it ends here, unless what waited is seen again
     };
 
     /// Follows from `current` to `next`, whose ground `map` joins.
     Step advance(const cv::Mat& current, const cv::Mat& next, const Homography& map) {
-        OrientedBox predicted = box_;
-        predicted.centre = map.apply(box_.centre + velocity_);
-        const double scale = std::clamp(map.scaleAt(box_.centre), 0.8, 1.25);
-        predicted.length *= scale;
-        predicted.width *= scale;
-        predicted.heading = map.turned(box_.centre, box_.heading);
-
+        const OrientedBox predicted = carried(box_, velocity_, map);
+        sure_box_ = carried(sure_box_, {0, 0}, map);
+        home_ = carried(home_, {0, 0}, map);
         const BoxFlow flow =
             flowOf(current, next, box_, predicted, {options_.max_corners, options_.max_forward_backward_px});
         Step step;
@@ -57,11 +57,36 @@ class Follower {
         step.certainty = std::clamp(
             0.55 * std::max(0.0, likeness.recent) + 0.25 * std::max(0.0, likeness.start) + 0.2 * corners, 0.0, 1.0);
         step.end = judged(step, flow, likeness, map);
-        if (!step.end) accept(step, likeness, next, map);
+        if (!step.end)
+            accept(step, likeness, next, map);
+        else if (stood_)
+            stay(step, next);
         return step;
     }
 
  private:
+    /// A box on the ground, which moves by `way` in the current picture, in the next one.
+    static OrientedBox carried(OrientedBox box, cv::Point2d way, const Homography& map) {
+        const double scale = std::clamp(map.scaleAt(box.centre), 0.8, 1.25);
+        box.length *= scale;
+        box.width *= scale;
+        box.heading = map.turned(box.centre, box.heading);
+        box.centre = map.apply(box.centre + way);
+        return box;
+    }
+
+    /// What waits is where it was while others pass in front of it. Their corners would take the box with them.
+    void stay(Step& step, const cv::Mat& next) {
+        // As it was drawn: what it looked like lately may have become that of the ground.
+        const double seen = BoxPatch(next, sure_box_, samples_).seenOf(start_);
+        step.hidden = seen < options_.min_seen;
+        step.box = box_ = sure_box_;
+        velocity_ = {0, 0};
+        if (step.hidden) return;
+        step.certainty = seen;
+        step.end.reset();
+    }
+
     Likeness likenessOf(const cv::Mat& gray, const OrientedBox& box) const {
         const BoxPatch patch(gray, box, samples_);
         return {patch.correlation(start_), patch.correlation(recent_)};
@@ -130,7 +155,6 @@ class Follower {
         }
         // A vehicle does not stop or set off at once; a box that sticks to the ground does.
         const cv::Point2d usual = map.applyToVector(box_.centre, usual_velocity_);
-        constexpr int kUsualSpeedSteps = 6;
         const double change = stepLength((movementTo(step.box, map) + expected) * 0.5 - usual);
         if (steps_ >= kUsualSpeedSteps &&
             change > std::max(options_.max_speed_change_px * 0.35, 0.5 * stepLength(usual))) {
@@ -154,11 +178,22 @@ class Follower {
         box_ = step.box;
         ++steps_;
         // What is hidden in part must not become the look of the object.
-        if (likeness.recent > 0.75) recent_.learn(BoxPatch(next, box_, samples_), 0.25);
+        if (likeness.recent < 0.75) return;
+        recent_.learn(BoxPatch(next, box_, samples_), 0.25);
+        sure_box_ = box_;
+        // A box that slid off what drives on sticks to the ground, too, but not where it was drawn.
+        const bool at_home = stepLength(box_.centre - home_.centre) < kAtHome * box_.length;
+        stood_ = at_home && steps_ >= kUsualSpeedSteps && stepLength(usual_velocity_) < options_.max_standing_px;
     }
+
+    static constexpr int kUsualSpeedSteps = 6;  ///< until the usual speed is known
+    static constexpr double kAtHome = 0.25;     ///< of its length
 
     const FollowOptions& options_;
     OrientedBox box_;
+    OrientedBox sure_box_;  ///< where it was when it last looked like itself, on the ground of the current picture
+    OrientedBox home_;      ///< where it was drawn, on the same ground
+    bool stood_ = false;    ///< … and whether it waited there
     cv::Size samples_;
     BoxPatch start_;
     BoxPatch recent_;
@@ -213,6 +248,9 @@ FollowResult followBox(const OrientedBox& box, FrameIndex start, FrameIndex last
     if (!usable(current)) return finish(FollowEnd::no_picture, start, 0);
     if (areaInImage(box, current.size()) < 0.5 * box.area()) return finish(FollowEnd::left_image, start, 0);
     Follower follower(box, current, options);
+    std::vector<FollowedBox> hidden;  // since it was seen last
+    std::optional<FollowEnd> why_hidden;
+    const auto lost = [&] { return finish(*why_hidden, hidden.front().frame, hidden.front().certainty); };
     OrientedBox at = box;
     const int direction = last >= start ? 1 : -1;
     for (FrameIndex frame = start; frame != last;) {
@@ -226,14 +264,24 @@ FollowResult followBox(const OrientedBox& box, FrameIndex start, FrameIndex last
         if (areaInImage(step.box, next.size()) < 0.5 * step.box.area()) {
             return finish(FollowEnd::left_image, target, step.certainty);
         }
-        if (step.end) return finish(*step.end, target, step.certainty);
-        result.boxes.push_back({target, step.box, step.certainty});
-        if (progress) progress(result.boxes.back());
+        const FollowedBox followed{target, step.box, step.certainty};
+        if (step.hidden && hidden.size() < static_cast<std::size_t>(options.max_hidden_frames)) {
+            if (hidden.empty()) why_hidden = step.end;
+            hidden.push_back(followed);
+        } else if (step.end) {
+            return hidden.empty() ? finish(*step.end, target, step.certainty) : lost();
+        } else {
+            hidden.push_back(followed);
+            for (const FollowedBox& each : std::exchange(hidden, {})) {
+                result.boxes.push_back(each);
+                if (progress) progress(each);
+            }
+        }
         at = step.box;
         current = next;
         frame = target;
     }
-    return finish(FollowEnd::end_of_range, last, 0);
+    return hidden.empty() ? finish(FollowEnd::end_of_range, last, 0) : lost();
 }
 
 }  // namespace eyrie

@@ -42,6 +42,9 @@ struct FollowOptions {
     int max_corners = 40;
     double max_forward_backward_px = 0.7;
     double max_speed_change_px = 4;  ///< px/frame, against the speed of the frames before
+    double max_standing_px = 0.4;    ///< px/frame over the ground: up to that it waits
+    double min_seen = 0.5;           ///< share of what waits that must be seen while others pass in front of it …
+    int max_hidden_frames = 45;      ///< … but for so long, if it is seen again afterwards
 };
 
 /// The grey picture (CV_8UC1) of a frame; empty where it cannot be read.

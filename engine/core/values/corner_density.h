@@ -13,7 +13,7 @@ inline double cornerDensity(const FrameMotion& motion) {
 
 /// What a car covers seen from above, px².
 inline double carArea(const SceneScale& scale) {
-    return scale.px(4.5) * scale.px(1.8);
+    return scale.px(kCarLength_m) * scale.px(kCarWidth_m);
 }
 
 /// Corners that lie on a car at the mean density of the frame.

@@ -5,13 +5,12 @@
 namespace eyrie {
 namespace {
 
-constexpr double kCar_m = 4.5;
 /// Pixels along a car: fewer carry neither corners nor motion, more are larger than any search area.
 constexpr double kFewestPixels = 2;
 constexpr double kMostPixels = 1000;
 
 bool carCanBeFound(double gsd_m_per_px) {
-    const double pixels = kCar_m / gsd_m_per_px;
+    const double pixels = kCarLength_m / gsd_m_per_px;
     return pixels >= kFewestPixels && pixels <= kMostPixels;
 }
 
@@ -38,7 +37,7 @@ std::string whyNotAGsd(double gsd_m_per_px) {
 
 std::string doubtOfGsd(double gsd_m_per_px) {
     if (!whyNotAGsd(gsd_m_per_px).empty() || carCanBeFound(gsd_m_per_px)) return {};
-    return "at " + gsdText(gsd_m_per_px) + " m/px a car is " + gsdText(kCar_m / gsd_m_per_px) + " px long, too " +
+    return "at " + gsdText(gsd_m_per_px) + " m/px a car is " + gsdText(kCarLength_m / gsd_m_per_px) + " px long, too " +
            (gsd_m_per_px > 1 ? "short" : "long") +
            " to be found. The ground sampling distance is in metres on the ground per pixel" +
            inCentimetres(gsd_m_per_px);

@@ -11,6 +11,11 @@ namespace eyrie {
 inline constexpr double kSmallestGsd = 0.001;
 inline constexpr double kLargestGsd = 10;
 
+/// The usual car, m: what a scale is checked by, areas and corner densities are compared with, and parameters that mean
+/// a car are by default.
+inline constexpr double kCarLength_m = 4.5;
+inline constexpr double kCarWidth_m = 1.8;
+
 /// What is wrong with a ground sampling distance that a person gave, with what was probably meant; empty when it can be
 /// used. Command line and window say the same.
 std::string whyNotAGsd(double gsd_m_per_px);

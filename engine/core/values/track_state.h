@@ -23,6 +23,7 @@ enum class StateOrigin : std::uint8_t {
     standing,       ///< it stands: the picture at its place on the ground goes on to look like it
     by_hand         ///< a person drew it, or it was followed from there; no run has such states
 };
+inline constexpr int kStateOrigins = static_cast<int>(StateOrigin::by_hand) + 1;
 
 /// One object in one frame. A track is the sequence of its states with one id.
 struct TrackState {

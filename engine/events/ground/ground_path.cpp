@@ -160,8 +160,8 @@ std::vector<GroundPath> groundPaths(const std::vector<EventTrack>& tracks, const
                 const TrackedBox& middle = path.box(path.samples.size() / 2);
                 const double noise_m = options.noise_px * ground.metresHere(middle.frame, middle.box.centre);
                 const double noise = speedOfNoise(noise_m, half_window, scale.frame_rate_hz);
-                const double standing = std::max(options.standing_kmh / 3.6, noise);
-                tellMoving(path, standing, std::max({options.moving_kmh / 3.6, standing, 1.5 * noise}));
+                const double standing = std::max(options.standing_speed_kmh / 3.6, noise);
+                tellMoving(path, standing, std::max({options.moving_speed_kmh / 3.6, standing, 1.5 * noise}));
                 removeShortSpans(path, std::max(options.min_way_m, 2 * kSure * noise_m), options, scale);
             }
             paths.push_back(std::move(path));

@@ -32,11 +32,11 @@ bool isAtBorder(const EventScene& scene, const GroundPath& path, bool at_end) {
     const Footage& footage = scene.ground.footage();
     const TrackedBox& box = path.box(at_end ? path.samples.size() - 1 : 0);
     const double metres = scene.ground.metresHere(box.frame, box.box.centre);
-    const double border = std::max(kLeastBorder_px, scene.options.border_m / metres);
+    const double border = std::max(kLeastBorder_px, scene.options.border_distance_m / metres);
     for (const cv::Point2d& corner : box.box.corners()) {
         if (depthInImage(corner, footage.image_size) < border) return true;
     }
-    const double frames = std::max(2.0, scene.options.border_s * scene.scale.frame_rate_hz);
+    const double frames = std::max(2.0, scene.options.border_time_s * scene.scale.frame_rate_hz);
     const cv::Point2d moved = velocityInImage(path, at_end, frames) * (at_end ? frames : -frames);
     OrientedBox then = box.box;
     then.centre += moved;
@@ -48,7 +48,7 @@ bool isAtBorder(const EventScene& scene, const GroundPath& path, bool at_end) {
 
 /// Whether the search itself began or ended here, so that nothing is known of before or after.
 bool isAtEdgeOfSearch(const EventScene& scene, const GroundPath& path, bool at_end) {
-    const double frames = scene.options.edge_s * scene.scale.frame_rate_hz;
+    const double frames = scene.options.edge_time_s * scene.scale.frame_rate_hz;
     const FrameIndex frame = at_end ? path.samples.back().frame : path.samples.front().frame;
     const auto& stretches = scene.ground.all();
     std::size_t at = static_cast<std::size_t>(path.stretch);

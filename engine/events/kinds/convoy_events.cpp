@@ -77,7 +77,7 @@ void addSteady(const EventScene& scene, const Pair& pair, const std::vector<Foll
     const EventOptions& o = scene.options;
     const double rate = scene.scale.frame_rate_hz;
     const auto close = [&](std::size_t begin, std::size_t end) {
-        if (end > begin && (sequence[end - 1].frame - sequence[begin].frame) / rate >= o.convoy_s)
+        if (end > begin && (sequence[end - 1].frame - sequence[begin].frame) / rate >= o.convoy_time_s)
             found.push_back({pair.first, pair.second, sequence[begin].frame, sequence[end - 1].frame});
     };
     std::size_t begin = 0;
@@ -157,7 +157,7 @@ void findConvoys(const EventScene& scene, std::vector<Event>& events) {
     for (const auto& [frame, paths] : present) lookUp(scene, frame, paths, found);
     std::vector<FollowedFor> links;
     for (const auto& [pair, sequence] : found) addSteady(scene, pair, sequence, links);
-    const std::vector<std::size_t> group = groupsOf(links, scene.options.convoy_s * scene.scale.frame_rate_hz);
+    const std::vector<std::size_t> group = groupsOf(links, scene.options.convoy_time_s * scene.scale.frame_rate_hz);
     std::map<std::size_t, std::vector<FollowedFor>> groups;
     for (std::size_t i = 0; i < links.size(); ++i) groups[group[i]].push_back(links[i]);
     for (const auto& [number, members] : groups) addConvoy(scene, members, events);

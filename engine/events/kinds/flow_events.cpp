@@ -28,7 +28,7 @@ std::vector<Verdict> verdictsOn(const EventScene& scene, const GroundPath& path,
     const EventOptions& o = scene.options;
     const FlowField::Votes near = flow.near.votesOf(path);
     const FlowField::Votes wide = flow.wide.votesOf(path);
-    const double against = radiansFromDegrees(o.against_deg);
+    const double against = radiansFromDegrees(o.against_angle_deg);
     std::vector<Verdict> verdicts(path.samples.size(), Verdict::none);
     for (std::size_t i = 0; i < path.samples.size(); ++i) {
         const GroundSample& sample = path.samples[i];
@@ -115,7 +115,7 @@ void addLeaving(const EventScene& scene, const GroundPath& path, const std::vect
         const auto [furthest, beside] = furthestBeside(path, path.samples[after->last], span);
         if (beside < scene.options.off_flow_m) continue;
         // A place that has hardly been seen may be full of traffic at other times.
-        const double seen = scene.options.off_flow_s;
+        const double seen = scene.options.off_flow_seen_s;
         if (secondsInPicture(scene, path.stretch, path.samples[furthest].at, seen) < seen) continue;
         Event event = eventAt(scene, EventKind::leaves_flow, path, span, span.first);
         setLength(event, scene, wayBetween(path, span.first, span.last));

@@ -42,7 +42,7 @@ Standstill standstillOf(const EventScene& scene, const GroundPath& path, const S
     const auto take = [&](std::size_t sample) {
         const cv::Point2d v = path.samples[sample].velocity;
         found.direction = std::atan2(v.y, v.x);
-        return path.samples[sample].speed > 2 * scene.options.moving_kmh / 3.6;
+        return path.samples[sample].speed > 2 * scene.options.moving_speed_kmh / 3.6;
     };
     const double near_s = 5;
     for (std::size_t i = span.first; i-- > 0 && path.samples[i].moving;) {
@@ -61,14 +61,14 @@ void addMeeting(const EventScene& scene, const Standstill& a, const Standstill& 
     const auto lastOf = [](const Standstill& s) { return s.path->samples[s.span.last].frame; };
     const FrameIndex first = std::max(firstOf(a), firstOf(b));
     const FrameIndex last = std::min(lastOf(a), lastOf(b));
-    if ((last - first) / scene.scale.frame_rate_hz < o.meeting_s) return;
+    if ((last - first) / scene.scale.frame_rate_hz < o.meeting_time_s) return;
     const cv::Point2d apart = a.box.centre - b.box.centre;
     const double most = o.meeting_distance_m / ((a.by_place + b.by_place) / 2);  // on the ground
     const double reach = (a.box.length + a.box.width + b.box.length + b.box.width) / 2 + most;
     if (apart.dot(apart) > reach * reach) return;
     const double gap = gapBetween(a.box, b.box);
     if (gap > most) return;
-    if (std::abs(turnBetween(a.direction, b.direction)) < radiansFromDegrees(o.meeting_deg)) return;
+    if (std::abs(turnBetween(a.direction, b.direction)) < radiansFromDegrees(o.meeting_angle_deg)) return;
     const std::size_t from = std::min(sampleAt(*a.path, first), a.path->samples.size() - 1);
     const std::size_t to = std::min(sampleAt(*a.path, last), a.path->samples.size() - 1);
     Event event = eventAt(scene, EventKind::meeting, *a.path, {from, to}, (from + to) / 2);
@@ -86,7 +86,7 @@ void findMeetings(const EventScene& scene, std::vector<Event>& events) {
     std::vector<Standstill> standing;
     for (const GroundPath& path : scene.paths) {
         for (const SampleSpan& span : spansOf(path, false)) {
-            if (secondsBetween(path, span.first, span.last, scene.scale) >= scene.options.meeting_s)
+            if (secondsBetween(path, span.first, span.last, scene.scale) >= scene.options.meeting_time_s)
                 standing.push_back(standstillOf(scene, path, span));
         }
     }

@@ -53,8 +53,8 @@ bool isTurnBack(const EventOptions& o, const GroundPath& path, std::size_t befor
 /// The turn back that ends first, from a sample on; before == after: none.
 TurnBack nextTurnBack(const EventScene& scene, const GroundPath& path, const std::vector<std::size_t>& moving,
                       std::size_t from) {
-    const double frames = scene.options.turn_back_s * scene.scale.frame_rate_hz;
-    const double cosine = std::cos(radiansFromDegrees(scene.options.turn_back_deg));
+    const double frames = scene.options.turn_back_time_s * scene.scale.frame_rate_hz;
+    const double cosine = std::cos(radiansFromDegrees(scene.options.turn_back_angle_deg));
     for (std::size_t k = from; k < moving.size(); ++k) {
         for (std::size_t i = k; i-- > from;) {
             if (path.samples[moving[k]].frame - path.samples[moving[i]].frame > frames) break;
@@ -106,7 +106,7 @@ void findBeyond(const EventScene& scene, const GroundPath& path, bool over, std:
     const EventOptions& o = scene.options;
     for (const SampleSpan& span : beyond(path, (over ? o.over_kmh : o.under_kmh) / 3.6, over)) {
         const double lasts = secondsBetween(path, span.first, span.last, scene.scale);
-        if (lasts < (over ? o.over_s : o.under_s)) continue;
+        if (lasts < (over ? o.over_time_s : o.under_time_s)) continue;
         const std::size_t at = extremeOf(path, span, over);
         Event event = eventAt(scene, over ? EventKind::over_speed : EventKind::under_speed, path, span, at);
         setSpeed(event, scene, path.samples[at].speed);
@@ -198,7 +198,7 @@ void findLoitering(const EventScene& scene, std::vector<Event>& events) {
         for (std::size_t i = 0; i < path.samples.size();) {
             const std::size_t last = staysUntil(path, i, diameter, step);
             const double lasts = secondsBetween(path, i, last, scene.scale);
-            if (lasts < o.loiter_s || wayBetween(path, i, last) < 2 * diameter) {
+            if (lasts < o.loiter_time_s || wayBetween(path, i, last) < 2 * diameter) {
                 i += step;
                 continue;
             }

@@ -9,7 +9,7 @@ void ReviewOptions::describe(ParameterVisitor& visitor) {
                   "A verdict is taken over by an event of another run that is no farther from it in time. More: events "
                   "that follow each other are mistaken for one another.",
                   ""});
-    declare.real("review.carry_distance", carry_ground_m, 0, 200,
+    declare.real("review.carry_distance", carry_distance_m, 0, 200,
                  {"m", "… and whose vehicle is no farther from it on the ground.", ""});
     declare.real("review.carry_picture", carry_picture_px, 0, 1000,
                  {"px", "The same in the picture, where the run does not connect the two frames.", ""});

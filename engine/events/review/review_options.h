@@ -8,7 +8,7 @@ namespace eyrie {
 struct ReviewOptions {
     // which event of another run is the same one
     double carry_time_s = 2;
-    double carry_ground_m = 5;
+    double carry_distance_m = 5;
     double carry_picture_px = 30;
     // the order of the queue
     double join_unsearched_s = 1;

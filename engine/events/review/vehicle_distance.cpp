@@ -31,8 +31,8 @@ VehicleDistance::VehicleDistance(const StoredTracks& run, const ReviewOptions& o
 
 std::optional<double> VehicleDistance::onGround(double metres) const {
     // Not a number is near nothing.
-    if (!(metres <= options_.carry_ground_m)) return std::nullopt;
-    return options_.carry_ground_m > 0 ? metres / options_.carry_ground_m : 0;
+    if (!(metres <= options_.carry_distance_m)) return std::nullopt;
+    return options_.carry_distance_m > 0 ? metres / options_.carry_distance_m : 0;
 }
 
 std::optional<double> VehicleDistance::between(const ReviewSubject& subject, const Event& event) const {

@@ -14,7 +14,7 @@ constexpr int kSplitSteps = 4;          ///< how often the linkage of a large cl
 constexpr double kTighter = 0.75;       ///< by this factor each time
 constexpr double kHeldByPieces = 0.75;  ///< share of a cluster's vectors that its pieces must hold
 constexpr double kSplitMargin = 2;      ///< px: corners lie up to a pixel beside the edges they belong to
-constexpr double kCarArea = 4.5 * 1.8;  ///< m², what a car covers seen from above
+constexpr double kCarArea_m2 = kCarLength_m * kCarWidth_m;
 constexpr double kRoofHalfWidth = 0.6;  ///< m, of the strip that must be free of standing corners
 
 MotionCluster summarise(const FrameMotion& motion, std::vector<int> members, double margin) {
@@ -67,7 +67,7 @@ int MotionClustering::minMembersFor(const FrameMotion& motion, cv::Point2d place
     const double image_area = static_cast<double>(motion.image_size.area());
     if (image_area <= 0 || options_.min_density_share <= 0) return options_.min_members;
     const double gsd = scale_.at(place).gsd_m_per_px;
-    const double car_area = kCarArea / (gsd * gsd);
+    const double car_area = kCarArea_m2 / (gsd * gsd);
     const double expected = motion.corner_count / image_area * car_area;
     const double wanted =
         std::min(std::round(options_.min_density_share * expected), static_cast<double>(options_.max_min_members));

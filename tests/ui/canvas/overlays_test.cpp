@@ -274,6 +274,26 @@ class OverlaysTest : public QObject {
         QVERIFY(dark(paint(result), below) > 100);
     }
 
+    void theCaptionOfABoxDrawnByHandDoesNotGiveWayToItsNeighbours() {
+        showOnly(TrackLayer::kKind);
+        const auto at = [](TrackId id, double x, StateOrigin origin) {
+            TrackState state = track(id, TrackStatus::confirmed);
+            state.box = {{x, 150}, 20, 10, 0};
+            state.origin = origin;
+            return state;
+        };
+        // Twice as large in the view; its caption stands above it and reaches over both neighbours.
+        const QRect above(340, 255, 120, 25);
+        const TrackState drawn = at(100000, 200, StateOrigin::by_hand);
+        auto alone = empty();
+        alone->tracks = {drawn};
+        const QImage expected = paint(alone).copy(above);
+        QVERIFY(count(expected, settings_.style().colours.track) > 20);
+        auto crowded = empty();
+        crowded->tracks = {at(1, 176, StateOrigin::detected), at(2, 224, StateOrigin::detected), drawn};
+        QCOMPARE(paint(crowded).copy(above), expected);
+    }
+
     void theSmallestOfNestedTracksIsHit() {
         FrameResult result;
         result.tracks = {track(1, TrackStatus::confirmed), track(2, TrackStatus::confirmed)};

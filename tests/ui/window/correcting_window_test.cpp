@@ -213,6 +213,13 @@ class CorrectingWindowTest : public QObject {
         for (const TrackSummary& track : tracks(*window)) QVERIFY(!track.corrected);
     }
 
+    void whileAVehicleIsFollowedItIsSaidHowLongItMayStillTake() {
+        QCOMPARE(TrackCorrecting::followingText({212, false, 30, 90}, 4.2),
+                 tr("Following the vehicle forwards: frame 212, at most 0:05 left."));
+        QCOMPARE(TrackCorrecting::followingText({97, true, 300, 97}, 61),
+                 tr("Following the vehicle backwards: frame 97, at most 1:01 left."));
+    }
+
     void aTrackIsSplitAndJoinedAndANewRunCarriesItOver() {
         const auto window = windowWithRun();
         QVERIFY(window);

@@ -366,7 +366,6 @@ class WatchingTest : public QObject {
         };
         QTRY_VERIFY_WITH_TIMEOUT(window().events().review().state() == EventReview::State::found, kPatience_ms);
         QVERIFY(goTo(0));
-        QTest::qWait(100);
         window().session().playback().setSpeed(1, 0);
         window().session().togglePlay();
         QTRY_VERIFY_WITH_TIMEOUT(!window().session().playback().playing(), kPatience_ms);

@@ -20,6 +20,11 @@
 #include "canvas/video_view.h"
 #include "label/label_actions.h"
 #include "label/label_workspace.h"
+#include "review/card/card_dock.h"
+#include "review/card/event_card.h"
+#include "review/events/event_review.h"
+#include "review/events/events_dock.h"
+#include "review/track_inspector.h"
 #include "ui/support/ui_support.h"
 #include "widgets/message_bar.h"
 #include "window/main_window.h"
@@ -197,9 +202,15 @@ class WorkspacesTest : public QObject {
             QVERIFY(QTest::qWaitFor(has_tracks, kPatience_ms));
             window->findChild<MessageBar*>()->setMaximumHeight(0);  // notices pass
             window->session().selectTrack(run->tracks.front().id);
+            // Lists, card and inspector are filled.
+            const auto filled = [&] {
+                return window->events().review().state() == EventReview::State::found &&
+                       window->card().card().subject() && !window->findChild<TrackInspector*>()->text().isEmpty();
+            };
+            QVERIFY(QTest::qWaitFor(filled, kPatience_ms));
             for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
                 go(*window, key);
-                QTest::qWait(200);  // the card and the lists are filled
+                QTest::qWait(0);
                 const QSize least = window->minimumSizeHint();
                 QVERIFY2(least.width() <= 1280 && least.height() <= 690,
                          qPrintable(QStringLiteral("%1 of %2 needs %3 x %4: %5")

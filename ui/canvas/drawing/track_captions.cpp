@@ -39,10 +39,14 @@ void paintTrackCaptions(QPainter& painter, const OverlayScene& scene,
         labelled.push_back({&state, object});
         objects.push_back(object);
     });
-    // The order decides who is left out in a crowd: the selected one never, then the older (lower) id stays, so that
-    // labels do not flicker from frame to frame.
-    std::stable_partition(labelled.begin(), labelled.end(),
-                          [&](const Labelled& l) { return scene.selected_track == l.state->id; });
+    // The order decides who is left out in a crowd: the selected one never, what a person drew after all that the
+    // machine found, and then the older (lower) id stays, so that labels do not flicker from frame to frame.
+    const auto rank = [&](const Labelled& l) {
+        if (scene.selected_track == l.state->id) return 0;
+        return l.state->origin == StateOrigin::by_hand ? 1 : 2;
+    };
+    std::stable_sort(labelled.begin(), labelled.end(),
+                     [&](const Labelled& a, const Labelled& b) { return rank(a) < rank(b); });
     scene.captions.keepClearOf(std::move(objects));
     const QFontMetricsF metrics(painter.font());
     for (const Labelled& label : labelled) {

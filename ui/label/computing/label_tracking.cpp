@@ -1,7 +1,6 @@
 #include "label/computing/label_tracking.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <utility>
@@ -11,13 +10,13 @@
 #include "annotation/keyframes/keyframe_reduction.h"
 #include "annotation/review/proposals.h"
 #include "label/editor/label_editor.h"
+#include "session/background/pace.h"
 #include "session/project/media.h"
 
 namespace eyrie::ui {
 
 namespace {
 constexpr double kTolerance_px = 1;
-constexpr std::chrono::milliseconds kBetweenTold(100);
 }  // namespace
 
 LabelTracking::LabelTracking(ProjectSession& session, LabelSession& labels, LabelTrackingAnswers answers,
@@ -53,17 +52,13 @@ void LabelTracking::start(int direction) {
                        camera = labels_.sharedCamera()](const BackgroundTask& task) {
         const auto source = media.open({}, task.stop());
         const GrayFrames frames = grayReader(*source);
-        const auto begin = std::chrono::steady_clock::now();
-        auto told = begin;
+        Pace pace;
         const FollowProgress progress = [&, advance](const FollowedBox& followed) {
-            const auto now = std::chrono::steady_clock::now();
-            if (now - told < kBetweenTold) return;
-            told = now;
+            if (!pace.isDue()) return;
             TrackingAdvance reached = advance;
             reached.frame = followed.frame;
             reached.done = std::abs(followed.frame - from);
-            reached.seconds_left =
-                std::chrono::duration<double>(now - begin).count() * (reached.most - reached.done) / reached.done;
+            reached.seconds_left = pace.secondsLeft(reached.done, reached.most - reached.done);
             task.tell([this, reached] { answers_.show_advance(reached); });
         };
         const FollowResult result = followBox(box, from, last, frames, *camera, {}, progress, task.stop());

@@ -4,10 +4,9 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
-#include <cmath>
 #include <utility>
 
-#include "core/time_text.h"
+#include "widgets/display_text.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -34,9 +33,7 @@ void TrackingStrip::showAdvance(const TrackingAdvance& advance) {
     text += advance.done > 0
                 ? tr(": frame %1, %2 of at most %3 frames").arg(advance.frame).arg(advance.done).arg(advance.most)
                 : tr(" from frame %1, at most %2 frames").arg(advance.frame).arg(advance.most);
-    if (advance.seconds_left >= 0)
-        text += tr(", at most %1 left")
-                    .arg(QString::fromStdString(timeText(std::llround(std::ceil(advance.seconds_left) * 1e6), 0)));
+    if (advance.seconds_left >= 0) text += tr(", at most %1").arg(leftText(advance.seconds_left));
     text_->setText(text);
     bar_->setRange(0, advance.done > 0 ? advance.most : 0);
     bar_->setValue(advance.done);

@@ -6,9 +6,9 @@
 #include "canvas/video_view.h"
 #include "core/error.h"
 #include "correction/corrected_run.h"
-#include "correction/drawn_vehicle.h"
 #include "review/correct/vehicle_box_tool.h"
 #include "review/events/event_review.h"
+#include "session/background/pace.h"
 #include "session/project/media.h"
 #include "session/project_session.h"
 #include "widgets/display_text.h"
@@ -21,7 +21,6 @@ namespace eyrie::ui {
 namespace {
 
 const QString kCorrectingTopic = QStringLiteral("correcting tracks");
-constexpr int kToldFrames = 10;
 constexpr double kThereAlready = 0.3;  ///< overlap of a box that is drawn with one that is shown
 
 }  // namespace
@@ -33,6 +32,9 @@ struct TrackCorrecting::Tried {
     TrackId last_id = 0;   ///< the highest of the run
     TrackId covering = 0;  ///< a track that has it so already
     DrawnVehicle vehicle;  ///< what was followed
+
+    /// The track that an addition or a split makes.
+    TrackId newTrack() const { return last_id + correction.id; }
 };
 
 /// What it is made from.
@@ -118,19 +120,19 @@ void TrackCorrecting::attempt(const QString& step, const Make& make, const Kept&
     working_ = true;
     enableActions();
     const auto work = [this, step, make, kept, project = parts_.session.project(), run = data->record,
-                       corrections = parts_.review.corrections()](const BackgroundTask& task) mutable {
+                       number = parts_.review.newCorrectionId(), corrections = parts_.review.corrections(),
+                       memo = parts_.session.correctedTracks()](const BackgroundTask& task) mutable {
         ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
         const RunStore store(file);
         auto tried = std::make_shared<Tried>();
-        const CorrectedTracks before = correctedTracksOf(store, run, corrections);
-        tried->correction = make({store, run, before, task, *tried});
-        const int number = corrections.empty() ? 1 : corrections.rbegin()->first + 1;
+        const auto before = memo->of(store, project, run, corrections);
+        tried->correction = make({store, run, *before, task, *tried});
         tried->correction.id = number;
         corrections[number] = tried->correction;
-        const CorrectedTracks made = correctedTracksOf(store, run, corrections);
-        tried->state = made.states.at(number);
-        const auto covering = made.covering.find(number);
-        if (covering != made.covering.end()) tried->covering = covering->second;
+        const auto made = memo->of(store, project, run, corrections);
+        tried->state = made->states.at(number);
+        const auto covering = made->covering.find(number);
+        if (covering != made->covering.end()) tried->covering = covering->second;
         tried->last_id = store.lastTrackId(run.id);
         task.tell([this, step, tried, kept, project, run_id = run.id] {
             working_ = false;
@@ -150,8 +152,7 @@ void TrackCorrecting::attempt(const QString& step, const Make& make, const Kept&
 void TrackCorrecting::finish(const QString& step, const Tried& tried, const Kept& kept) {
     parts_.messages.dismissTopic(kCorrectingTopic);
     if (tried.state != CorrectionState::applied) return tellRefused(tried);
-    const int id = parts_.review.correct(tried.correction, step);
-    if (id != 0) kept(id, tried);
+    if (parts_.review.correct(tried.correction, step)) kept(tried);
 }
 
 void TrackCorrecting::tellRefused(const Tried& tried) {
@@ -204,7 +205,7 @@ void TrackCorrecting::joinWithSelected() {
     attempt(
         tr("Join tracks %1 and %2").arg(one).arg(*other),
         [one, other = *other](const Trial& trial) { return joinOf(trial.statesOf(one), trial.statesOf(other)); },
-        [this, one, other = *other](int, const Tried&) {
+        [this, one, other = *other](const Tried&) {
             // It has the number of the one that begins first.
             const auto first = parts_.session.trackSummary(one), second = parts_.session.trackSummary(other);
             const bool keeps = first != nullptr && second != nullptr && first->first_frame <= second->first_frame;
@@ -224,12 +225,12 @@ void TrackCorrecting::split() {
     attempt(
         tr("Split track %1").arg(*selected),
         [track = *selected, frame](const Trial& trial) { return splitOf(trial.statesOf(track), frame); },
-        [this, track = *selected, frame](int id, const Tried& tried) {
-            parts_.session.selectTrack(tried.last_id + id);
+        [this, track = *selected, frame](const Tried& tried) {
+            parts_.session.selectTrack(tried.newTrack());
             tell(tr("Track %1 ends before frame %2; from there on it is track %3. Z takes it back.")
                      .arg(track)
                      .arg(frame)
-                     .arg(tried.last_id + id));
+                     .arg(tried.newTrack()));
         });
 }
 
@@ -255,10 +256,16 @@ void TrackCorrecting::startDrawing(bool wanted) {
     tool_->start();
 }
 
-void TrackCorrecting::showFollowing(FrameIndex frame) {
-    parts_.messages.showTopic(kCorrectingTopic, MessageKind::info,
-                              tr("Following the vehicle, forwards and then backwards: frame %1.").arg(frame),
-                              tr("Stop and keep"), [this] { following_.request_stop(); });
+QString TrackCorrecting::followingText(const DrawnVehicleAdvance& advance, double seconds_left) {
+    return (advance.backwards ? tr("Following the vehicle backwards: frame %1, at most %2.")
+                              : tr("Following the vehicle forwards: frame %1, at most %2."))
+        .arg(advance.frame)
+        .arg(leftText(seconds_left));
+}
+
+void TrackCorrecting::showFollowing(const QString& text) {
+    parts_.messages.showTopic(kCorrectingTopic, MessageKind::info, text, tr("Stop and keep"),
+                              [this] { following_.request_stop(); });
 }
 
 void TrackCorrecting::follow(const OrientedBox& box) {
@@ -276,8 +283,11 @@ void TrackCorrecting::follow(const OrientedBox& box) {
         const std::stop_token& stop = trial.task.stop();
         const auto source = media.open({}, stop);
         const GrayFrames gray = grayReader(*source);
-        const auto progress = [this, &trial](FrameIndex each) {
-            if (each % kToldFrames == 0) trial.task.tell([this, each] { showFollowing(each); });
+        Pace pace;
+        const auto progress = [this, &trial, &pace](const DrawnVehicleAdvance& advance) {
+            if (!pace.isDue()) return;
+            const double left = pace.secondsLeft(advance.done, advance.most_left);
+            trial.task.tell([this, advance, left] { showFollowing(followingText(advance, left)); });
         };
         const Footage& footage = tracks->footage;
         DrawnVehicle& vehicle = trial.tried.vehicle;
@@ -289,17 +299,17 @@ void TrackCorrecting::follow(const OrientedBox& box) {
                             "); draw the box closely, or in a frame in which it is seen better, or set a bookmark");
         return additionOf(vehicle.sightings, frame);
     };
-    attempt(tr("Add a track"), make, [this](int id, const Tried& tried) {
+    attempt(tr("Add a track"), make, [this](const Tried& tried) {
         const std::vector<Sighting>& seen = tried.vehicle.sightings;
-        parts_.session.selectTrack(tried.last_id + id);
+        parts_.session.selectTrack(tried.newTrack());
         tell(tr("Added track %1, frames %2 to %3. Backwards: %4. Forwards: %5. Z takes it back.")
-                 .arg(tried.last_id + id)
+                 .arg(tried.newTrack())
                  .arg(seen.front().frame)
                  .arg(seen.back().frame)
                  .arg(QString::fromStdString(tried.vehicle.ended_before),
                       QString::fromStdString(tried.vehicle.ended_after)));
     });
-    if (working_) showFollowing(frame);
+    if (working_) showFollowing(tr("Following the vehicle, forwards and then backwards."));
 }
 
 }  // namespace eyrie::ui

@@ -6,7 +6,7 @@
 #include <optional>
 #include <stop_token>
 
-#include "correction/corrected_tracks.h"
+#include "correction/drawn_vehicle.h"
 #include "session/background/background_query.h"
 
 namespace eyrie::ui {
@@ -42,13 +42,15 @@ class TrackCorrecting : public QObject {
     void enableActions();
     /// Whether something is tried or followed now.
     bool working() const { return working_; }
+    /// "Following the vehicle forwards: frame 212, at most 0:05 left."
+    static QString followingText(const DrawnVehicleAdvance& advance, double seconds_left);
 
  private:
     struct Tried;
     struct Trial;
     /// What is to be tried, made in the background from the tracks as they are shown.
     using Make = std::function<TrackCorrection(const Trial&)>;
-    using Kept = std::function<void(int id, const Tried&)>;
+    using Kept = std::function<void(const Tried&)>;
 
     void startDrawing(bool wanted);
     void follow(const OrientedBox& box);
@@ -62,7 +64,7 @@ class TrackCorrecting : public QObject {
     void tellRefused(const Tried& tried);
     void tell(const QString& text);
     void warn(const QString& text);
-    void showFollowing(FrameIndex frame);
+    void showFollowing(const QString& text);
 
     CorrectingParts parts_;
     VehicleBoxTool* tool_;

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/utc_time.h"
-#include "correction/corrected_run.h"
 #include "session/project/person_name.h"
 #include "widgets/wiring.h"
 
@@ -149,12 +148,13 @@ void EventReview::search() {
     const auto work = [this, key = *key_, data = data_, tracks = tracks_, options = options_,
                        verdicts = store_->review().verdicts, corrections = store_->review().corrections,
                        zones = zonesOf(store_->review().zones), version = store_->version(),
+                       memo = session_.correctedTracks(),
                        corrections_made = corrections_made_](const BackgroundTask& task) mutable {
         if (!tracks) {
             ProjectFile project = ProjectFile::open(key.project, ProjectFile::Mode::read_only);
             const RunStore store(project);
             tracks = std::make_shared<const StoredTracks>(
-                readTracks(store, data->record, correctedTracksOf(store, data->record, corrections)));
+                readTracks(store, data->record, *memo->of(store, key.project, data->record, corrections)));
             task.tell([this, tracks, made = corrections_made] {
                 if (made != corrections_made_) return;  // others by now: they are read next
                 tracks_ = tracks;

@@ -83,8 +83,10 @@ class EventReview : public QObject {
     bool removeBookmark(int id);
     /// Corrections of the video's tracks; none until the verdicts were read.
     const std::map<int, TrackCorrection>& corrections() const;
-    /// Makes one, number and person are given here; answers its number, 0 when it was not made.
-    int correct(TrackCorrection correction, const QString& step);
+    /// The number of the next one. Only where canMark().
+    int newCorrectionId() { return store_->newCorrectionId(); }
+    /// Makes one of a new number; the person is named here. Answers whether it was made.
+    bool correct(TrackCorrection correction, const QString& step);
     /// Takes them back.
     bool removeCorrections(const std::vector<int>& ids, const QString& step);
     /// The tracks as people corrected them, and how the camera moved over the ground; null until the run was read.

@@ -79,10 +79,9 @@ const std::map<int, TrackCorrection>& EventReview::corrections() const {
     return store_ ? store_->review().corrections : none;
 }
 
-int EventReview::correct(TrackCorrection correction, const QString& step) {
+bool EventReview::correct(TrackCorrection correction, const QString& step) {
     const bool made = applyStep([&] {
         const Judge judge = whoJudges();
-        correction.id = store_->newCorrectionId();
         correction.person = judge.person;
         correction.when_utc = judge.when_utc;
         ReviewEdit edit;
@@ -90,9 +89,8 @@ int EventReview::correct(TrackCorrection correction, const QString& step) {
         edit.corrections.push_back({std::nullopt, correction});
         return edit;
     });
-    if (!made) return 0;
-    useOtherCorrections();
-    return correction.id;
+    if (made) useOtherCorrections();
+    return made;
 }
 
 bool EventReview::removeCorrections(const std::vector<int>& ids, const QString& step) {

@@ -173,9 +173,7 @@ class ProjectReader::Worker {
             return;  // whoever reads the verdicts says so; the run can be shown
         }
         data.correctable = !corrections.empty();
-        if (wanted)
-            data.corrected =
-                std::make_shared<const CorrectedTracks>(correctedTracksOf(store, data.record, corrections));
+        if (wanted) data.corrected = owner_.corrected_tracks_->of(store, project_->path(), data.record, corrections);
     }
 
     static RunRecord runOf(const RunStore& store, int run_id) {
@@ -209,7 +207,8 @@ class ProjectReader::Worker {
     bool any_running_ = false;            ///< when it was read last; that one was killed commits nothing
 };
 
-ProjectReader::ProjectReader(QObject* parent) : QObject(parent), worker_(std::make_unique<Worker>(*this)) {}
+ProjectReader::ProjectReader(std::shared_ptr<CorrectedTracksMemo> corrected_tracks, QObject* parent)
+    : QObject(parent), corrected_tracks_(std::move(corrected_tracks)), worker_(std::make_unique<Worker>(*this)) {}
 
 ProjectReader::~ProjectReader() = default;
 

@@ -7,6 +7,7 @@
 
 #include "io/video/frame_source.h"
 #include "session/background/background_query.h"
+#include "session/project/corrected_tracks_memo.h"
 #include "session/run_data.h"
 
 namespace eyrie::ui {
@@ -27,7 +28,7 @@ class ProjectReader : public QObject {
     Q_OBJECT
 
  public:
-    explicit ProjectReader(QObject* parent = nullptr);
+    explicit ProjectReader(std::shared_ptr<CorrectedTracksMemo> corrected_tracks, QObject* parent = nullptr);
     /// Closes the project; see close().
     ~ProjectReader() override;
 
@@ -79,6 +80,7 @@ class ProjectReader : public QObject {
 
  private:
     class Worker;
+    std::shared_ptr<CorrectedTracksMemo> corrected_tracks_;
     template <class Work>
     void post(Work work);
     std::unique_ptr<Worker> worker_;

@@ -17,6 +17,7 @@
 #include "tune/parameters/parameter_binding.h"
 #include "tune/sweep/sweep_form.h"
 #include "widgets/charts/sweep_chart.h"
+#include "widgets/display_text.h"
 #include "widgets/empty_state.h"
 #include "widgets/layout/flow_layout.h"
 #include "widgets/message_bar.h"
@@ -25,13 +26,6 @@
 namespace eyrie::ui {
 
 namespace {
-
-QString leftText(double seconds) {
-    const int whole = static_cast<int>(seconds + 0.5);
-    if (whole >= 3600)
-        return QObject::tr("%1:%2 h left").arg(whole / 3600).arg(whole / 60 % 60, 2, 10, QLatin1Char('0'));
-    return QObject::tr("%1:%2 left").arg(whole / 60).arg(whole % 60, 2, 10, QLatin1Char('0'));
-}
 
 QString titleOf(const SweepRecord& record) {
     QString axes = QString::fromStdString(record.name);

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/time_text.h"
+#include "widgets/display_text.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -129,12 +130,9 @@ void StatusFields::showRun(const RunProgress& progress) {
     const int percent = static_cast<int>(share * 100);
     QString text =
         progress.estimating_scale ? tr("looking at the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
-    if (!progress.estimating_scale && progress.frames_per_second > 0) {
-        const auto left_us = static_cast<std::int64_t>(std::ceil(progress.seconds_left) * 1e6);
-        text += tr("   %1 fps   %2 left")
-                    .arg(QLocale().toString(progress.frames_per_second, 'f', 1),
-                         QString::fromStdString(timeText(left_us, 0)));
-    }
+    if (!progress.estimating_scale && progress.frames_per_second > 0)
+        text += tr("   %1 fps   %2")
+                    .arg(QLocale().toString(progress.frames_per_second, 'f', 1), leftText(progress.seconds_left));
     work_->setText(text);
     bar_->setRange(0, kProgressSteps);
     bar_->setValue(static_cast<int>(share * kProgressSteps));

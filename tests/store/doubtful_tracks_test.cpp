@@ -1,0 +1,106 @@
+#include "store/runs/doubtful_tracks.h"
+
+#include <gtest/gtest.h>
+
+#include "store/runs/result_writer.h"
+#include "store/samples.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using test::twoTracks;
+
+/// A run whose finishing kept track 1 in frame 5 and left out track 9, in frames 4 and 5, only for its score.
+class DoubtfulTracksTest : public testing::Test {
+ protected:
+    DoubtfulTracksTest() {
+        for (const FrameResult& frame : twoTracks()) writer_.write(frame);
+        doubtful_.id = 9;
+        doubtful_.status = TrackStatus::confirmed;
+        doubtful_.score = 0.25;
+        evidence_.detected = 0.5;
+        evidence_.looked_alike = 0.125;
+        evidence_.life_s = 2;
+        evidence_.flow_px = 1.5;
+        evidence_.flow_ratio = 0.75;
+        evidence_.alignment = -0.25;
+        evidence_.score = 0.25;
+    }
+
+    void finish() {
+        TracksOfRun tracks;
+        tracks.states = [&](const TracksOfRun::StateVisitor& visitor) {
+            TrackState kept = doubtful_;
+            kept.id = 1;
+            visitor(5, kept);
+        };
+        tracks.doubtful = [&](const TracksOfRun::StateVisitor& visitor) {
+            for (const FrameIndex frame : {4, 5}) visitor(frame, doubtful_);
+        };
+        tracks.evidence[9] = evidence_;
+        store_.replaceTracks(run_, tracks);
+    }
+
+    test::TemporaryFolder folder_;
+    ProjectFile project_ = ProjectFile::create(folder_ / "clip.eyrie");
+    ResultWriter writer_{folder_ / "clip.eyrie", test::sampleRun(), {{"finishing.min_score", "0.35"}}};
+    int run_ = writer_.runId();
+    RunStore store_{project_};
+    TrackState doubtful_ = twoTracks().front().tracks.front();
+    TrackEvidence evidence_;
+};
+
+TEST_F(DoubtfulTracksTest, AreNoPartOfTheResult) {
+    finish();
+    ASSERT_EQ(store_.tracks(run_).size(), 1U);
+    EXPECT_EQ(store_.tracks(run_).front().id, 1);
+    EXPECT_FALSE(store_.tracks(run_).front().doubtful);
+    EXPECT_EQ(store_.frameResult(run_, 5)->tracks.size(), 1U);
+    EXPECT_EQ(store_.trackBoxes(run_).at(5).size(), 1U);
+}
+
+TEST_F(DoubtfulTracksTest, AreReadApart) {
+    finish();
+    const DoubtfulTracks tracks = store_.doubtful();
+    ASSERT_EQ(tracks.summaries(run_).size(), 1U);
+    const TrackSummary summary = tracks.summaries(run_).front();
+    EXPECT_TRUE(summary.doubtful);
+    EXPECT_EQ(summary.id, 9);
+    EXPECT_EQ(summary.frames, 2);
+    EXPECT_EQ(summary.first_frame, 4);
+    EXPECT_EQ(summary.score, 0.25);
+    EXPECT_NEAR(summary.mean_length_px, doubtful_.box.length, 1e-9);
+    ASSERT_EQ(tracks.statesIn(run_, 5).size(), 1U);
+    EXPECT_EQ(tracks.statesIn(run_, 5).front().box.centre, doubtful_.box.centre);
+    EXPECT_TRUE(tracks.statesIn(run_, 6).empty());
+    EXPECT_EQ(tracks.statesOf(run_, 9).size(), 2U);
+    EXPECT_EQ(tracks.statesUpTo(run_, 5, 1).size(), 1U);
+    EXPECT_EQ(tracks.boxes(run_).at(4).front().id, 9);
+}
+
+TEST_F(DoubtfulTracksTest, TellWhatSpokeForThemAndAgainst) {
+    EXPECT_EQ(store_.doubtful().scoreThreshold(run_), 0) << "nothing was judged yet";
+    finish();
+    EXPECT_EQ(store_.doubtful().scoreThreshold(run_), 0.35);
+    EXPECT_FALSE(store_.doubtful().evidence(run_, 1)) << "nothing was kept of it";
+    const auto read = store_.doubtful().evidence(run_, 9);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->detected, 0.5);
+    EXPECT_EQ(read->looked_alike, 0.125);
+    EXPECT_EQ(read->life_s, 2);
+    EXPECT_EQ(read->flow_px, 1.5);
+    EXPECT_EQ(read->flow_ratio, 0.75);
+    EXPECT_EQ(read->alignment, -0.25);
+    EXPECT_EQ(read->score, 0.25);
+}
+
+TEST_F(DoubtfulTracksTest, GoWithTheTracksThatAreReplaced) {
+    finish();
+    store_.replaceTrackStates(run_, {});
+    EXPECT_TRUE(store_.doubtful().summaries(run_).empty());
+    EXPECT_FALSE(store_.doubtful().evidence(run_, 9));
+}
+
+}  // namespace
+}  // namespace eyrie
