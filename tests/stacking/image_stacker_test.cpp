@@ -239,6 +239,20 @@ TEST(ImageStacker, showsAsMuchOfAStackAsIsAskedFor) {
     EXPECT_LE(cv::norm(near.raw, whole.raw(middle), cv::NORM_INF), 6);
 }
 
+TEST(ImageStacker, theSurroundingsAreNoLargerThanTheArea) {
+    const World world;
+    StackingOptions options = StackingOptions::thesis();
+    options.area_width_m = 10;
+    options.area_length_m = 20;
+    options.vehicle_length_m = 12;  // 35 px, of which 43 × 87 px would be shown
+    ImageStacker stacker(options, scale());
+    for (int t = 0; t < 3; ++t) {
+        stacker.update(world.frameAt(t), world.motionAt(t), world.clustersAt(t));
+        stacker.remember(world.motionAt(t), world.detectionsAt(t));
+    }
+    EXPECT_EQ(stacker.views(world.frameAt(2), StackPictures::surroundings).at(0).stacked.size(), cv::Size(29, 58));
+}
+
 TEST(ImageStacker, aStackedRoiHoldsTheExtendedClusterWhereItIs) {
     const World world;
     StackingOptions options = StackingOptions::thesis();
