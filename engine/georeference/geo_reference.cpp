@@ -82,7 +82,6 @@ GeoReference GeoReference::byControl(GeoFootage footage, std::vector<std::string
     GeoReference reference;
     if (footage.control.empty()) return reference;
     reference.plane_ = LocalPlane(footage.control.front().place);
-    double squares = 0;
     const std::array<cv::Point2d, 4> corners = outlineOf(footage.image_size);
     for (const ControlFit& fit : fitControlPoints(footage.control, footage.camera, reference.plane_, why_not)) {
         // By points that lie beyond the horizon of the others nothing can be placed.
@@ -96,10 +95,8 @@ GeoReference GeoReference::byControl(GeoFootage footage, std::vector<std::string
             continue;
         }
         reference.views_.emplace(fit.frame, Statement{fit.plane_from_image, std::nullopt});
-        reference.control_points_ += fit.points;
-        squares += fit.points * fit.rms_m * fit.rms_m;
+        reference.control_fits_.push_back(fit);
     }
-    if (reference.control_points_ > 0) reference.control_rms_m_ = std::sqrt(squares / reference.control_points_);
     reference.footage_ = std::move(footage);
     reference.footage_.time_us = {};
     constexpr int kAnyDistance = 1 << 28;
@@ -132,9 +129,16 @@ void GeoReference::measureDisagreement() {
 
 std::string GeoReference::origin() const {
     if (!known()) return {};
-    if (control_points_ > 0)
-        return std::to_string(control_points_) + " control points placed by hand (" + fixedText(control_rms_m_, 1) +
+    if (isByHand()) {
+        int points = 0;
+        double squares = 0;
+        for (const ControlFit& fit : control_fits_) {
+            points += fit.points;
+            squares += fit.points * fit.rms_m * fit.rms_m;
+        }
+        return std::to_string(points) + " control points placed by hand (" + fixedText(std::sqrt(squares / points), 1) +
                " m off their places, root mean square), carried by the registration";
+    }
     std::string text = std::string(nameOf(source_)) + " in the metadata, steadied by the registration";
     if (!disagreement_m_) return text;
     const std::string apart =
@@ -152,7 +156,7 @@ std::optional<cv::Matx33d> GeoReference::mapOf(FrameIndex frame) const {
     const std::array<cv::Point2d, 4> corners = outlineOf(footage_.image_size);
     std::array<std::vector<double>, 4> east;
     std::array<std::vector<double>, 4> north;
-    const double margin = (control_points_ > 0 ? kFarFromControl : kFarOutside) * footage_.image_size.width;
+    const double margin = (isByHand() ? kFarFromControl : kFarOutside) * footage_.image_size.width;
     const cv::Rect2d about(-margin, -margin, footage_.image_size.width + 2 * margin,
                            footage_.image_size.height + 2 * margin);
     for (auto view = views_.lower_bound(frame - reach_); view != views_.end() && view->first <= frame + reach_;
@@ -189,6 +193,36 @@ std::optional<GeoPoint> GeoReference::placeOf(FrameIndex frame, cv::Point2d px) 
     const auto metres = metresOf(frame, px);
     if (!metres || cv::norm(*metres) > 2 * kFarthest_m) return std::nullopt;
     return plane_.placeOf(*metres);
+}
+
+std::optional<cv::Matx22d> GeoReference::metresPerPixel(FrameIndex frame) const {
+    const cv::Point2d middle((footage_.image_size.width - 1) / 2.0, (footage_.image_size.height - 1) / 2.0);
+    const auto left = metresOf(frame, middle - cv::Point2d(0.5, 0)),
+               right = metresOf(frame, middle + cv::Point2d(0.5, 0));
+    const auto above = metresOf(frame, middle - cv::Point2d(0, 0.5)),
+               below = metresOf(frame, middle + cv::Point2d(0, 0.5));
+    if (!left || !right || !above || !below) return std::nullopt;
+    const cv::Point2d across = *right - *left, down = *below - *above;
+    return cv::Matx22d(across.x, down.x, across.y, down.y);
+}
+
+std::optional<double> GeoReference::northOf(FrameIndex frame) const {
+    const auto metres = metresPerPixel(frame);
+    if (!metres || cv::determinant(*metres) == 0) return std::nullopt;
+    const cv::Vec2d north = metres->inv() * cv::Vec2d(0, 1);
+    return std::atan2(north[1], north[0]) * 180 / CV_PI;
+}
+
+std::optional<double> GeoReference::courseOf(FrameIndex frame) const {
+    const auto metres = metresPerPixel(frame);
+    if (!metres) return std::nullopt;
+    const cv::Vec2d up = *metres * cv::Vec2d(0, -1);
+    return std::fmod(std::atan2(up[0], up[1]) * 180 / CV_PI + 360, 360);
+}
+
+std::optional<double> GeoReference::gsdOf(FrameIndex frame) const {
+    const auto metres = metresPerPixel(frame);
+    return metres ? std::optional(std::sqrt(std::abs(cv::determinant(*metres)))) : std::nullopt;
 }
 
 const GeoReference::Statement* GeoReference::nearest(FrameIndex frame) const {

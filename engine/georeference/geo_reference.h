@@ -10,6 +10,7 @@
 #include "annotation/keyframes/camera_motion.h"
 #include "core/geometry/control_point.h"
 #include "core/geometry/local_plane.h"
+#include "georeference/control_fit.h"
 #include "metadata/ground_view.h"
 
 namespace eyrie {
@@ -41,6 +42,10 @@ class GeoReference {
 
     /// Whether any frame has a place.
     bool known() const { return !views_.empty(); }
+    /// Whether that is by control points of a person.
+    bool isByHand() const { return !control_fits_.empty(); }
+    /// What the control points say that it rests on.
+    const std::vector<ControlFit>& controlFits() const { return control_fits_; }
     /// What most statements rest on.
     GroundSource source() const { return source_; }
     /// How far statements two seconds apart place the same ground apart, as the registration finds it again: median, m.
@@ -55,6 +60,13 @@ class GeoReference {
     std::optional<GeoPoint> placeOf(FrameIndex frame, cv::Point2d px) const;
     /// The same in metres east and north of a point of the video's own, for distances and directions.
     std::optional<cv::Point2d> metresOf(FrameIndex frame, cv::Point2d px) const;
+    /// The direction of north in the middle of a frame, degrees clockwise from +x; nothing where its place is not
+    /// known.
+    std::optional<double> northOf(FrameIndex frame) const;
+    /// Where the top of the picture points to there, degrees clockwise from north, 0 … 360.
+    std::optional<double> courseOf(FrameIndex frame) const;
+    /// Metres per pixel there: the geometric mean of both axes.
+    std::optional<double> gsdOf(FrameIndex frame) const;
     /// Height of the ground in the middle of a frame, m: above the ellipsoid where `ellipsoid`, else above the sea.
     struct Elevation {
         double metres = 0;
@@ -69,6 +81,8 @@ class GeoReference {
         std::optional<Elevation> elevation;
     };
     std::optional<cv::Matx33d> mapOf(FrameIndex frame) const;
+    /// Metres east and north per pixel of x and y in the middle of a frame.
+    std::optional<cv::Matx22d> metresPerPixel(FrameIndex frame) const;
     const Statement* nearest(FrameIndex frame) const;
     void measureDisagreement();
 
@@ -77,8 +91,7 @@ class GeoReference {
     int reach_ = 0;                          ///< frames
     std::map<FrameIndex, Statement> views_;  ///< every half second
     GroundSource source_ = GroundSource::none;
-    int control_points_ = 0;  ///< that it rests on; 0: it rests on metadata
-    double control_rms_m_ = 0;
+    std::vector<ControlFit> control_fits_;  ///< that it rests on; none: it rests on metadata
     std::optional<double> disagreement_m_;
     bool doubtful_ = false;
     mutable FrameIndex mapped_frame_ = -1;

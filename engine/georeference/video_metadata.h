@@ -4,12 +4,13 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "metadata/metadata_timeline.h"
 
 namespace eyrie {
 
-/// The stream of metadata that says most, in the time of its video. Never changed once made; may be shared by threads.
+/// A stream of metadata in the time of its video. Never changed once made; may be shared by threads.
 class VideoMetadata {
  public:
     VideoMetadata(MetadataStream stream, const std::vector<PictureStamp>& pictures)
@@ -27,12 +28,15 @@ class VideoMetadata {
 
 /// The metadata of a video, or why there are none.
 struct FoundMetadata {
-    std::shared_ptr<const VideoMetadata> metadata;  ///< null: none
+    std::shared_ptr<const VideoMetadata> metadata;  ///< the stream that says most; null: none
     std::string why_not;                            ///< for people: "the video carries no metadata (KLV)"
+    /// All streams of metadata, `metadata` among them; also those in which no set could be read.
+    std::vector<std::shared_ptr<const VideoMetadata>> streams = {};
 };
 
 /// Reads the metadata beside the pictures of `source`. Never throws for what is wrong with them: a video is to be
 /// worked on all the same. Throws nothing when `stop` is requested either; then there are none.
-FoundMetadata metadataOf(const FrameSource& source, const std::stop_token& stop = {});
+FoundMetadata metadataOf(const FrameSource& source, const std::stop_token& stop = {},
+                         const IndexProgress& progress = {});
 
 }  // namespace eyrie

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 
 namespace eyrie {
@@ -115,11 +116,51 @@ MetadataTimeline::MetadataTimeline(const MetadataStream& stream, const std::vect
     }
     std::stable_sort(places_.begin(), places_.end(),
                      [](const Place& a, const Place& b) { return a.time_us < b.time_us; });
+    for (const Place& place : places_) {
+        for (const auto& [number, value] : stream.packets[place.packet].texts) {
+            auto& changes = texts_[number];
+            if (changes.empty() || changes.back().second != value) changes.emplace_back(place.time_us, value);
+        }
+    }
 }
 
 std::optional<std::int64_t> MetadataTimeline::timeOf(std::size_t index) const {
     const std::int64_t time = times_us_.at(index);
     return time == kNoStamp ? std::nullopt : std::optional(time);
+}
+
+std::vector<MetadataPacket::Text> MetadataTimeline::textsAt(std::int64_t time_us) const {
+    std::vector<MetadataPacket::Text> texts;
+    for (const auto& [number, changes] : texts_) {
+        const auto next = std::upper_bound(changes.begin(), changes.end(), time_us,
+                                           [](std::int64_t time, const auto& change) { return time < change.first; });
+        texts.push_back({number, next == changes.begin() ? next->second : std::prev(next)->second});
+    }
+    return texts;
+}
+
+double MetadataTimeline::coveredShare(std::int64_t first_us, std::int64_t last_us) const {
+    const std::int64_t hold = microsecondsOf(options_.longest_hold_s);
+    const std::int64_t gap = microsecondsOf(options_.longest_gap_s);
+    std::int64_t covered = 0;
+    std::int64_t until = first_us;  // what lies before is counted
+    const auto add = [&](std::int64_t from, std::int64_t to) {
+        from = std::max(from, until);
+        to = std::min(to, last_us);
+        if (to <= from) return;
+        covered += to - from;
+        until = to;
+    };
+    bool touched = false;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const std::int64_t here = places_[i].time_us;
+        const bool bridged = i + 1 < places_.size() && places_[i + 1].time_us - here <= gap;
+        touched = touched || (here - hold <= last_us && here + hold >= first_us);
+        add(here - hold, here);
+        add(here, bridged ? places_[i + 1].time_us : here + hold);
+    }
+    if (last_us <= first_us) return touched ? 1 : 0;
+    return static_cast<double>(covered) / static_cast<double>(last_us - first_us);
 }
 
 MetadataState MetadataTimeline::at(std::int64_t time_us) const {

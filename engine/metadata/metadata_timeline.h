@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "io/video/frame_source.h"
@@ -35,6 +38,11 @@ class MetadataTimeline {
     /// Each value is blended between the last set before `time_us` that has it and the first one after; angles go the
     /// shorter way. Values without a set near enough are left out.
     MetadataState at(std::int64_t time_us) const;
+    /// What the texts say then, ascending by tag: of each the last one stated by then, however long ago, else the first
+    /// one after. They are sent rarely, and hold for long.
+    std::vector<MetadataPacket::Text> textsAt(std::int64_t time_us) const;
+    /// How much of [first_us, last_us] has a set near enough to count, 0 … 1.
+    double coveredShare(std::int64_t first_us, std::int64_t last_us) const;
 
     /// Sets that were placed by their stamp, and by where they lie in the file.
     int placedByStamp() const { return by_stamp_; }
@@ -51,6 +59,7 @@ class MetadataTimeline {
     TimelineOptions options_;
     std::vector<Place> places_;  ///< ascending in time
     std::vector<std::int64_t> times_us_;
+    std::map<int, std::vector<std::pair<std::int64_t, std::string>>> texts_;  ///< by tag, where they change; ascending
     int by_stamp_ = 0;
     int by_file_ = 0;
 };

@@ -115,9 +115,48 @@ TEST(ControlFit, PointsOnALineOrTooFewSayNothingAndWhy) {
     EXPECT_FALSE(GeoReference::byControl(market({})).known());
 }
 
+TEST(ControlFit, AWrongPointIsNamedWhereOneStandsOut) {
+    std::vector<ControlPoint> points = corners();
+    points.push_back(control(0, {100, 50}, {100, 50}));
+    points.push_back(control(0, {50, 30}, {50, 30}, {20, -15}));  // typed wrongly
+    std::vector<ControlPoint> five = points;
+    five.erase(five.begin() + 4);
+    points.push_back(control(0, {150, 70}, {150, 70}));
+    const auto fits = fitControlPoints(points, {}, LocalPlane(kMarket));
+    ASSERT_EQ(fits.size(), 1U);
+    EXPECT_TRUE(fits[0].doubtful);
+    ASSERT_TRUE(fits[0].suspect);
+    EXPECT_EQ(*fits[0].suspect, 5U);
+    EXPECT_THAT(remarkOn(fits[0]), testing::HasSubstr("without point 6"));
+    ASSERT_EQ(fits[0].residuals.size(), points.size());
+    EXPECT_EQ(fits[0].residuals[5].point, 5U);
+    EXPECT_GT(fits[0].residuals[5].metres, 3);
+    // Without one of five the others always agree.
+    const auto less = fitControlPoints(five, {}, LocalPlane(kMarket));
+    ASSERT_EQ(less.size(), 1U);
+    EXPECT_TRUE(less[0].doubtful);
+    EXPECT_FALSE(less[0].suspect);
+    EXPECT_THAT(remarkOn(less[0]), testing::HasSubstr("a sixth point would tell"));
+    const auto good = fitControlPoints(corners(), {}, LocalPlane(kMarket));
+    EXPECT_FALSE(good.at(0).doubtful);
+    EXPECT_EQ(remarkOn(good[0]), "");
+}
+
+TEST(ControlFit, AMirrorImageIsNoPicture) {
+    std::vector<ControlPoint> points = corners();
+    for (ControlPoint& point : points) {
+        const cv::Point2d ground = LocalPlane(kMarket).metresOf(point.place);
+        point.place = LocalPlane(kMarket).placeOf({ground.y, ground.x});
+    }
+    std::vector<std::string> why;
+    EXPECT_FALSE(GeoReference::byControl(market(points), &why).known());
+    ASSERT_EQ(why.size(), 1U);
+    EXPECT_THAT(why[0], testing::HasSubstr("mirror image"));
+}
+
 TEST(ControlFit, AHorizonInThePictureSaysNothingAndWhy) {
     // All points lie below row 50, and so does what they say of the ground.
-    const cv::Matx33d steep{0.5, 0, -50, 0, -0.6, 40, 0, -0.02, 1};
+    const cv::Matx33d steep{0.5, 0, -50, 0, -0.6, 10, 0, -0.02, 1};
     std::vector<ControlPoint> points;
     for (const cv::Point2d px : {cv::Point2d(10, 5), {190, 8}, {180, 40}, {20, 35}}) {
         const cv::Vec3d at = steep * cv::Vec3d(px.x, px.y, 1);

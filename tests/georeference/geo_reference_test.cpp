@@ -112,6 +112,20 @@ TEST(GeoReference, pixelsLieWhereTheMetadataSay) {
     EXPECT_NEAR(b->y - a->y, 0, 0.01);
 }
 
+TEST(GeoReference, northAndScaleAreThoseOfThePicture) {
+    const VideoMetadata metadata(flight({}), picturesOf());
+    const GeoReference reference(metadata.timeline(), footage());
+    ASSERT_TRUE(reference.northOf(33));
+    EXPECT_NEAR(*reference.northOf(33), -90, 0.1);  // up
+    ASSERT_TRUE(reference.gsdOf(33));
+    EXPECT_NEAR(*reference.gsdOf(33), kPixel_m, 0.001);
+    EXPECT_FALSE(reference.isByHand());
+    EXPECT_FALSE(GeoReference().northOf(33));
+    EXPECT_FALSE(GeoReference().gsdOf(33));
+    ASSERT_TRUE(reference.courseOf(33));
+    EXPECT_NEAR(std::remainder(*reference.courseOf(33), 360), 0, 0.1);
+}
+
 TEST(GeoReference, theRegistrationSteadiesJitteringStatements) {
     constexpr double kJitter_m = 6;
     const VideoMetadata metadata(flight({.jitter_m = kJitter_m}), picturesOf());

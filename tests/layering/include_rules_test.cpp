@@ -86,11 +86,11 @@ struct WindowRoom {
 const std::map<std::string, WindowRoom> allowed_in_window = {
     {"canvas", {{"widgets"}, {"core"}}},
     {"widgets", {{}, {"core", "store"}}},
-    {"session", {{"canvas"}, {"core", "chain", "correction", "imaging", "io", "rerun", "scene", "store"}}},
+    {"session", {{"canvas"}, {"core", "chain", "correction", "imaging", "io", "metadata", "rerun", "scene", "store"}}},
     {"workspace", {{"canvas", "widgets", "session"}, {"core"}}},
     {"review",
      {{"canvas", "widgets", "session", "workspace"},
-      {"core", "annotation", "chain", "correction", "events", "ground", "io", "store"}}},
+      {"core", "annotation", "chain", "correction", "events", "georeference", "ground", "io", "metadata", "store"}}},
     {"label",
      {{"canvas", "widgets", "session", "workspace"}, {"core", "annotation", "exchange", "formats", "io", "store"}}},
     {"tune", {{"canvas", "widgets", "session", "workspace"}, {}}},

@@ -110,4 +110,34 @@ TEST(MetadataTimeline, withoutPicturesThereIsNoTime) {
     EXPECT_TRUE(timeline.at(0).numbers.empty());
 }
 
+TEST(MetadataTimeline, textsHoldUntilTheyChange) {
+    const auto mission = [](const std::string& name, std::int64_t stamp_us) {
+        return test::Carried{LocalSetWriter().item(3, test::KlvBytes(name.begin(), name.end())).bytes(), stamp_us,
+                             static_cast<int>(stamp_us / 40'000)};
+    };
+    const MetadataStream stream =
+        collected({mission("ALPHA", kSecond), heading(1, 2 * kSecond, 50), mission("BRAVO", 8 * kSecond)});
+    const MetadataTimeline timeline(stream, pictures(400, 0));
+    const auto textAt = [&](std::int64_t time_us) {
+        const auto texts = timeline.textsAt(time_us);
+        return texts.size() == 1 && texts[0].tag == 3 ? texts[0].value : std::string("none");
+    };
+    EXPECT_EQ(textAt(0), "ALPHA");  // nothing was stated yet
+    EXPECT_EQ(textAt(7'900'000), "ALPHA");
+    EXPECT_EQ(textAt(8 * kSecond), "BRAVO");
+    EXPECT_EQ(textAt(15 * kSecond), "BRAVO");
+}
+
+TEST(MetadataTimeline, theShareCoveredCountsWhatIsBridgedAndHeld) {
+    // Bridged from 1 to 2 s, held for a second before and after, and about 8 s.
+    const MetadataStream stream =
+        collected({heading(1, kSecond, 25), heading(1, 2 * kSecond, 50), heading(1, 8 * kSecond, 200)});
+    const MetadataTimeline timeline(stream, pictures(260, 0));
+    EXPECT_NEAR(timeline.coveredShare(0, 10 * kSecond), 0.5, 1e-9);
+    EXPECT_NEAR(timeline.coveredShare(3 * kSecond, 7 * kSecond), 0, 1e-9);
+    EXPECT_NEAR(timeline.coveredShare(0, 3 * kSecond), 1, 1e-9);
+    EXPECT_EQ(timeline.coveredShare(2 * kSecond, 2 * kSecond), 1);  // a video of one frame
+    EXPECT_EQ(timeline.coveredShare(5 * kSecond, 5 * kSecond), 0);
+}
+
 }  // namespace eyrie

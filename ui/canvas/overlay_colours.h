@@ -23,6 +23,7 @@ struct OverlayColours {
     QColor ground_truth;
     QColor non_vehicle;
     QColor zone;  ///< of the first one; each may have its own
+    QColor north;
     /// Thin dark rim that keeps lines readable on any ground. Opaque: blending would cost four times as much.
     QColor edge;
 };
@@ -42,6 +43,7 @@ inline OverlayColours overlayColours(PaletteKind kind) {
                 .ground_truth = QColor(245, 245, 245),
                 .non_vehicle = QColor(0, 114, 178),
                 .zone = QColor(120, 180, 255),
+                .north = QColor(250, 250, 245),
                 .edge = edge};
     return {.stationary_corner = QColor(255, 50, 50),
             .motion_vector = QColor(255, 230, 0),
@@ -55,6 +57,7 @@ inline OverlayColours overlayColours(PaletteKind kind) {
             .ground_truth = QColor(255, 255, 255),
             .non_vehicle = QColor(255, 160, 40),
             .zone = QColor(120, 180, 255),
+            .north = QColor(250, 250, 245),
             .edge = edge};
 }
 

@@ -78,6 +78,12 @@ void VideoView::setZones(FrameIndex frame, std::vector<ZoneMark> zones) {
     update();
 }
 
+void VideoView::setNorth(FrameIndex frame, std::optional<double> north_deg) {
+    if (frame != frame_.index || north_deg == frame_.north_deg) return;
+    frame_.north_deg = north_deg;
+    update();
+}
+
 void VideoView::setVerdicts(FrameIndex frame, bool evaluated, std::vector<VerdictMark> verdicts,
                             std::vector<BoxRecord> ground_truth) {
     if (frame != frame_.index) return;
@@ -205,15 +211,14 @@ void VideoView::paint(QPainter& painter) const {
     label_font.setPointSizeF(std::max(7.0, font().pointSizeF() * 0.85));
     label_font.setBold(true);
     painter.setFont(label_font);
-    if (frame_.result) {
-        const QRectF view = QRectF(rect()).adjusted(-8, -8, 8, 8);
-        CaptionPlacer captions(view);
-        const OverlayScene scene{frame_,          *frame_.result, transform_, settings_.style(),
-                                 selected_track_, view,           captions};
-        for (const auto& [kind, layer] : layers_)
-            if (settings_.isVisible(kind)) layer->paint(painter, scene);
-        if (tool_ == nullptr) paintInspectedArea(painter);
-    }
+    static const FrameResult nothing_found;
+    const QRectF view = QRectF(rect()).adjusted(-8, -8, 8, 8);
+    CaptionPlacer captions(view);
+    const FrameResult& result = frame_.result ? *frame_.result : nothing_found;
+    const OverlayScene scene{frame_, result, transform_, settings_.style(), selected_track_, view, captions};
+    for (const auto& [kind, layer] : layers_)
+        if (settings_.isVisible(kind) && (frame_.result || !layer->needsResult())) layer->paint(painter, scene);
+    if (frame_.result && tool_ == nullptr) paintInspectedArea(painter);
     // Marks of the review are in the way of who draws.
     if (tool_ == nullptr) paintPlaceMark(painter);
     paintBadge(painter);

@@ -36,6 +36,8 @@ class VideoView : public QWidget {
     void setStacks(FrameIndex frame, std::vector<StackMark> stacks);
     /// What is watched, as it lies in a frame; ignored when another one is shown.
     void setZones(FrameIndex frame, std::vector<ZoneMark> zones);
+    /// Where north is in a frame, degrees clockwise from +x; ignored when another one is shown.
+    void setNorth(FrameIndex frame, std::optional<double> north_deg);
     /// What the evaluation says of a frame, which comes apart from it; ignored when another one is shown.
     void setVerdicts(FrameIndex frame, bool evaluated, std::vector<VerdictMark> verdicts,
                      std::vector<BoxRecord> ground_truth);

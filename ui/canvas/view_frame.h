@@ -2,6 +2,7 @@
 
 #include <QImage>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "canvas/marks/stack_mark.h"
@@ -29,6 +30,7 @@ struct ViewFrame {
     std::vector<VerdictMark> verdicts;  ///< what came of it
     std::vector<StackMark> stacks;      ///< empty until somebody asked for them: they are not stored
     std::vector<ZoneMark> zones;        ///< what is watched; belongs to the video, so that it comes apart
+    std::optional<double> north_deg;    ///< in the middle of the picture, clockwise from +x; comes apart, too
 };
 
 /// The state of a track in a frame, also of one that only its score kept out of the result; null where it has none.

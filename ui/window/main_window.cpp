@@ -21,6 +21,9 @@
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
 #include "review/card/card_dock.h"
+#include "review/earth/earth_dock.h"
+#include "review/earth/ground_control.h"
+#include "review/earth/video_earth.h"
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
@@ -102,6 +105,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildEvaluation();
     new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
     status_ = new StatusFields(session_, *statusBar());
+    status_->setPlaces({[this](QPointF px) { return earth_->earth().placeOf(session_.shownFrame(), px); },
+                        [this] { return earth_->earth().origin(); }});
+    whenAny(&earth_->earth(), status_, &StatusFields::showPlace, &VideoEarth::changed);
     labelling_ = new LabelWorkspace(
         {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);
@@ -217,6 +223,7 @@ void MainWindow::buildWorkspaces() {
         if (!labels) labelling_->setActive(false);
         events_->setActive(!labels);
         watching_->setActive(!labels);
+        earth_->control().setActive(!labels);
         steady_->setActive(!labels);
         if (labels) labelling_->setActive(true);
         // Zones are drawn, tracks narrowed by what they did and the ground held still, whichever list is in front.
@@ -231,8 +238,14 @@ void MainWindow::buildWatching() {
     ground_ = new WatchedGround(this);
     like_ = new LikeTracks({session_, review_->tracks(), *docks_, *actions_, *messages_}, this);
     review_->setLikenessWanted([this](std::optional<TrackId> track) { like_->want(track); });
+    earth_ = new EarthDock({session_, *canvas_, *docks_, *actions_, *messages_});
     whenAny(
-        events_, ground_, [this] { ground_->setRun(events_->review().tracks()); }, &EventsDock::tracksRead);
+        events_, ground_,
+        [this] {
+            ground_->setRun(events_->review().tracks());
+            earth_->earth().setRun(events_->review().tracks());
+        },
+        &EventsDock::tracksRead);
     whenAny(
         ground_, like_, [this] { like_->setGround(ground_->ground()); }, &WatchedGround::changed);
     steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);

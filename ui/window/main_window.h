@@ -14,6 +14,7 @@ namespace eyrie::ui {
 
 class CardDock;
 class DockRegistry;
+class EarthDock;
 class EvaluationDocks;
 class EvaluationSession;
 class EventReport;
@@ -70,6 +71,7 @@ class MainWindow : public QMainWindow {
     WatchedGround& ground() { return *ground_; }
     CardDock& card() { return *card_; }
     MosaicPanel& mosaic() { return *mosaic_; }
+    EarthDock& earth() { return *earth_; }
     SeenWatch& seen() { return *seen_; }
     WatchCommands& watching() { return *watching_; }
     EventReport& eventReport() { return *event_report_; }
@@ -128,6 +130,7 @@ class MainWindow : public QMainWindow {
     WatchCommands* watching_;
     SeenWatch* seen_;
     MosaicPanel* mosaic_;
+    EarthDock* earth_;
     CardDock* card_;
     EventReport* event_report_;
     EvaluationSession* measured_;

@@ -62,6 +62,8 @@ const char* nameOf(DockId id) {
             return "card";
         case DockId::bookmarks:
             return "bookmarks";
+        case DockId::metadata:
+            return "metadata";
     }
     return "";
 }
@@ -76,7 +78,7 @@ Columns columnsOf(WorkspaceKind workspace) {
     switch (workspace) {
         case WorkspaceKind::review:
             return {{DockId::events, DockId::tracks, DockId::runs, DockId::bookmarks},
-                    {DockId::card, DockId::inspector, DockId::mosaic}};
+                    {DockId::card, DockId::inspector, DockId::mosaic, DockId::metadata}};
         case WorkspaceKind::label:
             return {{DockId::objects}, {DockId::object, DockId::object_chips}};
         case WorkspaceKind::tune:

@@ -32,9 +32,10 @@ enum class DockId {
     object_chips,
     mosaic,
     card,
-    bookmarks
+    bookmarks,
+    metadata
 };
-inline constexpr int kDockCount = 19;
+inline constexpr int kDockCount = 20;
 
 constexpr std::array<DockId, kDockCount> allDocks() {
     std::array<DockId, kDockCount> ids{};

@@ -251,6 +251,13 @@ void WindowActions::addEvents() {
                            {QKeySequence(tr("Ctrl+Shift+L"))},
                            QT_TR_NOOP("Click the points of a line that is watched: who crosses it, and to which side")},
                           false);
+    control_points = addToggle(
+        tr("Set &ground control points"),
+        {nullptr,
+         {QKeySequence(tr("Ctrl+Shift+K"))},
+         QT_TR_NOOP("Click places that a map shows, too, and write their latitude and longitude: the video is laid on "
+                    "the earth")},
+        false);
 }
 
 void WindowActions::addOverlays(OverlaySettings& overlays) {

@@ -52,21 +52,19 @@ void tell(const std::vector<ControlPoint>& points, const SequenceRecord& sequenc
     std::vector<std::string> why_not;
     const GeoReference places = GeoReference::byControl(footage, &why_not);
     for (const std::string& why : why_not) std::printf("  note        %s\n", why.c_str());
+    for (const ControlFit& fit : places.controlFits())
+        if (const std::string remark = remarkOn(fit); !remark.empty())
+            std::printf("  note        %s\n", remark.c_str());
     if (!places.known()) return;
     std::printf("  places      %s\n", places.origin().c_str());
     const FrameIndex frame = points.front().frame;
     const cv::Point2d middle((sequence.size.width - 1) / 2.0, (sequence.size.height - 1) / 2.0);
-    const auto here = places.metresOf(frame, middle);
-    const auto right = places.metresOf(frame, middle + cv::Point2d(1, 0));
-    const auto up = places.metresOf(frame, middle - cv::Point2d(0, 1));
     const auto place = places.placeOf(frame, middle);
-    if (!here || !right || !up || !place) return;
-    const double gsd = std::sqrt(std::abs((*right - *here).cross(*up - *here)));
-    const cv::Point2d north = *up - *here;
-    const double course = std::fmod(std::atan2(north.x, north.y) * 180 / CV_PI + 360, 360);
+    const auto gsd = places.gsdOf(frame), course = places.courseOf(frame);
+    if (!place || !gsd || !course) return;
     std::printf("  frame %d    the middle is at %s, %s; %s m/px (--gsd); up is %s degrees from north\n", frame,
                 fixedText(place->latitude_deg, 6).c_str(), fixedText(place->longitude_deg, 6).c_str(),
-                fixedText(gsd, 4).c_str(), fixedText(course, 1).c_str());
+                fixedText(*gsd, 4).c_str(), fixedText(*course, 1).c_str());
 }
 
 /// Answers the exit code.

@@ -10,6 +10,8 @@ struct ControlPoint {
     FrameIndex frame = 0;
     cv::Point2d px;  ///< in that frame
     GeoPoint place;  ///< WGS 84, degrees
+
+    bool operator==(const ControlPoint&) const = default;
 };
 
 }  // namespace eyrie

@@ -8,6 +8,8 @@ namespace eyrie {
 struct GeoPoint {
     double latitude_deg = 0;   ///< north of the equator
     double longitude_deg = 0;  ///< east of Greenwich
+
+    bool operator==(const GeoPoint&) const = default;
 };
 
 /// Metres east (x) and north (y) of an origin, on the plane that touches the ellipsoid there: right to some parts in a

@@ -29,6 +29,21 @@ TEST(ControlPoints, AreKeptWithTheirVideoAndReplacedWhole) {
     EXPECT_TRUE(checkProject(folder / "p.eyrie").healthy());
 }
 
+TEST(ControlPoints, WhatAnotherProgramChangedIsNotOverwritten) {
+    const test::TemporaryFolder folder;
+    test::writeSampleProject(folder / "p.eyrie", 2);
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    const std::vector<ControlPoint> mine{{3, {10.1, 2.3}, {48.1, 11.3}}};
+    const std::vector<ControlPoint> others{{4, {1, 2}, {48, 11}}};
+    EXPECT_TRUE(exchangeControlPoints(project, 1, {}, mine));
+    EXPECT_EQ(readControlPoints(project, 1), mine);
+    replaceControlPoints(project, 1, others);
+    EXPECT_FALSE(exchangeControlPoints(project, 1, mine, {}));
+    EXPECT_EQ(readControlPoints(project, 1), others);
+    EXPECT_TRUE(exchangeControlPoints(project, 1, others, {}));
+    EXPECT_TRUE(readControlPoints(project, 1).empty());
+}
+
 TEST(ControlPoints, WhatIsNotOnTheEarthIsRefusedAndFound) {
     const test::TemporaryFolder folder;
     test::writeSampleProject(folder / "p.eyrie", 2);

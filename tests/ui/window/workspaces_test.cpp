@@ -10,6 +10,7 @@
 #include <QTest>
 #include <QTreeWidget>
 
+#include "canvas/layers/north_layer.h"
 #include "canvas/layers/overlay_table.h"
 #include "canvas/layers/stages/cluster_layer.h"
 #include "canvas/layers/stages/corner_layer.h"
@@ -82,7 +83,7 @@ class WorkspacesTest : public QObject {
         QCOMPARE(window->workspaces().current(), WorkspaceKind::review);
         for (const OverlayRow& row : overlayTable())
             QCOMPARE(window->overlays().isVisible(row.kind),
-                     row.kind == TrackLayer::kKind || row.kind == ZoneLayer::kKind);
+                     row.kind == TrackLayer::kKind || row.kind == ZoneLayer::kKind || row.kind == NorthLayer::kKind);
         QVERIFY(shown(*window, DockId::tracks) && shown(*window, DockId::inspector));
         QVERIFY(!shown(*window, DockId::parameters) && !shown(*window, DockId::stages));
     }

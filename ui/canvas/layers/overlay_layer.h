@@ -54,6 +54,9 @@ class OverlayLayer {
  public:
     virtual ~OverlayLayer() = default;
     virtual void paint(QPainter& painter, const OverlayScene& scene) const = 0;
+    /// Whether there is nothing to paint in a frame that no run knows: where it is painted nevertheless, the result is
+    /// empty.
+    virtual bool needsResult() const { return true; }
 };
 
 }  // namespace eyrie::ui

@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 
+#include "canvas/layers/north_layer.h"
 #include "canvas/layers/score_layer.h"
 #include "canvas/layers/speed_layer.h"
 #include "canvas/layers/stages/cluster_layer.h"
@@ -65,6 +66,8 @@ const std::vector<OverlayRow>& overlayTable() {
                              paletteColour<&Colours::stack>),
         row<VerdictLayer>(QT_TRANSLATE_NOOP("Overlay", "Errors (found, missed, false)"), Qt::Key_Q, false, false, true,
                           falseAlarmColour),
+        row<NorthLayer>(QT_TRANSLATE_NOOP("Overlay", "North arrow"), Qt::Key_8, true, false, false,
+                        paletteColour<&Colours::north>),
     };
     return table;
 }

@@ -324,6 +324,8 @@ void TablePanel::restoreColumns() {
     if (columns_fit_) {
         for (const QVariant& width : QSettings().value(settings_key_ + kFittedKey).toList())
             fitted_widths_ << width.toInt();
+        // A list that never had a row has widths that fit nothing.
+        columns_fit_ = !fitted_widths_.isEmpty();
     } else {
         table_->resizeColumnsToContents();
     }

@@ -7,7 +7,9 @@
 #include <QStatusBar>
 #include <QToolButton>
 #include <cmath>
+#include <utility>
 
+#include "core/geometry/place_text.h"
 #include "core/time_text.h"
 #include "widgets/display_text.h"
 #include "widgets/wiring.h"
@@ -30,6 +32,7 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     frame_ = field(bar, QStringLiteral("frame 00000 / 00000   00:00.00"));
     cursor_ = field(bar, QStringLiteral("0000.0, 0000.0 px   000.0, 000.0 m"));
     zoom_ = field(bar, QStringLiteral("0000 %"));
+    place_ = field(bar, QStringLiteral("-00.000000, -000.000000"));
     work_ = new QLabel(&bar);
     bar_ = new QProgressBar(&bar);
     bar_->setRange(0, kProgressSteps);
@@ -43,6 +46,7 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     bar.addWidget(frame_);
     bar.addWidget(cursor_);
     bar.addWidget(zoom_);
+    bar.addWidget(place_);
     bar.addPermanentWidget(work_);
     bar.addPermanentWidget(bar_);
     bar.addPermanentWidget(stop_);
@@ -51,7 +55,11 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     whenChanged(session_, this,
                 {
                     // The number names the picture it stands under, which may come later than it was asked for.
-                    {{SessionChange::picture, SessionChange::video}, [this] { showFrame(); }},
+                    {{SessionChange::picture, SessionChange::video},
+                     [this] {
+                         showFrame();
+                         showPlace();  // of another frame, though the cursor rests
+                     }},
                     {SessionChange::run_preparing, [this] { showPreparing(); }},
                     {SessionChange::run_started,
                      [this] {
@@ -99,7 +107,21 @@ void StatusFields::showFrame() {
     frame_->setText(text);
 }
 
+void StatusFields::setPlaces(PlacesInPicture places) {
+    places_ = std::move(places);
+    showPlace();
+}
+
+void StatusFields::showPlace() {
+    const auto place = cursor_at_ && session_.video() ? places_.place_of(*cursor_at_) : std::nullopt;
+    place_->setText(place ? QString::fromStdString(placeText(*place)) : QString());
+    place_->setToolTip(place ? tr("Latitude and longitude under the cursor, degrees. %1").arg(places_.origin())
+                             : QString());
+}
+
 void StatusFields::showCursor(std::optional<QPointF> image_point) {
+    cursor_at_ = image_point;
+    showPlace();
     if (!image_point || !session_.video()) {
         cursor_->clear();
         return;

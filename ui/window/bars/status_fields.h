@@ -2,8 +2,10 @@
 
 #include <QPointF>
 #include <QWidget>
+#include <functional>
 #include <optional>
 
+#include "core/geometry/local_plane.h"
 #include "session/project_session.h"
 
 class QLabel;
@@ -13,7 +15,16 @@ class QToolButton;
 
 namespace eyrie::ui {
 
-/// The fields of the status bar: frame, time, cursor, zoom; and, while something works, its progress with a cross.
+/// Where pixels of the frame shown lie on the earth.
+struct PlacesInPicture {
+    /// Nothing where nobody knows.
+    std::function<std::optional<GeoPoint>(QPointF px)> place_of = [](QPointF) { return std::nullopt; };
+    /// What that rests on, for people.
+    std::function<QString()> origin = [] { return QString(); };
+};
+
+/// The fields of the status bar: frame, time, cursor, the place on the earth under it, zoom; and, while something
+/// works, its progress with a cross.
 class StatusFields : public QObject {
     Q_OBJECT
 
@@ -21,7 +32,10 @@ class StatusFields : public QObject {
     /// Adds its fields to `bar`, which owns them.
     StatusFields(ProjectSession& session, QStatusBar& bar);
 
+    void setPlaces(PlacesInPicture places);
     void showCursor(std::optional<QPointF> image_point);
+    /// The place under the cursor may be another now.
+    void showPlace();
     void showZoom(double zoom);
 
  private:
@@ -36,10 +50,13 @@ class StatusFields : public QObject {
     ProjectSession& session_;
     QLabel* frame_;
     QLabel* cursor_;
+    QLabel* place_;
     QLabel* zoom_;
     QLabel* work_;
     QProgressBar* bar_;
     QToolButton* stop_;
+    PlacesInPicture places_;
+    std::optional<QPointF> cursor_at_;  ///< px of the picture; nothing while it is elsewhere
 };
 
 }  // namespace eyrie::ui

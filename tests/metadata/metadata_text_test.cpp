@@ -1,0 +1,25 @@
+#include "metadata/metadata_text.h"
+
+#include <gtest/gtest.h>
+
+namespace eyrie {
+
+TEST(MetadataText, ValuesHaveTheDecimalsThatTheirCodingTellsApart) {
+    EXPECT_EQ(valueText(13, 48.13715412345), "48.1371541");  // four bytes over a half circle
+    EXPECT_EQ(valueText(5, 123.4567), "123.457");            // two bytes over a circle
+    EXPECT_EQ(valueText(15, 1234.567), "1234.6");            // two bytes over 20 km
+    EXPECT_EQ(valueText(8, 42), "42");
+    EXPECT_EQ(valueText(4711, 0.5), "0.500");  // of a tag that is not known
+    EXPECT_EQ(unitText(13), "°");
+    EXPECT_EQ(unitText(15), "m");
+    EXPECT_EQ(unitText(63), "");
+    EXPECT_EQ(unitText(4711), "");
+}
+
+TEST(MetadataText, MomentsAreUtc) {
+    EXPECT_EQ(valueText(72, 1'231'798'102'000'000), "2009-01-12T22:08:22.000000Z");
+    EXPECT_EQ(unitText(72), "");
+    EXPECT_EQ(valueText(72, 1.8e19), "18000000000000000000");  // no calendar has it
+}
+
+}  // namespace eyrie

@@ -1,0 +1,170 @@
+#include "review/earth/video_earth.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "core/error.h"
+#include "events/stored_events.h"
+#include "store/labels/annotation_store.h"
+#include "store/review/control_points.h"
+#include "workspace/session_reactions.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+constexpr auto kToldEvery = std::chrono::milliseconds(200);
+
+/// What a person found on the earth in the video of this identity; nothing where the project cannot be read.
+std::vector<ControlPoint> controlPointsOf(const std::filesystem::path& path, const std::string& identity) {
+    if (path.empty()) return {};
+    try {
+        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+        for (const SequenceRecord& sequence : sequencesOf(project))
+            if (sequence.path == identity) return readControlPoints(project, sequence.id);
+    } catch (const Error&) {
+        // Told by whoever shows the project; places are a help besides.
+    }
+    return {};
+}
+
+}  // namespace
+
+VideoEarth::VideoEarth(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
+    followSession(session_, this,
+                  {{SessionChange::video, [this] { readMetadata(); }},
+                   {{SessionChange::project, SessionChange::opened}, [this] { layOnEarth(); }}});
+}
+
+VideoEarth::~VideoEarth() = default;
+
+void VideoEarth::setRun(const std::shared_ptr<const StoredTracks>& run) {
+    if (run == run_) return;
+    run_ = run;
+    layOnEarth();
+}
+
+// ---- metadata -------------------------------------------------------------------------------------------------------
+
+void VideoEarth::readMetadata() {
+    metadata_query_.cancel();
+    world_query_.cancel();
+    found_.reset();
+    world_.reset();
+    control_.clear();
+    read_share_ = 0;
+    viewed_ = -1;
+    emit changed();
+    if (!session_.media()) return;
+    const auto work = [this, media = *session_.media()](const BackgroundTask& task) {
+        const auto source = media.open({}, task.stop());
+        auto told_at = std::chrono::steady_clock::now();
+        FoundMetadata found = metadataOf(*source, task.stop(), [&](double share) {
+            const auto now = std::chrono::steady_clock::now();
+            if (now - told_at < kToldEvery) return;
+            told_at = now;
+            task.tell([this, share] {
+                read_share_ = share;
+                emit readOn();
+            });
+        });
+        task.tell([this, found = std::move(found)] { adopt(found); });
+    };
+    metadata_query_.ask(work, [this](const QString& message) {
+        adopt(FoundMetadata{nullptr, message.toStdString(), {}});
+    });
+}
+
+void VideoEarth::adopt(FoundMetadata found) {
+    found_ = std::make_shared<const FoundMetadata>(std::move(found));
+    emit changed();
+    layOnEarth();
+}
+
+std::optional<MetadataState> VideoEarth::stateOf(const VideoMetadata& stream, FrameIndex frame) const {
+    const auto& times = session_.timesUs();
+    if (frame < 0 || static_cast<std::size_t>(frame) >= times.size()) return std::nullopt;
+    return stream.timeline().at(times[static_cast<std::size_t>(frame)]);
+}
+
+const GroundView* VideoEarth::viewOf(FrameIndex frame) const {
+    if (!found_ || !found_->metadata || !session_.video()) return nullptr;
+    if (viewed_ != frame) {
+        const auto state = stateOf(*found_->metadata, frame);
+        view_ = state ? groundViewOf(*state, session_.video()->size) : GroundView();
+        viewed_ = frame;
+    }
+    return &view_;
+}
+
+// ---- places ---------------------------------------------------------------------------------------------------------
+
+void VideoEarth::layOnEarth() {
+    if (!session_.video() || !session_.media()) return;
+    GeoFootage footage;
+    footage.image_size = session_.video()->size;
+    footage.last_frame = session_.video()->frame_count - 1;
+    footage.frame_rate_hz = session_.video()->frame_rate_hz;
+    const auto work = [this, found = found_, run = run_, footage = std::move(footage), times = session_.timesUs(),
+                       project = session_.project(),
+                       identity = session_.media()->identity](const BackgroundTask& task) mutable {
+        const std::vector<ControlPoint> control = controlPointsOf(project, identity);
+        footage.control = control;
+        if (run) {
+            footage.first_frame = run->footage.first_frame;
+            footage.last_frame = std::min(footage.last_frame, run->footage.last_frame);
+            footage.camera = run->footage.camera;
+        }
+        footage.time_us = [&times](FrameIndex frame) { return times.at(static_cast<std::size_t>(frame)); };
+        // Without registration there is nothing to steady each frame's own statement with.
+        const FoundMetadata used = run && found ? *found : FoundMetadata();
+        auto world = std::make_shared<const VideoWorld>(videoWorldOf(used, std::move(footage)));
+        task.tell([this, world, control] {
+            world_ = world;
+            control_ = control;
+            emit changed();
+        });
+    };
+    world_query_.ask(work, [this](const QString&) {
+        world_.reset();
+        emit changed();
+    });
+}
+
+std::optional<GeoPoint> VideoEarth::placeOf(FrameIndex frame, QPointF px) const {
+    const cv::Point2d at(px.x(), px.y());
+    if (world_) {
+        const auto place = world_->places.placeOf(frame, at);
+        if (place || world_->places.isByHand()) return place;
+    }
+    const GroundView* view = viewOf(frame);
+    return view != nullptr ? view->placeOf(at) : std::nullopt;
+}
+
+std::optional<QPointF> VideoEarth::carried(QPointF px, FrameIndex from, FrameIndex to) const {
+    if (from == to) return px;
+    const auto map = run_ ? run_->footage.camera.map(from, to) : std::nullopt;
+    if (!map) return std::nullopt;
+    const cv::Vec3d at = map->matrix * cv::Vec3d(px.x(), px.y(), 1);
+    if (!(at[2] * map->matrix(2, 2) > 0)) return std::nullopt;  // behind the camera
+    return QPointF(at[0] / at[2], at[1] / at[2]);
+}
+
+std::optional<double> VideoEarth::northOf(FrameIndex frame) const {
+    if (world_) {
+        const auto north = world_->places.northOf(frame);
+        if (north || world_->places.isByHand()) return north;
+    }
+    const GroundView* view = viewOf(frame);
+    return view != nullptr ? view->north_deg : std::nullopt;
+}
+
+QString VideoEarth::origin() const {
+    if (world_ && world_->places.known()) return QString::fromStdString(world_->places.origin());
+    const GroundView* view = viewOf(session_.shownFrame());
+    if (view == nullptr || !view->footprint) return {};
+    return tr("%1 in the metadata of the frame").arg(QString::fromUtf8(nameOf(view->source)));
+}
+
+}  // namespace eyrie::ui
