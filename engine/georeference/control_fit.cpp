@@ -182,9 +182,10 @@ std::vector<ControlFit> fitControlPoints(const std::vector<ControlPoint>& points
             continue;
         }
         if (isMirrored(*map, pairs.image)) {
-            tell(std::to_string(fit.points) +
-                 " control points, but by them the picture is a mirror image; are two of them exchanged, or latitude "
-                 "and longitude?");
+            tell(
+                std::to_string(fit.points) +
+                " control points, but by them the picture is a mirror image; two of them may be exchanged, or latitude "
+                "and longitude");
             continue;
         }
         fit.plane_from_image = *map;

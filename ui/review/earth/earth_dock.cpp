@@ -1,8 +1,11 @@
 #include "review/earth/earth_dock.h"
 
+#include <QHeaderView>
+#include <QScrollArea>
+#include <QTableView>
 #include <QVBoxLayout>
-#include "canvas/video_view.h"
 
+#include "canvas/video_view.h"
 #include "review/earth/control_points_panel.h"
 #include "review/earth/ground_control.h"
 #include "review/earth/metadata_panel.h"
@@ -12,6 +15,10 @@
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
+
+namespace {
+constexpr int kLeastRows = 5;  // of the table that can be seen at once
+}
 
 EarthDock::EarthDock(const EarthParts& parts) : QObject(&parts.docks), parts_(parts) {
     earth_ = new VideoEarth(parts_.session, this);
@@ -23,7 +30,14 @@ EarthDock::EarthDock(const EarthParts& parts) : QObject(&parts.docks), parts_(pa
     rows->setSpacing(4);
     rows->addWidget(metadata_, 1);
     rows->addWidget(&control_->panel());
-    parts_.docks.add(DockId::metadata, tr("Metadata"), content);
+    metadata_->table()->setMinimumHeight(kLeastRows * metadata_->table()->verticalHeader()->defaultSectionSize());
+    // On a small screen the sentences above and below the table would be cut.
+    auto* scroll = new QScrollArea;
+    scroll->setWidget(content);
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    parts_.docks.add(DockId::metadata, tr("Metadata"), scroll);
     bindCommands(this, {{parts_.actions.control_points, [this] { parts_.docks.raise(DockId::metadata); }}});
     parts_.docks.watch(DockId::metadata, metadata_, [this](bool visible) { metadata_->setLookedAt(visible); });
     whenAny(earth_, this, &EarthDock::showNorth, &VideoEarth::changed);
