@@ -137,7 +137,7 @@ void StageCache::useStoredMotion(const ChainOptions& options, std::vector<FrameM
     const bool fits = motion.size() == static_cast<std::size_t>(frames_.count()) &&
                       motion.front().frame == frames_.first() && motion.back().frame == frames_.last();
     if (!fits) throw Error(ErrorKind::internal, "the stored motion vectors are not those of the frames to be swept");
-    const auto shared = std::make_shared<const Motion>(std::move(motion));
+    auto shared = std::make_shared<const Motion>(std::move(motion));
     motion_.get(nameUpTo(options, scaleFor(options, {}), ChainStage::motion), [&] { return shared; });
 }
 

@@ -77,7 +77,8 @@ double BoxPatch::seenOf(const BoxPatch& other) const {
             double count = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
             for (int y = top; y < bottom; ++y) {
                 for (int x = left; x < right; ++x) {
-                    const auto at = static_cast<std::size_t>(y * samples_.width + x);
+                    const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(samples_.width) +
+                                    static_cast<std::size_t>(x);
                     const double mine = values_[at], its = other.values_[at];
                     ++count;
                     a += mine;
