@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "core/geometry/angle.h"
 #include "core/geometry/outline_map.h"
 #include "georeference/control_fit.h"
 #include "io/tables/number_text.h"
@@ -210,14 +211,14 @@ std::optional<double> GeoReference::northOf(FrameIndex frame) const {
     const auto metres = metresPerPixel(frame);
     if (!metres || cv::determinant(*metres) == 0) return std::nullopt;
     const cv::Vec2d north = metres->inv() * cv::Vec2d(0, 1);
-    return std::atan2(north[1], north[0]) * 180 / CV_PI;
+    return degreesFromRadians(std::atan2(north[1], north[0]));
 }
 
 std::optional<double> GeoReference::courseOf(FrameIndex frame) const {
     const auto metres = metresPerPixel(frame);
     if (!metres) return std::nullopt;
     const cv::Vec2d up = *metres * cv::Vec2d(0, -1);
-    return std::fmod(std::atan2(up[0], up[1]) * 180 / CV_PI + 360, 360);
+    return degreesFromRadians(std::atan2(up[0], up[1]));
 }
 
 std::optional<double> GeoReference::gsdOf(FrameIndex frame) const {

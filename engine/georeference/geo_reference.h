@@ -60,10 +60,10 @@ class GeoReference {
     std::optional<GeoPoint> placeOf(FrameIndex frame, cv::Point2d px) const;
     /// The same in metres east and north of a point of the video's own, for distances and directions.
     std::optional<cv::Point2d> metresOf(FrameIndex frame, cv::Point2d px) const;
-    /// The direction of north in the middle of a frame, degrees clockwise from +x; nothing where its place is not
-    /// known.
+    /// The direction of north in the middle of a frame, degrees in [0, 360) clockwise from +x; nothing where its place
+    /// is not known.
     std::optional<double> northOf(FrameIndex frame) const;
-    /// Where the top of the picture points to there, degrees clockwise from north, 0 … 360.
+    /// Where the top of the picture points to there, degrees in [0, 360) clockwise from north.
     std::optional<double> courseOf(FrameIndex frame) const;
     /// Metres per pixel there: the geometric mean of both axes.
     std::optional<double> gsdOf(FrameIndex frame) const;

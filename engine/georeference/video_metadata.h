@@ -35,7 +35,8 @@ struct FoundMetadata {
 };
 
 /// Reads the metadata beside the pictures of `source`. Never throws for what is wrong with them: a video is to be
-/// worked on all the same. Throws nothing when `stop` is requested either; then there are none.
+/// worked on all the same. Throws nothing when `stop` is requested either; then there are none. `progress`, if
+/// given, is told the share of the file that was read, 0 … 1.
 FoundMetadata metadataOf(const FrameSource& source, const std::stop_token& stop = {},
                          const IndexProgress& progress = {});
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "io/tables/number_text.h"
@@ -70,6 +71,15 @@ MetadataScale scaleByMetadata(const FrameSource& source, FrameIndex first, Frame
         none.why_not = error.what();
         return none;
     }
+}
+
+StatedScale statedScale(const FrameSource& source, FrameIndex first, FrameIndex last, double given_m_per_px,
+                        ScaleOrigin given_origin, const std::stop_token& stop) {
+    if (given_m_per_px > 0) return {given_m_per_px, given_origin, {}};
+    if (source.info().gsd_m_per_px > 0) return {};
+    const FrameIndex end = source.info().frame_count - 1;
+    MetadataScale found = scaleByMetadata(source, first, last < 0 ? end : std::min(last, end), stop);
+    return {found.gsd_m_per_px, ScaleOrigin::metadata, std::move(found)};
 }
 
 }  // namespace eyrie

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/values/scale_basis.h"
 #include "metadata/ground_view.h"
 
 namespace eyrie {
@@ -29,5 +30,17 @@ MetadataScale scaleByMetadata(const MetadataTimeline& timeline, const FrameSourc
 /// to be worked on all the same.
 MetadataScale scaleByMetadata(const FrameSource& source, FrameIndex first, FrameIndex last,
                               const std::stop_token& stop = {});
+
+/// A scale that is known before any picture is looked at.
+struct StatedScale {
+    double gsd_m_per_px = 0;  ///< 0: none
+    ScaleOrigin origin = ScaleOrigin::given;
+    MetadataScale by_metadata;  ///< what the metadata say; empty where they were not asked
+};
+
+/// The scale that a run over frames first … last (last < 0: to the end) is to work with: what a person gave (m/px, > 0)
+/// and where that came from, else the source's own, for which nothing is stated here, else that of the metadata.
+StatedScale statedScale(const FrameSource& source, FrameIndex first, FrameIndex last, double given_m_per_px,
+                        ScaleOrigin given_origin, const std::stop_token& stop);
 
 }  // namespace eyrie

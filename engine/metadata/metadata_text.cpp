@@ -60,4 +60,14 @@ std::string unitText(int tag) {
     return std::string(unit);
 }
 
+std::string damageText(const MetadataStream& stream) {
+    std::string text;
+    for (std::size_t i = 0; i < stream.faults.size(); ++i) {
+        if (stream.faults[i] == 0) continue;
+        text += (text.empty() ? "" : ", ") + std::string(klv::nameOf(static_cast<klv::Fault>(i))) + " " +
+                std::to_string(stream.faults[i]) + "×";
+    }
+    return text;
+}
+
 }  // namespace eyrie

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "metadata/metadata_recording.h"
+
 namespace eyrie {
 
 /// A value of a tag as text: with as many decimals as its coding can tell apart, at most seven (a centimetre in a
@@ -9,5 +11,7 @@ namespace eyrie {
 std::string valueText(int tag, double value);
 /// The unit that belongs to it as people write it, "°", "m/s"; empty where the value has none or says it itself.
 std::string unitText(int tag);
+/// Of what was damaged in a stream, why: "wrong checksum 12×, cut off 1×"; empty where nothing was.
+std::string damageText(const MetadataStream& stream);
 
 }  // namespace eyrie

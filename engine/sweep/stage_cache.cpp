@@ -1,6 +1,7 @@
 #include "sweep/stage_cache.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <mutex>

@@ -116,7 +116,7 @@ TEST(GeoReference, northAndScaleAreThoseOfThePicture) {
     const VideoMetadata metadata(flight({}), picturesOf());
     const GeoReference reference(metadata.timeline(), footage());
     ASSERT_TRUE(reference.northOf(33));
-    EXPECT_NEAR(*reference.northOf(33), -90, 0.1);  // up
+    EXPECT_NEAR(*reference.northOf(33), 270, 0.1);  // up
     ASSERT_TRUE(reference.gsdOf(33));
     EXPECT_NEAR(*reference.gsdOf(33), kPixel_m, 0.001);
     EXPECT_FALSE(reference.isByHand());

@@ -16,6 +16,15 @@ TEST(MetadataText, ValuesHaveTheDecimalsThatTheirCodingTellsApart) {
     EXPECT_EQ(unitText(4711), "");
 }
 
+TEST(MetadataText, WhatWasDamagedIsCountedByItsReason) {
+    MetadataStream stream;
+    EXPECT_EQ(damageText(stream), "");
+    stream.faults[1] = 12;
+    stream.faults[2] = 1;
+    EXPECT_EQ(damageText(stream), std::string(klv::nameOf(static_cast<klv::Fault>(1))) + " 12×, " +
+                                      klv::nameOf(static_cast<klv::Fault>(2)) + " 1×");
+}
+
 TEST(MetadataText, MomentsAreUtc) {
     EXPECT_EQ(valueText(72, 1'231'798'102'000'000), "2009-01-12T22:08:22.000000Z");
     EXPECT_EQ(unitText(72), "");

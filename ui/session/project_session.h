@@ -59,6 +59,8 @@ class ProjectSession : public QObject {
     void saveProjectAs(const std::filesystem::path& target);
     /// Reads the video anew with this many frames per second, and keeps the rate in the project.
     void setFrameRate(double frames_per_second);
+    /// The video as the project keeps it; only with a video.
+    SequenceRecord sequenceToStore() const;
     /// Shows nothing any more; connections to the project are closed as soon as what they are used for is done.
     void closeProject();
     bool opening() const { return pending_.has_value(); }

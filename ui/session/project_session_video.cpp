@@ -231,15 +231,18 @@ void ProjectSession::setFrameRate(double frames_per_second) {
     beginOpening({mediaOfIdentity(media_->identity, {.given_hz = frames_per_second}), Purpose::other_rate});
 }
 
-void ProjectSession::keepFrameRate() {
-    if (!project_open_ || !media_ || !video_) return;
+SequenceRecord ProjectSession::sequenceToStore() const {
     SequenceRecord sequence;
     sequence.path = media_->identity;
     sequence.size = video_->size;
     sequence.frame_count = video_->frame_count;
     sequence.frame_rate_hz = video_->frame_rate_hz;
     sequence.rate_assumed = video_->frame_rate_assumed;
-    reader_.storeSequence(sequence);
+    return sequence;
+}
+
+void ProjectSession::keepFrameRate() {
+    if (project_open_ && media_ && video_) reader_.storeSequence(sequenceToStore());
 }
 
 // ---- videos that are not where they were ---------------------------------------------------------------------------

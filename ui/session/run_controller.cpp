@@ -1,6 +1,5 @@
 #include "session/run_controller.h"
 
-#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -11,22 +10,7 @@ namespace eyrie::ui {
 
 namespace {
 constexpr int kPoll_ms = 200;
-
-/// A scale that is known before anything is looked at.
-struct StatedScale {
-    double gsd_m_per_px = 0;  ///< 0: none
-    ScaleOrigin origin = ScaleOrigin::given;
-};
-
-/// What a person gave, else what the metadata say where that can be believed.
-StatedScale statedScale(const RunRequest& request, const FrameSource& source, const std::stop_token& stop) {
-    if (request.gsd_m_per_px > 0) return {request.gsd_m_per_px, request.gsd_origin};
-    if (source.info().gsd_m_per_px > 0) return {};
-    const FrameIndex end = source.info().frame_count - 1;
-    const FrameIndex last = request.range.last < 0 ? end : std::min(request.range.last, end);
-    return {scaleByMetadata(source, request.range.first, last, stop).gsd_m_per_px, ScaleOrigin::metadata};
 }
-}  // namespace
 
 RunController::RunController(QObject* parent) : QObject(parent) {
     poll_.setInterval(kPoll_ms);
@@ -67,7 +51,8 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
             recorder.finish(summary);
         } else {
             std::optional<ScaleEstimate> estimated;
-            const StatedScale stated = statedScale(request, *source, stop);
+            const StatedScale stated = statedScale(*source, request.range.first, request.range.last,
+                                                   request.gsd_m_per_px, request.gsd_origin, stop);
             const SceneScale scale = chooseScale(
                 *source, request.range, request.options, stated.gsd_m_per_px, stop,
                 [&feed](const RunProgress& progress) { feed.onProgress(progress); }, &estimated);

@@ -54,13 +54,10 @@ void bindSwitches(QObject* owner, const std::vector<Command>& switches);
 /// Lets `react`, a member of the receiver or a function, follow each of these signals, whatever they carry.
 template <typename Sender, typename Receiver, typename React, typename... Signals>
 void whenAny(Sender* sender, Receiver* receiver, React react, Signals... told) {
-    const auto follow = [receiver, react] {
-        if constexpr (std::is_invocable_v<React>)
-            react();
-        else
-            (receiver->*react)();
-    };
-    (QObject::connect(sender, told, receiver, follow), ...);
+    if constexpr (std::is_invocable_v<React>)
+        (QObject::connect(sender, told, receiver, [react] { react(); }), ...);
+    else
+        (QObject::connect(sender, told, receiver, [receiver, react] { (receiver->*react)(); }), ...);
 }
 
 /// What to do when something is another than it was, for every kind of change that one signal tells of. A list of

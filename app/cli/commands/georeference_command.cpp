@@ -9,6 +9,7 @@
 #include "cli/interrupt.h"
 #include "cli/labels_of_project.h"
 #include "core/error.h"
+#include "core/geometry/place_text.h"
 #include "exchange/project_labels.h"
 #include "georeference/control_fit.h"
 #include "georeference/geo_reference.h"
@@ -62,9 +63,8 @@ void tell(const std::vector<ControlPoint>& points, const SequenceRecord& sequenc
     const auto place = places.placeOf(frame, middle);
     const auto gsd = places.gsdOf(frame), course = places.courseOf(frame);
     if (!place || !gsd || !course) return;
-    std::printf("  frame %d    the middle is at %s, %s; %s m/px (--gsd); up is %s degrees from north\n", frame,
-                fixedText(place->latitude_deg, 6).c_str(), fixedText(place->longitude_deg, 6).c_str(),
-                fixedText(*gsd, 4).c_str(), fixedText(*course, 1).c_str());
+    std::printf("  frame %d    the middle is at %s; %s m/px (--gsd); up is %s degrees from north\n", frame,
+                placeText(*place).c_str(), fixedText(*gsd, 4).c_str(), fixedText(*course, 1).c_str());
 }
 
 /// Answers the exit code.

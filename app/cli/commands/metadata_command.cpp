@@ -16,6 +16,7 @@
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"
 #include "metadata/metadata_tables.h"
+#include "metadata/metadata_text.h"
 
 namespace eyrie::cli {
 namespace {
@@ -52,18 +53,10 @@ void printCounts(const MetadataStream& stream) {
     if (targets > 0) std::printf("; %d of moving targets (VMTI, ST 0903), not read", targets);
     if (others > 0) std::printf("; %d of other kinds, not read", others);
     std::puts("");
-    if (stream.damaged() == 0) {
+    if (stream.damaged() == 0)
         std::puts("  Nothing damaged");
-    } else {
-        std::printf("  Damaged, skipped:");
-        const char* separator = " ";
-        for (std::size_t i = 0; i < stream.faults.size(); ++i) {
-            if (stream.faults[i] == 0) continue;
-            std::printf("%s%s %d×", separator, klv::nameOf(static_cast<klv::Fault>(i)), stream.faults[i]);
-            separator = ", ";
-        }
-        std::puts("");
-    }
+    else
+        std::printf("  Damaged, skipped: %s\n", damageText(stream).c_str());
     if (stream.without_checksum > 0) std::printf("  %d without a checksum, believed\n", stream.without_checksum);
 }
 

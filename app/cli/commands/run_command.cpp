@@ -93,36 +93,22 @@ class ConsoleObserver : public ChainObserver {
     std::unique_ptr<VideoWriter> writer_;
 };
 
-/// A scale that is known before anything is looked at.
-struct StatedScale {
-    double gsd_m_per_px = 0;  ///< 0: none
-    ScaleOrigin origin = ScaleOrigin::given;
-};
-
-/// The GSD of a run: the given one, else that of the metadata where it can be believed, which is said.
-StatedScale statedScale(const FrameSource& source, FrameRange range, const RunArguments& arguments,
-                        const std::stop_token& stop) {
-    if (arguments.video.gsd_m_per_px) return {*arguments.video.gsd_m_per_px};
-    if (source.info().gsd_m_per_px > 0) return {};
-    const FrameIndex end = source.info().frame_count - 1;
-    const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
-    const MetadataScale scale = scaleByMetadata(source, range.first, last, stop);
-    if (!scale.usable()) {
-        if (!arguments.quiet && !scale.why_not.empty())
-            std::fprintf(stderr, "the video's metadata (KLV) are not used for the scale: %s\n", scale.why_not.c_str());
-        return {};
-    }
-    if (!arguments.quiet)
+/// Whether the metadata are believed, and why not.
+void tellScaleOf(const MetadataScale& scale) {
+    if (scale.usable())
         std::fprintf(
             stderr, "GSD %s m/px from the video's metadata (%s), known in %d of %d frames; --gsd overrides it\n",
             fixedText(scale.gsd_m_per_px, 4).c_str(), nameOf(scale.source), scale.frames_known, scale.frames_asked);
-    return {scale.gsd_m_per_px, ScaleOrigin::metadata};
+    else if (!scale.why_not.empty())
+        std::fprintf(stderr, "the video's metadata (KLV) are not used for the scale: %s\n", scale.why_not.c_str());
 }
 
 /// The scale to work with, and where it comes from.
 std::pair<SceneScale, ScaleBasis> scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options,
                                           const RunArguments& arguments, const std::stop_token& stop) {
-    const StatedScale stated = statedScale(source, range, arguments, stop);
+    const StatedScale stated = statedScale(source, range.first, range.last, arguments.video.gsd_m_per_px.value_or(0),
+                                           ScaleOrigin::given, stop);
+    if (!arguments.quiet) tellScaleOf(stated.by_metadata);
     if (stated.gsd_m_per_px <= 0 && source.info().gsd_m_per_px <= 0 && !arguments.quiet)
         std::fputs("GSD unknown: estimating the scale from the traffic\n", stderr);
     std::optional<ScaleEstimate> estimated;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/values/corner_density.h"
 #include "motion/clusters/linkage_gaps.h"
 #include "motion/differences/roof_bridge.h"
 
@@ -14,7 +15,6 @@ constexpr int kSplitSteps = 4;          ///< how often the linkage of a large cl
 constexpr double kTighter = 0.75;       ///< by this factor each time
 constexpr double kHeldByPieces = 0.75;  ///< share of a cluster's vectors that its pieces must hold
 constexpr double kSplitMargin = 2;      ///< px: corners lie up to a pixel beside the edges they belong to
-constexpr double kCarArea_m2 = kCarLength_m * kCarWidth_m;
 constexpr double kRoofHalfWidth = 0.6;  ///< m, of the strip that must be free of standing corners
 
 MotionCluster summarise(const FrameMotion& motion, std::vector<int> members, double margin) {
@@ -64,11 +64,8 @@ Linkage MotionClustering::linkageFor(double background_speed_sigma) const {
 }
 
 int MotionClustering::minMembersFor(const FrameMotion& motion, cv::Point2d place) const {
-    const double image_area = static_cast<double>(motion.image_size.area());
-    if (image_area <= 0 || options_.min_density_share <= 0) return options_.min_members;
-    const double gsd = scale_.at(place).gsd_m_per_px;
-    const double car_area = kCarArea_m2 / (gsd * gsd);
-    const double expected = motion.corner_count / image_area * car_area;
+    if (options_.min_density_share <= 0) return options_.min_members;
+    const double expected = cornersOnCar(motion, scale_.at(place));
     const double wanted =
         std::min(std::round(options_.min_density_share * expected), static_cast<double>(options_.max_min_members));
     return std::max(options_.min_members, static_cast<int>(wanted));

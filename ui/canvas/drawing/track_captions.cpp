@@ -39,8 +39,8 @@ void paintTrackCaptions(QPainter& painter, const OverlayScene& scene,
         labelled.push_back({&state, object});
         objects.push_back(object);
     });
-    // The order decides who is left out in a crowd: the selected one never, what a person drew after all that the
-    // machine found, and then the older (lower) id stays, so that labels do not flicker from frame to frame.
+    // The order decides who is left out in a crowd: never the selected one, of the others what a person drew goes last,
+    // and then the younger (higher) id, so that labels do not flicker from frame to frame.
     const auto rank = [&](const Labelled& l) {
         if (scene.selected_track == l.state->id) return 0;
         return l.state->origin == StateOrigin::by_hand ? 1 : 2;

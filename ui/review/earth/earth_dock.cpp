@@ -1,7 +1,6 @@
 #include "review/earth/earth_dock.h"
 
 #include <QHeaderView>
-#include <QScrollArea>
 #include <QTableView>
 #include <QVBoxLayout>
 
@@ -10,6 +9,7 @@
 #include "review/earth/ground_control.h"
 #include "review/earth/metadata_panel.h"
 #include "review/earth/video_earth.h"
+#include "widgets/layout/scrolled.h"
 #include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
@@ -31,13 +31,7 @@ EarthDock::EarthDock(const EarthParts& parts) : QObject(&parts.docks), parts_(pa
     rows->addWidget(metadata_, 1);
     rows->addWidget(&control_->panel());
     metadata_->table()->setMinimumHeight(kLeastRows * metadata_->table()->verticalHeader()->defaultSectionSize());
-    // On a small screen the sentences above and below the table would be cut.
-    auto* scroll = new QScrollArea;
-    scroll->setWidget(content);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    parts_.docks.add(DockId::metadata, tr("Metadata"), scroll);
+    parts_.docks.add(DockId::metadata, tr("Metadata"), scrolled(content));
     bindCommands(this, {{parts_.actions.control_points, [this] { parts_.docks.raise(DockId::metadata); }}});
     parts_.docks.watch(DockId::metadata, metadata_, [this](bool visible) { metadata_->setLookedAt(visible); });
     whenAny(earth_, this, &EarthDock::showNorth, &VideoEarth::changed);

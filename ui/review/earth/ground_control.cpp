@@ -198,15 +198,8 @@ void GroundControl::redo() {
 }
 
 void GroundControl::store(std::vector<ControlPoint> after) {
-    const auto& video = parts_.session.video();
-    if (!video || !parts_.session.media()) return;
+    if (!parts_.session.video() || !parts_.session.media()) return;
     parts_.messages.dismissTopic(kControlTopic);
-    SequenceRecord sequence;
-    sequence.path = parts_.session.media()->identity;
-    sequence.size = video->size;
-    sequence.frame_count = video->frame_count;
-    sequence.frame_rate_hz = video->frame_rate_hz;
-    sequence.rate_assumed = video->frame_rate_assumed;
     const std::vector<ControlPoint> before = std::exchange(points_, after);
     ++writing_;
     showPoints();
@@ -220,8 +213,8 @@ void GroundControl::store(std::vector<ControlPoint> after) {
         if (project == parts_.session.project()) parts_.earth.layOnEarth();
     };
     query_.post(
-        [project_path = parts_.session.project(), sequence, before, after = std::move(after),
-         settle](const BackgroundTask& task) {
+        [project_path = parts_.session.project(), sequence = parts_.session.sequenceToStore(), before,
+         after = std::move(after), settle](const BackgroundTask& task) {
             ProjectFile project = ProjectFile::open(project_path);
             const bool stored = exchangeControlPoints(project, ensureSequence(project, sequence), before, after);
             task.tell([settle, stored] {

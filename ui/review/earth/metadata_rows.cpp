@@ -104,16 +104,6 @@ QString streamName(const VideoMetadata& stream, std::size_t number) {
         .arg(stream.stream().packets.size());
 }
 
-QString damageText(const MetadataStream& stream) {
-    QStringList reasons;
-    for (std::size_t i = 0; i < stream.faults.size(); ++i)
-        if (stream.faults[i] > 0)
-            reasons << QStringLiteral("%1 %2×")
-                           .arg(QString::fromUtf8(klv::nameOf(static_cast<klv::Fault>(i))))
-                           .arg(stream.faults[i]);
-    return reasons.join(QStringLiteral(", "));
-}
-
 QString streamSummary(const VideoMetadata& stream, std::int64_t last_us) {
     const MetadataStream& sets = stream.stream();
     QStringList lines;
@@ -123,7 +113,8 @@ QString streamSummary(const VideoMetadata& stream, std::int64_t last_us) {
                                        : tell("%1 sets, %2 % of the video covered")
                                              .arg(QLocale().toString(qlonglong(sets.packets.size())))
                                              .arg(covered));
-    if (sets.damaged() > 0) lines << tell("%1 damaged, skipped: %2").arg(sets.damaged()).arg(damageText(sets));
+    if (sets.damaged() > 0)
+        lines << tell("%1 damaged, skipped: %2").arg(sets.damaged()).arg(fromEngine(damageText(sets)));
     if (sets.targetSets() > 0)
         lines << tell("%1 sets of moving targets (VMTI) beside them, not read").arg(sets.targetSets());
     std::optional<std::int64_t> first, last;

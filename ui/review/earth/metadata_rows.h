@@ -18,7 +18,5 @@ std::vector<MetadataRow> metadataRows(const VideoMetadata& stream, const Metadat
 QString streamSummary(const VideoMetadata& stream, std::int64_t last_us);
 /// "Stream 0 (track 2, PID 0x1f1)".
 QString streamName(const VideoMetadata& stream, std::size_t number);
-/// Of what was damaged, why: "wrong checksum 12×, cut off 1×"; empty where nothing was.
-QString damageText(const MetadataStream& stream);
 
 }  // namespace eyrie::ui

@@ -1,11 +1,11 @@
 #include "review/earth/video_earth.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "core/error.h"
 #include "events/stored_events.h"
+#include "session/background/pace.h"
 #include "store/labels/annotation_store.h"
 #include "store/review/control_points.h"
 #include "workspace/session_reactions.h"
@@ -13,8 +13,6 @@
 namespace eyrie::ui {
 
 namespace {
-
-constexpr auto kToldEvery = std::chrono::milliseconds(200);
 
 /// What a person found on the earth in the video of this identity; nothing where the project cannot be read.
 std::vector<ControlPoint> controlPointsOf(const std::filesystem::path& path, const std::string& identity) {
@@ -59,11 +57,9 @@ void VideoEarth::readMetadata() {
     if (!session_.media()) return;
     const auto work = [this, media = *session_.media()](const BackgroundTask& task) {
         const auto source = media.open({}, task.stop());
-        auto told_at = std::chrono::steady_clock::now();
+        Pace pace;
         FoundMetadata found = metadataOf(*source, task.stop(), [&](double share) {
-            const auto now = std::chrono::steady_clock::now();
-            if (now - told_at < kToldEvery) return;
-            told_at = now;
+            if (!pace.isDue()) return;
             task.tell([this, share] {
                 read_share_ = share;
                 emit readOn();
