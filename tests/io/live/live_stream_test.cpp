@@ -12,7 +12,7 @@
 #include "support/temporary_folder.h"
 #include "support/wait_until.h"
 
-namespace eyrie {
+namespace eyrie::live_stream_test {
 namespace {
 
 using test::LiveSender;
@@ -275,4 +275,4 @@ TEST(LiveAddresses, AreThoseOfTheNet) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::live_stream_test
