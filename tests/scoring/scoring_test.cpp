@@ -16,6 +16,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// A car that drives in frames 10 to 19, in a file or as labels of a project.
 class ScoringTest : public testing::Test {
@@ -116,6 +117,55 @@ TEST_F(ScoringTest, aFormatWithoutHeadingsIsKnownByItsName) {
 TEST_F(ScoringTest, filesThatCannotBeTheTruthAreRefused) {
     EXPECT_THROW(readGroundTruth({folder / "absent.csv"}, std::nullopt), Error);
     EXPECT_THROW(readGroundTruth({write("none.csv", "frame,id,x,y,length,width,heading\n")}, std::nullopt), Error);
+}
+
+TEST_F(ScoringTest, aTableOfNumbersIsTruthOrResultAsItIsAskedFor) {
+    // The seventh number is a mark in truth, where 0 is to be left out, and a score in results.
+    const auto table = write("numbers.txt", "1,7,41.5,36.5,20,10,0,-1,-1,-1\n2,7,41.5,36.5,20,10,0.5,-1,-1,-1\n");
+    const BoxesByFrame result = readResultBoxes({table});
+    ASSERT_EQ(result.size(), 2U);
+    EXPECT_FALSE(result.at(0).front().ignore);
+    EXPECT_EQ(result.at(1).front().score, 0.5);
+    const GroundTruth truth = readGroundTruth({table}, std::nullopt);
+    EXPECT_FALSE(truth.has_headings);
+    EXPECT_EQ(truth.boxes.size(), 2U);
+}
+
+TEST_F(ScoringTest, errorsOfATableOfNumbersAreToldByTheirLine) {
+    const auto messageOf = [&](const std::string& text, bool as_result) {
+        const auto file = write("broken.txt", text);
+        try {
+            if (as_result)
+                readResultBoxes({file});
+            else
+                readGroundTruth({file}, std::nullopt);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    for (const bool as_result : {false, true}) {
+        // Whatever digit comes first, behind empty lines and blanks.
+        for (const std::string first : {"0", "1", "5", "9"}) {
+            const std::string row = first + ",1,41.5,here,20,10,1\n";
+            EXPECT_THAT(messageOf(row, as_result), HasSubstr("broken.txt:1:10: \"here\" is not a number")) << row;
+            EXPECT_THAT(messageOf("\n \t\r\n \t" + row, as_result), HasSubstr("broken.txt:3:")) << row;
+        }
+        for (const std::string other : {"about,1,41.5\n", "12 cars\n", "-1,1,41.5,here\n", ":1,2\n", "\n\n", ""})
+            EXPECT_THAT(messageOf(other, as_result), Not(HasSubstr("is not a number"))) << other;
+    }
+}
+
+TEST_F(ScoringTest, aRunCoversTheFramesThatItHasDone) {
+    RunRecord run;
+    run.first_frame = 40;
+    run.last_frame = 99;
+    run.frames_done = 10;
+    EXPECT_EQ(coveredFrames(run), ScoredFrames(40, 49));
+    const Scoring whole = scoringOf(truth(0.5), {}, ScoredFrames{10, 19});
+    EXPECT_THAT(whole.truth.remarks, IsEmpty()) << "nothing was left out";
+    EXPECT_EQ(scoringOf(truth(0.5), {}, ScoredFrames{19, 30}).truth.boxes.size(), 1U);
+    EXPECT_EQ(scoringOf(truth(0.5), {}, ScoredFrames{0, 10}).truth.boxes.size(), 1U);
 }
 
 TEST_F(ScoringTest, labelsGoOverTheGroundAsTheRunRegisteredIt) {

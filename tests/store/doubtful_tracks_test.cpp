@@ -4,6 +4,7 @@
 
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
+#include "support/replaced_tracks.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::doubtful_tracks_test {
@@ -97,7 +98,7 @@ TEST_F(DoubtfulTracksTest, TellWhatSpokeForThemAndAgainst) {
 
 TEST_F(DoubtfulTracksTest, GoWithTheTracksThatAreReplaced) {
     finish();
-    store_.replaceTrackStates(run_, {});
+    test::replaceTrackStates(store_, run_, {});
     EXPECT_TRUE(store_.doubtful().summaries(run_).empty());
     EXPECT_FALSE(store_.doubtful().evidence(run_, 9));
 }

@@ -13,6 +13,7 @@
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/places.h"
+#include "support/replaced_tracks.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::project_file_test {
@@ -364,7 +365,7 @@ TEST_F(ProjectFileTest, ViewsTellStatesInWholeWordsAndWithTheirScore) {
         state.score = 0.625;
         states.push_back({i, state});
     }
-    store.replaceTrackStates(run, states);
+    test::replaceTrackStates(store, run, states);
     SQLite::Database other(path_.string(), SQLite::OPEN_READONLY);
     SQLite::Statement row(other, "SELECT status, origin, score FROM v_track_states ORDER BY frame");
     for (const TrackFrame& written : states) {

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
+#include "support/replaced_tracks.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::run_store_test {
@@ -267,7 +268,7 @@ TEST_F(RunStoreTest, ReplacedTracksShowEverywhere) {
     auto states = store.trackStates(writer.runId(), 1);
     states.pop_back();
     for (TrackFrame& state : states) state.state.status = TrackStatus::confirmed;
-    store.replaceTrackStates(writer.runId(), states);
+    test::replaceTrackStates(store, writer.runId(), states);
 
     ASSERT_EQ(store.tracks(writer.runId()).size(), 1U);
     EXPECT_EQ(store.tracks(writer.runId())[0].last_frame, 5);
@@ -301,7 +302,7 @@ TEST_F(RunStoreTest, WhatTheStatesOfAFinishedTrackHaveInCommonIsStoredOnceAndRea
     ProjectFile project = ProjectFile::open(path_);
     RunStore store(project);
     const std::vector<TrackFrame> written = finishedTrack();
-    store.replaceTrackStates(run, written);
+    test::replaceTrackStates(store, run, written);
     SQLite::Database& database = project.database();
     EXPECT_EQ(database.execAndGet("SELECT count(*) FROM track_state WHERE score IS NULL AND age = 0").getInt(), 3);
     EXPECT_EQ(database.execAndGet("SELECT score FROM track").getDouble(), 0.75);
@@ -338,7 +339,7 @@ TEST_F(RunStoreTest, StatesThatDifferKeepWhatIsTheirs) {
              [](TrackState& state) { state.score = std::numeric_limits<double>::quiet_NaN(); }}) {
         std::vector<TrackFrame> written = finishedTrack();
         change(written[1].state);
-        store.replaceTrackStates(run, written);
+        test::replaceTrackStates(store, run, written);
         const auto read = store.trackStates(run, 3);
         ASSERT_EQ(read.size(), written.size());
         for (std::size_t i = 0; i < read.size(); ++i) {
@@ -359,7 +360,7 @@ TEST_F(RunStoreTest, WhatFinishingLeftOutIsReadWithItsFrame) {
     EXPECT_TRUE(store.frameResult(writer.runId(), 5)->dropped.empty());
     const DroppedState shadow{7, {{50, 60}, 18, 7, 0.5}, TrackDrop::shadow, 1};
     const DroppedState small{8, {{10, 20}, 4, 2, 0}, TrackDrop::too_small, 0};
-    store.replaceTrackStates(writer.runId(), {}, {{5, small}, {5, shadow}, {6, small}});
+    test::replaceTrackStates(store, writer.runId(), {}, {{5, small}, {5, shadow}, {6, small}});
     const auto dropped = store.frameResult(writer.runId(), 5)->dropped;
     ASSERT_EQ(dropped.size(), 2U);
     EXPECT_EQ(dropped[0].id, 7);
@@ -368,9 +369,9 @@ TEST_F(RunStoreTest, WhatFinishingLeftOutIsReadWithItsFrame) {
     EXPECT_EQ(dropped[0].box.centre, cv::Point2d(50, 60));
     EXPECT_EQ(dropped[0].box.heading, 0.5);
     EXPECT_EQ(store.frameResult(writer.runId(), 6)->dropped.size(), 1U);
-    store.replaceTrackStates(writer.runId(), {});
+    test::replaceTrackStates(store, writer.runId(), {});
     EXPECT_TRUE(store.frameResult(writer.runId(), 5)->dropped.empty());
-    store.replaceTrackStates(writer.runId(), {}, {{5, small}});
+    test::replaceTrackStates(store, writer.runId(), {}, {{5, small}});
     EXPECT_EQ(store.frameResult(writer.runId(), 5)->dropped.size(), 1U);
 }
 

@@ -254,18 +254,6 @@ std::vector<Registration> RunStore::registrations(int run_id) const {
     return registrations;
 }
 
-void RunStore::replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
-                                  const std::vector<std::pair<FrameIndex, DroppedState>>& dropped) {
-    TracksOfRun tracks;
-    tracks.states = [&](const StateVisitor& visitor) {
-        for (const TrackFrame& state : states) visitor(state.frame, state.state);
-    };
-    tracks.dropped = [&](const TracksOfRun::DropVisitor& visitor) {
-        for (const auto& [frame, state] : dropped) visitor(frame, state);
-    };
-    replaceTracks(run_id, tracks);
-}
-
 void RunStore::replaceTracks(int run_id, const TracksOfRun& tracks) {
     guarded(project_.path(), "replacing the tracks" + ofRun(run_id), [&] {
         SQLite::Database& database = project_.database();

@@ -155,11 +155,8 @@ class RunStore {
     void visitTrackBoxes(int run_id, const BoxVisitor& visitor) const;
     void visitDetectionBoxes(int run_id, const BoxVisitor& visitor) const;
 
-    /// Replaces all track states of a run, and what was left out of them, in one transaction (used once, when the
-    /// tracks of a run are finished).
-    void replaceTrackStates(int run_id, const std::vector<TrackFrame>& states,
-                            const std::vector<std::pair<FrameIndex, DroppedState>>& dropped = {});
-    /// The same with all that is known of them.
+    /// Replaces all tracks of a run with what is known of them, and what was left out, in one transaction (used once,
+    /// when the tracks of a run are finished).
     void replaceTracks(int run_id, const TracksOfRun& tracks);
     void rename(int run_id, const std::string& name);
     /// Takes a run out of all lists; it can be brought back until it is purged. Throws Error(project) naming the

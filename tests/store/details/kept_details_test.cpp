@@ -9,6 +9,7 @@
 #include "store/runs/result_writer.h"
 #include "store/runs/run_counts.h"
 #include "store/samples.h"
+#include "support/replaced_tracks.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::kept_details_test {
@@ -115,7 +116,7 @@ TEST_F(KeptDetails, WhatWasLeftOutIsCountedWithoutThem) {
             state.why = TrackDrop::shadow;
             dropped.emplace_back(frame, state);
         }
-    store.replaceTrackStates(run, {}, dropped);
+    test::replaceTrackStates(store, run, {}, dropped);
     EXPECT_EQ(countRun(project, run).dropped_tracks, 2);
     EXPECT_EQ(store.frameResult(run, 1)->dropped.size(), 2U) << "the first of each";
     EXPECT_EQ(store.frameResult(run, 5)->dropped.size(), 2U) << "those of a frame with details";

@@ -1,3 +1,6 @@
+#include <QComboBox>
+#include <QSpinBox>
+#include <QTableWidget>
 #include <fstream>
 
 #include "label/files/label_files.h"
@@ -49,6 +52,34 @@ class LabelFilesTest : public QObject, test::Labelling {
 
         key(*window, Qt::Key_Z, Qt::ControlModifier);
         QVERIFY(labels.annotations().objects.empty());
+    }
+
+    void importShiftsFramesAndRenamesClasses() {
+        const auto window = labellingWindow(10);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        const auto file = home() / "truth.txt";
+        {
+            std::ofstream out(file);
+            for (int frame = 1; frame <= 6; ++frame) out << frame << ",4," << 20 + 3 * frame << ",30,20,10,1,3,1\n";
+        }
+        LabelImportDialog import(labels);
+        QSignalSpy read(&import, &LabelImportDialog::fileRead);
+        import.setFile(file);
+        QVERIFY(read.wait(kPatience_ms));
+        QVERIFY2(import.report().contains(QStringLiteral("frames 0 to 5")), qPrintable(import.report()));
+        import.findChild<QSpinBox*>()->setValue(2);
+        QVERIFY(read.wait(kPatience_ms));
+        QVERIFY2(import.report().contains(QStringLiteral("frames 2 to 7")), qPrintable(import.report()));
+        auto* becomes = qobject_cast<QComboBox*>(import.findChild<QTableWidget*>()->cellWidget(0, 2));
+        QVERIFY(becomes != nullptr);
+        QCOMPARE(becomes->currentText(), QStringLiteral("car"));
+        becomes->setCurrentText(QStringLiteral("van"));
+        import.accept();
+        QVERIFY(waitFor([&] { return !labels.annotations().objects.empty(); }));
+        const LabelledObject& object = labels.annotations().objects.begin()->second;
+        QCOMPARE(object.object_class, std::string("van"));
+        QCOMPARE(object.keyframes.front().frame, 2);
     }
 
     void aFileImportedTwiceSaysSoAndAddsNothingUnlessAsked() {

@@ -11,6 +11,7 @@
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
 #include "review/tracks_panel.h"
+#include "support/replaced_tracks.h"
 #include "ui/session/session_support.h"
 #include "ui/window/window_with_run.h"
 #include "widgets/message_bar.h"
@@ -111,7 +112,7 @@ class CorrectingWindowTest : public QObject {
         store.visitTrackStates(run, [&](FrameIndex frame, const TrackState& state) {
             if (state.id != track) kept.push_back({frame, state});
         });
-        store.replaceTrackStates(run, kept);
+        eyrie::test::replaceTrackStates(store, run, kept);
         return lost;
     }
 

@@ -242,10 +242,10 @@ class MainWindowTest : public QObject {
     }
 
     void speedsAreCountedInRoundBins() {
-        std::vector<MotionVector> vectors(100);
-        for (int i = 0; i < 100; ++i) vectors[static_cast<size_t>(i)].velocity = {0.01F * static_cast<float>(i), 0};
-        vectors.back().velocity = {50, 0};  // a wild one
-        const HistogramData data = speedHistogram(vectors, {});
+        std::vector<double> speeds_px;
+        for (int i = 0; i < 99; ++i) speeds_px.push_back(0.01 * i);
+        speeds_px.push_back(50);  // a wild one
+        const HistogramData data = speedHistogramOf(speeds_px, {});
         QVERIFY(data.value_label.contains(QStringLiteral("px/frame")));
         QCOMPARE(data.bin_width, 0.05);
         const auto& counts = data.series.front().counts;
@@ -255,9 +255,9 @@ class MainWindowTest : public QObject {
         QCOMPARE(sum, 100.0);
         QCOMPARE(counts.back(), 1.0);
         QVERIFY(data.text().startsWith(QStringLiteral("speed (px/frame)\tmotion vectors\n0\t")));
-        QVERIFY(speedHistogram({}, {}).series.front().counts.empty());
+        QVERIFY(speedHistogramOf({}, {}).series.front().counts.empty());
         const SceneScale metres{0.25, 25, true};
-        QVERIFY(speedHistogram(vectors, metres).value_label.contains(QStringLiteral("km/h")));
+        QVERIFY(speedHistogramOf(speeds_px, metres).value_label.contains(QStringLiteral("km/h")));
     }
 
     void statisticsAreReadWhenTheyAreLookedAt() {

@@ -133,11 +133,10 @@ void paintRegions(QPainter& painter, const LabelScene& scene, const ViewTransfor
 
 }  // namespace
 
-void paintLabels(QPainter& painter, const LabelScene& scene, const ViewTransform& transform, const QRectF& view,
-                 bool with_text) {
+void paintLabels(QPainter& painter, const LabelScene& scene, const ViewTransform& transform, const QRectF& view) {
     paintRegions(painter, scene, transform);
     paintBoxes(painter, scene, transform, view);
-    if (with_text) paintLabelTexts(painter, scene, transform, view);
+    paintLabelTexts(painter, scene, transform, view);
 }
 
 const LabelMark* markAt(const LabelScene& scene, QPointF image_point, double margin) {

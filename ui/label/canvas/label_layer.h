@@ -11,8 +11,7 @@ namespace eyrie::ui {
 
 /// Draws the labels of a frame: keyframes solid, interpolated boxes dashed, what is only expected dotted, ignored ones
 /// faint and crossed, occluded ones with a bar; ids where there is room.
-void paintLabels(QPainter& painter, const LabelScene& scene, const ViewTransform& transform, const QRectF& view,
-                 bool with_text);
+void paintLabels(QPainter& painter, const LabelScene& scene, const ViewTransform& transform, const QRectF& view);
 
 /// The mark under an image point, the smallest if several are; `margin` px around boxes count as hit. Objects win over
 /// proposals.

@@ -281,9 +281,9 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
                 mark.box = *draft_;
                 mark.kind = LabelKind::keyframe;
             }
-        paintLabels(painter, shown, place.transform, place.view, text_shown_);
+        paintLabels(painter, shown, place.transform, place.view);
     } else {
-        paintLabels(painter, scene_, place.transform, place.view, text_shown_);
+        paintLabels(painter, scene_, place.transform, place.view);
     }
     if (selected != nullptr && scene_.editable && !drawing_) {
         const OrientedBox& box = draft_ ? *draft_ : selected->box;

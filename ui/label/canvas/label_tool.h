@@ -45,9 +45,7 @@ class LabelTool : public QObject, public CanvasTool {
 
     void setScene(LabelScene scene);
     const LabelScene& scene() const { return scene_; }
-    void setTextShown(bool shown) { text_shown_ = shown; }
     void setLoupeShown(bool shown) { loupe_shown_ = shown; }
-    bool loupeShown() const { return loupe_shown_; }
     /// What the selected object looks like over many frames; shown while its frame and object are.
     void setStack(std::optional<LoupeStack> stack);
     void setStackShown(bool shown);
@@ -93,7 +91,6 @@ class LabelTool : public QObject, public CanvasTool {
 
     LabelToolCommands commands_;
     LabelScene scene_;
-    bool text_shown_ = true;
     bool loupe_shown_ = true;
     bool stack_shown_ = true;
     std::optional<LoupeStack> stack_;

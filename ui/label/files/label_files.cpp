@@ -204,16 +204,6 @@ QString LabelImportDialog::report() const {
     return text_->toPlainText();
 }
 
-void LabelImportDialog::mapClass(const QString& from, const QString& to) {
-    for (int row = 0; row < classes_->rowCount(); ++row)
-        if (classes_->item(row, 0)->data(Qt::UserRole).toString() == from)
-            qobject_cast<QComboBox*>(classes_->cellWidget(row, 2))->setCurrentText(to);
-}
-
-void LabelImportDialog::setShift(int frames) {
-    shift_->setValue(frames);
-}
-
 void LabelImportDialog::setAddDoubles(bool add) {
     add_doubles_->setChecked(add);
 }

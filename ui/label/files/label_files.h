@@ -37,8 +37,6 @@ class LabelImportDialog : public QDialog {
     /// What was found, for people.
     QString report() const;
     bool readyToImport() const { return report_.has_value(); }
-    void mapClass(const QString& from, const QString& to);
-    void setShift(int frames);
     /// Objects that are labelled already are taken all the same.
     void setAddDoubles(bool add);
     /// Boxes without id that overlap from frame to frame become one object, otherwise each an object of one frame.

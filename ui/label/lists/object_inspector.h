@@ -76,7 +76,6 @@ class ObjectInspector : public QWidget {
     void showObject(const std::optional<ObjectDetails>& details);
     QString title() const;
     QString boxText() const;
-    QToolButton* colourButton() const { return colour_; }
 
  private:
     void chooseColour();

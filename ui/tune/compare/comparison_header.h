@@ -37,7 +37,6 @@ class ComparisonHeader : public QWidget {
     QString firstName() const;
     QString secondName() const;
     bool comparesForm() const;
-    int runCount() const { return run_count_; }
 
     void setSummary(const QString& text);
     QString summary() const;

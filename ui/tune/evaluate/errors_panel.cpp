@@ -113,10 +113,6 @@ int ErrorsPanel::neighbour(int step) const {
     return shown->index(next, 0).data(id_role).toInt();
 }
 
-int ErrorsPanel::shownCount() {
-    return proxy().rowCount();
-}
-
 QList<int> ErrorsPanel::rowsWithoutChip() const {
     QList<int> ids;
     const QAbstractItemModel* shown = table()->model();

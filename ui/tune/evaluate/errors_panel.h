@@ -35,12 +35,8 @@ class ErrorsPanel : public TablePanel {
     /// Only errors of this kind or cause; empty: all.
     void setShownKind(const QString& kind);
     void setShownCause(const QString& cause);
-    const QString& shownKind() const { return kind_; }
-    const QString& shownCause() const { return cause_; }
     /// The next or previous row in the order shown, from the selected one; 0 when there is none.
     int neighbour(int step) const;
-    /// Rows that are shown, and all.
-    int shownCount();
     /// A line below the list, about the error that is looked at or what a correction changed.
     void setStatus(const QString& text);
     QString status() const;

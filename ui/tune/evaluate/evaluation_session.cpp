@@ -1,6 +1,5 @@
 #include "tune/evaluate/evaluation_session.h"
 
-#include <QDateTime>
 #include <QSettings>
 #include <exception>
 
@@ -128,7 +127,6 @@ void EvaluationSession::refresh() {
         return;
     }
     stale_ = false;
-    asked_at_ms_ = QDateTime::currentMSecsSinceEpoch();
     setWorking(true);
     const auto work = [this, wish = request()](const BackgroundTask& task) {
         const auto evaluation = evaluator_->evaluate(wish, task.stop());
@@ -156,7 +154,6 @@ void EvaluationSession::adopt(const std::shared_ptr<const RunEvaluation>& evalua
     const auto before = evaluation_;
     evaluation_ = evaluation;
     obstacle_ = obstacle;
-    took_ms_ = static_cast<double>(QDateTime::currentMSecsSinceEpoch() - asked_at_ms_);
     matches_.clear();
     errors_.clear();
     if (evaluation_) {

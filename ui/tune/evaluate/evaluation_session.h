@@ -50,8 +50,6 @@ class EvaluationSession : public QObject {
     /// Why there is none, and what to do; empty when there is one, or one is being computed.
     const QString& obstacle() const { return obstacle_; }
     bool working() const { return working_; }
-    /// Milliseconds from the wish to the answer, of the last one.
-    double lastTook_ms() const { return took_ms_; }
     /// What would be computed now; for reports.
     EvaluationRequest request() const;
 
@@ -86,8 +84,6 @@ class EvaluationSession : public QObject {
     bool wanted_ = false;
     bool stale_ = true;  ///< something changed since the last answer was asked for
     bool working_ = false;
-    qint64 asked_at_ms_ = 0;
-    double took_ms_ = 0;
     std::shared_ptr<const RunEvaluation> evaluation_;
     std::map<FrameIndex, std::size_t> matches_;              ///< of each frame, into evaluation_->matches
     std::map<FrameIndex, std::vector<std::size_t>> errors_;  ///< places of switches and fragments

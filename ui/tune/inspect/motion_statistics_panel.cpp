@@ -39,13 +39,6 @@ QLabel* titleLabel(QWidget* parent) {
 
 }  // namespace
 
-HistogramData speedHistogram(const std::vector<MotionVector>& vectors, const SceneScale& scale, int most_bins) {
-    std::vector<double> speeds;
-    for (const MotionVector& vector : vectors)
-        speeds.push_back(std::hypot(static_cast<double>(vector.velocity.x), static_cast<double>(vector.velocity.y)));
-    return speedHistogramOf(std::move(speeds), scale, most_bins);
-}
-
 HistogramData speedHistogramOf(std::vector<double> speeds, const SceneScale& scale, int most_bins) {
     HistogramData data;
     data.value_label = QObject::tr("speed (%1)").arg(speedUnit(scale));

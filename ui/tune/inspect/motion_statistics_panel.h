@@ -15,10 +15,8 @@ namespace eyrie::ui {
 
 class EmptyState;
 
-/// How often each speed occurs among motion vectors, px/frame or km/h (fig. 4.4). At most about `most_bins` bins of a
-/// round width.
-HistogramData speedHistogram(const std::vector<MotionVector>& vectors, const SceneScale& scale, int most_bins = 24);
-/// The same of speeds in px/frame.
+/// How often each speed occurs among motion vectors of these speeds, in px/frame or km/h (fig. 4.4). At most about
+/// `most_bins` bins of a round width.
 HistogramData speedHistogramOf(std::vector<double> speeds_px, const SceneScale& scale, int most_bins = 24);
 
 /// Statistics of the motion vectors of the frame shown or of the run: how fast they are, how long they live, and how

@@ -14,7 +14,6 @@ class CollapsibleSection : public QWidget {
     explicit CollapsibleSection(const QString& title, QWidget* parent = nullptr);
     void addRow(QWidget* row);
     void setTitle(const QString& title);
-    bool isExpanded() const { return expanded_; }
     void setExpanded(bool expanded);
     /// Shows the rows whether folded or not, as while searching; the user's choice comes back afterwards.
     void setForcedOpen(bool forced);

@@ -60,10 +60,6 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
     showRuns();
 }
 
-void ReviewDocks::showTrackList() {
-    parts_.docks.raise(DockId::tracks);
-}
-
 void ReviewDocks::wireRuns() {
     connect(&session_, &ProjectSession::liveFrames, this, [this] {
         if (const RunRecord* run = session_.ownRun()) runs_model_->updateRun(*run);

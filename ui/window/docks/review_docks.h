@@ -60,9 +60,6 @@ class ReviewDocks : public QObject {
     /// What is done when the list asks how like tracks are to one: TracksPanel::setLikeness().
     void setLikenessWanted(std::function<void(std::optional<TrackId>)> want) { want_likeness_ = std::move(want); }
 
-    /// Brings the list of tracks to the front.
-    void showTrackList();
-
  private:
     void wireRuns();
     void wireTracks();
