@@ -50,8 +50,9 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
     parser.addHelpOption();
     parser.addVersionOption();
     parser.addPositionalArgument(QStringLiteral("input"),
-                                 QStringLiteral("Video, folder of images, or project (.eyrie)."),
-                                 QStringLiteral("[VIDEO|PROJECT]"));
+                                 QStringLiteral("Video, or several files that are one video in a row; folder of "
+                                                "images; or project (.eyrie)."),
+                                 QStringLiteral("[VIDEO…|PROJECT]"));
     const QCommandLineOption gsd(QStringLiteral("gsd"), QStringLiteral("Ground sampling distance, metres per pixel."),
                                  QStringLiteral("m"));
     const QCommandLineOption rate(QStringLiteral("fps"), QStringLiteral("Frames per second, for folders of images."),
@@ -75,8 +76,8 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
 
     StartOptions options;
     const QStringList inputs = parser.positionalArguments();
-    if (inputs.size() > 1) refuse(QStringLiteral("expected one video or project, got %1").arg(inputs.size()));
     if (!inputs.isEmpty()) options.input = asGiven(inputs.front(), argc, argv);
+    for (const QString& part : inputs.mid(1)) options.further_parts.emplace_back(asGiven(part, argc, argv));
     options.gsd_m_per_px = positive(parser, gsd);
     if (const std::string why = eyrie::whyNotAGsd(options.gsd_m_per_px); parser.isSet(gsd) && !why.empty())
         refuse(QStringLiteral("--gsd %1: %2").arg(parser.value(gsd), QString::fromStdString(why)));

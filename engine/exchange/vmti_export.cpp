@@ -122,6 +122,11 @@ VmtiReport writeVmti(const LabelStream& labels, const FrameSource& video, const 
         throw Error(ErrorKind::input, video.info().path.string() +
                                           ": a folder of images cannot be copied into a transport stream; make a video "
                                           "of it first");
+    if (!video.info().parts.empty())
+        throw Error(ErrorKind::input,
+                    video.info().path.string() +
+                        ": consists of several files, which cannot be copied into one transport stream; join them "
+                        "first, or export the tracks as another format");
     VmtiFrames frames(labels, video, world);
     const std::vector<std::int64_t> stamps = stampsOf(video);
     VmtiReport report;

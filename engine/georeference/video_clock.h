@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "georeference/video_metadata.h"
 
@@ -22,6 +23,12 @@ class VideoClock {
     /// began, that one beginning counts for the whole video, so that no moment is missing and none goes back; else
     /// each moment has the time that is stated near it, if any. No clock where there is no stamp.
     static VideoClock byMetadata(std::shared_ptr<const VideoMetadata> metadata);
+    /// Of a video in parts each begins when its list says so, else when its own metadata do, as above; so that what
+    /// was not recorded between two parts shows. A part of which nothing tells goes on from the one before it, those
+    /// before the first that is known lead up to it. `given_us`, when the video began as a person says, moves all of
+    /// them together. Of a video that is one file by `given_us`, else by its metadata.
+    static VideoClock ofParts(const std::vector<VideoPart>& parts, std::shared_ptr<const VideoMetadata> metadata,
+                              std::optional<std::int64_t> given_us);
 
     Source source() const { return source_; }
     /// Of `video_us` from the beginning of the video; nothing where it is not known.
@@ -30,10 +37,23 @@ class VideoClock {
     std::string origin() const;
 
  private:
+    /// What holds from a moment of the video on.
+    struct Stretch {
+        std::int64_t from_us = 0;
+        std::optional<std::int64_t> start_us;  ///< of the whole video, if it had run on; none: each moment has its own
+    };
+
+    /// `part`: of whose sets; none: of all.
+    static std::optional<Stretch> stretchBy(const VideoMetadata& metadata, std::int64_t from_us,
+                                            std::optional<int> part, int& odd_stamps);
+
     Source source_ = Source::none;
-    std::optional<std::int64_t> start_us_;
+    std::vector<Stretch> stretches_;                 ///< ascending
     std::shared_ptr<const VideoMetadata> metadata_;  ///< where each moment has its own stamp
-    int odd_stamps_ = 0;                             ///< that disagree with `start_us_`
+    int odd_stamps_ = 0;                             ///< that disagree with the start of their stretch
+    int listed_parts_ = 0;                           ///< whose start stands in the list
+    int stamped_parts_ = 0;                          ///< whose metadata count
+    int silent_parts_ = 0;                           ///< of which nothing tells
 };
 
 }  // namespace eyrie

@@ -5,14 +5,16 @@
 namespace eyrie {
 
 FoundMetadata metadataOf(const FrameSource& source, const std::stop_token& stop, const IndexProgress& progress) {
-    const std::vector<PictureStamp> pictures = source.pictureStamps();
-    if (pictures.empty()) return {nullptr, "it is no video file, so it carries no metadata (KLV)"};
+    FoundMetadata found{nullptr, "it is no video file, so it carries no metadata (KLV)", {}, source.info().parts};
     try {
-        MetadataRecording recording = readMetadata(source.info().path, progress, stop);
+        const std::vector<PictureStamp> pictures = source.pictureStamps();
+        if (pictures.empty()) return found;
+        MetadataRecording recording = readMetadata(source.info(), progress, stop);
         const int chosen = recording.mostUseful();
-        FoundMetadata found{nullptr, "the video carries no metadata (KLV)"};
+        found.why_not = "the video carries no metadata (KLV)";
+        const TimelineOptions options = timelineOptionsOf(source.info());
         for (MetadataStream& stream : recording.streams)
-            found.streams.push_back(std::make_shared<const VideoMetadata>(std::move(stream), pictures));
+            found.streams.push_back(std::make_shared<const VideoMetadata>(std::move(stream), pictures, options));
         if (chosen >= 0) {
             found.metadata = found.streams[static_cast<std::size_t>(chosen)];
             found.why_not.clear();
@@ -21,7 +23,8 @@ FoundMetadata metadataOf(const FrameSource& source, const std::stop_token& stop,
         }
         return found;
     } catch (const Error& error) {
-        return {nullptr, error.what()};
+        found.why_not = error.what();
+        return found;
     }
 }
 

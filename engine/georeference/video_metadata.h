@@ -13,8 +13,8 @@ namespace eyrie {
 /// A stream of metadata in the time of its video. Never changed once made; may be shared by threads.
 class VideoMetadata {
  public:
-    VideoMetadata(MetadataStream stream, const std::vector<PictureStamp>& pictures)
-        : stream_(std::move(stream)), timeline_(stream_, pictures) {}
+    VideoMetadata(MetadataStream stream, const std::vector<PictureStamp>& pictures, const TimelineOptions& options = {})
+        : stream_(std::move(stream)), timeline_(stream_, pictures, options) {}
     VideoMetadata(const VideoMetadata&) = delete;
     VideoMetadata& operator=(const VideoMetadata&) = delete;
 
@@ -32,6 +32,7 @@ struct FoundMetadata {
     std::string why_not;                            ///< for people: "the video carries no metadata (KLV)"
     /// All streams of metadata, `metadata` among them; also those in which no set could be read.
     std::vector<std::shared_ptr<const VideoMetadata>> streams = {};
+    std::vector<VideoPart> parts = {};  ///< of the video; none where it is one file
 };
 
 /// Reads the metadata beside the pictures of `source`. Never throws for what is wrong with them: a video is to be

@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/folder.h"
 #include "io/video/image_sequence.h"
+#include "io/video/parts/part_list.h"
 
 extern "C" {
 #include <libavutil/mem.h>
@@ -46,12 +47,41 @@ class Sha256 {
     std::unique_ptr<AVSHA, Free> state_;
 };
 
+constexpr std::uintmax_t kEdge = 1U << 16;  ///< bytes
+
+/// What the digest of a path is made of, in order.
+std::vector<std::filesystem::path> filesOf(const std::filesystem::path& path) {
+    if (isFolder(path)) return imagesIn(path);
+    if (!hasPartListName(path)) return {path};
+    std::vector<std::filesystem::path> files;
+    for (const ListedPart& part : readPartList(path)) files.push_back(part.file);
+    return files;
+}
+
 }  // namespace
+
+std::string edgeDigestOf(const std::filesystem::path& path) {
+    checkReadableFile(path);
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(path, failed);
+    std::ifstream stream(path, std::ios::binary);
+    Sha256 sum;
+    std::vector<char> block(kEdge);
+    const auto add = [&](std::uintmax_t from, std::uintmax_t to) {
+        stream.seekg(static_cast<std::streamoff>(from));
+        stream.read(block.data(), static_cast<std::streamsize>(to - from));
+        sum.add(block.data(), static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+    };
+    add(0, std::min(size, kEdge));
+    if (size > kEdge) add(std::max(kEdge, size - kEdge), size);
+    if (failed || stream.fail()) throw Error(ErrorKind::input, path.string() + ": cannot be read to its end");
+    return sum.digits();
+}
 
 std::string sha256Of(const std::filesystem::path& path, const std::function<void(double)>& progress,
                      const std::stop_token& stop) {
-    const bool folder = isFolder(path);
-    const std::vector<std::filesystem::path> files = folder ? imagesIn(path) : std::vector<std::filesystem::path>{path};
+    const bool several = isFolder(path) || hasPartListName(path);
+    const std::vector<std::filesystem::path> files = filesOf(path);
     std::uintmax_t total = 0, done = 0;
     for (const std::filesystem::path& file : files) {
         checkReadableFile(file);
@@ -61,7 +91,7 @@ std::string sha256Of(const std::filesystem::path& path, const std::function<void
     std::vector<char> block(1 << 20);
     for (const std::filesystem::path& file : files) {
         const std::string name = file.filename().string();
-        if (folder) sum.add(name.c_str(), name.size() + 1);
+        if (several) sum.add(name.c_str(), name.size() + 1);
         std::ifstream stream(file, std::ios::binary);
         while (stream) {
             if (stop.stop_requested()) return {};

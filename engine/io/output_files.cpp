@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "io/atomic_file.h"
+#include "io/video/parts/part_list.h"
 
 namespace eyrie {
 namespace {
@@ -144,12 +145,26 @@ bool replaces(const OutputFile& output) {
     return true;
 }
 
+/// Lists of parts with the files they name.
+std::vector<fs::path> withParts(std::vector<fs::path> inputs) {
+    const std::size_t count = inputs.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!hasPartListName(inputs[i])) continue;
+        try {
+            for (const ListedPart& part : readPartList(inputs[i])) inputs.push_back(part.file);
+        } catch (const Error&) {
+            // Told by whoever opens it.
+        }
+    }
+    return inputs;
+}
+
 }  // namespace
 
 std::vector<fs::path> filesToReplace(const std::vector<OutputFile>& outputs, const std::vector<fs::path>& inputs) {
     std::vector<Input> read;
     std::vector<Identity> databases;
-    for (const fs::path& path : inputs) {
+    for (const fs::path& path : withParts(inputs)) {
         if (path.empty()) continue;
         const Identity identity = identify(path);
         if (!identity.exists()) continue;

@@ -18,9 +18,9 @@ struct OutputFile {
 };
 
 /// Checks what is to be written against what is read and what is there. Inputs are files or folders (then every file
-/// in them is read); names of no file are skipped. Any project that this process has open must be among the inputs:
-/// it is recognised as the same file (also through links) without being opened. Devices and pipes are written to as
-/// they are.
+/// in them is read) or lists of parts (then these are read, too); names of no file are skipped. Any project that this
+/// process has open must be among the inputs: it is recognised as the same file (also through links) without being
+/// opened. Devices and pipes are written to as they are.
 ///
 /// Answers the existing files of the same kind that would be replaced; they need somebody's consent. Throws
 /// Error(output) for everything that may not or cannot be written, and Error(project) where a project should be that is

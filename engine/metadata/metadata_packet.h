@@ -34,6 +34,7 @@ struct MetadataPacket {
     std::int64_t stamp_us = 0;           ///< on the clock of the container; kNoStamp: none
     std::int64_t position = -1;          ///< byte in the file where the packet that holds it begins; -1: unknown
     int pictures_before = 0;             ///< packets of the video that lie before it in the file
+    int part = 0;                        ///< of a video in parts: number of the file that holds it, from 0
     bool has_checksum = false;           ///< states a checksum, and it agrees
     std::vector<Number> numbers;         ///< ascending by tag
     std::vector<Text> texts;             ///< in the order of the set

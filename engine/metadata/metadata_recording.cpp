@@ -57,6 +57,50 @@ MetadataRecording readRaw(const std::filesystem::path& path, const IndexProgress
     return recording;
 }
 
+/// The data tracks of the files of a video, one file after the other.
+class TrackReading {
+ public:
+    /// Of a video in one file the part is that file.
+    void read(const VideoPart& part, const IndexProgress& progress, const std::stop_token& stop) {
+        const auto found = readDataStreams(
+            part.file,
+            [&](DataPacket packet) {
+                auto known = collectors_.find(packet.stream);
+                if (known == collectors_.end() && holdsKey(packet.bytes))
+                    known = collectors_.try_emplace(packet.stream, DataStream{packet.stream, 0, ""}, part_).first;
+                if (known == collectors_.end()) return;
+                packet.pictures_before += part.first_picture;
+                packet.stamp_us = shiftedStamp(packet.stamp_us, part.stamp_shift_us);
+                known->second.feed(packet);
+            },
+            progress, stop);
+        for (auto& [number, collector] : collectors_) collector.endOfPart();
+        ++part_;
+        for (const DataStream& track : found) tracks_.try_emplace(track.number, track);
+    }
+
+    MetadataRecording finish() {
+        MetadataRecording recording;
+        for (const auto& [number, track] : tracks_) {
+            const auto known = collectors_.find(number);
+            if (known != collectors_.end()) {
+                recording.streams.push_back(known->second.finish());
+                recording.streams.back().track = track;
+            } else if (track.codec == "klv") {
+                recording.streams.emplace_back().track = track;
+            } else {
+                recording.foreign_tracks.push_back(track);
+            }
+        }
+        return recording;
+    }
+
+ private:
+    std::map<int, MetadataCollector> collectors_;  ///< by number of the track
+    std::map<int, DataStream> tracks_;
+    int part_ = 0;
+};
+
 }  // namespace
 
 int MetadataStream::damaged() const {
@@ -131,8 +175,14 @@ std::optional<klv::Fault> MetadataCollector::take(const klv::Set& set) {
     return std::nullopt;
 }
 
-MetadataStream MetadataCollector::finish() {
+void MetadataCollector::endOfPart() {
     splitter_.finish([this](const klv::Set& set) { return take(set); });
+    last_utc_us_.reset();
+    ++carriage_.part;
+}
+
+MetadataStream MetadataCollector::finish() {
+    endOfPart();
     stream_.faults = splitter_.faults();
     return std::move(stream_);
 }
@@ -150,29 +200,23 @@ MetadataRecording readMetadata(const std::filesystem::path& path, const IndexPro
                                const std::stop_token& stop) {
     checkReadableFile(path);
     if (isRawKlv(path)) return readRaw(path, progress, stop);
-    std::map<int, MetadataCollector> collectors;
-    const auto tracks = readDataStreams(
-        path,
-        [&](const DataPacket& packet) {
-            auto known = collectors.find(packet.stream);
-            if (known == collectors.end() && holdsKey(packet.bytes))
-                known = collectors.try_emplace(packet.stream, DataStream{packet.stream, 0, ""}).first;
-            if (known != collectors.end()) known->second.feed(packet);
-        },
-        progress, stop);
-    MetadataRecording recording;
-    for (const DataStream& track : tracks) {
-        const auto known = collectors.find(track.number);
-        if (known != collectors.end()) {
-            recording.streams.push_back(known->second.finish());
-            recording.streams.back().track = track;
-        } else if (track.codec == "klv") {
-            recording.streams.emplace_back().track = track;
-        } else {
-            recording.foreign_tracks.push_back(track);
-        }
+    VideoPart whole;
+    whole.file = path;
+    TrackReading reading;
+    reading.read(whole, progress, stop);
+    return reading.finish();
+}
+
+MetadataRecording readMetadata(const VideoInfo& video, const IndexProgress& progress, const std::stop_token& stop) {
+    if (video.parts.empty()) return readMetadata(video.path, progress, stop);
+    TrackReading reading;
+    for (std::size_t i = 0; i < video.parts.size(); ++i) {
+        const auto share = [&](double of_part) {
+            if (progress) progress((static_cast<double>(i) + of_part) / static_cast<double>(video.parts.size()));
+        };
+        reading.read(video.parts[i], share, stop);
     }
-    return recording;
+    return reading.finish();
 }
 
 }  // namespace eyrie

@@ -54,8 +54,14 @@ struct MetadataRecording {
 /// Takes the packets of one stream one by one.
 class MetadataCollector {
  public:
-    explicit MetadataCollector(const DataStream& track) { stream_.track = track; }
+    /// `part` is the number of the file that comes first, of a video in parts.
+    explicit MetadataCollector(const DataStream& track, int part = 0) {
+        stream_.track = track;
+        carriage_.part = part;
+    }
     void feed(const DataPacket& packet);
+    /// What comes next is another file: no set goes on in it, and its clock is its own.
+    void endOfPart();
     MetadataStream finish();
 
  private:
@@ -70,6 +76,11 @@ class MetadataCollector {
 /// Reads all metadata of a video file or of a file that is nothing but KLV. What is damaged is skipped and counted; a
 /// file without metadata has no streams. Throws Error(input) for what is neither, and when `stop` was requested.
 MetadataRecording readMetadata(const std::filesystem::path& path, const IndexProgress& progress = {},
+                               const std::stop_token& stop = {});
+
+/// The same of a video; of one in parts (VideoInfo::parts) those of all its files, as if they were one: a track of the
+/// same number is the same stream, stamps are on the clock of the whole (PictureStamp).
+MetadataRecording readMetadata(const VideoInfo& video, const IndexProgress& progress = {},
                                const std::stop_token& stop = {});
 
 /// Whether a file is KLV and nothing else.

@@ -62,10 +62,11 @@ MetadataScale scaleByMetadata(const FrameSource& source, FrameIndex first, Frame
     const std::vector<PictureStamp> pictures = source.pictureStamps();
     if (pictures.empty()) return none;
     try {
-        const MetadataRecording recording = readMetadata(source.info().path, {}, stop);
+        const MetadataRecording recording = readMetadata(source.info(), {}, stop);
         const int chosen = recording.mostUseful();
         if (chosen < 0) return none;
-        const MetadataTimeline timeline(recording.streams[static_cast<std::size_t>(chosen)], pictures);
+        const MetadataTimeline timeline(recording.streams[static_cast<std::size_t>(chosen)], pictures,
+                                        timelineOptionsOf(source.info()));
         return scaleByMetadata(timeline, source, first, last);
     } catch (const Error& error) {
         none.why_not = error.what();

@@ -96,6 +96,13 @@ std::optional<double> valueAt(const TagInfo* info, const Sides& sides, std::int6
 
 }  // namespace
 
+TimelineOptions timelineOptionsOf(const VideoInfo& video) {
+    TimelineOptions options;
+    for (const VideoPart& part : video.parts)
+        if (part.first_frame > 0) options.breaks_us.push_back(part.first_time_us);
+    return options;
+}
+
 std::optional<double> MetadataState::number(int wanted) const {
     const auto at = std::lower_bound(numbers.begin(), numbers.end(), wanted,
                                      [](const MetadataPacket::Number& one, int number) { return one.tag < number; });
@@ -167,11 +174,17 @@ MetadataState MetadataTimeline::at(std::int64_t time_us) const {
     const std::int64_t reach = microsecondsOf(std::max(options_.longest_gap_s, options_.longest_hold_s));
     const auto next = std::upper_bound(places_.begin(), places_.end(), time_us,
                                        [](std::int64_t time, const Place& place) { return time < place.time_us; });
+    const auto part = static_cast<int>(std::upper_bound(options_.breaks_us.begin(), options_.breaks_us.end(), time_us) -
+                                       options_.breaks_us.begin());
+    const auto isOther = [&](const MetadataPacket& packet) {
+        return !options_.breaks_us.empty() && packet.part != part;
+    };
     std::map<int, Sides> sides;
     std::optional<Place> utc_before, utc_after;
     for (auto at = next; at != places_.begin() && time_us - std::prev(at)->time_us <= reach; --at) {
         const Place& place = *std::prev(at);
         const MetadataPacket& packet = stream_.packets[place.packet];
+        if (isOther(packet)) continue;
         if (packet.utc_us && !utc_before) utc_before = place;
         for (const auto& [number, value] : packet.numbers) {
             Sides& side = sides[number];
@@ -182,6 +195,7 @@ MetadataState MetadataTimeline::at(std::int64_t time_us) const {
     }
     for (auto at = next; at != places_.end() && at->time_us - time_us <= reach; ++at) {
         const MetadataPacket& packet = stream_.packets[at->packet];
+        if (isOther(packet)) continue;
         if (packet.utc_us && !utc_after) utc_after = *at;
         for (const auto& [number, value] : packet.numbers) {
             Sides& side = sides[number];

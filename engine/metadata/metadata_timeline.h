@@ -16,7 +16,12 @@ namespace eyrie {
 struct TimelineOptions {
     double longest_gap_s = 2;   ///< between two sets that are blended
     double longest_hold_s = 1;  ///< that the nearest set counts where they are not
+    /// Times at which the parts of the video but the first begin: in each its own sets count (MetadataPacket::part).
+    std::vector<std::int64_t> breaks_us = {};
 };
+
+/// Those for a video: its parts begin where nothing holds on.
+TimelineOptions timelineOptionsOf(const VideoInfo& video);
 
 /// What the metadata say of one moment.
 struct MetadataState {

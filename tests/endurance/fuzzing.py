@@ -46,7 +46,10 @@ class Fuzzing(Part):
                 shutil.copy(seed, self._corpus / "auto" / f"{number}-{seed.name}")
         self._targets = [
             *(Target(name, "labels_fuzz", [f"--format={name}"]) for name in [*formats, "auto"]),
-            *(Target(name, "tables_fuzz", [f"--table={name}"]) for name in ("boxes", "homographies", "template")),
+            *(
+                Target(name, "tables_fuzz", [f"--table={name}"])
+                for name in ("boxes", "homographies", "parts", "template")
+            ),
             Target("preset", "preset_fuzz"),
             Target("index-cache", "index_cache_fuzz"),
             Target("packed", "packed_fuzz"),

@@ -45,6 +45,9 @@ void seedsOfTables(const fs::path& folder) {
         "frame,id,x,y,length,width,heading,class,score,vx,vy,origin\n0,,4,3,2,1,0,\"a \"\"b\"\"\",0.5,1,-1,detected\n");
     write(folder / "homographies" / "two",
           "frame,h00,h01,h02,h10,h11,h12,h20,h21,h22\n0,1,0,0.5,0,1,0,0,0,1\n1,1,0,0.5,0,1,0,0,0,1\n");
+    write(folder / "parts" / "two",
+          "file,start_utc,frames,bytes,digest\nrec_1.ts,2026-11-21T08:00:00Z,50,1234,\n/x/rec_2.ts,,50,," +
+              std::string(64, 'a') + "\n");
     write(folder / "template" / "flat", "frame,id,cname,x1,y1,x2,y2\n0,1,car,10,20,30,40\n");
     write(folder / "template" / "repeated", std::string(kColumns) + "\n0,1,1,car,3,4,20,10,90,0.5,0,1\n");
     eyrie::Preset preset;

@@ -3,9 +3,10 @@
 #include "fuzz/input_file.h"
 #include "io/tables/box_csv.h"
 #include "io/tables/homography_csv.h"
+#include "io/video/parts/part_list.h"
 
-/// tables_fuzz --table=boxes|homographies|template: bytes as one of our own tables, or as the columns of a user's table
-/// (the first line) and that table (the rest).
+/// tables_fuzz --table=boxes|homographies|parts|template: bytes as one of our own tables, or as the columns of a user's
+/// table (the first line) and that table (the rest).
 namespace {
 
 struct Reader {
@@ -43,6 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         eyrie::fuzz::writeBytes(reader.file, data, size);
         if (reader.table == "boxes")
             eyrie::readBoxCsv(reader.file);
+        else if (reader.table == "parts")
+            eyrie::readPartList(reader.file);
         else
             eyrie::readHomographyCsv(reader.file);
     });

@@ -10,17 +10,19 @@ namespace {
 constexpr std::int64_t kBegin_us = 1'231'798'102'000'000;
 constexpr int kSets = 40;
 
-/// Ten sets a second, with a stamp each unless it is 0.
-std::shared_ptr<const VideoMetadata> stamped(const std::function<std::uint64_t(int)>& stamp_of) {
-    std::vector<test::Carried> sets;
+/// Ten sets a second, with a stamp each unless it is 0; a new part every so many.
+std::shared_ptr<const VideoMetadata> stamped(const std::function<std::uint64_t(int)>& stamp_of, int of_part = kSets) {
+    MetadataCollector collector({1, 0x101, "klv"});
     std::vector<PictureStamp> pictures;
     for (int i = 0; i < kSets; ++i) {
+        if (i > 0 && i % of_part == 0) collector.endOfPart();
         test::LocalSetWriter set;
         if (stamp_of(i) > 0) set.time(stamp_of(i));
-        sets.push_back({set.range(tag::kPlatformHeading, 10, 0, 360).bytes(), i * 100'000LL, i});
+        const auto bytes = set.range(tag::kPlatformHeading, 10, 0, 360).bytes();
+        collector.feed({1, i * 100'000LL, 0, i, bytes});
         pictures.push_back({i * 100'000LL, i * 100'000LL});
     }
-    return std::make_shared<const VideoMetadata>(test::collected(sets), pictures);
+    return std::make_shared<const VideoMetadata>(collector.finish(), pictures);
 }
 
 }  // namespace
@@ -71,6 +73,79 @@ TEST(VideoClock, aVideoOfSeveralFlightsHasTheTimeOfEach) {
     EXPECT_EQ(clock.at(500'000), kBegin_us + 500'000);
     EXPECT_EQ(clock.at(3'500'000), kBegin_us + 3'600'000'000 + 3'500'000);
     EXPECT_EQ(clock.at(60'000'000), std::nullopt);
+    EXPECT_NE(clock.origin().find("not steady"), std::string::npos);
+}
+
+/// Three parts of a second each.
+std::vector<VideoPart> threeParts() {
+    std::vector<VideoPart> parts(3);
+    for (int i = 0; i < 3; ++i) {
+        parts[static_cast<std::size_t>(i)].first_time_us = i * 1'000'000;
+        parts[static_cast<std::size_t>(i)].first_frame = i * 10;
+        parts[static_cast<std::size_t>(i)].frame_count = 10;
+    }
+    return parts;
+}
+
+TEST(VideoClock, everyPartBeginsWhenItsMetadataSay) {
+    // A minute was not recorded after each second.
+    const auto metadata =
+        stamped([](int i) { return static_cast<std::uint64_t>(kBegin_us + i * 100'000 + (i / 10) * 60'000'000); }, 10);
+    const auto clock = VideoClock::ofParts(threeParts(), metadata, std::nullopt);
+    EXPECT_EQ(clock.source(), VideoClock::Source::metadata);
+    EXPECT_EQ(clock.at(0), kBegin_us);
+    EXPECT_EQ(clock.at(999'999), kBegin_us + 999'999);
+    EXPECT_EQ(clock.at(1'000'000), kBegin_us + 61'000'000);
+    EXPECT_EQ(clock.at(2'500'000), kBegin_us + 122'500'000);
+    EXPECT_EQ(clock.origin().find("not steady"), std::string::npos);
+}
+
+TEST(VideoClock, whatTheListSaysOfAPartCountsBeforeItsMetadata) {
+    const auto metadata = stamped([](int i) { return static_cast<std::uint64_t>(kBegin_us + i * 100'000); }, 10);
+    auto parts = threeParts();
+    parts[1].start_utc_us = kBegin_us + 3'600'000'000;
+    const auto clock = VideoClock::ofParts(parts, metadata, std::nullopt);
+    EXPECT_EQ(clock.at(500'000), kBegin_us + 500'000);
+    EXPECT_EQ(clock.at(1'500'000), kBegin_us + 3'600'500'000);
+    EXPECT_EQ(clock.at(2'500'000), kBegin_us + 2'500'000);
+    EXPECT_EQ(clock.origin(), "the start times in the list of parts and the video's metadata");
+}
+
+TEST(VideoClock, aPartOfWhichNothingTellsFollowsWithoutAGap) {
+    auto parts = threeParts();
+    parts[1].start_utc_us = kBegin_us;
+    const auto clock = VideoClock::ofParts(parts, nullptr, std::nullopt);
+    EXPECT_EQ(clock.at(0), kBegin_us - 1'000'000) << "leads up to the first that is known";
+    EXPECT_EQ(clock.at(1'000'000), kBegin_us);
+    EXPECT_EQ(clock.at(2'250'000), kBegin_us + 1'250'000);
+    EXPECT_NE(clock.origin().find("2 parts of which nothing tells follow without a gap"), std::string::npos);
+    EXPECT_EQ(VideoClock::ofParts(threeParts(), nullptr, std::nullopt).source(), VideoClock::Source::none);
+}
+
+TEST(VideoClock, aStartThatIsGivenMovesAllPartsTogether) {
+    auto parts = threeParts();
+    parts[0].start_utc_us = kBegin_us;
+    parts[1].start_utc_us = kBegin_us + 60'000'000;
+    const auto clock = VideoClock::ofParts(parts, nullptr, kBegin_us + 7);
+    EXPECT_EQ(clock.at(0), kBegin_us + 7);
+    EXPECT_EQ(clock.at(1'000'000), kBegin_us + 60'000'007);
+    EXPECT_EQ(clock.origin().find("the start time given"), 0U);
+    EXPECT_EQ(VideoClock::ofParts(threeParts(), nullptr, kBegin_us).at(2'000'000), kBegin_us + 2'000'000);
+    EXPECT_EQ(VideoClock::ofParts({}, nullptr, kBegin_us).at(5), kBegin_us + 5) << "a video of one file";
+}
+
+TEST(VideoClock, aPartWhoseClockJumpsHasTheTimesOfItsMoments) {
+    const auto metadata = stamped(
+        [](int i) {
+            const bool jumps = i >= 10 && i < 20 && i % 2 == 0;
+            return static_cast<std::uint64_t>(kBegin_us + i * 100'000 + (jumps ? 9'000'000 : 0));
+        },
+        10);
+    const auto clock = VideoClock::ofParts(threeParts(), metadata, std::nullopt);
+    EXPECT_EQ(clock.at(500'000), kBegin_us + 500'000);
+    EXPECT_EQ(clock.at(1'100'000), kBegin_us + 1'100'000);
+    EXPECT_EQ(clock.at(1'200'000), kBegin_us + 1'200'000 + 9'000'000);
+    EXPECT_EQ(clock.at(2'500'000), kBegin_us + 2'500'000);
     EXPECT_NE(clock.origin().find("not steady"), std::string::npos);
 }
 

@@ -140,4 +140,28 @@ TEST(MetadataTimeline, theShareCoveredCountsWhatIsBridgedAndHeld) {
     EXPECT_EQ(timeline.coveredShare(5 * kSecond, 5 * kSecond), 0);
 }
 
+TEST(MetadataTimeline, inEachPartOfAVideoItsOwnSetsCount) {
+    MetadataCollector collector({1, 0x101, "klv"});
+    const auto feed = [&](const Carried& packet) {
+        collector.feed({1, packet.stamp_us, 0, packet.pictures_before, packet.bytes});
+    };
+    feed(heading(10, 0, 0, 1'000 * kSecond));
+    feed(heading(20, 900'000, 22, 1'000 * kSecond + 900'000));
+    collector.endOfPart();
+    feed(heading(200, 800'000, 25, 2'000 * kSecond - 200'000));  // before the first picture that can be shown
+    feed(heading(210, 1'100'000, 28, 2'000 * kSecond + 100'000));
+    const MetadataStream stream = collector.finish();
+    EXPECT_EQ(stream.leaps, 0) << "what was not recorded is no fault of the clock";
+    VideoInfo video;
+    video.frame_count = 50;
+    video.parts.resize(2);
+    video.parts[1].first_frame = 25;
+    video.parts[1].first_time_us = kSecond;
+    const MetadataTimeline timeline(stream, pictures(50, 0), timelineOptionsOf(video));
+    EXPECT_NEAR(*timeline.at(850'000).number(tag::kPlatformHeading), 20 - 10.0 * 50 / 900, 0.1);
+    EXPECT_EQ(timeline.at(850'000).utc_us, 1'000 * kSecond + 850'000);
+    EXPECT_NEAR(*timeline.at(kSecond).number(tag::kPlatformHeading), 200 + 10.0 * 2 / 3, 0.1);
+    EXPECT_EQ(timeline.at(kSecond).utc_us, 2'000 * kSecond);
+}
+
 }  // namespace eyrie::metadata_timeline_test

@@ -53,6 +53,8 @@ class ProjectSession : public QObject {
     void openProject(const std::filesystem::path& project);
     /// A project file, a video or a folder of images.
     void open(const std::filesystem::path& path);
+    /// Several video files as one video; a single file as above.
+    void open(const std::vector<std::filesystem::path>& files);
     /// Writes a copy; work goes on in the project.
     void saveProjectCopy(const std::filesystem::path& target);
     /// Writes a copy and goes on working in it. Not while a run works.
@@ -67,13 +69,15 @@ class ProjectSession : public QObject {
     void cancelOpening();
     /// Whether the project's video is not where it should be, nor beside the project.
     bool videoMissing() const { return missing_.has_value(); }
-    /// The missing video lies here; kept in the project if it is the same.
-    void locateVideo(const std::filesystem::path& path);
+    /// The missing video lies here, or the parts of it that are missing, or one of them; kept if it is the same.
+    void locateVideo(const std::vector<std::filesystem::path>& files);
 
     const std::optional<Media>& media() const { return media_; }
     /// Nothing when no video is open; a missing video of a project has its size and length from the project.
     const std::optional<VideoInfo>& video() const { return video_; }
     const std::vector<std::int64_t>& timesUs() const { return times_us_; }
+    /// For people: which of the files of a video in parts a frame lies in, and where; empty where it is one file.
+    QString partText(FrameIndex frame) const;
     const std::filesystem::path& project() const { return project_; }
     const std::vector<RunRecord>& runs() const { return runs_; }
     /// The run that this window is making, if it is one of runs().

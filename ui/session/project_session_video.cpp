@@ -28,6 +28,13 @@ void ProjectSession::open(const fs::path& path) {
         openMedia(videoMedia(path));
 }
 
+void ProjectSession::open(const std::vector<fs::path>& files) {
+    if (files.size() == 1)
+        open(files.front());
+    else if (!files.empty())
+        openMedia(partsMedia(files));
+}
+
 void ProjectSession::openMedia(Media media, const fs::path& project) {
     beginOpening({std::move(media), Purpose::another_video, project});
 }
@@ -58,7 +65,9 @@ void ProjectSession::openProject(const fs::path& project) {
 
 void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
     if (ticket != ticket_ || !pending_) return;
-    const Pending pending = *std::exchange(pending_, std::nullopt);
+    Pending pending = *std::exchange(pending_, std::nullopt);
+    if (pending.media.becomes_list)
+        pending.media = videoMedia(video.info.path, {.given_hz = pending.media.given_rate_hz});
     emit openingEnded();
     if (pending.purpose == Purpose::moved && !isSameVideo(*pending.sequence, video.info)) {
         showWithoutVideo(*pending.sequence, pending.run,
@@ -224,6 +233,15 @@ const SequenceRecord* ProjectSession::sequenceOfVideo() const {
     return found == sequences_.end() ? nullptr : &*found;
 }
 
+QString ProjectSession::partText(FrameIndex frame) const {
+    const VideoPart* part = video_ ? video_->partOf(frame) : nullptr;
+    if (part == nullptr) return {};
+    return tr("%1, its frame %2 of %3")
+        .arg(QString::fromStdString(part->file.filename().string()))
+        .arg(frame - part->first_frame)
+        .arg(part->frame_count);
+}
+
 // ---- the frame rate ------------------------------------------------------------------------------------------------
 
 void ProjectSession::setFrameRate(double frames_per_second) {
@@ -257,9 +275,9 @@ void ProjectSession::findMovedVideo(const Pending& pending, const QString& messa
     beginOpening({media, Purpose::moved, project_, pending.sequence, pending.run});
 }
 
-void ProjectSession::locateVideo(const fs::path& path) {
-    if (!missing_) return;
-    const Media media = videoMedia(path, {.remembered_hz = missing_->rememberedRate()});
+void ProjectSession::locateVideo(const std::vector<fs::path>& files) {
+    if (!missing_ || files.empty()) return;
+    const Media media = locatedMedia(missing_->path, files, {.remembered_hz = missing_->rememberedRate()});
     beginOpening({media, Purpose::moved, project_, missing_, current_run_});
 }
 
@@ -270,7 +288,9 @@ void ProjectSession::adoptMovedVideo(const SequenceRecord& known, const std::str
         if (run.sequence.id == known.id) run.sequence.path = identity;
     reader_.relocateSequence(known.id, identity);
     emit changed(SessionChange::runs);
-    emit notice(tr("The video is at %1 now; the project remembers it.").arg(QString::fromStdString(identity)));
+    const QString place = QString::fromStdString(identity);
+    emit notice(identity == known.path ? tr("All parts are found; %1 remembers where they are.").arg(place)
+                                       : tr("The video is at %1 now; the project remembers it.").arg(place));
 }
 
 void ProjectSession::showWithoutVideo(const SequenceRecord& sequence, std::optional<int> run_id,

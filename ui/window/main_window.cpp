@@ -103,10 +103,13 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
     buildEvaluation();
-    new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
+    auto* binding = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
+    binding->setClock([this](FrameIndex frame) { return earth_->earth().clockText(frame); });
     status_ = new StatusFields(session_, *statusBar());
     status_->setPlaces({[this](QPointF px) { return earth_->earth().placeOf(session_.shownFrame(), px); },
                         [this] { return earth_->earth().origin(); }});
+    status_->setClock({[this](FrameIndex frame) { return earth_->earth().clockText(frame); },
+                       [this] { return earth_->earth().clockOrigin(); }});
     whenAny(&earth_->earth(), status_, &StatusFields::showPlace, &VideoEarth::changed);
     labelling_ = new LabelWorkspace(
         {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
@@ -410,12 +413,12 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-    for (const QUrl& url : event->mimeData()->urls()) {
-        if (!url.isLocalFile()) continue;
-        event->acceptProposedAction();
-        files_->open(url.toLocalFile());
-        return;
-    }
+    QStringList paths;
+    for (const QUrl& url : event->mimeData()->urls())
+        if (url.isLocalFile()) paths << url.toLocalFile();
+    if (paths.isEmpty()) return;
+    event->acceptProposedAction();
+    files_->open(paths);
 }
 
 }  // namespace eyrie::ui

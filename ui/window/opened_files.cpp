@@ -26,6 +26,13 @@ const QString kFolder = QStringLiteral("folder");
 QString text(const std::filesystem::path& path) {
     return QString::fromStdString(path.string());
 }
+
+std::vector<std::filesystem::path> filesOf(const QStringList& paths) {
+    std::vector<std::filesystem::path> files;
+    for (const QString& path : paths)
+        if (!path.isEmpty()) files.emplace_back(path.toStdString());
+    return files;
+}
 }  // namespace
 
 OpenedFiles::OpenedFiles(const FileParts& parts) : QObject(&parts.window), parts_(parts), session_(parts.session) {
@@ -74,17 +81,22 @@ void OpenedFiles::start(const StartOptions& options) {
     }
     if (options.input.empty()) return;
     run_when_ready_ = !isProject(options.input);
+    std::vector<std::filesystem::path> files{options.input};
+    files.insert(files.end(), options.further_parts.begin(), options.further_parts.end());
     if (options.frame_rate_hz > 0)
-        session_.openMedia(videoMedia(options.input, {.given_hz = options.frame_rate_hz}));
+        session_.openMedia(partsMedia(files, {.given_hz = options.frame_rate_hz}));
     else
-        session_.open(options.input);
+        session_.open(files);
 }
 
 void OpenedFiles::openVideo() {
-    const QString path = QFileDialog::getOpenFileName(
-        &parts_.window, tr("Open video"), parts_.settings.value(kFolder, QString()).toString(),
-        tr("Videos (*.mp4 *.mkv *.mov *.avi *.ts *.m2ts *.mts *.mpg *.mpeg *.m4v *.webm *.wmv *.mxf);;All files (*)"));
-    if (!path.isEmpty()) open(path);
+    const QStringList paths =
+        QFileDialog::getOpenFileNames(&parts_.window, tr("Open video, or several files that are one"),
+                                      parts_.settings.value(kFolder, QString()).toString(),
+                                      tr("Videos (*.mp4 *.mkv *.mov *.avi *.ts *.m2ts *.mts *.mpg *.mpeg *.m4v *.webm "
+                                         "*.wmv *.mxf *.parts);;All files "
+                                         "(*)"));
+    if (!paths.isEmpty()) open(paths);
 }
 
 void OpenedFiles::openFolder() {
@@ -105,9 +117,10 @@ void OpenedFiles::locateVideo() {
     const QString folder = QFileInfo(text(session_.project())).path();
     const QString title = tr("Locate %1").arg(missing.fileName());
     // A folder of images has no ending by which it could be told from a file.
-    const QString path = missing.suffix().isEmpty() ? QFileDialog::getExistingDirectory(&parts_.window, title, folder)
-                                                    : QFileDialog::getOpenFileName(&parts_.window, title, folder);
-    if (!path.isEmpty()) session_.locateVideo(path.toStdString());
+    const QStringList paths = missing.suffix().isEmpty()
+                                  ? QStringList{QFileDialog::getExistingDirectory(&parts_.window, title, folder)}
+                                  : QFileDialog::getOpenFileNames(&parts_.window, title, folder);
+    session_.locateVideo(filesOf(paths));
 }
 
 void OpenedFiles::leave(std::function<void()> then) {
@@ -120,10 +133,10 @@ void OpenedFiles::leave(std::function<void()> then) {
     });
 }
 
-void OpenedFiles::open(const QString& path) {
-    leave([this, path] {
-        parts_.settings.setValue(kFolder, QFileInfo(path).path());
-        session_.open(path.toStdString());
+void OpenedFiles::open(const QStringList& paths) {
+    leave([this, paths] {
+        parts_.settings.setValue(kFolder, QFileInfo(paths.front()).path());
+        session_.open(filesOf(paths));
     });
 }
 

@@ -48,7 +48,9 @@ class OpenedFiles : public QObject {
 
     /// Does what the command line asked for: opens, and runs when there is no finished run.
     void start(const StartOptions& options);
-    void open(const QString& path);
+    void open(const QString& path) { open(QStringList{path}); }
+    /// Several: the parts of one video.
+    void open(const QStringList& paths);
     /// Asks where the video is that the project misses.
     void locateVideo();
     /// Keeps zoom, place and frame for the next time the project is opened.

@@ -1,5 +1,6 @@
 #include "workspace/timeline_binding.h"
 
+#include <QStringList>
 #include <algorithm>
 #include <utility>
 
@@ -49,6 +50,7 @@ TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline
                     {SessionChange::run_started, [this] { beginLive(); }},
                     {SessionChange::run_ended, [this] { endLive(); }},
                 });
+    timeline_.setDescription([this](FrameIndex frame) { return describe(frame); });
     connect(&session_, &ProjectSession::liveFrames, this, &TimelineBinding::addLive);
     connect(&timeline_, &TimelineView::frameRequested, &session_,
             [this](FrameIndex frame, bool) { session_.goToFrame(frame); });
@@ -57,8 +59,19 @@ TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline
 
 void TimelineBinding::showVideo() {
     timeline_.setTimes(session_.timesUs());
+    std::vector<FrameIndex> seams;
+    if (session_.video())
+        for (const VideoPart& part : session_.video()->parts)
+            if (part.first_frame > 0) seams.push_back(part.first_frame);
+    timeline_.setSeams(std::move(seams));
     chart_.clear();
     if (session_.video()) chart_.setBudgetMs(1000 / std::max(0.001, session_.video()->frame_rate_hz));
+}
+
+QString TimelineBinding::describe(FrameIndex frame) const {
+    QStringList lines{session_.partText(frame), clock_ ? clock_(frame) : QString()};
+    lines.removeAll(QString());
+    return lines.join(QLatin1Char('\n'));
 }
 
 void TimelineBinding::forgetRun() {

@@ -8,10 +8,6 @@
 namespace eyrie::cli {
 namespace {
 
-bool isScene(const std::string& sequence) {
-    return sequence.rfind("scene:", 0) == 0;
-}
-
 ClipFrames::Open opener(const std::string& sequence, double frame_rate_hz, double remembered_rate_hz = 0) {
     return [sequence, frame_rate_hz, remembered_rate_hz]() -> std::unique_ptr<FrameSource> {
         if (isScene(sequence)) return openScene(sequence.substr(6));

@@ -5,11 +5,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
+#include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
+#include "cli/interrupt.h"
+#include "core/error.h"
+#include "core/utc_time.h"
 #include "io/video/frame_source.h"
+#include "io/video/parts/part_list.h"
+#include "io/video/parts/part_source.h"
 #include "store/health/file_check.h"
 #include "store/labels/annotation_store.h"
 #include "store/runs/run_store.h"
@@ -23,16 +30,24 @@ using Json = nlohmann::ordered_json;
 Json factsOf(const FrameSource& source) {
     const VideoInfo& info = source.info();
     const double last_us = static_cast<double>(source.timeOf(info.frame_count - 1));
-    return {{"file", info.path.string()},
-            {"kind", info.is_image_sequence ? "images" : "video"},
-            {"container", info.container},
-            {"codec", info.codec},
-            {"width", info.size.width},
-            {"height", info.size.height},
-            {"frames", info.frame_count},
-            {"frame_rate_hz", info.frame_rate_hz},
-            {"variable_frame_rate", info.variable_frame_rate},
-            {"duration_s", last_us / 1e6 + 1 / info.frame_rate_hz}};
+    Json facts{{"file", info.path.string()},
+               {"kind", info.is_image_sequence ? "images" : "video"},
+               {"container", info.container},
+               {"codec", info.codec},
+               {"width", info.size.width},
+               {"height", info.size.height},
+               {"frames", info.frame_count},
+               {"frame_rate_hz", info.frame_rate_hz},
+               {"variable_frame_rate", info.variable_frame_rate},
+               {"duration_s", last_us / 1e6 + 1 / info.frame_rate_hz}};
+    for (const VideoPart& part : info.parts)
+        facts["parts"].push_back(
+            {{"file", part.file.string()},
+             {"first_frame", part.first_frame},
+             {"frames", part.frame_count},
+             {"first_s", static_cast<double>(part.first_time_us) / 1e6},
+             {"start_utc", part.start_utc_us ? Json(utcText(*part.start_utc_us)) : Json(nullptr)}});
+    return facts;
 }
 
 Json factsOf(RunStore& store, const RunRecord& run) {
@@ -76,6 +91,13 @@ void printVideo(const Json& facts) {
                 facts["height"].get<int>(), facts["frames"].get<int>(), facts["frame_rate_hz"].get<double>(),
                 facts["variable_frame_rate"].get<bool>() ? " on average (variable)" : "",
                 facts["duration_s"].get<double>());
+    if (!facts.contains("parts")) return;
+    for (const Json& part : facts["parts"]) {
+        const int first = part["first_frame"].get<int>();
+        std::printf("  frames %d to %d: %s%s\n", first, first + part["frames"].get<int>() - 1,
+                    part["file"].get<std::string>().c_str(),
+                    part["start_utc"].is_null() ? "" : (", " + part["start_utc"].get<std::string>()).c_str());
+    }
 }
 
 void printProject(const Json& facts) {
@@ -126,30 +148,55 @@ Json projectFacts(const std::filesystem::path& path) {
     return facts;
 }
 
+struct InfoArguments {
+    std::vector<std::string> files;
+    double frame_rate_hz = 0;
+    std::string list;
+    OutputArguments outputs;
+    bool json = false;
+};
+
+/// A video, a folder of images, or several video files that are one video.
+Json videoFacts(const InfoArguments& arguments) {
+    if (!arguments.list.empty()) {
+        if (arguments.files.size() < 2 || !hasPartListName(arguments.list))
+            throw Error(ErrorKind::parameter, "--list " + arguments.list + ": name a file (*" + kPartListEnding +
+                                                  ") for the list of several video files");
+        arguments.outputs.check({{arguments.list, FileKind::text}}, {arguments.files.begin(), arguments.files.end()});
+    }
+    if (arguments.files.size() == 1) {
+        SourceOptions options;
+        options.frame_rate_hz = arguments.frame_rate_hz;
+        return factsOf(*openSource(arguments.files.front(), options));
+    }
+    const InterruptGuard interrupt;
+    const auto source = openInputs(arguments.files, arguments.frame_rate_hz, interrupt.token(), {});
+    Json facts = factsOf(*source);
+    if (!arguments.list.empty()) {
+        writePartList(arguments.list, dynamic_cast<PartSource&>(*source).listed());
+        facts["file"] = std::filesystem::absolute(arguments.list).lexically_normal().string();
+    }
+    return facts;
+}
+
 }  // namespace
 
 void addInfoCommand(CLI::App& app, int&) {
-    struct Arguments {
-        std::string file;
-        double frame_rate_hz = 0;
-        bool json = false;
-    };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<InfoArguments>();
     CLI::App* command = app.add_subcommand("info", "Show what a video, a folder of images or a project holds");
-    command->add_option("FILE", arguments->file, "Video, folder of images or project (.eyrie)")->required();
+    command
+        ->add_option("FILE", arguments->files,
+                     "Video, folder of images or project (.eyrie); several video files: they are one video in a row")
+        ->required();
     command->add_option("--fps", arguments->frame_rate_hz, "Frames per second, instead of the video's own")
         ->check(CLI::PositiveNumber);
+    command->add_option("--list", arguments->list,
+                        "Write the list of several video files (*.parts), which every command takes for a video");
+    arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] {
-        const bool is_project = isProject(arguments->file);
-        Json facts;
-        if (is_project) {
-            facts = projectFacts(arguments->file);
-        } else {
-            SourceOptions options;
-            options.frame_rate_hz = arguments->frame_rate_hz;
-            facts = factsOf(*openSource(arguments->file, options));
-        }
+        const bool is_project = arguments->files.size() == 1 && isProject(arguments->files.front());
+        const Json facts = is_project ? projectFacts(arguments->files.front()) : videoFacts(*arguments);
         if (arguments->json) {
             std::printf("%s\n", facts.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
         } else {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
@@ -15,6 +16,7 @@
 #include "core/utc_time.h"
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"
+#include "io/video/parts/part_list.h"
 #include "metadata/metadata_tables.h"
 #include "metadata/metadata_text.h"
 
@@ -24,7 +26,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MetadataArguments {
-    std::string file;
+    std::vector<std::string> files;  ///< several: the parts of one video
+    std::string file;                ///< of one its name, of several that of their list
     std::optional<int> stream;
     std::optional<int> frame;
     std::string csv;
@@ -157,29 +160,38 @@ void checkFrame(const MetadataArguments& arguments, const FrameSource* source) {
                                           " has frames 0 to " + std::to_string(source->info().frame_count - 1));
 }
 
-void tellMetadata(const MetadataArguments& arguments) {
-    arguments.outputs.check({{arguments.csv, FileKind::text}, {arguments.json, FileKind::json}}, {arguments.file});
-    const InterruptGuard interrupt;
-    std::unique_ptr<FrameSource> source;
+/// The video whose metadata are asked for; null for a file without pictures, `no_pictures` says why.
+std::unique_ptr<FrameSource> videoOf(const MetadataArguments& arguments, const std::stop_token& stop,
+                                     std::string& no_pictures) {
+    const bool parts = arguments.files.size() > 1 || hasPartListName(arguments.file);
+    if (parts) return openInputs(arguments.files, 0, stop, {});
     checkReadableFile(arguments.file);
-    std::string no_pictures;
-    if (!isRawKlv(arguments.file)) {
-        try {
-            source = openInput(arguments.file, 0, interrupt.token());
-        } catch (const Error& error) {
-            // Metadata are worth reading without pictures, too; what is no container at all fails below.
-            if (error.kind() != ErrorKind::input || interrupt.token().stop_requested()) throw;
-            no_pictures = error.what();
-        }
+    if (isRawKlv(arguments.file)) return nullptr;
+    try {
+        return openInput(arguments.file, 0, stop);
+    } catch (const Error& error) {
+        // Metadata are worth reading without pictures, too; what is no container at all fails below.
+        if (error.kind() != ErrorKind::input || stop.stop_requested()) throw;
+        no_pictures = error.what();
+        return nullptr;
     }
+}
+
+void tellMetadata(const MetadataArguments& arguments) {
+    arguments.outputs.check({{arguments.csv, FileKind::text}, {arguments.json, FileKind::json}},
+                            {arguments.files.begin(), arguments.files.end()});
+    const InterruptGuard interrupt;
+    std::string no_pictures;
+    const auto source = videoOf(arguments, interrupt.token(), no_pictures);
     checkFrame(arguments, source.get());
     ConsoleProgress progress("% read");
-    const MetadataRecording recording = readMetadata(
-        arguments.file, [&](double share) { progress.showShare(share); }, interrupt.token());
+    const auto share = [&](double done) { progress.showShare(done); };
+    const MetadataRecording recording = source ? readMetadata(source->info(), share, interrupt.token())
+                                               : readMetadata(arguments.file, share, interrupt.token());
     const std::size_t chosen = chosenStream(recording, arguments);
     std::optional<MetadataTimeline> timeline;
     if (source && chosen < recording.streams.size())
-        timeline.emplace(recording.streams[chosen], source->pictureStamps());
+        timeline.emplace(recording.streams[chosen], source->pictureStamps(), timelineOptionsOf(source->info()));
 
     Json facts{{"file", arguments.file}, {"streams", Json::array()}, {"other_tracks", Json::array()}};
     std::printf("%s\n", arguments.file.c_str());
@@ -222,7 +234,10 @@ void addMetadataCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<MetadataArguments>();
     CLI::App* command = app.add_subcommand(
         "metadata", "Show what a video says of its camera (MISB KLV): time, place, scale, north and footprint");
-    command->add_option("FILE", arguments->file, "Video, e.g. a transport stream, or a file of nothing but KLV")
+    command
+        ->add_option("FILE", arguments->files,
+                     "Video, e.g. a transport stream, or a file of nothing but KLV; several video files: they are one "
+                     "video in a row")
         ->required();
     command->add_option("--frame", arguments->frame,
                         "Frame whose scale, north and footprint to tell (default: the first that has them)");
@@ -233,6 +248,8 @@ void addMetadataCommand(CLI::App& app, int& exit_code) {
     command->add_option("--json", arguments->json, "Write what is shown as JSON, too")->type_name("FILE");
     arguments->outputs.addTo(*command);
     command->callback([arguments, &exit_code] {
+        const std::vector<std::filesystem::path> files(arguments->files.begin(), arguments->files.end());
+        arguments->file = files.size() == 1 ? arguments->files.front() : partListName(files);
         tellMetadata(*arguments);
         exit_code = exit_ok;
     });

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "chain/recording/run_resume.h"
 #include "chain/scale_estimation.h"
@@ -25,6 +26,7 @@
 #include "io/live/live_stream.h"
 #include "io/tables/box_csv.h"
 #include "io/tables/number_text.h"
+#include "io/video/parts/part_list.h"
 #include "io/video/video_writer.h"
 #include "metadata/metadata_scale.h"
 
@@ -32,7 +34,7 @@ namespace eyrie::cli {
 namespace {
 
 struct RunArguments {
-    std::string input;
+    std::vector<std::string> inputs;  ///< several: the parts of one video
     std::string project;
     VideoArguments video;
     std::string name;
@@ -142,7 +144,9 @@ void checkRange(FrameRange range, const VideoInfo& video) {
 
 std::filesystem::path projectPath(const RunArguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
-    const std::string input = arguments.input.substr(arguments.input.rfind("scene:", 0) == 0 ? 6 : 0);
+    std::string input = arguments.inputs.empty() ? "" : arguments.inputs.front();
+    if (arguments.inputs.size() > 1) input = partListName({arguments.inputs.begin(), arguments.inputs.end()});
+    input = input.substr(input.rfind("scene:", 0) == 0 ? 6 : 0);
     const auto stem = std::filesystem::path(input).lexically_normal().stem().string();
     return (stem.empty() || stem == "." || stem == ".." ? "video" : stem) + kProjectEnding;
 }
@@ -261,7 +265,9 @@ ResumeChoice choiceOf(const RunArguments& arguments, const FrameSource* source, 
 
 /// Before a long video is indexed, not after a long run.
 void checkOutputs(const RunArguments& arguments, const std::filesystem::path& project,
-                  const std::filesystem::path& video) {
+                  const std::vector<std::string>& videos) {
+    std::vector<std::filesystem::path> read(videos.begin(), videos.end());
+    read.emplace_back(arguments.preset.preset);
     OutputArguments outputs = arguments.outputs;
     outputs.force = outputs.force || arguments.resume;  // the same command again replaces what it wrote
     outputs.check({growingProject(project),
@@ -269,7 +275,7 @@ void checkOutputs(const RunArguments& arguments, const std::filesystem::path& pr
                    {arguments.detections_csv, FileKind::text},
                    {arguments.annotated, FileKind::video},
                    {arguments.timing, FileKind::json}},
-                  {video, arguments.preset.preset});
+                  read);
 }
 
 int runLive(const RunArguments& arguments) {
@@ -279,7 +285,7 @@ int runLive(const RunArguments& arguments) {
                     "--resume, --annotated, --detections and --timing are of no use with a live source; run over its "
                     "recording afterwards");
     LiveArguments live = arguments.live;
-    live.address = arguments.input;
+    live.address = arguments.inputs.front();
     live.project = arguments.project;
     live.video = arguments.video;
     live.preset = arguments.preset;
@@ -294,13 +300,13 @@ int run(const RunArguments& arguments) {
     arguments.video.check();
     arguments.preset.options();
     if (!arguments.detections_csv.empty()) arguments.preset.recordingAll("--detections", 0, 0);
-    if (isLiveAddress(arguments.input)) return runLive(arguments);
+    if (arguments.inputs.size() == 1 && isLiveAddress(arguments.inputs.front())) return runLive(arguments);
     if (arguments.live_given)
         throw Error(
             ErrorKind::parameter,
             "--seconds, --wait and --give-up are for live sources, and INPUT is none; --frames says how much of "
             "a video is looked at");
-    if (arguments.input.empty() && !(arguments.resume && !arguments.project.empty())) {
+    if (arguments.inputs.empty() && !(arguments.resume && !arguments.project.empty())) {
         throw Error(ErrorKind::parameter,
                     "INPUT is missing: name a video, a folder of images or a scene; --resume can do with --project");
     }
@@ -310,10 +316,9 @@ int run(const RunArguments& arguments) {
     const InterruptGuard interrupt;
     const std::filesystem::path project = projectPath(arguments);
     std::unique_ptr<FrameSource> source;
-    if (!arguments.input.empty()) {
-        checkOutputs(arguments, project, arguments.input);
-        source = openInput(arguments.input, arguments.video.frame_rate_hz.value_or(0), interrupt.token(),
-                           rememberedRate(project, arguments.input));
+    if (!arguments.inputs.empty()) {
+        checkOutputs(arguments, project, arguments.inputs);
+        source = openInputs(arguments.inputs, arguments.video.frame_rate_hz.value_or(0), interrupt.token(), project);
     }
     ResumeChoice choice;
     if (arguments.resume) {
@@ -323,7 +328,7 @@ int run(const RunArguments& arguments) {
         }
     }
     if (!source) {
-        checkOutputs(arguments, project, choice.run->sequence.path);
+        checkOutputs(arguments, project, {choice.run->sequence.path});
         source = openInput(choice.run->sequence.path, 0, interrupt.token(), choice.run->scale.frame_rate_hz);
     }
     if (!keepEarlierState(project, interrupt.token())) return exit_stopped;
@@ -361,9 +366,10 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<RunArguments>();
     CLI::App* command =
         app.add_subcommand("run", "Find and follow the moving vehicles of a video and store them in a project");
-    command->add_option("input", arguments->input,
-                        "A video file, a folder of images, scene:NAME for a built-in scene, or the address of a live "
-                        "source (udp://, rtsp://, srt:// …); with --resume and --project it may be left out");
+    command->add_option("input", arguments->inputs,
+                        "A video file, or several that are one video in a row; a list of such (*.parts), a folder of "
+                        "images, scene:NAME for a built-in scene, or the address of a live source (udp://, rtsp://, "
+                        "srt:// …); with --resume and --project it may be left out");
     command->add_option(
         "--project", arguments->project,
         "Project file; made when it does not exist, else a run is added (default: INPUT's name in this folder)");

@@ -1,10 +1,14 @@
 #include "io/video/frame_source.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.h"
 #include "io/file_kind.h"
 #include "io/video/image_sequence.h"
+#include "io/video/parts/part_list.h"
+#include "io/video/parts/part_source.h"
 #include "io/video/video_reader.h"
 
 namespace eyrie {
@@ -31,6 +35,19 @@ void refuseOtherThanVideo(const std::filesystem::path& path) {
 
 }  // namespace
 
+const VideoPart* VideoInfo::partOf(FrameIndex frame) const {
+    if (frame < 0 || frame >= frame_count) return nullptr;
+    const auto next = std::upper_bound(parts.begin(), parts.end(), frame, [](FrameIndex wanted, const VideoPart& part) {
+        return wanted < part.first_frame;
+    });
+    return next == parts.begin() ? nullptr : &*std::prev(next);
+}
+
+std::int64_t shiftedStamp(std::int64_t stamp_us, std::int64_t shift_us) {
+    std::int64_t shifted = 0;
+    return stamp_us == kNoStamp || __builtin_add_overflow(stamp_us, shift_us, &shifted) ? kNoStamp : shifted;
+}
+
 double overridingRate(const SourceOptions& options, double own_rate_hz) {
     if (options.frame_rate_hz > 0) return options.frame_rate_hz;
     const double remembered = options.remembered_rate_hz;
@@ -52,6 +69,7 @@ std::unique_ptr<FrameSource> openSource(const std::filesystem::path& path, const
         throw Error(ErrorKind::input, path.string() + ": is neither a file nor a folder");
     if (std::filesystem::file_size(path, failure) == 0 && !failure)
         throw Error(ErrorKind::input, path.string() + ": the file is empty; record or copy it again");
+    if (hasPartListName(path)) return openPartList(path, options, progress, std::move(stop));
     refuseOtherThanVideo(path);
     return std::make_unique<VideoReader>(path, options, progress, std::move(stop));
 }

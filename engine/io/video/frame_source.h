@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <opencv2/core/types.hpp>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -13,9 +14,20 @@
 
 namespace eyrie {
 
+/// One file of a video that consists of several, which follow each other without a gap in frames and in time.
+struct VideoPart {
+    std::filesystem::path file;  ///< absolute
+    FrameIndex first_frame = 0;  ///< in the whole video
+    int frame_count = 0;
+    std::int64_t first_time_us = 0;            ///< of its first frame, in the time of the whole video
+    int first_picture = 0;                     ///< coded pictures of the parts before it
+    std::int64_t stamp_shift_us = 0;           ///< takes its container's stamps to PictureStamp::stamp_us of the whole
+    std::optional<std::int64_t> start_utc_us;  ///< when its first frame was taken, as a person wrote into the list
+};
+
 /// What is known of a video before its first frame is decoded.
 struct VideoInfo {
-    std::filesystem::path path;  ///< absolute: the video file or the folder of images
+    std::filesystem::path path;  ///< absolute: the video file, the folder of images or the list of parts
     cv::Size size;               ///< px, of the first frame; a frame of another size is an Error(input) when read
     int frame_count = 0;
     double frame_rate_hz = 25;  ///< mean rate from the time stamps, or the one given by the user; > 0
@@ -23,8 +35,12 @@ struct VideoInfo {
     bool frame_rate_assumed = false;  ///< neither the video nor anybody says it
     bool variable_frame_rate = false;
     bool is_image_sequence = false;
-    std::string codec;      ///< "h264", "png sequence" …
-    std::string container;  ///< "mov,mp4,…", "folder"
+    std::string codec;                  ///< "h264", "png sequence" …
+    std::string container;              ///< "mov,mp4,…", "folder"
+    std::vector<VideoPart> parts = {};  ///< in order, where the video consists of several files; else none
+
+    /// The part that a frame lies in; null where the video is one file, or has no such frame.
+    const VideoPart* partOf(FrameIndex frame) const;
 };
 
 /// A presentation stamp that is not there.
@@ -36,6 +52,9 @@ struct PictureStamp {
     std::int64_t time_us = kNoStamp;   ///< timeOf() of its frame; kNoStamp: it is never shown
 };
 
+/// A stamp of a part's container on the clock of the whole video; what does not fit is no stamp.
+std::int64_t shiftedStamp(std::int64_t stamp_us, std::int64_t shift_us);
+
 /// Random access to the frames of a video or image folder, exact to the frame. Not thread-safe: one thread, one source.
 class FrameSource {
  public:
@@ -45,7 +64,8 @@ class FrameSource {
     virtual Frame read(FrameIndex index, bool with_colour) = 0;
     /// Presentation time from the start of the video, microseconds, without decoding.
     virtual std::int64_t timeOf(FrameIndex index) const = 0;
-    /// The pictures of a video file in file order, without decoding; nothing for what is none.
+    /// The pictures of a video file in file order, without decoding; nothing for what is none. Of several parts one
+    /// after the other, the clock of each container shifted so that it goes on from the part before.
     virtual std::vector<PictureStamp> pictureStamps() const { return {}; }
 };
 
@@ -64,8 +84,8 @@ double overridingRate(const SourceOptions& options, double own_rate_hz);
 /// Called while a video is indexed, with the share done in [0, 1].
 using IndexProgress = std::function<void(double share)>;
 
-/// Opens a video file or a folder of images. Throws Error(input) with file, reason and remedy; an aborted indexing
-/// (`stop` requested) throws Error(input) "stopped while indexing".
+/// Opens a video file, a folder of images or a list of parts (parts/part_list.h). Throws Error(input) with file, reason
+/// and remedy; an aborted indexing (`stop` requested) throws Error(input) "stopped while indexing".
 std::unique_ptr<FrameSource> openSource(const std::filesystem::path& path, const SourceOptions& options = {},
                                         const IndexProgress& progress = {}, std::stop_token stop = {});
 

@@ -76,7 +76,6 @@ VideoReader::VideoReader(const std::filesystem::path& path, const SourceOptions&
     for (std::size_t number = 0; number < index_.packets.size(); ++number)
         if (index_.packets[number].key && frame_of_packet_[number] >= 0)
             key_packets_.push_back(static_cast<int>(number));
-    if (!decoder_) decoder_ = std::make_unique<VideoDecoder>(info_.path, index_);
     describe(options);
 }
 
@@ -156,6 +155,7 @@ const AVFrame* VideoReader::decodeUpTo(FrameIndex index) {
 
 const AVFrame& VideoReader::pictureOf(FrameIndex index) {
     if (picture_ != nullptr && picture_frame_ == index) return *picture_;
+    if (!decoder_) decoder_ = std::make_unique<VideoDecoder>(info_.path, index_);
     const std::vector<int> starts = startsFor(index);
     const bool ahead = picture_ != nullptr && picture_frame_ < index;
     if (ahead && starts.front() <= decoder_->nextPacket() + kPacketsWorthDecoding)

@@ -36,8 +36,8 @@ class VideoReader : public FrameSource {
     std::int64_t stamp_tick_numerator_ = 1;  ///< of the container, whatever rate the user gave
     std::int64_t stamp_tick_denominator_ = 1;
     std::vector<FrameIndex> frame_of_packet_;
-    std::vector<int> key_packets_;  ///< of frames that show, ascending
-    std::unique_ptr<VideoDecoder> decoder_;
+    std::vector<int> key_packets_;           ///< of frames that show, ascending
+    std::unique_ptr<VideoDecoder> decoder_;  ///< null until a frame is read, where the index was known
     PixelConversion conversion_;
     const AVFrame* picture_ = nullptr;  ///< what the decoder delivered last
     FrameIndex picture_frame_ = -1;

@@ -90,6 +90,32 @@ class TimelineViewTest : public QObject {
         QVERIFY(before != view.grab().toImage());
     }
 
+    void seamsStandWhereTheirFramesBeginAndNotTooDense() {
+        TimelineAxis axis;
+        axis.setSpan(100, 1000);
+        axis.setFrameCount(1000);
+        axis.showAll();
+        QCOMPARE(TimelineSeams({600, 200}).places(axis), (std::vector<double>{300.5, 700.5}));
+        QCOMPARE(TimelineSeams({200, 201, 202, 203}).places(axis), (std::vector<double>{300.5, 303.5}));
+        axis.zoomAround(100, 2);
+        QCOMPARE(TimelineSeams({200, 600}).places(axis), (std::vector<double>{500.5}));
+        QVERIFY(TimelineSeams().places(axis).empty());
+    }
+
+    void seamsAreDrawnUntilAnotherVideoComes() {
+        TimelineView view;
+        view.resize(600, 104);
+        view.setTimes(times(50));
+        const QImage before = view.grab().toImage();
+        view.setSeams({20, 40});
+        const QImage with = view.grab().toImage();
+        const int x = static_cast<int>(view.axis().xOf(20));
+        QVERIFY(with.copy(x - 1, 0, 3, 104) != before.copy(x - 1, 0, 3, 104));
+        QCOMPARE(with.copy(x + 5, 0, 30, 104), before.copy(x + 5, 0, 30, 104));
+        view.setTimes(times(50));
+        QCOMPARE(view.grab().toImage(), before);
+    }
+
     void withoutAVideoItIsEmptyAndHarmless() {
         TimelineView view;
         view.resize(600, 104);

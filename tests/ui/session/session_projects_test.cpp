@@ -140,11 +140,11 @@ class SessionProjectsTest : public QObject {
         QVERIFY(open(session, project()));
         QVERIFY(session.videoMissing());
         QCOMPARE(not_found.count(), 1);
-        session.locateVideo(shorter);
+        session.locateVideo({shorter});
         QVERIFY(not_found.wait(kPatience_ms));
         QVERIFY(not_found.last().at(0).toString().contains(QStringLiteral("another video")));
         QVERIFY(session.videoMissing());
-        session.locateVideo(elsewhere);
+        session.locateVideo({elsewhere});
         QVERIFY(waitFor([&] { return !session.videoMissing(); }));
         QVERIFY(shows(session, 0));
         QVERIFY(session.currentRun());

@@ -42,9 +42,15 @@ void TimelineView::setTimes(std::vector<std::int64_t> times_us) {
     track_life_.reset();
     run_range_.reset();
     setMarks({}, {});
+    seams_ = {};
     axis_.setFrameCount(static_cast<int>(times_us_.size()));
     axis_.showAll();
     current_ = 0;
+    update();
+}
+
+void TimelineView::setSeams(std::vector<FrameIndex> frames) {
+    seams_ = TimelineSeams(std::move(frames));
     update();
 }
 
@@ -173,6 +179,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
     paintMarks(painter, row.marks);
     activity().paint(painter, row.activity, axis_);
     paintTrackLife(painter, row.track);
+    paintSeams(painter);
     painter.restore();
     paintCursor(painter);
 }
@@ -258,6 +265,13 @@ void TimelineView::paintTrackLife(QPainter& painter, const QRectF& row) const {
     painter.setRenderHint(QPainter::Antialiasing, false);
 }
 
+void TimelineView::paintSeams(QPainter& painter) const {
+    QPen pen(palette().color(QPalette::WindowText), 1);
+    pen.setDashPattern({3, 3});
+    painter.setPen(pen);
+    for (const double x : seams_.places(axis_)) painter.drawLine(QLineF(x, kRulerHeight - 7, x, height() - 2));
+}
+
 void TimelineView::paintCursor(QPainter& painter) const {
     const double x = std::floor(axis_.centreOf(current_)) + 0.5;
     if (x < axis_.left() - 1 || x > axis_.right() + 1) return;
@@ -282,6 +296,8 @@ void TimelineView::paintCursor(QPainter& painter) const {
 QString TimelineView::describeFrame(FrameIndex frame) const {
     const auto index = static_cast<size_t>(frame);
     QString text = tr("Frame %1, %2").arg(frame).arg(QString::fromStdString(timeText(times_us_[index])));
+    if (const QString place = describe_place_ ? describe_place_(frame) : QString(); !place.isEmpty())
+        text += QLatin1Char('\n') + place;
     if (index >= frames_.size() || !frames_[index].done) return text;
     const TimelineFrame& done = frames_[index];
     switch (done.state) {

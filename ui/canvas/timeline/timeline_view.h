@@ -11,11 +11,12 @@
 #include "canvas/timeline/timeline_axis.h"
 #include "canvas/timeline/timeline_frame.h"
 #include "canvas/timeline/timeline_marks.h"
+#include "canvas/timeline/timeline_seams.h"
 
 namespace eyrie::ui {
 
-/// Ruler with the video's own times, registration quality, activity, the life of the selected track and the place
-/// shown. Clicking and dragging scrub; the wheel zooms; arrow keys are left to the window.
+/// Ruler with the video's own times, where its parts meet, registration quality, activity, the life of the selected
+/// track and the place shown. Clicking and dragging scrub; the wheel zooms; arrow keys are left to the window.
 class TimelineView : public QWidget {
     Q_OBJECT
 
@@ -24,6 +25,10 @@ class TimelineView : public QWidget {
 
     /// A new video: presentation time of every frame, microseconds. Forgets all frames.
     void setTimes(std::vector<std::int64_t> times_us);
+    /// First frames of the parts of the video but the first.
+    void setSeams(std::vector<FrameIndex> frames);
+    /// What is to be said of a frame besides what it was found to be, in lines; empty: nothing.
+    void setDescription(std::function<QString(FrameIndex)> describe) { describe_place_ = std::move(describe); }
     /// All frames of a run, by index; may be shorter than the video.
     void setFrames(std::vector<TimelineFrame> frames);
     /// One more frame of a running run.
@@ -74,6 +79,7 @@ class TimelineView : public QWidget {
     /// The mark under a place of the widget.
     const TimelineMark* markAt(QPointF place) const;
     void paintTrackLife(QPainter& painter, const QRectF& row) const;
+    void paintSeams(QPainter& painter) const;
     void paintCursor(QPainter& painter) const;
     QString describeFrame(FrameIndex frame) const;
     /// The curves as they are now; valid while frames and axis are not changed.
@@ -88,6 +94,8 @@ class TimelineView : public QWidget {
     QString marks_name_;
     TimelineMarks marks_;
     std::function<QString(int id)> describe_mark_;
+    TimelineSeams seams_;
+    std::function<QString(FrameIndex)> describe_place_;
     OverlayColours colours_ = overlayColours(PaletteKind::thesis);
     FrameIndex current_ = 0;
     bool scrubbing_ = false;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "events/stored_events.h"
 #include "session/background/pace.h"
 #include "store/labels/annotation_store.h"
@@ -50,6 +51,7 @@ void VideoEarth::readMetadata() {
     world_query_.cancel();
     found_.reset();
     world_.reset();
+    clock_ = {};
     control_.clear();
     read_share_ = 0;
     viewed_ = -1;
@@ -74,6 +76,7 @@ void VideoEarth::readMetadata() {
 
 void VideoEarth::adopt(FoundMetadata found) {
     found_ = std::make_shared<const FoundMetadata>(std::move(found));
+    clock_ = VideoClock::ofParts(found_->parts, found_->metadata, std::nullopt);
     emit changed();
     layOnEarth();
 }
@@ -82,6 +85,16 @@ std::optional<MetadataState> VideoEarth::stateOf(const VideoMetadata& stream, Fr
     const auto& times = session_.timesUs();
     if (frame < 0 || static_cast<std::size_t>(frame) >= times.size()) return std::nullopt;
     return stream.timeline().at(times[static_cast<std::size_t>(frame)]);
+}
+
+QString VideoEarth::clockText(FrameIndex frame) const {
+    const auto& times = session_.timesUs();
+    if (frame < 0 || static_cast<std::size_t>(frame) >= times.size()) return {};
+    const auto utc_us = clock_.at(times[static_cast<std::size_t>(frame)]);
+    if (!utc_us) return {};
+    QString text = QString::fromStdString(utcTextToMilliseconds(*utc_us));
+    text.remove(QLatin1Char('Z'));
+    return tr("%1 UTC").arg(text.replace(QLatin1Char('T'), QLatin1Char(' ')));
 }
 
 const GroundView* VideoEarth::viewOf(FrameIndex frame) const {

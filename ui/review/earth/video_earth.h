@@ -38,6 +38,11 @@ class VideoEarth : public QObject {
     /// What a stream of metadata says of a frame, by itself; nothing for a frame that is none.
     std::optional<MetadataState> stateOf(const VideoMetadata& stream, FrameIndex frame) const;
 
+    /// When a frame was taken, for people: "2026-11-21 08:00:00.000 UTC"; empty where nobody knows.
+    QString clockText(FrameIndex frame) const;
+    /// What that rests on.
+    QString clockOrigin() const { return QString::fromStdString(clock_.origin()); }
+
     /// The place under a pixel; nothing where nobody knows.
     std::optional<GeoPoint> placeOf(FrameIndex frame, QPointF px) const;
     /// The direction of north in the middle of a frame, degrees clockwise from +x.
@@ -68,6 +73,7 @@ class VideoEarth : public QObject {
     std::shared_ptr<const StoredTracks> run_;
     std::shared_ptr<const FoundMetadata> found_;
     double read_share_ = 0;
+    VideoClock clock_;
     std::vector<ControlPoint> control_;
     std::shared_ptr<const VideoWorld> world_;  ///< asked on this object's thread alone
     mutable FrameIndex viewed_ = -1;           ///< frame of `view_`

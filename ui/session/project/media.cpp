@@ -1,5 +1,12 @@
 #include "session/project/media.h"
 
+#include <algorithm>
+
+#include "io/folder.h"
+#include "io/video/image_sequence.h"
+#include "io/video/parts/part_list.h"
+#include "io/video/parts/part_source.h"
+#include "session/project/project_location.h"
 #include "session/project/scene_frame_cache.h"
 
 namespace eyrie::ui {
@@ -7,8 +14,17 @@ namespace eyrie::ui {
 namespace fs = std::filesystem;
 
 namespace {
+
 const std::string kScenePrefix = "scene:";
+
+SourceOptions sourceOptionsOf(FrameRate rate) {
+    SourceOptions options;
+    options.frame_rate_hz = rate.given_hz;
+    options.remembered_rate_hz = rate.remembered_hz;
+    return options;
 }
+
+}  // namespace
 
 Media videoMedia(const fs::path& path, FrameRate rate) {
     std::error_code no_such_path;
@@ -16,16 +32,45 @@ Media videoMedia(const fs::path& path, FrameRate rate) {
     if (no_such_path) absolute = fs::absolute(path);
     if (!absolute.has_filename()) absolute = absolute.parent_path();
     Media media;
-    media.name = absolute.filename().string();
+    media.name = (hasPartListName(absolute) ? absolute.stem() : absolute.filename()).string();
     media.identity = absolute.string();
     media.gsd_m_per_px = [] { return 0.0; };
     media.given_rate_hz = rate.given_hz;
     media.open = [absolute, rate](const IndexProgress& progress, std::stop_token stop) {
-        SourceOptions options;
-        options.frame_rate_hz = rate.given_hz;
-        options.remembered_rate_hz = rate.remembered_hz;
-        return openSource(absolute, options, progress, std::move(stop));
+        return openSource(absolute, sourceOptionsOf(rate), progress, std::move(stop));
     };
+    return media;
+}
+
+Media partsMedia(std::vector<fs::path> files, FrameRate rate) {
+    if (files.size() == 1) return videoMedia(files.front(), rate);
+    std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+        return naturalOrder(a.filename().string(), b.filename().string());
+    });
+    Media media = videoMedia(fs::absolute(files.front()).parent_path() / partListName(files), rate);
+    fs::path elsewhere = projectInDataFolder(media.name, media.identity);
+    elsewhere.replace_extension(kPartListEnding);
+    const std::vector<fs::path> places{media.identity, elsewhere};
+    media.open = [files, places, rate](const IndexProgress& progress, const std::stop_token& stop) {
+        std::error_code failed;  // told when nothing can be written
+        fs::create_directories(places.back().parent_path(), failed);
+        return openTogether(files, places, sourceOptionsOf(rate), progress, stop);
+    };
+    media.becomes_list = true;
+    return media;
+}
+
+Media locatedMedia(const fs::path& missing, std::vector<fs::path> chosen, FrameRate rate) {
+    const bool is_list = chosen.size() == 1 && hasPartListName(chosen.front());
+    if (!hasPartListName(missing) || is_list) return partsMedia(std::move(chosen), rate);
+    Media media = videoMedia(missing, rate);
+    Media anew = partsMedia(chosen, rate);
+    media.open = [missing, chosen = std::move(chosen), anew = std::move(anew), rate](const IndexProgress& progress,
+                                                                                     const std::stop_token& stop) {
+        if (!isFile(missing)) return anew.open(progress, stop);
+        return openRelocated(missing, chosen, sourceOptionsOf(rate), progress, stop);
+    };
+    media.becomes_list = true;
     return media;
 }
 

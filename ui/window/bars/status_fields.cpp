@@ -30,6 +30,7 @@ QLabel* field(QStatusBar& bar, const QString& widest) {
 
 StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&bar), session_(session) {
     frame_ = field(bar, QStringLiteral("frame 00000 / 00000   00:00.00"));
+    clock_ = field(bar, QString());
     cursor_ = field(bar, QStringLiteral("0000.0, 0000.0 px   000.0, 000.0 m"));
     zoom_ = field(bar, QStringLiteral("0000 %"));
     place_ = field(bar, QStringLiteral("-00.000000, -000.000000"));
@@ -44,6 +45,7 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
     stop_->setAutoRaise(true);
     stop_->setToolTip(tr("Stop"));
     bar.addWidget(frame_);
+    bar.addWidget(clock_);
     bar.addWidget(cursor_);
     bar.addWidget(zoom_);
     bar.addWidget(place_);
@@ -92,6 +94,7 @@ void StatusFields::stop() {
 
 void StatusFields::showFrame() {
     const auto& video = session_.video();
+    showClock();
     if (!video) {
         frame_->clear();
         return;
@@ -105,6 +108,19 @@ void StatusFields::showFrame() {
     if (video->frame_rate_assumed)
         text += tr("   at %1 fps (assumed)").arg(QLocale().toString(video->frame_rate_hz, 'g', 4));
     frame_->setText(text);
+    frame_->setToolTip(session_.partText(frame));
+}
+
+void StatusFields::setClock(ClockOfFrames clock) {
+    clock_of_frames_ = std::move(clock);
+    showClock();
+}
+
+void StatusFields::showClock() {
+    const QString text = session_.video() ? clock_of_frames_.text(session_.shownFrame()) : QString();
+    clock_->setVisible(!text.isEmpty());
+    clock_->setText(text);
+    clock_->setToolTip(text.isEmpty() ? text : tr("When the frame was taken, by %1").arg(clock_of_frames_.origin()));
 }
 
 void StatusFields::setPlaces(PlacesInPicture places) {
@@ -113,6 +129,7 @@ void StatusFields::setPlaces(PlacesInPicture places) {
 }
 
 void StatusFields::showPlace() {
+    showClock();
     const auto place = cursor_at_ && session_.video() ? places_.place_of(*cursor_at_) : std::nullopt;
     place_->setText(place ? QString::fromStdString(placeText(*place)) : QString());
     place_->setToolTip(place ? tr("Latitude and longitude under the cursor, degrees. %1").arg(places_.origin())

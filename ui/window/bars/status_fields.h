@@ -23,8 +23,16 @@ struct PlacesInPicture {
     std::function<QString()> origin = [] { return QString(); };
 };
 
-/// The fields of the status bar: frame, time, cursor, the place on the earth under it, zoom; and, while something
-/// works, its progress with a cross.
+/// When frames were taken.
+struct ClockOfFrames {
+    /// For people; empty where nobody knows.
+    std::function<QString(FrameIndex)> text = [](FrameIndex) { return QString(); };
+    /// What that rests on, for people.
+    std::function<QString()> origin = [] { return QString(); };
+};
+
+/// The fields of the status bar: frame, time, clock, cursor, the place on the earth under it, zoom; and, while
+/// something works, its progress with a cross.
 class StatusFields : public QObject {
     Q_OBJECT
 
@@ -33,14 +41,16 @@ class StatusFields : public QObject {
     StatusFields(ProjectSession& session, QStatusBar& bar);
 
     void setPlaces(PlacesInPicture places);
+    void setClock(ClockOfFrames clock);
     void showCursor(std::optional<QPointF> image_point);
-    /// The place under the cursor may be another now.
+    /// The place under the cursor, and the clock, may be others now.
     void showPlace();
     void showZoom(double zoom);
 
  private:
     void stop();
     void showFrame();
+    void showClock();
     void showRun(const RunProgress& progress);
     void showOpening(const QString& name, double share);
     void showProgress();
@@ -49,6 +59,7 @@ class StatusFields : public QObject {
 
     ProjectSession& session_;
     QLabel* frame_;
+    QLabel* clock_;
     QLabel* cursor_;
     QLabel* place_;
     QLabel* zoom_;
@@ -56,6 +67,7 @@ class StatusFields : public QObject {
     QProgressBar* bar_;
     QToolButton* stop_;
     PlacesInPicture places_;
+    ClockOfFrames clock_of_frames_;
     std::optional<QPointF> cursor_at_;  ///< px of the picture; nothing while it is elsewhere
 };
 
