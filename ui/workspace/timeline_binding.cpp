@@ -33,6 +33,7 @@ TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline
     whenChanged(session_, this,
                 {
                     {SessionChange::video, [this] { showVideo(); }},
+                    {SessionChange::length, [this] { showLength(); }},
                     {SessionChange::current_run, [this] { forgetRun(); }},
                     {SessionChange::run_data, [this] { showRun(); }},
                     {SessionChange::selection, [this] { showTrackLife(); }},
@@ -59,6 +60,11 @@ void TimelineBinding::showVideo() {
     timeline_.setTimes(session_.timesUs());
     chart_.clear();
     if (session_.video()) chart_.setBudgetMs(1000 / std::max(0.001, session_.video()->frame_rate_hz));
+}
+
+void TimelineBinding::showLength() {
+    timeline_.extendTimes(session_.timesUs());
+    if (live_) timeline_.setRunRange(std::pair(0, session_.lastFrame()));
 }
 
 void TimelineBinding::forgetRun() {
@@ -90,7 +96,8 @@ void TimelineBinding::showRun() {
 void TimelineBinding::beginLive() {
     live_ = true;
     known_before_ = false;
-    if (const RunRecord* run = session_.ownRun()) timeline_.setRunRange(std::pair(run->first_frame, run->last_frame));
+    if (const RunRecord* run = session_.ownRun())
+        timeline_.setRunRange(std::pair(run->first_frame, std::min(run->last_frame, session_.lastFrame())));
 }
 
 void TimelineBinding::endLive() {

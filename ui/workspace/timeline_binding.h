@@ -20,6 +20,7 @@ class TimelineBinding : public QObject {
 
  private:
     void showVideo();
+    void showLength();
     void forgetRun();
     void showRun();
     void beginLive();

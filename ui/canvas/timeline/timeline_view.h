@@ -24,6 +24,8 @@ class TimelineView : public QWidget {
 
     /// A new video: presentation time of every frame, microseconds. Forgets all frames.
     void setTimes(std::vector<std::int64_t> times_us);
+    /// The video has grown: the same frames and some behind them. Keeps all that was told of the former.
+    void extendTimes(std::vector<std::int64_t> times_us);
     /// All frames of a run, by index; may be shorter than the video.
     void setFrames(std::vector<TimelineFrame> frames);
     /// One more frame of a running run.
