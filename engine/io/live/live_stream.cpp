@@ -298,7 +298,7 @@ struct LiveStream::Receiver {
         const std::scoped_lock lock(mutex);
         if (facts.frames == 0) info.size = size;
         frame.index = facts.frames++;
-        delivered = LiveClock::now();
+        delivered = last_picture;  // what the decoder held back came then, too
         if (room) {
             ++with_picture;
         } else {

@@ -31,7 +31,8 @@ class SessionLiveTest : public QObject {
             [&] {
                 return !session.running() && !session.opening() && session.runData() != nullptr &&
                        !session.runData()->record.live && session.video() &&
-                       session.video()->frame_count == session.runData()->record.frames_done;
+                       session.video()->frame_count >= session.runData()->record.frames_done &&
+                       session.timesUs().size() == static_cast<std::size_t>(session.video()->frame_count);
             },
             kPatience_ms);
     }
