@@ -13,7 +13,7 @@
 #include "io/video/frame_source.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::box_following_test {
 namespace {
 
 cv::Mat noise(cv::Size size, int seed, double blur) {
@@ -239,4 +239,4 @@ TEST(BoxFollowing, FollowsRealVehicles) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::box_following_test

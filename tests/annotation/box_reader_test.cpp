@@ -8,7 +8,7 @@
 #include "annotation/keyframes/dense_boxes.h"
 #include "annotation/scenes.h"
 
-namespace eyrie {
+namespace eyrie::box_reader_test {
 namespace {
 
 /// A car that stops, turns and drives on, seen by a camera that lost the ground once.
@@ -78,4 +78,4 @@ TEST(Deviations, FindTheFirstOfTheWorstHoweverTheyChange) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::box_reader_test

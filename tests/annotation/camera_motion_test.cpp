@@ -8,7 +8,7 @@
 
 #include "annotation/scenes.h"
 
-namespace eyrie {
+namespace eyrie::camera_motion_test {
 namespace {
 
 double distance(cv::Point2d a, cv::Point2d b) {
@@ -132,4 +132,4 @@ TEST(CameraMotion, KnowsNothingWithoutSteps) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::camera_motion_test

@@ -10,7 +10,7 @@
 #include "io/tables/homography_csv.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::collage_keyframes_test {
 namespace {
 
 std::map<int, std::vector<FrameBox>> tracksOf(const BoxesByFrame& boxes) {
@@ -128,4 +128,4 @@ TEST(CollageKeyframes, TheGroundNeedsHalfOfWhatTheImageNeeds) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::collage_keyframes_test

@@ -9,7 +9,7 @@
 #include "annotation/scenes.h"
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::identity_verbs_test {
 namespace {
 
 using test::keyframe;
@@ -252,4 +252,4 @@ TEST(JoinSuggestions, AreRankedByDistanceOverTheGround) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::identity_verbs_test

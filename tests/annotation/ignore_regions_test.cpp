@@ -7,7 +7,7 @@
 #include "annotation/scenes.h"
 #include "evaluation/evaluate.h"
 
-namespace eyrie {
+namespace eyrie::ignore_regions_test {
 namespace {
 
 using test::keyframe;
@@ -147,4 +147,4 @@ TEST(GroundTruthBoxes, ServeAnEvaluation) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::ignore_regions_test

@@ -5,7 +5,7 @@
 #include "annotation/scenes.h"
 #include "core/geometry/angle.h"
 
-namespace eyrie {
+namespace eyrie::interpolation_test {
 namespace {
 
 using test::keyframe;
@@ -341,4 +341,4 @@ TEST(Interpolation, AllObjectsOfAFrame) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::interpolation_test

@@ -6,7 +6,7 @@
 
 #include "annotation/scenes.h"
 
-namespace eyrie {
+namespace eyrie::keyframe_reduction_test {
 namespace {
 
 using test::seen;
@@ -118,4 +118,4 @@ TEST(KeyframeReduction, TakesNothingAndLittle) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::keyframe_reduction_test

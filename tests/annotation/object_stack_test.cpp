@@ -7,7 +7,7 @@
 
 #include "annotation/scenes.h"
 
-namespace eyrie {
+namespace eyrie::object_stack_test {
 namespace {
 
 constexpr int kLast = 40;
@@ -141,4 +141,4 @@ TEST(ObjectStack, SaysNothingWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::object_stack_test

@@ -7,7 +7,7 @@
 #include "annotation/keyframes/interpolation.h"
 #include "annotation/scenes.h"
 
-namespace eyrie {
+namespace eyrie::picture_fit_test {
 namespace {
 
 cv::Mat noise(cv::Size size, int seed, double blur) {
@@ -184,4 +184,4 @@ TEST(CarriedCorrection, BoxesAtTheBorderAreTold) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::picture_fit_test

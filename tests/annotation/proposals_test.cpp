@@ -4,7 +4,7 @@
 
 #include "annotation/scenes.h"
 
-namespace eyrie {
+namespace eyrie::proposals_test {
 namespace {
 
 const CameraMotion flying(test::stepsOf(test::flyingView, 200));
@@ -49,4 +49,4 @@ TEST(Proposals, AreCutToARange) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::proposals_test

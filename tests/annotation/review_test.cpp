@@ -7,7 +7,7 @@
 #include "annotation/review/review_state.h"
 #include "annotation/scenes.h"
 
-namespace eyrie {
+namespace eyrie::review_test {
 namespace {
 
 using test::keyframe;
@@ -126,4 +126,4 @@ TEST(Attention, ListsWhatDeservesALook) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::review_test

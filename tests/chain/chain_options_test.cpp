@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::chain_options_test {
 
 TEST(ChainOptions, everyParameterIsNamedOnceAndExplained) {
     ChainOptions options;
@@ -171,4 +171,4 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
     EXPECT_EQ(differences, (std::map<std::string, std::string>(expected.begin(), expected.end())));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::chain_options_test

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "support/moving_scene.h"
 
-namespace eyrie {
+namespace eyrie::chain_run_test {
 namespace {
 
 class Collector : public ChainObserver {
@@ -125,4 +125,4 @@ TEST(ChainRun, refusesARangeOutsideTheVideo) {
     EXPECT_EQ(collector.results.front()->motion.frame, 5);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::chain_run_test

@@ -5,7 +5,7 @@
 
 /// Frames no chain likes. Each must go through without a crash, be marked for what it is, and leave the chain able to
 /// recover by itself.
-namespace eyrie {
+namespace eyrie::hard_input_test {
 namespace {
 
 struct Collector : ChainObserver {
@@ -121,4 +121,4 @@ TEST(HardInput, framesThatChangeSizeAreRefusedByName) {
     EXPECT_EQ(collector.results.size(), 2U);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::hard_input_test

@@ -7,7 +7,7 @@
 #include "support/run_rows.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::kept_details_run_test {
 namespace {
 
 int recordKeeping(const std::filesystem::path& project,
@@ -74,4 +74,4 @@ TEST(KeptDetailsOfRuns, AreNoParametersOfTheChain) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::kept_details_run_test

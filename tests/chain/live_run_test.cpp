@@ -13,7 +13,7 @@
 #include "support/temporary_folder.h"
 #include "support/wait_until.h"
 
-namespace eyrie {
+namespace eyrie::live_run_test {
 namespace {
 
 class LiveRuns : public testing::Test {
@@ -168,4 +168,4 @@ TEST_F(LiveRuns, FewerCornersAreLessThanHalf) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::live_run_test

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::parameter_stage_test {
 namespace {
 
 TEST(ParameterStage, EveryDeclaredParameterBelongsToAStage) {
@@ -70,4 +70,4 @@ TEST(ParameterStage, TheFirstDifferenceIsThatOfTheEarliestStage) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::parameter_stage_test

@@ -6,7 +6,7 @@
 #include "support/moving_scene.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::run_facts_test {
 namespace {
 
 /// Pictures without anything on them.
@@ -100,4 +100,4 @@ TEST(RunFacts, aRunThatNobodyWritesAnyMoreWasStopped) {
     EXPECT_EQ(found.nothing, NothingFollowed::no_frames);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::run_facts_test

@@ -6,7 +6,7 @@
 #include "support/moving_scene.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::run_recorder_test {
 namespace {
 
 struct StopAfter : ChainObserver {
@@ -59,4 +59,4 @@ TEST(RunRecorder, aStoppedRunKeepsItsFramesAndASecondRunIsAdded) {
     EXPECT_FALSE(RunStore(project).trackBoxes(stopped.id).empty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::run_recorder_test

@@ -19,7 +19,7 @@
 #include "support/run_rows.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::run_resume_test {
 namespace {
 
 using testing::HasSubstr;
@@ -442,4 +442,4 @@ TEST(KeptStates, OfOtherParametersAreNotUsed) {
     EXPECT_FALSE(unpackedState(bytes, {}, sceneScale(source.info(), 0.21), source));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::run_resume_test

@@ -7,7 +7,7 @@
 #include "support/moving_scene.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::scale_estimation_test {
 
 namespace {
 
@@ -128,4 +128,4 @@ TEST(ScaleEstimation, stopsWhenAsked) {
     EXPECT_FALSE(estimateScale(source, 0, 39, ChainOptions{}, 25, stop.get_token()));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::scale_estimation_test

@@ -9,7 +9,7 @@
 #include "support/moving_scene.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::scale_slope_fit_test {
 namespace {
 
 const cv::Size kImage{1000, 600};
@@ -118,4 +118,4 @@ TEST(SlopeEstimation, IsOnlyLookedForWhereAskedAndWhereTheScaleMeansSomething) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::scale_slope_fit_test

@@ -12,7 +12,7 @@
 
 /// The thesis' preset, as it is, through the whole chain: two vehicles that merge, one that splits, one that is missed
 /// and one that leaves the image (Teutsch §6.2.1, fig. 6.2; §7.4.3).
-namespace eyrie {
+namespace eyrie::thesis_chain_test {
 namespace {
 
 constexpr int kMergeFrom = 16;  // before any stack is high enough to hide it in its median
@@ -171,4 +171,4 @@ TEST(ThesisChain, holdsTheLimitsOfTheText) {
     EXPECT_GT(detections, 100) << "five vehicles in 60 frames";
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::thesis_chain_test

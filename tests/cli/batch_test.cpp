@@ -17,7 +17,7 @@
 #include "support/process.h"
 #include "support/wait_until.h"
 
-namespace eyrie {
+namespace eyrie::batch_test {
 namespace {
 
 using testing::ElementsAre;
@@ -307,4 +307,4 @@ TEST_F(Batches, whatCannotBeIsRefusedBeforeTheWork) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::batch_test

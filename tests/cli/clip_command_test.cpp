@@ -12,7 +12,7 @@
 #include "support/process.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::clip_command_test {
 namespace {
 
 using testing::AllOf;
@@ -174,4 +174,4 @@ TEST_F(HandedOver, TracksHaveMetresAndTimesOrARefusal) {
     EXPECT_EQ(call({"export", "--project", "@p.eyrie", "--format", "kw18", "--out", "@t.kw18"}).exit_code, 0);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::clip_command_test

@@ -12,7 +12,7 @@
 #include "support/process.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::command_line_test {
 namespace {
 
 using testing::HasSubstr;
@@ -257,4 +257,4 @@ TEST_F(CommandLine, helpAndParametersAreThere) {
     EXPECT_EQ(cli({"params", "--preset", "thesis"}).exit_code, 0);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::command_line_test

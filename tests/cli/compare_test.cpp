@@ -13,7 +13,7 @@
 #include "support/places.h"
 #include "support/process.h"
 
-namespace eyrie {
+namespace eyrie::compare_test {
 namespace {
 
 using testing::HasSubstr;
@@ -172,4 +172,4 @@ TEST_F(Compare, BenchHasARowForEveryStageAndMethod) {
                            {"clusters", "sliding_window", "mser", "three_frame_difference", "gradient + stacking"}));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::compare_test

@@ -10,7 +10,7 @@
 #include "support/places.h"
 #include "support/process.h"
 
-namespace eyrie {
+namespace eyrie::earlier_states_test {
 namespace {
 
 using testing::HasSubstr;
@@ -143,4 +143,4 @@ TEST_F(EarlierStates, ADamagedProjectIsSavedIntoANewOne) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::earlier_states_test

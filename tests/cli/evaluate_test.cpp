@@ -12,7 +12,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::evaluate_test {
 namespace {
 
 using testing::HasSubstr;
@@ -288,4 +288,4 @@ TEST_F(Evaluate, unreadableFilesAreRefusedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::evaluate_test

@@ -12,7 +12,7 @@
 #include "support/process.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::events_command_test {
 namespace {
 
 using testing::AllOf;
@@ -371,4 +371,4 @@ TEST_F(EventsCommand, EndsAsTheOtherCommandsDo) {
     EXPECT_THAT(textOf("old.csv"), StartsWith("kind,"));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::events_command_test

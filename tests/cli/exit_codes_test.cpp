@@ -9,7 +9,7 @@
 #include "support/process.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::exit_codes_test {
 namespace {
 
 using testing::AllOf;
@@ -166,4 +166,4 @@ TEST_F(ExitCodes, DecimalCommasSayWhatToWrite) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::exit_codes_test

@@ -13,7 +13,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::labels_test {
 namespace {
 
 using testing::AllOf;
@@ -271,4 +271,4 @@ TEST_F(LabelCommands, RealUavdtGoesIntoAProjectAndOut) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::labels_test

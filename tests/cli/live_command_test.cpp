@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 #include "support/wait_until.h"
 
-namespace eyrie {
+namespace eyrie::live_command_test {
 namespace {
 
 using testing::AllOf;
@@ -169,4 +169,4 @@ TEST_F(HandOver, ARunThatKeptTracksOnlySaysSoWhereMoreIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::live_command_test

@@ -11,7 +11,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::metadata_command_test {
 namespace {
 
 using testing::AllOf;
@@ -98,4 +98,4 @@ TEST_F(MetadataCommand, aRunTakesItsScaleFromThemUnlessOneIsGiven) {
     EXPECT_THAT(textOf("f.html"), HasSubstr("0.05 m/px, as given; the video's metadata (the frame corners) say 0.04"));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::metadata_command_test

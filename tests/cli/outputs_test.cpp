@@ -19,7 +19,7 @@
 #include "support/temporary_folder.h"
 #include "support/wait_until.h"
 
-namespace eyrie {
+namespace eyrie::outputs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -281,4 +281,4 @@ TEST_F(Outputs, AClosedTerminalStopsARunCleanly) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::outputs_test

@@ -16,7 +16,7 @@
 #include "support/process.h"
 #include "support/run_rows.h"
 
-namespace eyrie {
+namespace eyrie::resume_command_test {
 namespace {
 
 using testing::HasSubstr;
@@ -220,4 +220,4 @@ TEST_F(RunAgain, ARunThatKeepsSomethingElseIsAnotherOne) {
     EXPECT_EQ(runsIn("p.eyrie"), 2U);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::resume_command_test

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 
 /// Where the scale of a run comes from, as `run` and `info` tell it.
-namespace eyrie {
+namespace eyrie::run_scale_test {
 namespace {
 
 using testing::HasSubstr;
@@ -72,4 +72,4 @@ TEST_F(RunScale, aGivenOneIsGivenEvenIfItIsWhatWouldBeAssumed) {
     EXPECT_THAT(call({"info", at("p.eyrie")}).output, HasSubstr("preset default, 0.25 m/px, as given"));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::run_scale_test

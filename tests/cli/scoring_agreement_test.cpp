@@ -14,7 +14,7 @@
 #include "support/process.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::scoring_agreement_test {
 namespace {
 
 /// By name as in files; figures of people's tables are rounded as there.
@@ -191,4 +191,4 @@ INSTANTIATE_TEST_SUITE_P(Truths, ScoringAgreement,
                          testing::Combine(testing::Values("truth.csv", "gt.txt", ""), testing::Bool()));
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::scoring_agreement_test

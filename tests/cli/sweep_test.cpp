@@ -14,7 +14,7 @@
 #include "support/places.h"
 #include "support/process.h"
 
-namespace eyrie {
+namespace eyrie::sweep_test {
 namespace {
 
 using testing::HasSubstr;
@@ -306,4 +306,4 @@ TEST_F(Sweep, AFullDiskLeavesWhatIsDone) {
     EXPECT_EQ(rest.exit_code, 0) << rest.errors;
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::sweep_test

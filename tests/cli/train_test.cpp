@@ -11,7 +11,7 @@
 #include "support/process.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::train_test {
 namespace {
 
 using testing::HasSubstr;
@@ -137,4 +137,4 @@ TEST_F(TrainCommand, classifyTestComparesOverSources) {
     EXPECT_EQ(cli({"classify-test", "--samples", at("one") + "," + at("two"), "--train-on", "three"}).exit_code, 2);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::train_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::angle_test {
 
 TEST(Angle, wrapsIntoHalfOpenInterval) {
     EXPECT_DOUBLE_EQ(wrapPi(kPi), kPi);
@@ -20,4 +20,4 @@ TEST(Angle, degreesStayBelow360) {
     EXPECT_NEAR(degreesFromRadians(-kPi / 2), 270.0, 1e-9);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::angle_test

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::homography_test {
 namespace {
 
 Homography example(FrameIndex from, FrameIndex to) {
@@ -41,4 +41,4 @@ TEST(Homography, localMapAgreesWithFiniteDifferences) {
     EXPECT_NEAR(mapped.y, step.y, 1e-5);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::homography_test

@@ -6,7 +6,7 @@
 
 #include "core/geometry/angle.h"
 
-namespace eyrie {
+namespace eyrie::oriented_box_test {
 namespace {
 
 /// Slow and obvious: counts the points of a fine raster in both boxes.
@@ -76,4 +76,4 @@ TEST(OrientedBox, areaInImageCountsTheVisiblePart) {
     EXPECT_DOUBLE_EQ(areaInImage({{200, 50}, 10, 4, 0}, {100, 100}), 0);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::oriented_box_test

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::parameter_test {
 namespace {
 
 enum class Method { clusters, gradient };
@@ -98,4 +98,4 @@ TEST(Parameter, anUnknownNameSuggestsTheNearest) {
                 testing::HasSubstr("\"example.height\""));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::parameter_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::place_text_test {
 
 TEST(PlaceText, IsWhatMapsTake) {
     EXPECT_EQ(placeText({48.1371541, 11.5761239}), "48.137154, 11.576124");
@@ -45,4 +45,4 @@ TEST(PlaceText, ReadsWhatItWrites) {
     EXPECT_NEAR(place->longitude_deg, 179.999999, 1e-9);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::place_text_test

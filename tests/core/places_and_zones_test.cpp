@@ -4,7 +4,7 @@
 #include "core/geometry/outline_map.h"
 #include "core/review/zone.h"
 
-namespace eyrie {
+namespace eyrie::places_and_zones_test {
 
 TEST(LocalPlane, ADegreeIsAsLongAsOnTheEllipsoid) {
     // WGS 84: lengths of a degree of latitude and of longitude at 0°, 45° and 60°, m.
@@ -54,4 +54,4 @@ TEST(Zone, FaultsAreThoseThatMakeItUseless) {
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {10, 10}, {20, 20}}), "the zone has no area");
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::places_and_zones_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::project_name_test {
 
 TEST(ProjectName, isToldByItsEnding) {
     for (const char* name : {"p.eyrie", "/a.b/p.EYRIE", "flight.2.Eyrie"}) EXPECT_TRUE(hasProjectName(name)) << name;
@@ -10,4 +10,4 @@ TEST(ProjectName, isToldByItsEnding) {
         EXPECT_FALSE(hasProjectName(name)) << name;
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::project_name_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::scale_basis_test {
 
 TEST(ScaleBasis, isWordedWithHowSureItIs) {
     EXPECT_EQ(describe(0.08, {ScaleOrigin::given}), "0.08 m/px, as given");
@@ -37,4 +37,4 @@ TEST(ScaleBasis, neverContradictsWhetherTheScaleIsKnown) {
     EXPECT_EQ(agreeing(metadata, {0.2, 25, false}), ScaleBasis{ScaleOrigin::estimated});
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::scale_basis_test

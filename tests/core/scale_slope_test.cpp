@@ -5,7 +5,7 @@
 #include "core/values/scale_basis.h"
 #include "core/values/scene_scale.h"
 
-namespace eyrie {
+namespace eyrie::scale_slope_test {
 namespace {
 
 // A picture of 201 × 101 px whose middle is (100, 50); pixels per metre grow by 1 % for a pixel downwards.
@@ -58,4 +58,4 @@ TEST(ScaleSlope, TheScaleOfAnObliqueViewIsToldWithItsEdges) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::scale_slope_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace eyrie {
+namespace eyrie::scene_scale_test {
 namespace {
 
 using testing::HasSubstr;
@@ -31,4 +31,4 @@ TEST(GroundSamplingDistance, IsDoubtedWhereACarIsTooShortOrTooLongToBeFound) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::scene_scale_test

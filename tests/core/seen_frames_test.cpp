@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace eyrie {
+namespace eyrie::seen_frames_test {
 
 /// For messages of failed tests.
 inline void PrintTo(const FrameSpan& span, std::ostream* out) {
@@ -86,4 +86,4 @@ TEST(SeenFrames, TheTimeBehindAnotherWindowConnectsNothing) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::seen_frames_test

@@ -4,7 +4,7 @@
 
 #include "core/state_values.h"
 
-namespace eyrie {
+namespace eyrie::state_archive_test {
 namespace {
 
 enum class Colour { red, green, blue };
@@ -139,4 +139,4 @@ TEST(StateArchive, NamesPicturesAndKnowsThemAgain) {
     EXPECT_THROW(changed.picture(first, {}), ChangedPicture);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::state_archive_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::text_test {
 namespace {
 
 TEST(Text, IsMadeSafeForMarkup) {
@@ -49,4 +49,4 @@ TEST(Text, DecimalCommasAreRecognised) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::text_test

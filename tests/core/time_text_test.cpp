@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::time_text_test {
 
 TEST(TimeText, IsRoundedToItsDecimals) {
     EXPECT_EQ(timeText(0), "0:00.00");
@@ -24,4 +24,4 @@ TEST(TimeText, TheClockOfAnEventIsThatOfTheTimelineInTenths) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::time_text_test

@@ -3,7 +3,7 @@
 #include "core/labels/track_class.h"
 #include "core/parameter.h"
 
-namespace eyrie {
+namespace eyrie::track_class_limits_test {
 namespace {
 
 const SceneScale kScale{0.1, 25, true};
@@ -32,4 +32,4 @@ TEST(TrackClassLimits, DecideOnEitherSideOfThem) {
     EXPECT_EQ(classWith("classes.min_life", "2.1", 2.2, 0.8, 8), TrackClass::unknown);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::track_class_limits_test

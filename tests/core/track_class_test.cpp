@@ -6,7 +6,7 @@
 
 #include "core/parameter.h"
 
-namespace eyrie {
+namespace eyrie::track_class_test {
 namespace {
 
 constexpr double kGsd = 0.2;  // m/px
@@ -121,4 +121,4 @@ TEST(TrackClass, AllBoxesOfATrackGetTheClassOfItsMeans) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::track_class_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace eyrie {
+namespace eyrie::utc_time_test {
 
 TEST(UtcTime, TextsOfMomentsAreThoseOfTheCalendar) {
     EXPECT_EQ(utcTextOfSeconds(0), "1970-01-01T00:00:00Z");
@@ -41,4 +41,4 @@ TEST(UtcTime, WhatIsNoMomentIsRefused) {
         EXPECT_EQ(utcOf(text), std::nullopt) << text;
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::utc_time_test

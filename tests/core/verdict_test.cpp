@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::verdict_test {
 namespace {
 
 using testing::ElementsAre;
@@ -28,4 +28,4 @@ TEST(Verdict, TagsAreTrimmedAndToldOnce) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::verdict_test

@@ -8,7 +8,7 @@
 #include "support/temporary_folder.h"
 #include "support/written_run.h"
 
-namespace eyrie {
+namespace eyrie::corrected_run_test {
 namespace {
 
 using test::drivenSightings;
@@ -139,4 +139,4 @@ TEST_F(CorrectedRun, ANewRunOfTheVideoCarriesThemOver) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::corrected_run_test

@@ -8,7 +8,7 @@
 #include "core/review/track_correction.h"
 #include "correction/driven_states.h"
 
-namespace eyrie {
+namespace eyrie::corrected_tracks_test {
 namespace {
 
 using test::drivenBox;
@@ -322,4 +322,4 @@ TEST(Likeness, BoxesBesideEachOtherAreTwoVehicles) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::corrected_tracks_test

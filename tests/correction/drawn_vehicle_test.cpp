@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/geometry/angle.h"
 
-namespace eyrie {
+namespace eyrie::drawn_vehicle_test {
 namespace {
 
 constexpr int kFrames = 60;
@@ -129,4 +129,4 @@ TEST(TurnedIntoMotion, WhatStandsOrIsNotConnectedStaysAsItWasDrawn) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::drawn_vehicle_test

@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-namespace eyrie {
+namespace eyrie::component_boxes_test {
 namespace {
 
 const SceneScale kScale{0.1, 25, true};  // 1 m = 10 px
@@ -153,4 +153,4 @@ TEST(ComponentBoxes, BoundsAndGrowth) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::component_boxes_test

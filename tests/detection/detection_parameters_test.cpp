@@ -7,7 +7,7 @@
 #include "detection/detector_factory.h"
 #include "support/driven_scene.h"
 
-namespace eyrie {
+namespace eyrie::detection_parameters_test {
 namespace {
 
 /// A parameter, what it changes first, and two values of which the second leaves more of it.
@@ -81,4 +81,4 @@ INSTANTIATE_TEST_SUITE_P(
         return name;
     });
 
-}  // namespace eyrie
+}  // namespace eyrie::detection_parameters_test

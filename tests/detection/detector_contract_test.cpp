@@ -3,7 +3,7 @@
 #include "detection/detector_factory.h"
 #include "detection/trained_window_model.h"
 
-namespace eyrie::test {
+namespace eyrie::test::detector_contract_test {
 namespace {
 
 DetectorMaker maker(const std::string& name, const DetectionOptions& options) {
@@ -74,4 +74,4 @@ INSTANTIATE_TEST_SUITE_P(SlidingWindow, DetectorContract,
                                                        DetectionMethod::window_and_gradient)),
                          nameOf);
 
-}  // namespace eyrie::test
+}  // namespace eyrie::test::detector_contract_test

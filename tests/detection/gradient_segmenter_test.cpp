@@ -5,7 +5,7 @@
 #include "detection/detection_options.h"
 #include "support/driven_scene.h"
 
-namespace eyrie {
+namespace eyrie::gradient_segmenter_test {
 namespace {
 
 using test::drivenScene;
@@ -104,4 +104,4 @@ TEST(GradientSegmenter, PaddingIsNotAnEdge) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::gradient_segmenter_test

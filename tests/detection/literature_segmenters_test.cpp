@@ -11,7 +11,7 @@
 #include "detection/segmenters/segmentation_views.h"
 #include "support/driven_scene.h"
 
-namespace eyrie {
+namespace eyrie::literature_segmenters_test {
 namespace {
 
 using test::drivenScene;
@@ -305,4 +305,4 @@ TEST(SegmentationViews, TakeWhateverRoiComes) {
     EXPECT_TRUE(contourMap({}).empty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::literature_segmenters_test

@@ -9,7 +9,7 @@
 #include "detection/trained_window_model.h"
 #include "support/driven_scene.h"
 
-namespace eyrie {
+namespace eyrie::prepared_area_test {
 namespace {
 
 using test::drivenScene;
@@ -121,4 +121,4 @@ TEST(PreparedArea, OfAnEmptyAreaIsNothing) {
     EXPECT_TRUE(detector->decide({}, nullptr).empty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::prepared_area_test

@@ -5,7 +5,7 @@
 #include "detection/segmenters/relative_connectivity_segmenter.h"
 #include "support/driven_scene.h"
 
-namespace eyrie {
+namespace eyrie::relative_connectivity_test {
 namespace {
 
 std::vector<int> scanned(const std::vector<int>& row, int min_points) {
@@ -89,4 +89,4 @@ TEST(RelativeConnectivity, DarkVehiclesAreFoundLikeBrightOnes) {
     EXPECT_GT(overlap(a[0].box, b[0].box), 0.9);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::relative_connectivity_test

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "support/driven_scene.h"
 
-namespace eyrie {
+namespace eyrie::roi_cutter_test {
 namespace {
 
 using test::drivenScene;
@@ -106,4 +106,4 @@ TEST(RoiCutter, RefusesAFrameWithoutAnImage) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::roi_cutter_test

@@ -9,7 +9,7 @@
 
 #include "detection/trained_window_model.h"
 
-namespace eyrie {
+namespace eyrie::scale_votes_test {
 namespace {
 
 using test::drivenScene;
@@ -152,4 +152,4 @@ TEST(ScaleVotes, DotsAndHousesAreNotLookedAt) {
     EXPECT_EQ(votesAt(6.5), 0U) << "260 px";
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::scale_votes_test

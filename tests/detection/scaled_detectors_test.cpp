@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::scaled_detectors_test {
 namespace {
 
 /// Answers with one detection whose score is its metres per pixel.
@@ -70,4 +70,4 @@ TEST(ScaledDetectors, WhatCannotBeMadeIsSaidAtOnce) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::scaled_detectors_test

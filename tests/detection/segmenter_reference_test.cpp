@@ -18,7 +18,7 @@
 #include "imaging/region_boxes.h"
 #include "support/driven_scene.h"
 
-namespace eyrie {
+namespace eyrie::segmenter_reference_test {
 namespace {
 
 using test::drivenScene;
@@ -452,4 +452,4 @@ TEST(SegmenterReference, JoinedBoxesFitIntoOneVehicleOfAtLeastFourPixels) {
     EXPECT_EQ(boxes[1], cv::Rect2d(3.5, 21.5, 6, 22));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::segmenter_reference_test

@@ -16,7 +16,7 @@
 #include "imaging/upright_patch.h"
 #include "learning/classifiers/gentle_adaboost.h"
 
-namespace eyrie {
+namespace eyrie::sliding_window_test {
 namespace {
 
 using test::drivenScene;
@@ -278,4 +278,4 @@ TEST(ModelLocation, SaysWhereItLooked) {
                 testing::AnyOf("no error", testing::HasSubstr("eyrie-cli train")));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::sliding_window_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::window_and_gradient_test {
 namespace {
 
 /// Delivers what it is told to, in image coordinates.
@@ -97,4 +97,4 @@ TEST(WindowAndGradient, SegmentsBesideEachOtherDoNotCoverOneAnother) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::window_and_gradient_test

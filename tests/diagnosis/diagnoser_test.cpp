@@ -7,7 +7,7 @@
 
 #include "evaluation/evaluation_boxes.h"
 
-namespace eyrie {
+namespace eyrie::diagnoser_test {
 namespace {
 
 using test::boxes;
@@ -399,4 +399,4 @@ TEST_F(Causes, everyCauseHasWordsAndASentence) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::diagnoser_test

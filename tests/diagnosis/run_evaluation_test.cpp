@@ -11,7 +11,7 @@
 #include "support/temporary_folder.h"
 #include "support/written_run.h"
 
-namespace eyrie {
+namespace eyrie::run_evaluation_test {
 namespace {
 
 using testing::HasSubstr;
@@ -155,4 +155,4 @@ TEST_F(RunEvaluations, theListAsATable) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::run_evaluation_test

@@ -10,7 +10,7 @@
 #include "explain/place_explainer.h"
 #include "support/moving_scene.h"
 
-namespace eyrie {
+namespace eyrie::same_reason_test {
 namespace {
 
 using testing::HasSubstr;
@@ -120,4 +120,4 @@ TEST(SameReason, WhereDifferenceImagesAreToFindWhatMoves) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::same_reason_test

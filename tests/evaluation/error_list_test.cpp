@@ -8,7 +8,7 @@
 #include "formats/mot/motchallenge.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::error_list_test {
 namespace {
 
 using test::boxes;
@@ -280,4 +280,4 @@ TEST(ErrorList, sumsAreTheMeasures) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::error_list_test

@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::hungarian_test {
 namespace {
 
 double totalOf(const Eigen::MatrixXd& score, const std::vector<int>& column_of_row) {
@@ -83,4 +83,4 @@ TEST(Hungarian, RefusesWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::hungarian_test

@@ -6,7 +6,7 @@
 #include "evaluation/measures/detection_measures.h"
 #include "evaluation_boxes.h"
 
-namespace eyrie {
+namespace eyrie::matching_test {
 namespace {
 
 using test::boxes;
@@ -310,4 +310,4 @@ TEST(Matching, MorePairsComeBeforeLargerOverlaps) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::matching_test

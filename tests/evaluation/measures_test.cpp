@@ -7,7 +7,7 @@
 #include "evaluation/evaluate.h"
 #include "evaluation_boxes.h"
 
-namespace eyrie {
+namespace eyrie::measures_test {
 namespace {
 
 using test::boxes;
@@ -475,4 +475,4 @@ TEST(Measures, SharedFramesHaveBoxesOfBoth) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::measures_test

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "evaluation/evaluate.h"
 
-namespace eyrie {
+namespace eyrie::method_difference_test {
 namespace {
 
 /// Ten cars for twenty frames.
@@ -131,4 +131,4 @@ TEST(MethodDifference, RefusesDifferentGroundTruth) {
     EXPECT_THROW(methodDifference({}, {}), Error);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::method_difference_test

@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::published_figures_test {
 namespace {
 
 using testing::HasSubstr;
@@ -83,4 +83,4 @@ TEST(PublishedFigures, RefuseOtherSequences) {
     EXPECT_THROW(publishedText(""), Error);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::published_figures_test

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::registration_error_test {
 namespace {
 
 const cv::Size kImage(320, 240);
@@ -93,4 +93,4 @@ TEST(RegistrationError, ASingularTruthIsRefused) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::registration_error_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::result_difference_test {
 namespace {
 
 void put(BoxesByFrame& boxes, FrameIndex frame, std::optional<int> id, double x, double length = 20) {
@@ -180,4 +180,4 @@ TEST(ResultDifference, anIdThatChangesInTheFirstOnlyIsOneToo) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::result_difference_test

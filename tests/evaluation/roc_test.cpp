@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::roc_test {
 namespace {
 
 TEST(Roc, HandWorked) {
@@ -60,4 +60,4 @@ TEST(Roc, NeedsBothKinds) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::roc_test

@@ -8,7 +8,7 @@
 
 /// The independent scorer that acceptance uses was run once over the scene below; its figures stand here. The scene is
 /// drawn with whole numbers, so that any language makes the same one.
-namespace eyrie {
+namespace eyrie::score_agreement_test {
 namespace {
 
 /// Numbers in [0, bound) from a linear congruence.
@@ -266,4 +266,4 @@ TEST(ScoreAgreement, UprightAwayFromTheBorder) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::score_agreement_test

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::score_curve_test {
 namespace {
 
 BoxRecord trackBox(FrameIndex frame, int id, double x, double score) {
@@ -91,4 +91,4 @@ TEST(ScoreCurve, OfNothingIsEmptyAndRefusesWhatIsNoNumber) {
     EXPECT_THROW(scoreCurve(twoVehicles(), threeTracks(), wrong), Error);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::score_curve_test

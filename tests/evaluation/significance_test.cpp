@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "evaluation/comparison/track_bootstrap.h"
 
-namespace eyrie {
+namespace eyrie::significance_test {
 namespace {
 
 TEST(PairedTTest, HandWorked) {
@@ -149,4 +149,4 @@ TEST(TrackBootstrap, IntervalHoldsTheFigureAndWidensWithTheTracksDifference) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::significance_test

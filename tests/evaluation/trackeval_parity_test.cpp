@@ -10,7 +10,7 @@
 #include "formats/mot/motchallenge.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::trackeval_parity_test {
 namespace {
 
 /// All figures of a sequence under TrackEval's own names.
@@ -93,4 +93,4 @@ INSTANTIATE_TEST_SUITE_P(Sequences, TrackEvalParity,
                          testing::Combine(testing::Values("clean", "noisy", "harsh"), testing::Values("0.3", "0.5")));
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::trackeval_parity_test

@@ -14,7 +14,7 @@
 #include "support/temporary_folder.h"
 
 /// What TrackEval finds in an exported tree gives the figures of our own evaluation.
-namespace eyrie {
+namespace eyrie::trackeval_tree_test {
 namespace {
 
 constexpr double kSame = 1e-6;
@@ -154,4 +154,4 @@ TEST_F(TrackEvalTree, TheCommandNamesEverythingThatTrackEvalNeeds) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::trackeval_tree_test

@@ -7,7 +7,7 @@
 #include "events/driven_tracks.h"
 #include "events/review/judging.h"
 
-namespace eyrie {
+namespace eyrie::carry_over_test {
 namespace {
 
 using testing::Each;
@@ -252,4 +252,4 @@ TEST(CarryOver, TenThousandEventsTakeNoTime) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::carry_over_test

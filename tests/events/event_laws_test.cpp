@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "events/driven_tracks.h"
 
-namespace eyrie {
+namespace eyrie::event_laws_test {
 namespace {
 
 using test::DrivenTracks;
@@ -144,4 +144,4 @@ TEST(EventLaws, KindsHaveNames) {
     EXPECT_THROW(eventKindOf("turnsback"), Error);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::event_laws_test

@@ -3,7 +3,7 @@
 
 #include "events/driven_tracks.h"
 
-namespace eyrie {
+namespace eyrie::event_thresholds_test {
 namespace {
 
 using test::DrivenTracks;
@@ -271,4 +271,4 @@ INSTANTIATE_TEST_SUITE_P(Parameters, EventThresholds, testing::ValuesIn(kThresho
     return name;
 });
 
-}  // namespace eyrie
+}  // namespace eyrie::event_thresholds_test

@@ -7,7 +7,7 @@
 #include "events/driven_tracks.h"
 #include "scene/traffic/traffic.h"
 
-namespace eyrie {
+namespace eyrie::event_truth_test {
 namespace {
 
 using test::DrivenTracks;
@@ -394,4 +394,4 @@ TEST(EventTruth, RecallAndPrecisionAreHighForEveryKind) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::event_truth_test

@@ -3,7 +3,7 @@
 
 #include "events/driven_tracks.h"
 
-namespace eyrie {
+namespace eyrie::one_vehicle_test {
 namespace {
 
 using test::DrivenTracks;
@@ -195,4 +195,4 @@ TEST(Loitering, DrivingAboutInOnePlace) {
     EXPECT_NEAR(events[0].figure, 90, 2);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::one_vehicle_test

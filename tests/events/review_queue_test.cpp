@@ -5,7 +5,7 @@
 #include "events/driven_tracks.h"
 #include "events/review/judging.h"
 
-namespace eyrie {
+namespace eyrie::review_queue_test {
 namespace {
 
 using testing::ElementsAre;
@@ -180,4 +180,4 @@ TEST_F(Judging, BookmarksAreAddedChangedAndRemoved) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::review_queue_test

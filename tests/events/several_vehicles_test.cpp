@@ -3,7 +3,7 @@
 
 #include "events/driven_tracks.h"
 
-namespace eyrie {
+namespace eyrie::several_vehicles_test {
 namespace {
 
 using test::DrivenTracks;
@@ -157,4 +157,4 @@ TEST(Meetings, PassingEachOtherOrStandingFarApartIsNone) {
     EXPECT_THAT(scene.events(EventKind::meeting), IsEmpty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::several_vehicles_test

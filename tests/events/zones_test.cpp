@@ -9,7 +9,7 @@
 #include "events/zones/zone_file.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::zones_test {
 namespace {
 
 using test::DrivenTracks;
@@ -248,4 +248,4 @@ TEST_F(ZoneFiles, AZoneWithoutAreaIsRefused) {
                 HasSubstr("no length"));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::zones_test

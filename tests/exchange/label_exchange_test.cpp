@@ -10,7 +10,7 @@
 #include "formats/label_formats.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::label_exchange_test {
 namespace {
 
 using testing::Contains;
@@ -344,4 +344,4 @@ TEST_F(LabelExchange, IdsThatLeaveNoRoomAreNotKept) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::label_exchange_test

@@ -14,7 +14,7 @@
 #include "metadata/vmti/vmti_set.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::vmti_export_test {
 namespace {
 
 constexpr int kFilmFrames = 30;
@@ -205,4 +205,4 @@ TEST_F(VmtiExport, ACopyThatWouldLackPicturesIsRefused) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::vmti_export_test

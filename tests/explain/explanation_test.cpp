@@ -5,7 +5,7 @@
 
 #include "explain/explanation_steps.h"
 
-namespace eyrie {
+namespace eyrie::explanation_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -441,4 +441,4 @@ TEST(Explanation, numbersArePlain) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::explanation_test

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "support/moving_scene.h"
 
-namespace eyrie {
+namespace eyrie::place_explainer_test {
 namespace {
 
 /// A run over a small scene, kept in memory.
@@ -172,4 +172,4 @@ TEST(MotionWindow, reachesAsFarBackAsAreasLook) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::place_explainer_test

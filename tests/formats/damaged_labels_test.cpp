@@ -4,7 +4,7 @@
 #include "formats/sample_labels.h"
 
 /// What is wrong in a file is said with the file and the place.
-namespace eyrie {
+namespace eyrie::damaged_labels_test {
 namespace {
 
 using test::messageOf;
@@ -250,4 +250,4 @@ TEST_F(DamagedLabels, UnknownFilesAreRefusedWithAdvice) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::damaged_labels_test

@@ -10,7 +10,7 @@
 #include "formats/track_world.h"
 #include "io/tables/csv_reader.h"
 
-namespace eyrie {
+namespace eyrie::earth_formats_test {
 namespace {
 
 using test::messageOf;
@@ -220,4 +220,4 @@ TEST_F(EarthFormats, Kw18HasPlacesAndClockTimesAndIsReadBack) {
     EXPECT_THAT(text(), AllOf(HasSubstr(" 0 0 0 0.2"), Not(HasSubstr("1231798102"))));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::earth_formats_test

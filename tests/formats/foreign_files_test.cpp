@@ -6,7 +6,7 @@
 #include "formats/sample_labels.h"
 
 /// Files as other programs write them, with what their own readers make of them.
-namespace eyrie {
+namespace eyrie::foreign_files_test {
 namespace {
 
 using test::textOf;
@@ -278,4 +278,4 @@ TEST_F(ForeignFiles, NumbersBeyondCountingAreRefused) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::foreign_files_test

@@ -6,7 +6,7 @@
 #include "formats/sample_labels.h"
 
 /// Values worked by hand: where a pixel, a frame and an angle of each format lie in ours.
-namespace eyrie {
+namespace eyrie::format_values_test {
 namespace {
 
 using test::writeText;
@@ -346,4 +346,4 @@ TEST(LabelFormats, DialogsShowTheFilesOfEveryFormat) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::format_values_test

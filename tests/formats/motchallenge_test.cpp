@@ -11,7 +11,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::motchallenge_test {
 namespace {
 
 using testing::HasSubstr;
@@ -210,4 +210,4 @@ TEST_F(MotChallenge, RealGroundTruthMeetsTheDerivedTable) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::motchallenge_test

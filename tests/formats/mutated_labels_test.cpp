@@ -8,7 +8,7 @@
 
 /// Bytes of good files are changed at random: reading ends with labels or with an Error that names the file, and never
 /// with a crash, another exception or a hang.
-namespace eyrie {
+namespace eyrie::mutated_labels_test {
 namespace {
 
 using testing::HasSubstr;
@@ -116,4 +116,4 @@ INSTANTIATE_TEST_SUITE_P(Formats, MutatedLabels, testing::ValuesIn(formatNames()
 });
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::mutated_labels_test

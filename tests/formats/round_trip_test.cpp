@@ -9,7 +9,7 @@
 #include "formats/sample_labels.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::round_trip_test {
 namespace {
 
 using test::sampleLabels;
@@ -393,4 +393,4 @@ TEST(Export, EveryFileThatIsWrittenIsToldBefore) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::round_trip_test

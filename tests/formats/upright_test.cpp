@@ -8,7 +8,7 @@
 
 #include "formats/sample_labels.h"
 
-namespace eyrie {
+namespace eyrie::upright_test {
 namespace {
 
 using testing::AllOf;
@@ -228,4 +228,4 @@ TEST_F(OwnPrograms, TrackEvalReadsTheTreeLineByLine) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::upright_test

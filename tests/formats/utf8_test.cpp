@@ -2,7 +2,7 @@
 
 #include "formats/tables/text_fields.h"
 
-namespace eyrie {
+namespace eyrie::utf8_test {
 
 TEST(Utf8, IsWhatTheStandardAllowsAndNothingElse) {
     for (const char* good : {"", "car", "\xC3\xA9", "\xE0\xA0\x80", "\xED\x9F\xBF", "\xEF\xBF\xBF", "\xF0\x90\x80\x80",
@@ -13,4 +13,4 @@ TEST(Utf8, IsWhatTheStandardAllowsAndNothingElse) {
         EXPECT_FALSE(isUtf8(bad)) << testing::PrintToString(bad);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::utf8_test

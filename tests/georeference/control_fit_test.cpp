@@ -8,7 +8,7 @@
 #include "georeference/geo_reference.h"
 #include "georeference/video_world.h"
 
-namespace eyrie {
+namespace eyrie::control_fit_test {
 namespace {
 
 const GeoPoint kMarket{48.137, 11.575};
@@ -193,4 +193,4 @@ TEST(ControlFit, TheyCountWithoutAnyMetadata) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::control_fit_test

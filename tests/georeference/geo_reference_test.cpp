@@ -9,7 +9,7 @@
 #include "georeference/video_metadata.h"
 #include "metadata/collected.h"
 
-namespace eyrie {
+namespace eyrie::geo_reference_test {
 namespace {
 
 const cv::Size kPicture(200, 100);
@@ -201,4 +201,4 @@ TEST(GeoReference, statementsThatCannotBeArePassedOver) {
     EXPECT_LT(error_m(GeoReference(metadata.timeline(), footage()), 0, kFilmed - 1), 0.05);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::geo_reference_test

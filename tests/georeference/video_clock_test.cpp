@@ -4,7 +4,7 @@
 
 #include "metadata/collected.h"
 
-namespace eyrie {
+namespace eyrie::video_clock_test {
 namespace {
 
 constexpr std::int64_t kBegin_us = 1'231'798'102'000'000;
@@ -62,4 +62,4 @@ TEST(VideoClock, aVideoOfSeveralFlightsHasTheTimeOfEach) {
     EXPECT_NE(clock.origin().find("not steady"), std::string::npos);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::video_clock_test

@@ -9,7 +9,7 @@
 #include "core/geometry/homography_jacobian.h"
 #include "ground/followed_pose.h"
 
-namespace eyrie {
+namespace eyrie::ground_measure_test {
 namespace {
 
 Footage flight(int last, int broken_at = -1) {
@@ -120,4 +120,4 @@ TEST(FollowedPose, OnlyFramesOfTheTrackHaveOne) {
     EXPECT_NEAR(pose->heading, track.boxes[5].box.heading, 1e-9);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::ground_measure_test

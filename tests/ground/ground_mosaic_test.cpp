@@ -10,7 +10,7 @@
 #include "core/geometry/homography_jacobian.h"
 #include "ground/place_history.h"
 
-namespace eyrie {
+namespace eyrie::ground_mosaic_test {
 namespace {
 
 constexpr int kLast = 120;
@@ -190,4 +190,4 @@ TEST(PlaceHistory, WaysLieOnTheSheet) {
     EXPECT_EQ(of_two[1][1].track, 8);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::ground_mosaic_test

@@ -7,7 +7,7 @@
 #include "annotation/scenes.h"
 #include "core/geometry/homography_jacobian.h"
 
-namespace eyrie {
+namespace eyrie::ground_sheets_test {
 namespace {
 
 Footage flownOver(const std::function<cv::Matx33d(double)>& view, int last, int broken_at = -1) {
@@ -115,4 +115,4 @@ TEST(GroundSheets, WithoutFramesNothingIsMoved) {
     EXPECT_EQ(GroundSheets(flownOver(test::flyingView, 10), 99).anchor(), 10);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::ground_sheets_test

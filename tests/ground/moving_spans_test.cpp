@@ -4,7 +4,7 @@
 
 #include "events/driven_tracks.h"
 
-namespace eyrie {
+namespace eyrie::moving_spans_test {
 namespace {
 
 StoredTracks runOf(const test::DrivenTracks& scene) {
@@ -60,4 +60,4 @@ TEST(MovingSpans, UnlikelyTracksDoNotCount) {
     EXPECT_TRUE(spansIn(runOf(test::DrivenTracks())).empty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::moving_spans_test

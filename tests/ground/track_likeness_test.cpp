@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "events/driven_tracks.h"
 
-namespace eyrie {
+namespace eyrie::track_likeness_test {
 namespace {
 
 StoredTracks runWith(const test::DrivenTracks& scene) {
@@ -195,4 +195,4 @@ TEST(TrackLikeness, TracksThatAreNotThereAndShortOnesAreNoTrouble) {
     EXPECT_TRUE(likeFirst(run).empty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::track_likeness_test

@@ -6,7 +6,7 @@
 
 #include "events/driven_tracks.h"
 
-namespace eyrie {
+namespace eyrie::track_story_test {
 namespace {
 
 StoredTracks drivenUnderACamera() {
@@ -92,4 +92,4 @@ TEST(TrackStory, AChipShowsThePlaceInItsMiddle) {
     EXPECT_TRUE(chipOf(picture, {0, 0}, 0, 20).empty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::track_story_test

@@ -13,7 +13,7 @@
 #include "support/process.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::ending_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,4 +57,4 @@ TEST_P(Ending, ASignalClosesTheWindowAndKeepsWholeFrames) {
 INSTANTIATE_TEST_SUITE_P(Signals, Ending, testing::Values(SIGTERM, SIGHUP, SIGINT));
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::ending_test

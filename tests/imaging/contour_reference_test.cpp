@@ -12,7 +12,7 @@
 #include "imaging/contours/spectral_contours.h"
 #include "imaging/fixed_random.h"
 
-namespace eyrie {
+namespace eyrie::contour_reference_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -407,4 +407,4 @@ TEST(ContourReference, BoundariesAreHalfLocalAndHalfSpectral) {
     expectSame(probabilityOfBoundary(gray), local, 1e-5);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::contour_reference_test

@@ -5,7 +5,7 @@
 #include "imaging/contours/contour_hierarchy.h"
 #include "imaging/contours/spectral_contours.h"
 
-namespace eyrie {
+namespace eyrie::contours_test {
 namespace {
 
 constexpr int kUpright = kContourDirections / 2;  // direction of a vertical line
@@ -134,4 +134,4 @@ TEST(Contours, PlainAndTinyPicturesAreOneSegment) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::contours_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-namespace eyrie {
+namespace eyrie::gradients_test {
 namespace {
 
 cv::Mat ramp(int slope_x, int slope_y) {
@@ -108,4 +108,4 @@ TEST(Gradients, TakeOnePixelAndNone) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::gradients_test

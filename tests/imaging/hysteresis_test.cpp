@@ -4,7 +4,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace eyrie {
+namespace eyrie::hysteresis_test {
 
 TEST(Hysteresis, KeepsWeakPixelsThatTouchStrongOnes) {
     const cv::Mat values = (cv::Mat_<int>(3, 6) << 0, 40, 0, 0, 0, 40,  //
@@ -21,4 +21,4 @@ TEST(Hysteresis, KeepsWeakPixelsThatTouchStrongOnes) {
     EXPECT_TRUE(hysteresis(cv::Mat(), 1, 2).empty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::hysteresis_test

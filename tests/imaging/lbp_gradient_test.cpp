@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-namespace eyrie {
+namespace eyrie::lbp_gradient_test {
 namespace {
 
 int clampedGray(const cv::Mat& gray, int x, int y) {
@@ -176,4 +176,4 @@ TEST(LbpGradient, TakesTinyAndEmptyImages) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::lbp_gradient_test

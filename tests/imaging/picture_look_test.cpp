@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-namespace eyrie {
+namespace eyrie::picture_look_test {
 namespace {
 
 cv::Mat ramp() {
@@ -76,4 +76,4 @@ TEST(PictureLook, ColoursKeepTheirHue) {
     EXPECT_NEAR(after[1], 90 + 25, 4);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::picture_look_test

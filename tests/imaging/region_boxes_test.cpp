@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-namespace eyrie {
+namespace eyrie::region_boxes_test {
 namespace {
 
 TEST(CloseGaps, BridgesTwoPixelsButNotThree) {
@@ -85,4 +85,4 @@ TEST(FindRegions, TakesEmptyAndSinglePixels) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::region_boxes_test

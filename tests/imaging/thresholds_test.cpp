@@ -4,7 +4,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace eyrie {
+namespace eyrie::thresholds_test {
 namespace {
 
 const cv::Mat kTen = (cv::Mat_<float>(2, 5) << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10);
@@ -45,4 +45,4 @@ TEST(Binarise, TakesTheThresholdItselfAndNothingOutsideTheMask) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::thresholds_test

@@ -7,7 +7,7 @@
 
 #include "core/geometry/angle.h"
 
-namespace eyrie {
+namespace eyrie::upright_patch_test {
 namespace {
 
 cv::Mat scene(int columns = 120, int rows = 90) {
@@ -115,4 +115,4 @@ TEST(UprightPatch, TakesDegenerateAreas) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::upright_patch_test

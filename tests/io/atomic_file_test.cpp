@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::atomic_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ TEST(AtomicFile, AFullDeviceIsToldWhereverItIsNoticed) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::atomic_file_test

@@ -11,7 +11,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::box_csv_test {
 namespace {
 
 using testing::HasSubstr;
@@ -232,4 +232,4 @@ TEST(RealBoxCsv, GroundTruthIsRead) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::box_csv_test

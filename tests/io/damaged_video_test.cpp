@@ -7,7 +7,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::damaged_video_test {
 namespace {
 
 using testing::AllOf;
@@ -211,4 +211,4 @@ TEST_F(DamagedVideo, RealClipCutAt60PerCentNeverCrashes) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::damaged_video_test

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::file_digest_test {
 namespace {
 
 void write(const std::filesystem::path& path, const std::string& bytes) {
@@ -51,4 +51,4 @@ TEST(FileDigest, whatCannotBeReadIsRefused) {
     EXPECT_EQ(sha256Of(folder / "a", {}, stop.get_token()), "");
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::file_digest_test

@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::frame_cache_test {
 namespace {
 
 using testing::ElementsAre;
@@ -220,4 +220,4 @@ TEST(FrameCache, ClosingAmidWorkIsSafe) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::frame_cache_test

@@ -6,7 +6,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::homography_csv_test {
 namespace {
 
 using testing::HasSubstr;
@@ -59,4 +59,4 @@ TEST(RealHomographyCsv, IsRead) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::homography_csv_test

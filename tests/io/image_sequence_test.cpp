@@ -9,7 +9,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::image_sequence_test {
 namespace {
 
 using testing::AllOf;
@@ -222,4 +222,4 @@ TEST(RealImages, AreRead) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::image_sequence_test

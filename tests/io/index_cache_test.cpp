@@ -5,7 +5,7 @@
 #include "io/numbered_video.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::index_cache_test {
 namespace {
 
 using testing::HasSubstr;
@@ -123,4 +123,4 @@ TEST_F(IndexCacheTest, StoppingFromTheProgressCallback) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::index_cache_test

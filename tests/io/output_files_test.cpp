@@ -12,7 +12,7 @@
 #include "io/video/video_writer.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::output_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ TEST_F(OutputFiles, APipeIsNoInputThatIsWaitedFor) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::output_files_test

@@ -5,7 +5,7 @@
 #include "io/numbered_video.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::preset_file_test {
 namespace {
 
 using testing::AllOf;
@@ -84,4 +84,4 @@ TEST_F(PresetFile, FoldersThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::preset_file_test

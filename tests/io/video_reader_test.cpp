@@ -9,7 +9,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::video_reader_test {
 namespace {
 
 using testing::HasSubstr;
@@ -291,4 +291,4 @@ TEST(RealVideo, TransportStreamsWithMetadataAreReadExactly) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::video_reader_test

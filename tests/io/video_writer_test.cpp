@@ -9,7 +9,7 @@
 #include "io/numbered_video.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::video_writer_test {
 namespace {
 
 using testing::AllOf;
@@ -94,4 +94,4 @@ TEST_F(VideoWriterTest, FramesOfAnotherSizeAreADefect) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::video_writer_test

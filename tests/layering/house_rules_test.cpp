@@ -10,7 +10,7 @@
 
 #include "support/places.h"
 
-namespace eyrie {
+namespace eyrie::house_rules_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ TEST(HouseRules, atMost200SignalsAreConnectedOneByOneOutsideTheSession) {
     EXPECT_LE(calls, 200);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::house_rules_test

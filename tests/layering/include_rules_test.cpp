@@ -10,7 +10,7 @@
 
 #include "support/places.h"
 
-namespace eyrie {
+namespace eyrie::include_rules_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -177,4 +177,4 @@ TEST(IncludeRules, everyHeaderIsGuarded) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::include_rules_test

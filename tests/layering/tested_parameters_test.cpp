@@ -10,7 +10,7 @@
 
 #include "support/places.h"
 
-namespace eyrie {
+namespace eyrie::tested_parameters_test {
 namespace {
 
 namespace tree = std::filesystem;
@@ -118,4 +118,4 @@ TEST(TestedParameters, eachIsNamedOrSetInATest) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::tested_parameters_test

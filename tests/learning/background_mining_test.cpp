@@ -9,7 +9,7 @@
 #include "learning/drawn_windows.h"
 #include "learning/training/trainer.h"
 
-namespace eyrie {
+namespace eyrie::background_mining_test {
 namespace {
 
 const VehicleModel& barModel() {
@@ -101,4 +101,4 @@ TEST(BackgroundMining, TakesTheTypicalVehicleWhereNoneIsLabelled) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::background_mining_test

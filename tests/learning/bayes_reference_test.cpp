@@ -13,7 +13,7 @@
 #include "learning/classifiers/svm.h"
 #include "learning/noisy_set.h"
 
-namespace eyrie {
+namespace eyrie::bayes_reference_test {
 namespace {
 
 using test::noisySet;
@@ -266,4 +266,4 @@ TEST(TrainingReference, aMachineIsTheBestOfTheGridByCrossValidation) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::bayes_reference_test

@@ -13,7 +13,7 @@
 #include "learning/classifiers/seeded_random.h"
 #include "learning/classifiers/standardisation.h"
 
-namespace eyrie {
+namespace eyrie::classifier_facts_test {
 namespace {
 
 TEST(FeatureBins, BordersLieInTheMiddleOfNeighbouringValues) {
@@ -161,4 +161,4 @@ TEST(GentleAdaBoost, WeightTrimmingIsAParameter) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::classifier_facts_test

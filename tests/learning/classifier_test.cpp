@@ -15,7 +15,7 @@
 #include "learning/classifiers/seeded_random.h"
 #include "learning/classifiers/svm.h"
 
-namespace eyrie {
+namespace eyrie::classifier_test {
 namespace {
 
 ClassifierOptions smallOptions() {
@@ -417,4 +417,4 @@ TEST(Svm, needsFewVectorsWhereClassesLieApart) {
     EXPECT_NEAR(machine->decide(middle), 0, 0.3);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::classifier_test

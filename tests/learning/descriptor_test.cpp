@@ -15,7 +15,7 @@
 #include "learning/descriptors/multi_lbp_descriptor.h"
 #include "learning/drawn_windows.h"
 
-namespace eyrie {
+namespace eyrie::descriptor_test {
 namespace {
 
 std::vector<float> valuesOf(DescriptorKind kind, const cv::Mat& window) {
@@ -360,4 +360,4 @@ TEST(Descriptor, huInvariantsDoNotChangeWhenTheBlobIsTurnedByARightAngle) {
     for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(a[i], b[i], 1e-3) << i;
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::descriptor_test

@@ -7,7 +7,7 @@
 
 #include "learning/classifiers/seeded_random.h"
 
-namespace eyrie {
+namespace eyrie::fast_ica_test {
 namespace {
 
 /// Independent sources of variance 1: evenly distributed, Laplacian, two-valued.
@@ -66,4 +66,4 @@ TEST(FastIca, standsDirectionsWithoutVariance) {
     EXPECT_TRUE(fastIca(Eigen::MatrixXd::Zero(2, 4), 1).unmixing.allFinite());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::fast_ica_test

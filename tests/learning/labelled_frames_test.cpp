@@ -4,7 +4,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace eyrie {
+namespace eyrie::labelled_frames_test {
 namespace {
 
 TrainingBoxes boxesIn(const std::vector<FrameIndex>& frames) {
@@ -79,4 +79,4 @@ TEST(LabelledFrames, EndsWhenStopped) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::labelled_frames_test

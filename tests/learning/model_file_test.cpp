@@ -10,7 +10,7 @@
 #include "learning/training/trainer.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::model_file_test {
 namespace {
 
 using testing::HasSubstr;
@@ -166,4 +166,4 @@ TEST(ModelFile, missingFilesAndFoldersAreNamed) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::model_file_test

@@ -12,7 +12,7 @@
 #include "learning/training/labelled_frames.h"
 #include "learning/training/trainer.h"
 
-namespace eyrie {
+namespace eyrie::sample_making_test {
 namespace {
 
 /// Grey value between pixels; beyond the picture its border is repeated.
@@ -421,4 +421,4 @@ TEST(SampleMaking, HaralickFeaturesAreThoseOfThePaper) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::sample_making_test

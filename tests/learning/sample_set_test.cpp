@@ -13,7 +13,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::sample_set_test {
 namespace {
 
 using testing::HasSubstr;
@@ -185,4 +185,4 @@ TEST(SampleSet, realSheetsHaveTheirDocumentedSizes) {
     EXPECT_EQ(countOf(minsk, false), 5200);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::sample_set_test

@@ -7,7 +7,7 @@
 
 #include "learning/classifiers/seeded_random.h"
 
-namespace eyrie {
+namespace eyrie::smo_solver_test {
 
 TEST(SmoSolver, solvesTwoPointsAsOnPaper) {
     // max α₁ + α₂ − ½ Σ αᵢαⱼyᵢyⱼK with α₁ = α₂ = α: 2α − α²(1 − k), so that α = 1 / (1 − k) below C.
@@ -72,4 +72,4 @@ TEST(SmoSolver, meetsTheOptimalityConditionsOnARandomProblem) {
     EXPECT_NEAR(balance, 0, 1e-9);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::smo_solver_test

@@ -13,7 +13,7 @@
 #include "support/places.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::trainer_test {
 namespace {
 
 TrainingOptions smallOptions() {
@@ -197,4 +197,4 @@ TEST(ShippedModels, tellVehiclesOfACameraTheyHaveNeverSeen) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::trainer_test

@@ -14,7 +14,7 @@
 #include "learning/classifiers/seeded_random.h"
 #include "learning/noisy_set.h"
 
-namespace eyrie {
+namespace eyrie::training_reference_test {
 namespace {
 
 using test::noisySet;
@@ -265,4 +265,4 @@ TEST(TrainingReference, icaIsTheFixedPointIteration) {
     EXPECT_NEAR(std::abs(flat.unmixing(0, 0)), 1e6, 1);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::training_reference_test

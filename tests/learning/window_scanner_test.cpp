@@ -8,7 +8,7 @@
 #include "learning/drawn_windows.h"
 #include "learning/training/trainer.h"
 
-namespace eyrie {
+namespace eyrie::window_scanner_test {
 namespace {
 
 VehicleModel modelOf(DescriptorKind descriptor, ClassifierKind classifier, int trees) {
@@ -179,4 +179,4 @@ TEST(WindowScanner, scansWithEveryOtherModelWindowByWindow) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::window_scanner_test

@@ -5,7 +5,7 @@
 #include "metadata/collected.h"
 #include "metadata/ground_view.h"
 
-namespace eyrie {
+namespace eyrie::damaged_klv_test {
 namespace {
 
 using test::append;
@@ -170,4 +170,4 @@ TEST(DamagedKlv, randomDamageNeverEndsTheReading) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::damaged_klv_test

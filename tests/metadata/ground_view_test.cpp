@@ -4,7 +4,7 @@
 
 #include "metadata/ground_view.h"
 
-namespace eyrie {
+namespace eyrie::ground_view_test {
 namespace {
 
 const cv::Size kImage(200, 100);
@@ -190,4 +190,4 @@ TEST(GroundView, nothingIsKnownOfNothing) {
     EXPECT_FALSE(groundViewOf(cornersAt(kNorthUp), {}).gsd());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::ground_view_test

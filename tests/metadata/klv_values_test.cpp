@@ -3,7 +3,7 @@
 #include "core/utc_time.h"
 #include "metadata/collected.h"
 
-namespace eyrie {
+namespace eyrie::klv_values_test {
 namespace {
 
 using test::bytesOfHex;
@@ -152,4 +152,4 @@ TEST(KlvValues, theUniversalSetMeansTheSameTags) {
     EXPECT_EQ(stream.tags.at(0).packets, 1);  // of unknown key
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::klv_values_test

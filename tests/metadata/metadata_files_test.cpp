@@ -12,7 +12,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::metadata_files_test {
 namespace {
 
 using test::LocalSetWriter;
@@ -204,4 +204,4 @@ TEST(MetadataFiles, theTableHasARowForEachSet) {
                   std::to_string(stream.packets[1].position) + ",0.04,1970-01-01T00:00:02.000000Z,,,45.000000021\n");
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::metadata_files_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::metadata_text_test {
 
 TEST(MetadataText, ValuesHaveTheDecimalsThatTheirCodingTellsApart) {
     EXPECT_EQ(valueText(13, 48.13715412345), "48.1371541");  // four bytes over a half circle
@@ -31,4 +31,4 @@ TEST(MetadataText, MomentsAreUtc) {
     EXPECT_EQ(valueText(72, 1.8e19), "18000000000000000000");  // no calendar has it
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::metadata_text_test

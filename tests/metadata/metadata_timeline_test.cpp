@@ -3,7 +3,7 @@
 #include "metadata/collected.h"
 #include "metadata/metadata_timeline.h"
 
-namespace eyrie {
+namespace eyrie::metadata_timeline_test {
 namespace {
 
 using test::Carried;
@@ -140,4 +140,4 @@ TEST(MetadataTimeline, theShareCoveredCountsWhatIsBridgedAndHeld) {
     EXPECT_EQ(timeline.coveredShare(5 * kSecond, 5 * kSecond), 0);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::metadata_timeline_test

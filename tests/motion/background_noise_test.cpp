@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace eyrie {
+namespace eyrie::background_noise_test {
 namespace {
 
 TEST(BackgroundNoise, FindsTheDeviationDespiteMovingObjects) {
@@ -34,4 +34,4 @@ TEST(BackgroundNoise, IsZeroWithoutCorners) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::background_noise_test

@@ -2,7 +2,7 @@
 
 #include "motion/clusters/motion_clustering.h"
 
-namespace eyrie {
+namespace eyrie::clustering_thresholds_test {
 namespace {
 
 MotionClusteringOptions with(const std::string& name, const std::string& value) {
@@ -54,4 +54,4 @@ TEST(ClusteringThresholds, MaxMinMembersIsEnoughHoweverDenseTheCornersAre) {
     EXPECT_EQ(clusters("1000"), 0U);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::clustering_thresholds_test

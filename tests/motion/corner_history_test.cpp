@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace eyrie {
+namespace eyrie::corner_history_test {
 namespace {
 
 Corner corner(CornerId id, float x, int age) {
@@ -80,4 +80,4 @@ TEST(CornerHistory, RefusesUnsortedCorners) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::corner_history_test

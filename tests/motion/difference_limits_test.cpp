@@ -2,7 +2,7 @@
 
 #include "motion/differences/difference_motion.h"
 
-namespace eyrie {
+namespace eyrie::difference_limits_test {
 namespace {
 
 /// A square of this side that leaps from picture to picture over plain ground, so much brighter than that.
@@ -59,4 +59,4 @@ TEST(DifferenceLimits, StrongLimitIsUpToWhichOtsusThresholdIsFollowed) {
     EXPECT_EQ(movingWith("difference.strong_limit", "3.9", squares), 4 * 64);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::difference_limits_test

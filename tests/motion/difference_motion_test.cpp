@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "support/moving_scene.h"
 
-namespace eyrie {
+namespace eyrie::difference_motion_test {
 namespace {
 
 using test::MovingScene;
@@ -390,4 +390,4 @@ TEST(DifferenceMotion, RefusesWhatItCannotUse) {
     EXPECT_THROW(difference.next(Frame{}, FrameMotion{}), Error);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::difference_motion_test

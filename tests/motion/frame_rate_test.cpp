@@ -3,7 +3,7 @@
 #include "motion/moving_corners.h"
 #include "motion/vectors/independent_motion.h"
 
-namespace eyrie {
+namespace eyrie::frame_rate_test {
 namespace {
 
 /// Pictures of a vehicle until it has vectors.
@@ -51,4 +51,4 @@ TEST(FrameRate, TheBaselineIsAsLongAsAtTheUsualRateAndNeverLongerThanAskedFor) {
     EXPECT_EQ(options.atRate(2).min_age, 1);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::frame_rate_test

@@ -12,7 +12,7 @@
 #include "motion/clusters/motion_clustering.h"
 #include "motion/moving_corners.h"
 
-namespace eyrie {
+namespace eyrie::independent_motion_test {
 namespace {
 
 using test::flatFrame;
@@ -396,4 +396,4 @@ TEST(IndependentMotion, FollowsTurns) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::independent_motion_test

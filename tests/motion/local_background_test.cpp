@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace eyrie {
+namespace eyrie::local_background_test {
 namespace {
 
 /// Cells of 30 px in a picture of 100 × 70 px: four across, three down.
@@ -57,4 +57,4 @@ TEST(LocalBackground, CellsAreNeverSmallerThan24Pixels) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::local_background_test

@@ -9,7 +9,7 @@
 
 #include "core/geometry/angle.h"
 
-namespace eyrie {
+namespace eyrie::motion_clustering_test {
 namespace {
 
 const SceneScale kScale{0.3, 25, true};
@@ -262,4 +262,4 @@ TEST(MotionClustering, TellsWhichLimitKeepsVectorsApart) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::motion_clustering_test

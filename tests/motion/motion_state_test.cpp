@@ -7,7 +7,7 @@
 #include "motion/vectors/independent_motion.h"
 #include "support/moving_scene.h"
 
-namespace eyrie {
+namespace eyrie::motion_state_test {
 namespace {
 
 using test::flatFrame;
@@ -108,4 +108,4 @@ TEST(MotionState, DifferencesGoOnFromIt) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::motion_state_test

@@ -10,7 +10,7 @@
 #include "core/values/corner_density.h"
 #include "motion/differences/area_matching.h"
 
-namespace eyrie {
+namespace eyrie::moving_areas_test {
 namespace {
 
 using testing::Each;
@@ -274,4 +274,4 @@ TEST(AreaMatching, HasNoAnswerForPlainAreasOrAtTheBorder) {
     EXPECT_FALSE(matchArea({}, textured, textured, {0, 0}, 5));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::moving_areas_test

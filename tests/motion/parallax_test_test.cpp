@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace eyrie {
+namespace eyrie::parallax_test_test {
 namespace {
 
 constexpr double kSigma = 0.01;  // px/frame
@@ -146,4 +146,4 @@ TEST(ParallaxTest, ForgetsTheFrameBefore) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::parallax_test_test

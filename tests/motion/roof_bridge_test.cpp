@@ -7,7 +7,7 @@
 
 #include "motion/clusters/motion_clustering.h"
 
-namespace eyrie {
+namespace eyrie::roof_bridge_test {
 namespace {
 
 const SceneScale kScale{0.25, 25, true};  // 6 m are 24 px, the ordinary 3.5 m are 14 px
@@ -123,4 +123,4 @@ TEST(RoofBridge, EqualsAskingEveryPair) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::roof_bridge_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyrie {
+namespace eyrie::shadow_owners_test {
 namespace {
 
 const SceneScale kScale{0.25, 25, true};  // a car is 18 × 7 px
@@ -137,4 +137,4 @@ TEST(ShadowOwners, TakesNothing) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::shadow_owners_test

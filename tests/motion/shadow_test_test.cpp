@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-namespace eyrie {
+namespace eyrie::shadow_test_test {
 namespace {
 
 const SceneScale kScale{0.3, 25, true};
@@ -115,4 +115,4 @@ TEST(ShadowTest, TakesImageEdgesTinyAndMissingImages) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::shadow_test_test

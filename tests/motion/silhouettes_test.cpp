@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-namespace eyrie {
+namespace eyrie::silhouettes_test {
 namespace {
 
 const SceneScale kScale{0.3, 25, true};
@@ -182,4 +182,4 @@ TEST(Silhouettes, CanBeSwitchedOffAndForget) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::silhouettes_test

@@ -13,7 +13,7 @@
 #include "motion/differences/moving_areas.h"
 #include "motion/driven_ground.h"
 
-namespace eyrie {
+namespace eyrie::slow_areas_test {
 namespace {
 
 using test::DrivenGround;
@@ -374,4 +374,4 @@ TEST(SlowAreas, PathsThatNoCameraFliesAreNotFollowed) {
     EXPECT_EQ(inferred({1, 0, 0, 0, 1, -1300, 0, 0, 1}), 0U);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_areas_test

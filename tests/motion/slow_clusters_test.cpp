@@ -16,7 +16,7 @@
 #include "motion/clusters/single_linkage.h"
 #include "motion/differences/roof_bridge.h"
 
-namespace eyrie {
+namespace eyrie::slow_clusters_test {
 namespace {
 
 using Groups = std::vector<std::vector<int>>;
@@ -506,4 +506,4 @@ TEST(SlowClusters, ClustersAreLinkedRefusedAndSplitByTheirLimits) {
     EXPECT_GT(split, 20U);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_clusters_test

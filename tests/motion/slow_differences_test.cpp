@@ -10,7 +10,7 @@
 #include "motion/differences/difference_motion.h"
 #include "motion/driven_ground.h"
 
-namespace eyrie {
+namespace eyrie::slow_differences_test {
 namespace {
 
 using test::DrivenGround;
@@ -276,4 +276,4 @@ TEST(SlowDifferences, ClustersAreAreasOfWhatDiffers) {
     EXPECT_GT(counts.size(), 3U);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_differences_test

@@ -14,7 +14,7 @@
 #include "motion/driven_ground.h"
 #include "motion/vectors/vector_groups.h"
 
-namespace eyrie {
+namespace eyrie::slow_silhouettes_test {
 namespace {
 
 using test::DrivenGround;
@@ -251,4 +251,4 @@ TEST(SlowSilhouettes, PicturesAreRememberedWithTheirWays) {
     EXPECT_EQ(frames.count(), 0);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_silhouettes_test

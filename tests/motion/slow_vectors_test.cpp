@@ -13,7 +13,7 @@
 #include "motion/vectors/independent_motion.h"
 #include "motion/vectors/vector_groups.h"
 
-namespace eyrie {
+namespace eyrie::slow_vectors_test {
 namespace {
 
 using test::MovingCorners;
@@ -684,4 +684,4 @@ TEST(SlowVectors, VehiclesAreLinkedByTheirSizeAndGroupedWithTheirMeans) {
     EXPECT_NEAR(groups[0].box.heading, std::atan2(0.02, 3.02), 1e-6);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_vectors_test

@@ -4,7 +4,7 @@
 
 #include "support/moving_scene.h"
 
-namespace eyrie {
+namespace eyrie::difference_peer_test {
 namespace {
 
 /// The true registration of a frame of the scene onto the one before.
@@ -154,4 +154,4 @@ TEST(DifferencePeer, HoldsNoEndlessStretchOfFramesThatWereNotRegistered) {
     EXPECT_EQ(returned, 400);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::difference_peer_test

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "peer/peer_options.h"
 
-namespace eyrie {
+namespace eyrie::sort_tracker_test {
 namespace {
 
 const SortOptions kQuick{0.3, 3, 2};
@@ -185,4 +185,4 @@ TEST(PeerOptions, AreDeclaredOnceAndRefuseWhatMakesNoSense) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::sort_tracker_test

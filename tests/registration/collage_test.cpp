@@ -8,7 +8,7 @@
 #include "registration/textured_ground.h"
 #include "support/shared_data.h"
 
-namespace eyrie {
+namespace eyrie::collage_test {
 namespace {
 
 std::vector<cv::Matx33d> firstFromFrame(const std::filesystem::path& file) {
@@ -61,4 +61,4 @@ TEST(Collage, smallIsRegisteredToTwoHundredths) {
     EXPECT_LT(meanError("collage_small", 0.28, 80), 0.03);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::collage_test

@@ -11,7 +11,7 @@
 #include "registration/flight.h"
 #include "registration/pictures/padding_mask.h"
 
-namespace eyrie {
+namespace eyrie::corner_choice_test {
 namespace {
 
 struct Chosen {
@@ -221,4 +221,4 @@ TEST(CornerChoice, PicturesWithoutRoomForACornerHaveNone) {
     EXPECT_GT(some, 0);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::corner_choice_test

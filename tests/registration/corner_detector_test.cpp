@@ -8,7 +8,7 @@
 #include "registration/pictures/noise_level.h"
 #include "registration/textured_ground.h"
 
-namespace eyrie {
+namespace eyrie::corner_detector_test {
 namespace {
 
 PaddedPicture padded(const cv::Mat& gray) {
@@ -222,4 +222,4 @@ TEST(CornerDetector, underTheCapTheStrongestOfAPartStay) {
     EXPECT_GT(contrast(kept), 1.15 * contrast(all));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::corner_detector_test

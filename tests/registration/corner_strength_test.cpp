@@ -8,7 +8,7 @@
 #include "registration/every_target.h"
 #include "registration/textured_ground.h"
 
-namespace eyrie {
+namespace eyrie::corner_strength_test {
 namespace {
 
 PaddedPicture padded(const cv::Mat& gray) {
@@ -125,4 +125,4 @@ TEST(CornerStrength, refinementFindsWhereEdgesCross) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::corner_strength_test

@@ -3,7 +3,7 @@
 #include "registration/corners/corner_tracker.h"
 #include "registration/flight.h"
 
-namespace eyrie {
+namespace eyrie::corner_weights_test {
 namespace {
 
 /// Corners placed by hand and where they were found again: 10 px to the right.
@@ -107,4 +107,4 @@ TEST(CornerWeights, whenMostSeemToMoveTheGroundWasMistaken) {
     EXPECT_EQ(std::count(half.weight.begin(), half.weight.end(), 0.0F), 2) << "only those that were lost";
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::corner_weights_test

@@ -8,7 +8,7 @@
 #include "registration/every_target.h"
 #include "registration/textured_ground.h"
 
-namespace eyrie {
+namespace eyrie::homography_estimator_test {
 namespace {
 
 const cv::Size kSize(640, 480);
@@ -248,4 +248,4 @@ TEST(HomographyEstimator, pointsWithoutAWeightSayNothing) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::homography_estimator_test

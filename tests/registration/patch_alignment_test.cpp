@@ -8,7 +8,7 @@
 #include "registration/every_target.h"
 #include "registration/textured_ground.h"
 
-namespace eyrie {
+namespace eyrie::patch_alignment_test {
 namespace {
 
 const cv::Size kSize(64, 60);
@@ -218,4 +218,4 @@ TEST(PatchAlignment, surroundingsDoNotReachForEver) {
     EXPECT_EQ(surrounding[0], 64 * picture.row(0)[0]);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::patch_alignment_test

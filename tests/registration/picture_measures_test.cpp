@@ -8,7 +8,7 @@
 #include "registration/pictures/picture_difference.h"
 #include "registration/textured_ground.h"
 
-namespace eyrie {
+namespace eyrie::picture_measures_test {
 namespace {
 
 const cv::Size kSize(200, 150);
@@ -165,4 +165,4 @@ TEST(ImagePyramid, endsWhereTheShorterSideWouldBeTooShort) {
     EXPECT_EQ(levels({4000, 4000}), ImagePyramid::kMaxLevels);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::picture_measures_test

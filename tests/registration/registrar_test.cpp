@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "registration/flight.h"
 
-namespace eyrie {
+namespace eyrie::registrar_test {
 namespace {
 
 using test::drift;
@@ -315,4 +315,4 @@ TEST(RegistrationOptions, everyParameterIsNamedAfterTheRoomAndReadsBack) {
     EXPECT_THROW(setParameter(describeOf(options), "registration.max_corners", "99999"), Error);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::registrar_test

@@ -5,7 +5,7 @@
 #include "registration/flight.h"
 #include "registration/search/feature_search.h"
 
-namespace eyrie {
+namespace eyrie::registrar_trouble_test {
 namespace {
 
 using test::drift;
@@ -218,4 +218,4 @@ TEST(RegistrarTrouble, longBlankStretchEndsInAFreshStart) {
     EXPECT_EQ(watch.see(flight).registration.state, RegistrationState::registered);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::registrar_trouble_test

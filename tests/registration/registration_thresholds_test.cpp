@@ -6,7 +6,7 @@
 #include "registration/corners/corner_tracker.h"
 #include "registration/flight.h"
 
-namespace eyrie {
+namespace eyrie::registration_thresholds_test {
 namespace {
 
 using test::drift;
@@ -287,4 +287,4 @@ TEST(RegistrationThresholds, OfTwoThatRunTogetherTheOlderStays) {
     EXPECT_EQ(scene.set.corners[3].position, place);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::registration_thresholds_test

@@ -12,7 +12,7 @@
 #include "registration/estimation/normal_equations.h"
 #include "registration/textured_ground.h"
 
-namespace eyrie {
+namespace eyrie::slow_estimator_test {
 namespace {
 
 const cv::Size kPicture(640, 480);
@@ -397,4 +397,4 @@ TEST(SlowEstimator, EverySumIsThatOfItsFormula) {
     EXPECT_NEAR(sums.weight, expected.weight, 1e-4);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_estimator_test

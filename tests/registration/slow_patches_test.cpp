@@ -10,7 +10,7 @@
 #include "registration/every_target.h"
 #include "registration/textured_ground.h"
 
-namespace eyrie {
+namespace eyrie::slow_patches_test {
 namespace {
 
 const cv::Size kScene(61, 53);
@@ -354,4 +354,4 @@ TEST(SlowPatches, CornersAreNearestToAllEdgesAroundThem) {
     EXPECT_EQ(refineCorner(straight, 9, 9), cv::Point2f(9, 9));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_patches_test

@@ -10,7 +10,7 @@
 #include "registration/pictures/picture_difference.h"
 #include "registration/textured_ground.h"
 
-namespace eyrie {
+namespace eyrie::slow_pictures_test {
 namespace {
 
 PaddedPicture padded(const cv::Mat& gray) {
@@ -346,4 +346,4 @@ TEST(PaddingByHand, PaddingLeavesAPictureWithoutBays) {
     EXPECT_FALSE(sideways(2));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_pictures_test

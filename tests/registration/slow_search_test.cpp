@@ -12,7 +12,7 @@
 #include "registration/search/feature_search.h"
 #include "registration/search/thumbnail_search.h"
 
-namespace eyrie {
+namespace eyrie::slow_search_test {
 namespace {
 
 ImagePyramid pyramidOf(cv::Size size, const cv::Matx33d& picture_from_ground, unsigned ground, double noise = 2) {
@@ -336,4 +336,4 @@ TEST(SlowSearch, CoarseRegistrationDescendsThePyramid) {
     EXPECT_GT(found_none, 5);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_search_test

@@ -12,7 +12,7 @@
 #include "registration/estimation/point_jacobian.h"
 #include "registration/flight.h"
 
-namespace eyrie {
+namespace eyrie::slow_tracker_test {
 namespace {
 
 const cv::Size kScene(170, 130);
@@ -409,4 +409,4 @@ TEST(SlowTracker, WindowsAreOddAndWithinWhatPixelsAllow) {
     EXPECT_EQ(CornerTracker(options, test::scaleOf(0.1)).margin(), 8);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_tracker_test

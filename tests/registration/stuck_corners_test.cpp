@@ -7,7 +7,7 @@
 #include "core/parameter.h"
 #include "registration/flight.h"
 
-namespace eyrie {
+namespace eyrie::stuck_corners_test {
 namespace {
 
 using test::Flight;
@@ -115,4 +115,4 @@ TEST(StuckCorners, AVehicleThatTheCameraFollowsIsNone) {
     EXPECT_GT(on_vehicle, kDirtyFrames - kAfter);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::stuck_corners_test

@@ -4,7 +4,7 @@
 
 #include "registration/textured_ground.h"
 
-namespace eyrie {
+namespace eyrie::thumbnail_search_test {
 namespace {
 
 const cv::Size kWhole(256, 192);  // its thumbnail, a quarter, leaves no remainder
@@ -43,4 +43,4 @@ TEST(ThumbnailSearch, twoPlacesHaveNothingInCommon) {
     EXPECT_FALSE(searchThumbnails(flat, flat));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::thumbnail_search_test

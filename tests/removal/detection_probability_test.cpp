@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace eyrie {
+namespace eyrie::detection_probability_test {
 namespace {
 
 /// The ground goes 2 px/frame to the right through the picture.
@@ -95,4 +95,4 @@ TEST(DetectionProbability, WhatWasRejectedHasNone) {
     EXPECT_EQ(shownScore(kept.front()), kept.front().probability);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::detection_probability_test

@@ -9,7 +9,7 @@
 #include "core/geometry/angle.h"
 #include "removal/vectors_in_boxes.h"
 
-namespace eyrie {
+namespace eyrie::duplicate_removal_test {
 namespace {
 
 using namespace test;
@@ -348,4 +348,4 @@ TEST(DuplicateRemoval, DoesNotDependOnTheOrder) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::duplicate_removal_test

@@ -7,7 +7,7 @@
 #include "core/geometry/angle.h"
 #include "removal/vectors_in_boxes.h"
 
-namespace eyrie {
+namespace eyrie::outlier_removal_test {
 namespace {
 
 using namespace test;
@@ -237,4 +237,4 @@ TEST(OutlierRemoval, LeavesEarlierRejectionsAlone) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::outlier_removal_test

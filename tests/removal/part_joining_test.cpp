@@ -7,7 +7,7 @@
 #include "core/geometry/angle.h"
 #include "removal/vectors_in_boxes.h"
 
-namespace eyrie {
+namespace eyrie::part_joining_test {
 namespace {
 
 using namespace test;
@@ -276,4 +276,4 @@ TEST(PartJoining, CanBeSwitchedOff) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::part_joining_test

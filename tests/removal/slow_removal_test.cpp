@@ -12,7 +12,7 @@
 #include "removal/part_joining.h"
 #include "removal/vector_support.h"
 
-namespace eyrie {
+namespace eyrie::slow_removal_test {
 namespace {
 
 class Dice {
@@ -351,4 +351,4 @@ TEST(SlowRemoval, OutliersBreakALimit) {
     EXPECT_LT(rejected, all - 200);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_removal_test

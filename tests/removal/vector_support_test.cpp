@@ -5,7 +5,7 @@
 #include "core/geometry/angle.h"
 #include "removal/vectors_in_boxes.h"
 
-namespace eyrie {
+namespace eyrie::vector_support_test {
 namespace {
 
 using namespace test;
@@ -96,4 +96,4 @@ TEST(VectorSupport, VelocityIsTheMeanOfThoseInside) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::vector_support_test

@@ -11,7 +11,7 @@
 #include "report/svg_chart.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::evaluation_report_test {
 namespace {
 
 using testing::HasSubstr;
@@ -158,4 +158,4 @@ TEST(SvgChart, gapsPartCurves) {
     EXPECT_THAT(curvesSvg({}), HasSubstr("</svg>"));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::evaluation_report_test

@@ -9,7 +9,7 @@
 #include "store/runs/result_writer.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::review_report_test {
 namespace {
 
 using testing::AllOf;
@@ -217,4 +217,4 @@ TEST_F(ReviewReport, LimitsThatDifferAreTold) {
     EXPECT_THAT(htmlOf(gather()), Not(HasSubstr("events.stands")));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::review_report_test

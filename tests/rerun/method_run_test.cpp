@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "support/moving_scene.h"
 
-namespace eyrie {
+namespace eyrie::method_run_test {
 namespace {
 
 const SceneScale kScale{0.2, 25, true};
@@ -183,4 +183,4 @@ TEST(TrackHalf, ShowsItsStacksAndDifferences) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::method_run_test

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "support/moving_scene.h"
 
-namespace eyrie {
+namespace eyrie::preview_test {
 namespace {
 
 /// A run over a small scene, kept in memory, and what a run with other parameters finds.
@@ -178,4 +178,4 @@ TEST(Preview, stopsAndRefusesWhatTheRunHasNot) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::preview_test

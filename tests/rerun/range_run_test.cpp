@@ -7,7 +7,7 @@
 #include "chain/recording/run_recorder.h"
 #include "support/moving_scene.h"
 
-namespace eyrie {
+namespace eyrie::range_run_test {
 namespace {
 
 /// A run over a small scene, kept in memory.
@@ -132,4 +132,4 @@ TEST_F(RangeRun, StopsWhenAsked) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::range_run_test

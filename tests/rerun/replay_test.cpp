@@ -8,7 +8,7 @@
 #include "support/moving_scene.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::replay_test {
 namespace {
 
 /// A stored run over a small scene, and how to replay it.
@@ -184,4 +184,4 @@ TEST(Replay, namesStoredParametersThatItDoesNotKnow) {
     EXPECT_EQ(unknown, (std::vector<std::string>{"no.such", "stacking.min_height"}));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::replay_test

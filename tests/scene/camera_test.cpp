@@ -7,7 +7,7 @@
 #include "core/geometry/angle.h"
 #include "core/geometry/homography.h"
 
-namespace eyrie {
+namespace eyrie::camera_test {
 namespace {
 
 CameraPath pathWith(CameraKey key) {
@@ -127,4 +127,4 @@ TEST(Camera, seesTheGroundItSays) {
     EXPECT_NEAR(seen.height, 481 * 0.4, 1e-6);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::camera_test

@@ -8,7 +8,7 @@
 #include "scene/small_scene.h"
 
 /// Lamps, headlights, halos, haze and what sticks to the image.
-namespace eyrie {
+namespace eyrie::night_picture_test {
 namespace {
 
 SceneDescription darkScene(int frame_count = 1) {
@@ -168,4 +168,4 @@ TEST(StickingPicture, dirtDarkensTheSamePlacesOfEveryFrame) {
     EXPECT_LT(dark, 3000);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::night_picture_test

@@ -6,7 +6,7 @@
 
 #include "core/geometry/angle.h"
 
-namespace eyrie {
+namespace eyrie::path_test {
 
 TEST(Path, rightIsClockwiseOnTheMap) {
     const Path path({{0, 0}, {10, 0}});
@@ -56,4 +56,4 @@ TEST(Path, shiftedReversedAndParts) {
     EXPECT_NEAR(path.part(20, 45).position(5).x, 25, 1e-9);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::path_test

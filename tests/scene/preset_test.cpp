@@ -13,7 +13,7 @@
 #include "scene/scene_load.h"
 
 /// The facts of Teutsch table 7.1 and §7.2, without painting a pixel.
-namespace eyrie {
+namespace eyrie::preset_test {
 namespace {
 
 double groundSampling(const SceneDescription& scene, int frame) {
@@ -141,4 +141,4 @@ TEST(ScenePreset, seedsGiveOtherScenesOfTheSameKind) {
     EXPECT_GE(loadOf(c).vehicle_tracks, 12);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::preset_test

@@ -8,7 +8,7 @@
 #include "scene/painting/polygon_scan.h"
 #include "scene/portable_math.h"
 
-namespace eyrie {
+namespace eyrie::random_test {
 
 TEST(Random, isTheSameEverywhere) {
     // The first outputs of the prescribed generator for seed 1 are 1791095845 and 4282876139.
@@ -85,4 +85,4 @@ TEST(PolygonScan, isClippedToItsBounds) {
     EXPECT_NEAR(sum, 20, 1e-4);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::random_test

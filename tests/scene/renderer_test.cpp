@@ -10,7 +10,7 @@
 #include "scene/scene_source.h"
 #include "scene/small_scene.h"
 
-namespace eyrie {
+namespace eyrie::renderer_test {
 namespace {
 
 bool same(const cv::Mat& a, const cv::Mat& b) {
@@ -203,4 +203,4 @@ TEST(SceneSource, playsASceneLikeAVideo) {
     EXPECT_THROW(openScene("nowhere"), Error);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::renderer_test

@@ -7,7 +7,7 @@
 #include "core/geometry/angle.h"
 #include "scene/small_scene.h"
 
-namespace eyrie {
+namespace eyrie::scene_truth_test {
 namespace {
 
 std::vector<SceneObject> truthOf(const SceneDescription& scene, int frame = 0) {
@@ -133,4 +133,4 @@ TEST(SceneTruth, objectsLiveFromTheirFirstToTheirLastPose) {
     EXPECT_TRUE(truthOf(scene, 11).empty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::scene_truth_test

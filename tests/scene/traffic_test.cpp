@@ -7,7 +7,7 @@
 #include "core/geometry/angle.h"
 #include "scene/traffic/vehicle_shape.h"
 
-namespace eyrie {
+namespace eyrie::traffic_test {
 namespace {
 
 Driver driverAt(double start, double speed) {
@@ -117,4 +117,4 @@ TEST(Vehicles, meshesSpanTheirSizeAndLookOutwards) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::traffic_test

@@ -8,7 +8,7 @@
 #include "scene/small_scene.h"
 
 /// Compares painted vehicles with the truth.
-namespace eyrie {
+namespace eyrie::vehicle_picture_test {
 namespace {
 
 /// Share of each pixel that the vehicle hides. Whatever the vehicle's colours, the difference between pictures over
@@ -172,4 +172,4 @@ TEST(VehiclePicture, parkedVehiclesGlintWhileTheCameraMoves) {
     EXPECT_GT(most, least + 3);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::vehicle_picture_test

@@ -10,7 +10,7 @@
 #include "scene/towns/scene_preset.h"
 
 /// What the scenes of the open world promise, without painting a pixel.
-namespace eyrie {
+namespace eyrie::world_presets_test {
 namespace {
 
 std::vector<SceneObject> counted(const SceneDescription& scene, FrameIndex frame) {
@@ -155,4 +155,4 @@ TEST(WorldPreset, twoPicturesASecondLieATenthOfTheWidthApart) {
     EXPECT_LT(fastest, 11) << "m: 80 km/h";
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::world_presets_test

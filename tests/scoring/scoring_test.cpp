@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 #include "support/written_run.h"
 
-namespace eyrie {
+namespace eyrie::scoring_test {
 namespace {
 
 using testing::ElementsAre;
@@ -141,4 +141,4 @@ TEST_F(ScoringTest, aVideoThatNobodyLabelledSaysSo) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::scoring_test

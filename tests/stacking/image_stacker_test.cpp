@@ -9,7 +9,7 @@
 #include "core/geometry/angle.h"
 #include "imaging/upright_patch.h"
 
-namespace eyrie {
+namespace eyrie::image_stacker_test {
 namespace {
 
 SceneScale scale() {
@@ -382,4 +382,4 @@ TEST(ImageStacker, refusesAsMuchAsItsParametersSay) {
     EXPECT_TRUE(replaced("stacking.max_turn", "31", turned));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::image_stacker_test

@@ -10,7 +10,7 @@
 #include "core/state_archive.h"
 #include "stacking/image_stacker.h"
 
-namespace eyrie {
+namespace eyrie::rival_stacks_test {
 namespace {
 
 using Ids = std::set<CornerId>;
@@ -345,4 +345,4 @@ TEST(RivalStacks, WhatIsRememberedGoesOnElsewhere) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::rival_stacks_test

@@ -11,7 +11,7 @@
 #include "imaging/upright_patch.h"
 #include "stacking/image_stacker.h"
 
-namespace eyrie {
+namespace eyrie::slow_stacking_test {
 namespace {
 
 double lower(std::vector<double> values) {
@@ -387,4 +387,4 @@ TEST(SlowStacking, TheMiddleHeadingIsTheMedianAboutTheMeanDirection) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::slow_stacking_test

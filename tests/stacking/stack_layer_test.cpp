@@ -11,7 +11,7 @@
 #include "imaging/upright_patch.h"
 #include "stacking/image_stack.h"
 
-namespace eyrie {
+namespace eyrie::stack_layer_test {
 namespace {
 
 const cv::Size kArea(115, 345);
@@ -101,4 +101,4 @@ TEST(StackLayer, aStackMayBeSearchedByThreadsAtOnce) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::stack_layer_test

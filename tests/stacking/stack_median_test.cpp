@@ -10,7 +10,7 @@
 #include "stacking/image_stack.h"
 #include "stacking/selection_network.h"
 
-namespace eyrie {
+namespace eyrie::stack_median_test {
 namespace {
 
 std::uint8_t sortedMedian(std::vector<std::uint8_t> values) {
@@ -112,4 +112,4 @@ TEST(ImageStack, aPartIsTheSameAsThePartOfTheWhole) {
     EXPECT_EQ(cv::norm(stack.stacked(part), stack.stacked()(part), cv::NORM_INF), 0);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::stack_median_test

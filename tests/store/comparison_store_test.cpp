@@ -4,7 +4,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::comparison_store_test {
 namespace {
 
 TEST(ComparisonStore, KeepsReportsInTheirOrder) {
@@ -25,4 +25,4 @@ TEST(ComparisonStore, KeepsReportsInTheirOrder) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::comparison_store_test

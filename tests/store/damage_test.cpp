@@ -11,7 +11,7 @@
 #include "support/child.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::damage_test {
 namespace {
 
 std::string readBytes(const std::filesystem::path& path) {
@@ -105,4 +105,4 @@ TEST(FullDisk, IsAnErrorAndWhatWasStoredStays) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::damage_test

@@ -6,7 +6,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::doubtful_tracks_test {
 namespace {
 
 using test::twoTracks;
@@ -103,4 +103,4 @@ TEST_F(DoubtfulTracksTest, GoWithTheTracksThatAreReplaced) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::doubtful_tracks_test

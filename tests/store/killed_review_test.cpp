@@ -12,7 +12,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::killed_review_test {
 namespace {
 
 /// Judges ten events, adds a zone and corrects a track a step until it is killed, and tells the pipe of each step that
@@ -85,4 +85,4 @@ TEST(KilledReview, LosesNothingThatWasJudgedAndTearsNoStepApart) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::killed_review_test

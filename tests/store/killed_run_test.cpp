@@ -12,7 +12,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::killed_run_test {
 namespace {
 
 /// Writes frames until it is killed, and tells the pipe of each that was written.
@@ -158,4 +158,4 @@ TEST(WorkingRun, NeedsAProject) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::killed_run_test

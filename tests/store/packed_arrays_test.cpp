@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace eyrie {
+namespace eyrie::packed_arrays_test {
 namespace {
 
 TEST(PackedPoints, AreExactToAThirtySecondOfAPixel) {
@@ -79,4 +79,4 @@ TEST(PackedIndices, AreExact) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::packed_arrays_test

@@ -18,7 +18,7 @@
 #include "support/places.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::project_backup_test {
 namespace {
 
 using testing::HasSubstr;
@@ -260,4 +260,4 @@ TEST_F(BackupTest, WithoutRoomForACopyAnOlderProjectOpensAllTheSame) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::project_backup_test

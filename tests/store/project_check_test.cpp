@@ -14,7 +14,7 @@
 #include "support/places.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::project_check_test {
 namespace {
 
 using testing::HasSubstr;
@@ -210,4 +210,4 @@ TEST_F(CheckTest, CanBeStopped) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::project_check_test

@@ -15,7 +15,7 @@
 #include "support/places.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::project_file_test {
 namespace {
 
 using testing::HasSubstr;
@@ -368,4 +368,4 @@ TEST_F(ProjectFileTest, ViewsTellTracksInUnitsOfPeople) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::project_file_test

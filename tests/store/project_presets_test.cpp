@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::project_presets_test {
 namespace {
 
 TEST(ProjectPresets, areKeptWithTheirValuesInOrder) {
@@ -48,4 +48,4 @@ TEST(ProjectPresets, areRenamedAndRemoved) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::project_presets_test

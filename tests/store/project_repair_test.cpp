@@ -18,7 +18,7 @@
 #include "support/places.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::project_repair_test {
 namespace {
 
 using testing::HasSubstr;
@@ -314,4 +314,4 @@ TEST_F(RepairTest, NothingIsReplacedAndNothingStaysBehind) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::project_repair_test

@@ -18,7 +18,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::project_restore_test {
 namespace {
 
 using testing::HasSubstr;
@@ -198,4 +198,4 @@ TEST_F(RestoreTest, AsNewLeavesTheProjectAndReplacesNothing) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::project_restore_test

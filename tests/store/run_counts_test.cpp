@@ -8,7 +8,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::run_counts_test {
 namespace {
 
 /// A frame that could not be registered for a reason.
@@ -87,4 +87,4 @@ TEST_F(RunCountsTest, ARelocatedVideoKeepsItsRuns) {
     EXPECT_EQ(store.run(run)->sequence.id, sequence);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::run_counts_test

@@ -9,7 +9,7 @@
 #include "support/run_rows.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::run_state_store_test {
 namespace {
 
 using testing::HasSubstr;
@@ -139,4 +139,4 @@ TEST_F(RunStates, RefuseARunThatIsNotAsItWasFound) {
     EXPECT_TRUE(RunStore(project).run(stopped)->live);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::run_state_store_test

@@ -10,7 +10,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::run_store_test {
 namespace {
 
 using test::sampleFrame;
@@ -388,4 +388,4 @@ TEST_F(RunStoreTest, HowARunEndedIsKept) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::run_store_test

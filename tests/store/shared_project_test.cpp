@@ -16,7 +16,7 @@
 #include "support/temporary_folder.h"
 
 /// Several programs, or several connections of one, on one project.
-namespace eyrie {
+namespace eyrie::shared_project_test {
 namespace {
 
 using testing::HasSubstr;
@@ -212,4 +212,4 @@ TEST_F(SharedProject, ANameAsLongAsFileSystemsAllowIsANameToo) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::shared_project_test

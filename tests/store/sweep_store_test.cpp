@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::sweep_store_test {
 namespace {
 
 TEST(SweepStore, KeepsPlansAndPoints) {
@@ -86,4 +86,4 @@ TEST(SweepStore, EveryPointSurvivesAKill) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::sweep_store_test

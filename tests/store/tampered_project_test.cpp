@@ -13,7 +13,7 @@
 #include "support/temporary_folder.h"
 
 /// Projects that somebody edited with other tools, for ill or by accident.
-namespace eyrie {
+namespace eyrie::tampered_project_test {
 namespace {
 
 using testing::HasSubstr;
@@ -166,4 +166,4 @@ TEST_F(TamperedProject, LabelsBeyondEveryVideoOrReasonAreRefused) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::tampered_project_test

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "sweep/sweep_scene.h"
 
-namespace eyrie {
+namespace eyrie::stage_cache_test {
 namespace {
 
 const SceneScale& kScale = test::kSweepScale;
@@ -307,4 +307,4 @@ TEST(StageCache, ReportsWhatCannotBeDone) {
     EXPECT_THROW(damaged.run(base(), {}), Error);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::stage_cache_test

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "sweep/sweep_scene.h"
 
-namespace eyrie {
+namespace eyrie::sweep_plan_test {
 namespace {
 
 using testing::ElementsAre;
@@ -182,4 +182,4 @@ TEST(SweepPlan, DigestsTellClipsAndTruthsApart) {
     EXPECT_NE(digest, digestOf(first, truth));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::sweep_plan_test

@@ -10,7 +10,7 @@
 #include "sweep/results/sweep_table.h"
 #include "sweep/sweep_scene.h"
 
-namespace eyrie {
+namespace eyrie::sweep_runner_test {
 namespace {
 
 using testing::HasSubstr;
@@ -215,4 +215,4 @@ TEST(SweepReport, EveryLineOfTheCsvHasEveryColumn) {
     EXPECT_THAT(tableText(grid, {}), HasSubstr("3 of 4 points are done"));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::sweep_runner_test

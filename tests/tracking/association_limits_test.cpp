@@ -8,7 +8,7 @@
 #include "tracking/association/split_merge.h"
 #include "tracking/association/vector_association.h"
 
-namespace eyrie {
+namespace eyrie::association_limits_test {
 namespace {
 
 const TrackAuthority kKnown{true, true, true, false};
@@ -274,4 +274,4 @@ TEST(VectorLimits, SpeedsMayDifferByAShareOrAFloor) {
     EXPECT_TRUE(limits.similar({0, 2.49}, {0, 2}));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::association_limits_test

@@ -11,7 +11,7 @@
 #include "tracking/association/split_merge.h"
 #include "tracking/association/vector_association.h"
 
-namespace eyrie {
+namespace eyrie::association_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -413,4 +413,4 @@ TEST(OverlapMatrix, whatStandsTakesOnlyWhatIsNearAndSlow) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::association_test

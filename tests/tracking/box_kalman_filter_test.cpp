@@ -8,7 +8,7 @@
 
 #include "core/geometry/angle.h"
 
-namespace eyrie {
+namespace eyrie::box_kalman_filter_test {
 namespace {
 
 BoxMeasurement measured(const OrientedBox& box, cv::Point2d velocity = {0, 0}) {
@@ -217,4 +217,4 @@ TEST(BoxKalmanFilter, anUnmeasuredSizeMayBeOffByHalfOfIt) {
     EXPECT_NEAR(filter.covariance()(5, 5), 6 * 6, 1e-9);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::box_kalman_filter_test

@@ -6,7 +6,7 @@
 
 #include "core/geometry/oriented_box.h"
 
-namespace eyrie::testing {
+namespace eyrie::test {
 
 /// Cars with a dark windscreen near their front on plain ground, the last one on top, with noise of one grey level.
 inline cv::Mat drawnCars(const std::vector<OrientedBox>& cars, std::uint64_t seed = 7, cv::Size size = {400, 300}) {
@@ -32,4 +32,4 @@ inline cv::Mat drawnCars(const std::vector<OrientedBox>& cars, std::uint64_t see
     return image + noise;
 }
 
-}  // namespace eyrie::testing
+}  // namespace eyrie::test

@@ -4,7 +4,7 @@
 
 #include "tracking/finishing/track_finishing.h"
 
-namespace eyrie::testing {
+namespace eyrie::test {
 
 /// Of a 640 × 360 px frame over flat ground that moves by `ground_shift` px/frame along x.
 inline FrameMotionSummary summaryOfFrame(FrameIndex frame, double ground_shift = 0) {
@@ -19,4 +19,4 @@ inline FrameMotionSummary summaryOfFrame(FrameIndex frame, double ground_shift =
     return summary;
 }
 
-}  // namespace eyrie::testing
+}  // namespace eyrie::test

@@ -7,7 +7,7 @@
 
 #include "tracking/finishing/track_finishing.h"
 
-namespace eyrie {
+namespace eyrie::implied_height_test {
 namespace {
 
 constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
@@ -229,4 +229,4 @@ TEST(ImpliedHeight, WhatMovesByItselfWouldLeaveARest) {
     EXPECT_GT(restWith(0.1), 0.15);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::implied_height_test

@@ -5,7 +5,7 @@
 #include "core/state_archive.h"
 #include "tracking/finishing/track_score.h"
 
-namespace eyrie {
+namespace eyrie::live_scores_test {
 namespace {
 
 constexpr SceneScale kLiveScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
@@ -98,4 +98,4 @@ TEST(LiveScores, ForgetTracksThatEnded) {
     EXPECT_EQ(judged(scores, 31), judged(fresh, 31));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::live_scores_test

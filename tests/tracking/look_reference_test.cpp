@@ -8,10 +8,10 @@
 #include "tracking/drawn_cars.h"
 #include "tracking/vehicle_template.h"
 
-namespace eyrie {
+namespace eyrie::look_reference_test {
 namespace {
 
-using testing::drawnCars;
+using test::drawnCars;
 
 /// Grey value between pixels of a CV_8UC1 picture, its border repeated.
 double between(const cv::Mat& gray, cv::Point2d p) {
@@ -172,4 +172,4 @@ TEST(LookReference, IsLookedForUpToAZoomOfTwoAndSixtyFourPixels) {
     EXPECT_GT(match->agreement, 0.9);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::look_reference_test

@@ -2,7 +2,7 @@
 
 #include "tracking/track_manager.h"
 
-namespace eyrie::testing {
+namespace eyrie::test {
 
 inline const SceneScale kFiveToAMetre{0.2, 25, true};  // 1 m are 5 px, 1 m/s is .2 px/frame
 inline const cv::Size kPicture(640, 480);
@@ -30,4 +30,4 @@ inline Track carAt(cv::Point2d centre, cv::Point2d velocity = {1, 0}) {
     return trackAt({centre, 20, 10, 0}, velocity);
 }
 
-}  // namespace eyrie::testing
+}  // namespace eyrie::test

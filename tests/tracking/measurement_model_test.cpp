@@ -10,7 +10,7 @@
 #include "core/geometry/angle.h"
 #include "tracking/turned_picture.h"
 
-namespace eyrie {
+namespace eyrie::measurement_model_test {
 namespace {
 
 const SceneScale kFourToAMetre{0.25, 25, true};
@@ -292,7 +292,7 @@ TEST(MeasurementModel, VectorsTellPlacesBetterThanHeadings) {
 }
 
 TEST(MeasurementModel, AQuarterTurnOfThePictureTurnsTheMeasurement) {
-    const testing::QuarterTurn turn{kPicture};
+    const test::QuarterTurn turn{kPicture};
     std::mt19937 random(4);
     std::uniform_real_distribution<double> share(0, 1);
     MeasurementModel upright = modelWith(TrackerOptions{});
@@ -314,7 +314,7 @@ TEST(MeasurementModel, AQuarterTurnOfThePictureTurnsTheMeasurement) {
         seen.box = turn(box);
         seen.velocity = turn.vector(seen.velocity);
         const auto after = turned.update(seen.box, seen, turn(predicted), round % 5 == 0);
-        testing::expectAlike(after.measurement.box, turn(update.measurement.box), 1e-9);
+        test::expectAlike(after.measurement.box, turn(update.measurement.box), 1e-9);
         const auto same = [&](double a, double b) { EXPECT_TRUE(a == b || std::abs(a - b) < 1e-9) << round; };
         same(after.measurement.along, update.measurement.along);
         same(after.measurement.across, update.measurement.across);
@@ -333,4 +333,4 @@ TEST(MeasurementModel, AQuarterTurnOfThePictureTurnsTheMeasurement) {
     EXPECT_GT(cut, 20);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::measurement_model_test

@@ -12,11 +12,11 @@
 #include "tracking/tracker.h"
 #include "tracking/vehicle_template.h"
 
-namespace eyrie {
+namespace eyrie::standing_vehicle_test {
 namespace {
 
-using testing::drawnCars;
-using testing::MovingScene;
+using test::drawnCars;
+using test::MovingScene;
 
 constexpr int kStops = 40;      ///< frame in which the car comes to stand
 constexpr double kSpeed = 1.2;  ///< px/frame before and after; 7.5 m/s
@@ -64,7 +64,7 @@ struct StoppingCar {
 
         /// The track that lies on the car.
         const TrackState* onCar(int frame) const {
-            return testing::nearest(by_frame.at(frame), truth[static_cast<std::size_t>(frame)]);
+            return test::nearest(by_frame.at(frame), truth[static_cast<std::size_t>(frame)]);
         }
         std::set<TrackId> idsOnCar(int from, int to) const {
             std::set<TrackId> ids;
@@ -267,4 +267,4 @@ TEST(StandingVehicle, mustBeToldFromWhatIsBesideItAsAppearanceMarginSays) {
     EXPECT_LT(lastFrameWith(car, "tracking.appearance_margin", std::to_string(margin + 0.15)), 150) << margin;
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::standing_vehicle_test

@@ -3,13 +3,13 @@
 
 #include "tracking/made_tracks.h"
 
-namespace eyrie {
+namespace eyrie::track_duplicates_test {
 namespace {
 
-using testing::carAt;
-using testing::kSlow;
-using testing::managerWith;
-using testing::trackAt;
+using test::carAt;
+using test::kSlow;
+using test::managerWith;
+using test::trackAt;
 
 bool duplicates(const OrientedBox& box, cv::Point2d velocity, const Track& track, const TrackerOptions& options,
                 double slow_speed = kSlow) {
@@ -191,4 +191,4 @@ TEST(TrackManager, TracksOfHardlySmallerSizeAreNotHeldByALargerOne) {
     EXPECT_EQ(left(20.1), 1);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::track_duplicates_test

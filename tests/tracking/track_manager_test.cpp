@@ -10,19 +10,19 @@
 #include "tracking/drawn_cars.h"
 #include "tracking/made_tracks.h"
 
-namespace eyrie {
+namespace eyrie::track_manager_test {
 namespace {
 
-using testing::carAt;
-using testing::kPicture;
-using testing::kSlow;
-using testing::managerWith;
-using testing::trackAt;
+using test::carAt;
+using test::kPicture;
+using test::kSlow;
+using test::managerWith;
+using test::trackAt;
 
 Track rememberedCar(double speed = 0.1) {
     const OrientedBox box{{120, 90}, 20, 10, 0};
     Track track = trackAt(box, {speed, 0});
-    track.look = VehicleTemplate::of(testing::drawnCars({box}), box);
+    track.look = VehicleTemplate::of(test::drawnCars({box}), box);
     EXPECT_TRUE(track.look);
     return track;
 }
@@ -458,4 +458,4 @@ TEST(TrackManager, ATrackEndsWithTheLastOfItInThePicture) {
     EXPECT_EQ(endOf(carAt({300, NAN}), options), "tracking.min_visible");
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::track_manager_test

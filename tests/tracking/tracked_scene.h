@@ -12,7 +12,7 @@
 #include "core/values/scene_scale.h"
 #include "core/values/track_state.h"
 
-namespace eyrie::testing {
+namespace eyrie::test {
 
 /// An object on the ground (coordinates of the ground are those of frame 0).
 struct SceneObject {
@@ -131,4 +131,4 @@ inline MovingScene neighbours() {
     return scene;
 }
 
-}  // namespace eyrie::testing
+}  // namespace eyrie::test

@@ -6,11 +6,11 @@
 
 #include "tracking/tracked_scene.h"
 
-namespace eyrie {
+namespace eyrie::tracker_interruption_test {
 namespace {
 
-using testing::MovingScene;
-using testing::twoCars;
+using test::MovingScene;
+using test::twoCars;
 
 }  // namespace
 
@@ -154,4 +154,4 @@ TEST(TrackerInterruption, stoppedVehiclesWaitInTheirPlace) {
     EXPECT_TRUE(states.empty());
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::tracker_interruption_test

@@ -8,11 +8,11 @@
 #include "tracking/tracked_scene.h"
 #include "tracking/tracker.h"
 
-namespace eyrie {
+namespace eyrie::tracker_noise_test {
 namespace {
 
-using testing::MovingScene;
-using testing::twoCars;
+using test::MovingScene;
+using test::twoCars;
 
 const SceneScale kQuarterMetre{0.25, 25, true};
 
@@ -124,4 +124,4 @@ TEST(TrackerNoise, ATrackFollowsLessWhatIsUncertainAndMoreWhatMayChange) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::tracker_noise_test

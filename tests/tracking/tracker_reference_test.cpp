@@ -9,10 +9,10 @@
 #include "tracking/tracked_scene.h"
 #include "tracking/tracker.h"
 
-namespace eyrie {
+namespace eyrie::tracker_reference_test {
 namespace {
 
-using testing::MovingScene;
+using test::MovingScene;
 
 /// What the tracker does with the detections of a single vehicle that nothing else is near to.
 struct SingleTrack {
@@ -169,7 +169,7 @@ TEST(TrackerReference, PlacesAndVectorsAreCarriedOverTheGround) {
 }
 
 TEST(TrackerReference, WhatDetectionsAndTracksMeantForEachOtherIsTold) {
-    MovingScene scene = testing::twoCars();
+    MovingScene scene = test::twoCars();
     TrackerOptions options = detectionsAlone();
     options.max_missing_s = 0.2;  // five frames
     Tracker tracker(options, scene.scale);
@@ -228,4 +228,4 @@ TEST(TrackerReference, ADoubledDetectionIsToldAndSoIsASuppressedTrack) {
     EXPECT_EQ(ended, "tracking.suppress_duplicates");
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::tracker_reference_test

@@ -5,13 +5,13 @@
 #include "tracking/measurement_model.h"
 #include "tracking/tracked_scene.h"
 
-namespace eyrie {
+namespace eyrie::tracker_split_merge_test {
 namespace {
 
-using testing::MovingScene;
-using testing::nearest;
-using testing::neighbours;
-using testing::twoCars;
+using test::MovingScene;
+using test::nearest;
+using test::neighbours;
+using test::twoCars;
 
 }  // namespace
 
@@ -275,4 +275,4 @@ TEST(TrackerSplitMerge, aPartAtTheEndOfALongVehicleStartsNoTrack) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::tracker_split_merge_test

@@ -9,13 +9,13 @@
 #include "tracking/measurement_model.h"
 #include "tracking/tracked_scene.h"
 
-namespace eyrie {
+namespace eyrie::tracker_test {
 namespace {
 
-using testing::MovingScene;
-using testing::nearest;
-using testing::neighbours;
-using testing::twoCars;
+using test::MovingScene;
+using test::nearest;
+using test::neighbours;
+using test::twoCars;
 
 }  // namespace
 
@@ -423,4 +423,4 @@ TEST(Tracker, oneDetectionMayBeEnoughToConfirm) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::tracker_test

@@ -3,12 +3,12 @@
 #include "tracking/tracked_scene.h"
 #include "tracking/tracker.h"
 
-namespace eyrie {
+namespace eyrie::tracker_thresholds_test {
 namespace {
 
-using testing::MovingScene;
-using testing::neighbours;
-using testing::twoCars;
+using test::MovingScene;
+using test::neighbours;
+using test::twoCars;
 
 /// Options of a tracker with one parameter set by its name.
 TrackerOptions with(const std::string& name, const std::string& value, TrackerOptions options = {}) {
@@ -196,7 +196,7 @@ TEST(TrackerThresholds, MaxMissingTentativeIsForHowManyFramesATrackSeenOnceIsHel
 
 TEST(TrackerThresholds, WhereTheVideoIsSlowFewerHitsConfirmATrack) {
     const auto framesUntilConfirmed = [](const TrackerOptions& options, double frame_rate_hz) {
-        testing::MovingScene scene;
+        test::MovingScene scene;
         scene.scale.frame_rate_hz = frame_rate_hz;
         scene.objects = {{{100, 240}, {6, 0}, 40, 14, 0}};
         Tracker tracker(options, scene.scale);
@@ -218,4 +218,4 @@ TEST(TrackerThresholds, WhereTheVideoIsSlowFewerHitsConfirmATrack) {
     EXPECT_EQ(framesUntilConfirmed(counted, 2), 2) << "never more than asked for";
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::tracker_thresholds_test

@@ -12,14 +12,14 @@
 #include "tracking/tracker.h"
 #include "tracking/turned_picture.h"
 
-namespace eyrie {
+namespace eyrie::tracking_laws_test {
 namespace {
 
-using testing::expectAlike;
-using testing::Mirror;
-using testing::MovingScene;
-using testing::QuarterTurn;
-using testing::RigidMap;
+using test::expectAlike;
+using test::Mirror;
+using test::MovingScene;
+using test::QuarterTurn;
+using test::RigidMap;
 
 constexpr int kFrames = 170;
 constexpr int kLost = 60;  ///< frame after which the car that brakes is not detected any more
@@ -100,7 +100,7 @@ Seen busyStreet() {
         if (frame == 111) motion.registration.state = RegistrationState::frozen;
         seen.motion.push_back(motion);
         seen.detections.push_back(detections);
-        seen.pictures.push_back(testing::drawnCars(drawn, std::uint64_t(frame + 1), scene.image));
+        seen.pictures.push_back(test::drawnCars(drawn, std::uint64_t(frame + 1), scene.image));
     }
     return seen;
 }
@@ -158,7 +158,7 @@ void expectSameTracks(const std::vector<TimedState>& a, const std::vector<TimedS
         expectAlike(other.box, places(one.box), tolerance);
         const double speed = std::hypot(one.velocity.x, one.velocity.y);
         ASSERT_NEAR(std::hypot(other.velocity.x, other.velocity.y), speed, tolerance);
-        if (::testing::Test::HasNonfatalFailure()) return;
+        if (testing::Test::HasNonfatalFailure()) return;
     }
 }
 
@@ -270,4 +270,4 @@ TEST(TrackingLaws, TheOrderOfDetectionsOnlyNumbersNewTracks) {
     EXPECT_LT(different, static_cast<int>(before.size()) / 50);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::tracking_laws_test

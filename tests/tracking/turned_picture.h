@@ -12,7 +12,7 @@
 #include "core/values/detection.h"
 #include "core/values/motion_vector.h"
 
-namespace eyrie::testing {
+namespace eyrie::test {
 
 /// A picture turned by a quarter, clockwise, or mirrored left to right: where things are then. The methods of both are
 /// those of any rigid map of the picture onto another one.
@@ -86,4 +86,4 @@ inline void expectAlike(const OrientedBox& a, const OrientedBox& b, double toler
     EXPECT_NEAR(turnBetween(a.heading, b.heading), 0, tolerance);
 }
 
-}  // namespace eyrie::testing
+}  // namespace eyrie::test

@@ -7,10 +7,10 @@
 #include "core/geometry/angle.h"
 #include "tracking/drawn_cars.h"
 
-namespace eyrie {
+namespace eyrie::vehicle_template_test {
 namespace {
 
-using testing::drawnCars;
+using test::drawnCars;
 
 double distance(cv::Point2d a, cv::Point2d b) {
     return std::hypot(a.x - b.x, a.y - b.y);
@@ -115,4 +115,4 @@ TEST(VehicleTemplate, isNotTakenWithoutContrastOrBeyondTheImage) {
     EXPECT_FALSE(lookAt(kCar).find(drawnCars({cut}), cut, 3));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::vehicle_template_test

@@ -134,7 +134,7 @@ class Fitter {
     }
 
     void compareWithNeighbours() {
-        constexpr std::size_t kNeighbours = 12;
+        constexpr std::size_t kPlacesAround = 12;
         std::vector<cv::Mat> looks(places_.size());
         for (std::size_t i = 0; i < places_.size(); ++i) {
             if (places_[i].wide.empty() || places_[i].likeness.empty()) continue;
@@ -144,7 +144,8 @@ class Fitter {
             PicturePlace& place = places_[i];
             if (place.likeness.empty()) continue;
             cv::Mat sum = cv::Mat::zeros(grid_.box, CV_32F);
-            for (std::size_t k = i > kNeighbours ? i - kNeighbours : 0; k <= i + kNeighbours && k < looks.size(); ++k)
+            for (std::size_t k = i > kPlacesAround ? i - kPlacesAround : 0; k <= i + kPlacesAround && k < looks.size();
+                 ++k)
                 if (!looks[k].empty()) sum += looks[k];
             cv::Mat wide;
             place.wide.convertTo(wide, CV_32F);

@@ -11,7 +11,7 @@ namespace {
 constexpr double kLeastFlowTime_s = 1;  ///< for which a vehicle drives against the flow or off it
 
 /// How a sample lies to what others do.
-enum class Verdict {
+enum class FlowVerdict {
     none,     ///< it stands, or nothing can be told
     along,    ///< enough others go its way
     against,  ///< enough others go the other way, hardly one goes its way
@@ -24,31 +24,31 @@ struct Flow {
     FlowField wide;  ///< who comes near it
 };
 
-std::vector<Verdict> verdictsOn(const EventScene& scene, const GroundPath& path, const Flow& flow) {
+std::vector<FlowVerdict> verdictsOn(const EventScene& scene, const GroundPath& path, const Flow& flow) {
     const EventOptions& o = scene.options;
     const FlowField::Votes near = flow.near.votesOf(path);
     const FlowField::Votes wide = flow.wide.votesOf(path);
     const double against = radiansFromDegrees(o.against_angle_deg);
-    std::vector<Verdict> verdicts(path.samples.size(), Verdict::none);
+    std::vector<FlowVerdict> verdicts(path.samples.size(), FlowVerdict::none);
     for (std::size_t i = 0; i < path.samples.size(); ++i) {
         const GroundSample& sample = path.samples[i];
         if (!sample.moving) continue;
         const double direction = std::atan2(sample.velocity.y, sample.velocity.x);
         const FlowField::Others others = flow.near.othersAt(sample.at, direction, against, near);
         if (others.against >= o.flow_tracks && others.along <= o.flow_share * others.all) {
-            verdicts[i] = Verdict::against;
+            verdicts[i] = FlowVerdict::against;
         } else if (others.along >= o.flow_tracks) {
-            verdicts[i] = Verdict::along;
+            verdicts[i] = FlowVerdict::along;
         } else if (others.all == 0 && flow.wide.othersAt(sample.at, direction, against, wide).all == 0) {
-            verdicts[i] = Verdict::off;
+            verdicts[i] = FlowVerdict::off;
         }
     }
     return verdicts;
 }
 
 /// Spans of one verdict that are long enough; short interruptions that say nothing else belong to them.
-std::vector<SampleSpan> longSpans(const EventScene& scene, const GroundPath& path, const std::vector<Verdict>& verdicts,
-                                  Verdict wanted) {
+std::vector<SampleSpan> longSpans(const EventScene& scene, const GroundPath& path,
+                                  const std::vector<FlowVerdict>& verdicts, FlowVerdict wanted) {
     std::vector<SampleSpan> spans;
     bool open = false;
     for (std::size_t i = 0; i < verdicts.size(); ++i) {
@@ -58,7 +58,7 @@ std::vector<SampleSpan> longSpans(const EventScene& scene, const GroundPath& pat
             else
                 spans.push_back({i, i});
             open = true;
-        } else if (open && (verdicts[i] != Verdict::none ||
+        } else if (open && (verdicts[i] != FlowVerdict::none ||
                             secondsBetween(path, spans.back().last, i, scene.scale) > kLeastFlowTime_s)) {
             open = false;
         }
@@ -95,9 +95,9 @@ std::pair<std::size_t, double> furthestBeside(const GroundPath& path, const Grou
     return furthest;
 }
 
-void addAgainst(const EventScene& scene, const GroundPath& path, const std::vector<Verdict>& verdicts,
+void addAgainst(const EventScene& scene, const GroundPath& path, const std::vector<FlowVerdict>& verdicts,
                 std::vector<Event>& events) {
-    for (const SampleSpan& span : longSpans(scene, path, verdicts, Verdict::against)) {
+    for (const SampleSpan& span : longSpans(scene, path, verdicts, FlowVerdict::against)) {
         const std::size_t middle = (span.first + span.last) / 2;
         Event event = eventAt(scene, EventKind::against_flow, path, span, middle);
         setLength(event, scene, wayBetween(path, span.first, span.last));
@@ -105,10 +105,10 @@ void addAgainst(const EventScene& scene, const GroundPath& path, const std::vect
     }
 }
 
-void addLeaving(const EventScene& scene, const GroundPath& path, const std::vector<Verdict>& verdicts,
+void addLeaving(const EventScene& scene, const GroundPath& path, const std::vector<FlowVerdict>& verdicts,
                 std::vector<Event>& events) {
-    const std::vector<SampleSpan> along = longSpans(scene, path, verdicts, Verdict::along);
-    for (const SampleSpan& span : longSpans(scene, path, verdicts, Verdict::off)) {
+    const std::vector<SampleSpan> along = longSpans(scene, path, verdicts, FlowVerdict::along);
+    for (const SampleSpan& span : longSpans(scene, path, verdicts, FlowVerdict::off)) {
         const auto after =
             std::find_if(along.rbegin(), along.rend(), [&](const SampleSpan& each) { return each.last < span.first; });
         if (after == along.rend()) continue;

@@ -87,25 +87,25 @@ class Unpacker {
 };
 
 /// What tells one state of a file from another.
-struct Identity {
+struct IndexedFile {
     std::string path;
     std::uint64_t size = 0;
     std::int64_t changed = 0;
-    bool operator==(const Identity&) const = default;
+    bool operator==(const IndexedFile&) const = default;
 };
 
-Identity identify(const std::filesystem::path& video) {
+IndexedFile indexedFile(const std::filesystem::path& video) {
     const std::filesystem::path absolute = std::filesystem::absolute(video).lexically_normal();
     return {absolute.string(), std::filesystem::file_size(absolute),
             std::filesystem::last_write_time(absolute).time_since_epoch().count()};
 }
 
-std::string pack(const Identity& identity, const VideoIndex& index) {
+std::string pack(const IndexedFile& file, const VideoIndex& index) {
     Packer packer;
     packer.number(kMagic);
-    packer.text(identity.path);
-    packer.number(identity.size);
-    packer.number(identity.changed);
+    packer.text(file.path);
+    packer.number(file.size);
+    packer.number(file.changed);
     packer.number(index.stream);
     packer.number(index.tick_numerator);
     packer.number(index.tick_denominator);
@@ -140,7 +140,7 @@ bool isSound(const VideoIndex& index) {
            index.shown_ticks.end();
 }
 
-std::optional<VideoIndex> unpack(const std::string& bytes, const Identity& identity) {
+std::optional<VideoIndex> unpack(const std::string& bytes, const IndexedFile& file) {
     const std::size_t seal = sizeof(std::uint64_t);
     if (bytes.size() < 2 * seal) return std::nullopt;
     std::uint64_t sum = 0;
@@ -149,11 +149,11 @@ std::optional<VideoIndex> unpack(const std::string& bytes, const Identity& ident
 
     Unpacker unpacker(bytes);
     if (unpacker.number<std::uint64_t>() != kMagic) return std::nullopt;
-    Identity kept;
+    IndexedFile kept;
     kept.path = unpacker.text();
     kept.size = unpacker.number<std::uint64_t>();
     kept.changed = unpacker.number<std::int64_t>();
-    if (kept != identity) return std::nullopt;
+    if (kept != file) return std::nullopt;
     VideoIndex index;
     index.stream = unpacker.number<std::int32_t>();
     index.tick_numerator = unpacker.number<std::int64_t>();
@@ -206,7 +206,7 @@ std::optional<VideoIndex> IndexCache::load(const std::filesystem::path& video) c
         std::ifstream file(recordOf(video), std::ios::binary);
         if (!file) return std::nullopt;
         const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-        return unpack(bytes, identify(video));
+        return unpack(bytes, indexedFile(video));
     } catch (const std::exception&) {
         return std::nullopt;  // whatever is wrong with the record, indexing again puts it right
     }
@@ -216,7 +216,7 @@ void IndexCache::save(const std::filesystem::path& video, const VideoIndex& inde
     if (folder_.empty()) return;
     try {
         std::filesystem::create_directories(folder_);
-        writeFileAtomically(recordOf(video), pack(identify(video), index));
+        writeFileAtomically(recordOf(video), pack(indexedFile(video), index));
     } catch (const std::exception&) {
         // Without a cache the video is indexed again next time.
     }

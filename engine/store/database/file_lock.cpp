@@ -49,7 +49,7 @@ bool isPresent(int descriptor, const std::filesystem::path& path) {
            held.st_dev == named.st_dev;
 }
 
-std::string inWords(int error) {
+std::string errorText(int error) {
     return std::generic_category().message(error);
 }
 
@@ -73,14 +73,14 @@ FileLock::Attempt FileLock::tryTake(const std::filesystem::path& file) {
     for (int i = 0; i < kTries; ++i) {
         const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (descriptor < 0)
-            return {Outcome::impossible, nullptr, file.string() + " cannot be written (" + inWords(errno) + ")"};
+            return {Outcome::impossible, nullptr, file.string() + " cannot be written (" + errorText(errno) + ")"};
         struct flock range = wholeFile(F_WRLCK);
         if (fcntl(descriptor, F_OFD_SETLK, &range) != 0) {
             const int error = errno;
             const bool held = error == EAGAIN || error == EACCES;
             Attempt attempt;
             attempt.outcome = held ? Outcome::held : Outcome::impossible;
-            attempt.words = held ? wordsIn(descriptor) : file.string() + " cannot be locked (" + inWords(error) + ")";
+            attempt.words = held ? wordsIn(descriptor) : file.string() + " cannot be locked (" + errorText(error) + ")";
             close(descriptor);
             return attempt;
         }

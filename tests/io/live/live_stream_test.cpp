@@ -15,7 +15,7 @@
 #include "support/temporary_folder.h"
 #include "support/wait_until.h"
 
-namespace eyrie {
+namespace eyrie::live_stream_test {
 namespace {
 
 using test::LiveSender;
@@ -340,4 +340,4 @@ TEST(LiveAddresses, AreThoseOfTheNet) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::live_stream_test

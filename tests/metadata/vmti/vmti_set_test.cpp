@@ -9,7 +9,7 @@
 #include "metadata/vmti/klv_packing.h"
 #include "support/klv_writer.h"
 
-namespace eyrie::vmti {
+namespace eyrie::vmti::vmti_set_test {
 namespace {
 
 using Packed = std::vector<std::uint8_t>;
@@ -243,4 +243,4 @@ TEST(VmtiSet, RandomBytesWithARightChecksumAreReadOrRefused) {
     }
 }
 
-}  // namespace eyrie::vmti
+}  // namespace eyrie::vmti::vmti_set_test

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-namespace eyrie {
+namespace eyrie::linkage_gaps_test {
 namespace {
 
 const Linkage kLinkage{10, 5, 0.1, 0.05};
@@ -111,4 +111,4 @@ TEST(LinkageGaps, TheLargestInsideIsTheReachWithWhichTheGroupHoldsTogether) {
     EXPECT_EQ(largestGapInside(unlike, {0, 1}, kLinkage).other, -1);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::linkage_gaps_test

@@ -9,7 +9,7 @@
 
 /// Where the slope is so steep that the left of the picture has the least scale and the right the largest, each side
 /// must be treated exactly as under that scale everywhere.
-namespace eyrie {
+namespace eyrie::local_scale_test {
 namespace {
 
 constexpr double kGsd = 0.4;
@@ -114,4 +114,4 @@ TEST(LocalScale, ShadowsReachAsFarAsMetresDoThere) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::local_scale_test

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-namespace eyrie {
+namespace eyrie::single_linkage_test {
 namespace {
 
 MotionVector vector(float x, float y, float vx, float vy) {
@@ -134,4 +134,4 @@ TEST(SingleLinkage, HoldsForThousandsInOnePlace) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::single_linkage_test

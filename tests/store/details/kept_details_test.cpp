@@ -11,7 +11,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::kept_details_test {
 namespace {
 
 using test::SampleSize;
@@ -134,4 +134,4 @@ TEST_F(KeptDetails, AFinishedRunGivesItsSpaceBack) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::kept_details_test

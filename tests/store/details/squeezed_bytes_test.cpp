@@ -6,7 +6,7 @@
 
 #include "store/samples.h"
 
-namespace eyrie {
+namespace eyrie::squeezed_bytes_test {
 namespace {
 
 TEST(SqueezedBytes, ComeBackAsTheyWere) {
@@ -59,4 +59,4 @@ TEST(SqueezedBytes, WhatNoSqueezingYieldsIsRefused) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::squeezed_bytes_test

@@ -13,7 +13,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::annotation_store_test {
 namespace {
 
 using testing::HasSubstr;
@@ -338,4 +338,4 @@ TEST_F(AnnotationStoreTest, NothingStaysBesideTheProject) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::annotation_store_test

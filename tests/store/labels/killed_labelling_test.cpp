@@ -11,7 +11,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::killed_labelling_test {
 namespace {
 
 /// What the labeller below does: step n draws object n, then objects are moved in turn, every tenth step is undone.
@@ -132,4 +132,4 @@ TEST(KilledLabelling, WhileAnotherProcessLabelsTheSecondReadsAndSaysWho) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::killed_labelling_test

@@ -6,7 +6,7 @@
 
 #include "store/labels/label_samples.h"
 
-namespace eyrie {
+namespace eyrie::packed_labels_test {
 namespace {
 
 AnnotationSet sampleSet() {
@@ -113,4 +113,4 @@ TEST(PackedLabels, DamagedBytesAreNothingAndNeverMore) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::packed_labels_test

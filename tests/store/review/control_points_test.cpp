@@ -10,7 +10,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::control_points_test {
 namespace {
 
 TEST(ControlPoints, AreKeptWithTheirVideoAndReplacedWhole) {
@@ -60,4 +60,4 @@ TEST(ControlPoints, WhatIsNotOnTheEarthIsRefusedAndFound) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::control_points_test

@@ -11,7 +11,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::review_store_test {
 namespace {
 
 using testing::HasSubstr;
@@ -400,4 +400,4 @@ TEST_F(ReviewStoreTest, VerdictsGoWithTheVideoAndStayWithoutTheRun) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::review_store_test

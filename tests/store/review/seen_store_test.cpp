@@ -10,7 +10,7 @@
 #include "store/samples.h"
 #include "support/temporary_folder.h"
 
-namespace eyrie {
+namespace eyrie::seen_store_test {
 
 /// For messages of failed tests.
 inline void PrintTo(const FrameSpan& span, std::ostream* out) {
@@ -86,4 +86,4 @@ TEST_F(SeenStoreTest, RowsThatNobodyWroteAreRefused) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::seen_store_test

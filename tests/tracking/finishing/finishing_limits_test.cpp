@@ -6,13 +6,13 @@
 
 #include "tracking/finishing/lanes.h"
 
-namespace eyrie {
+namespace eyrie::finishing_limits_test {
 namespace {
 
-using testing::kFourToAMetre;
-using testing::Lane;
-using testing::onEveryRoad;
-using testing::shaking;
+using test::kFourToAMetre;
+using test::Lane;
+using test::onEveryRoad;
+using test::shaking;
 
 void expectParts(bool expected, const Lane& leader, const Lane& other, const SceneScale& scale = kFourToAMetre) {
     onEveryRoad(leader, other, [&](std::vector<TrackPath> paths) {
@@ -271,4 +271,4 @@ TEST(DropShadowsLimits, KeepTheirPlaces) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::finishing_limits_test

@@ -7,7 +7,7 @@
 #include "tracking/finishing/track_finishing.h"
 #include "tracking/frame_summaries.h"
 
-namespace eyrie {
+namespace eyrie::finishing_thresholds_test {
 namespace {
 
 const SceneScale kScale{0.25, 25, true};
@@ -22,7 +22,7 @@ FinishingOptions onlyWith(const std::string& name, const std::string& value) {
 
 std::vector<TimedState> finished(const std::vector<TimedState>& states, const FinishingOptions& options) {
     std::vector<FrameMotionSummary> summaries;
-    for (int frame = 0; frame < 200; ++frame) summaries.push_back(testing::summaryOfFrame(frame));
+    for (int frame = 0; frame < 200; ++frame) summaries.push_back(test::summaryOfFrame(frame));
     return finishTracks(states, summaries, options, kScale);
 }
 
@@ -109,4 +109,4 @@ TEST(FinishingThresholds, SmoothWindowIsHowWideTheFitsAre) {
     }
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::finishing_thresholds_test

@@ -4,7 +4,7 @@
 
 #include "tracking/frame_summaries.h"
 
-namespace eyrie {
+namespace eyrie::flow_comparison_test {
 namespace {
 
 constexpr double kGround = 2;      // px/frame along x
@@ -13,7 +13,7 @@ constexpr double kNearly = 0.001;  // paths hold floats
 
 GroundMotion movingGround(int frames) {
     GroundMotion ground;
-    for (FrameIndex frame = 0; frame < frames; ++frame) ground.add(testing::summaryOfFrame(frame, kGround));
+    for (FrameIndex frame = 0; frame < frames; ++frame) ground.add(test::summaryOfFrame(frame, kGround));
     return ground;
 }
 
@@ -58,4 +58,4 @@ TEST(FlowComparison, needsTwoFramesOfSomethingThatDoesNotStand) {
     EXPECT_FALSE(comparedWithFlow(pathOf(49, {0, 1}), movingGround(1))) << "the ground's motion is unknown";
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::flow_comparison_test

@@ -11,10 +11,10 @@
 #include "tracking/frame_summaries.h"
 #include "tracking/tracked_scene.h"
 
-namespace eyrie {
+namespace eyrie::ground_paths_test {
 namespace {
 
-using testing::MovingScene;
+using test::MovingScene;
 
 /// Under a camera that turns, zooms and drifts, the picture 640 × 480 px.
 MovingScene movingScene() {
@@ -92,7 +92,7 @@ TEST(GroundMotion, CarriesForwardBackwardAndThroughFrozenFrames) {
     }
     // In a frozen frame nothing moves by itself.
     std::vector<FrameMotionSummary> still;
-    for (int frame = 0; frame < 6; ++frame) still.push_back(testing::summaryOfFrame(frame));
+    for (int frame = 0; frame < 6; ++frame) still.push_back(test::summaryOfFrame(frame));
     still[3].registration.state = RegistrationState::frozen;
     const GroundMotion frozen(still);
     const MovingState moving{{{100, 100}, 20, 10, 0}, {2, 1}};
@@ -105,7 +105,7 @@ TEST(GroundMotion, CarriesForwardBackwardAndThroughFrozenFrames) {
 
 TEST(GroundMotion, KnowsOnlyAdjacentFramesThatWereRegistered) {
     std::vector<FrameMotionSummary> motion;
-    for (const int frame : {10, 11, 12, 15, 16, 17, 18}) motion.push_back(testing::summaryOfFrame(frame, frame));
+    for (const int frame : {10, 11, 12, 15, 16, 17, 18}) motion.push_back(test::summaryOfFrame(frame, frame));
     motion[0].registration.state = RegistrationState::first;
     motion[4].registration.state = RegistrationState::failed;
     motion[5].registration.current_from_previous.matrix = cv::Matx33d::zeros();
@@ -138,7 +138,7 @@ TEST(GroundMotion, KnowsOnlyAdjacentFramesThatWereRegistered) {
 }
 
 TEST(GroundMotion, ABoxIsCutWhereAHundredthOfItIsOutside) {
-    const GroundMotion ground({testing::summaryOfFrame(0)});
+    const GroundMotion ground({test::summaryOfFrame(0)});
     // 20 px long: at x = 629.5 it ends with the picture.
     EXPECT_FALSE(ground.cutByBorder({{629.5 + 0.19, 100}, 20, 10, 0}, 0));
     EXPECT_TRUE(ground.cutByBorder({{629.5 + 0.21, 100}, 20, 10, 0}, 0));
@@ -286,7 +286,7 @@ TEST(SteadySize, BoxesThatTheBorderCutHardlyCount) {
     std::vector<FrameMotionSummary> motion;
     TrackPath path{1, {}};
     for (int frame = 0; frame < 40; ++frame) {
-        motion.push_back(testing::summaryOfFrame(frame));
+        motion.push_back(test::summaryOfFrame(frame));
         TrackState state;
         // 38 of 40 are cut: of a twentieth of the weight each, they weigh 1.9 against 2.
         const bool cut = frame >= 2;
@@ -301,7 +301,7 @@ TEST(ExtendToRest, FollowsTheLeastAbsoluteDeviationsOfAnEvenAcceleration) {
     // 2 + .03 t²/2 px/frame … from rest 20 frames before; two of the first boxes lie askew.
     const SceneScale scale{0.2, 25, true};
     std::vector<FrameMotionSummary> motion;
-    for (int frame = 0; frame < 140; ++frame) motion.push_back(testing::summaryOfFrame(frame, 0.5));
+    for (int frame = 0; frame < 140; ++frame) motion.push_back(test::summaryOfFrame(frame, 0.5));
     const GroundMotion ground(motion);
     const cv::Point2d direction(0.6, 0.8);
     constexpr double kAcceleration = 0.02;
@@ -357,7 +357,7 @@ TEST(ExtendToRest, FollowsTheLeastAbsoluteDeviationsOfAnEvenAcceleration) {
 
 TEST(ExtendToRest, EndsWhereATenthOfTheBoxLeavesThePicture) {
     std::vector<FrameMotionSummary> motion;
-    for (int frame = 0; frame < 140; ++frame) motion.push_back(testing::summaryOfFrame(frame, 0.5));
+    for (int frame = 0; frame < 140; ++frame) motion.push_back(test::summaryOfFrame(frame, 0.5));
     const GroundMotion ground(motion);
     TrackPath path{1, {}};
     for (int frame = 60; frame < 130; ++frame) {
@@ -373,4 +373,4 @@ TEST(ExtendToRest, EndsWhereATenthOfTheBoxLeavesThePicture) {
     EXPECT_EQ(paths[0].firstFrame(), 35);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::ground_paths_test

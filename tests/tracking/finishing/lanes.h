@@ -10,7 +10,7 @@
 #include "core/geometry/angle.h"
 #include "tracking/finishing/track_paths.h"
 
-namespace eyrie::testing {
+namespace eyrie::test {
 
 inline const SceneScale kFourToAMetre{0.25, 25, true};  // 1 m are 4 px, 1 m/s is .16 px/frame
 inline constexpr double kRoads[] = {0.0, 0.8, kPi / 2, -2.5};
@@ -62,4 +62,4 @@ inline std::function<cv::Point2d(int)> shaking(cv::Point2d by) {
     return [by](int frame) { return frame % 2 == 0 ? by : -by; };
 }
 
-}  // namespace eyrie::testing
+}  // namespace eyrie::test

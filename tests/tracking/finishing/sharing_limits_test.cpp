@@ -3,13 +3,13 @@
 
 #include "tracking/finishing/lanes.h"
 
-namespace eyrie {
+namespace eyrie::sharing_limits_test {
 namespace {
 
-using testing::kFourToAMetre;
-using testing::Lane;
-using testing::onEveryRoad;
-using testing::shaking;
+using test::kFourToAMetre;
+using test::Lane;
+using test::onEveryRoad;
+using test::shaking;
 
 int statesOf(const std::vector<TrackPath>& paths, TrackId id) {
     for (const TrackPath& path : paths) {
@@ -186,4 +186,4 @@ TEST(DropHardlyDetectedLimits, AreAShareOrFourTenthsOfASecond) {
     EXPECT_TRUE(stays(2, 100, StateOrigin::standing));
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::sharing_limits_test

@@ -8,7 +8,7 @@
 #include "tracking/finishing/track_paths.h"
 #include "tracking/frame_summaries.h"
 
-namespace eyrie {
+namespace eyrie::tracing_limits_test {
 namespace {
 
 constexpr FrameIndex kFound = 60;  ///< first frame of the track; it lives for 40
@@ -16,7 +16,7 @@ const cv::Point2d kTurns[] = {{1, 0}, {0, 1}, {-0.6, 0.8}};
 
 GroundMotion standingGround() {
     GroundMotion ground;
-    for (FrameIndex frame = 0; frame < 120; ++frame) ground.add(testing::summaryOfFrame(frame));
+    for (FrameIndex frame = 0; frame < 120; ++frame) ground.add(test::summaryOfFrame(frame));
     return ground;
 }
 
@@ -190,7 +190,7 @@ TEST(TracingLimits, WhatBeganWithAPredictionWasTracedBefore) {
 TEST(TracingLimits, FlowIsComparedOverTwentyFourFramesEverySixFrames) {
     // The ground goes 2 px/frame; the track moves by (0, t²/50) in t frames of its own.
     GroundMotion ground;
-    for (FrameIndex frame = 0; frame < 120; ++frame) ground.add(testing::summaryOfFrame(frame, 2));
+    for (FrameIndex frame = 0; frame < 120; ++frame) ground.add(test::summaryOfFrame(frame, 2));
     TrackPath path{1, {}};
     for (FrameIndex frame = 0; frame < 70; ++frame) {
         TrackState state;
@@ -235,7 +235,7 @@ TEST(TracingLimits, ExtendingBackKeepsHalfOfTheBoxInThePictureAndOffOthers) {
 TEST(TracingLimits, NothingIsExtendedOverAFrameThatCouldNotBeRegistered) {
     // It came in eight frames before, but how the ground moved five frames before is only guessed.
     std::vector<FrameMotionSummary> motion;
-    for (FrameIndex frame = 0; frame < 120; ++frame) motion.push_back(testing::summaryOfFrame(frame));
+    for (FrameIndex frame = 0; frame < 120; ++frame) motion.push_back(test::summaryOfFrame(frame));
     motion[kFound - 4].registration.state = RegistrationState::failed;
     Traced car;
     car.start = {7.7, 180};
@@ -247,4 +247,4 @@ TEST(TracingLimits, NothingIsExtendedOverAFrameThatCouldNotBeRegistered) {
     EXPECT_EQ(paths[0].states.size(), 44U) << "as far as it is known";
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::tracing_limits_test

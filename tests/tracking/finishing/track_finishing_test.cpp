@@ -9,10 +9,10 @@
 
 #include "tracking/tracked_scene.h"
 
-namespace eyrie {
+namespace eyrie::track_finishing_test {
 namespace {
 
-using testing::MovingScene;
+using test::MovingScene;
 
 std::vector<FrameMotionSummary> summariesOf(const MovingScene& scene, int frames) {
     std::vector<FrameMotionSummary> result;
@@ -427,4 +427,4 @@ TEST(FinishTracks, aVehicleThatDrivesPointsAlongItsPath) {
     EXPECT_GT(askew(), 0.25);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::track_finishing_test

@@ -8,7 +8,7 @@
 #include "tracking/finishing/track_finishing.h"
 #include "tracking/frame_summaries.h"
 
-namespace eyrie {
+namespace eyrie::track_joining_test {
 namespace {
 
 const SceneScale kJoiningScale{0.25, 25, true};  // 3 m/s² are .0192 px/frame²
@@ -36,7 +36,7 @@ struct Fragments {
         std::vector<FrameMotionSummary> motion;
         const int back = kSeen + unseen;
         for (int frame = 0; frame < back + kSeen; ++frame) {
-            motion.push_back(testing::summaryOfFrame(frame));
+            motion.push_back(test::summaryOfFrame(frame));
             if (frame >= kSeen && frame < back) continue;
             const bool first = frame < kSeen;
             TrackState state;
@@ -134,7 +134,7 @@ TEST(TrackJoining, ofTwoThatMightContinueItTheOneThatMovesAlikeDoes) {
         std::vector<TimedState> states;
         std::vector<FrameMotionSummary> motion;
         for (int frame = 0; frame < 60; ++frame) {
-            motion.push_back(testing::summaryOfFrame(frame));
+            motion.push_back(test::summaryOfFrame(frame));
             for (const TrackId id : {1, 2, 3}) {
                 if ((id == 1) != (frame < 25) || (frame >= 25 && frame < 33)) continue;
                 TrackState state;
@@ -162,7 +162,7 @@ TEST(TrackJoining, aFrameThatCouldNotBeRegisteredIsBridgedByItsGuess) {
     std::vector<TimedState> states;
     std::vector<FrameMotionSummary> motion;
     for (int frame = 0; frame < 60; ++frame) {
-        motion.push_back(testing::summaryOfFrame(frame));
+        motion.push_back(test::summaryOfFrame(frame));
         if (frame >= 25 && frame < 33) continue;
         TrackState state;
         state.id = frame < 25 ? 1 : 2;
@@ -185,4 +185,4 @@ TEST(TrackJoining, aFrameThatCouldNotBeRegisteredIsBridgedByItsGuess) {
     EXPECT_EQ(between, 8);
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::track_joining_test

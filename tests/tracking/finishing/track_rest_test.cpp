@@ -5,7 +5,7 @@
 #include "tracking/finishing/track_finishing.h"
 #include "tracking/frame_summaries.h"
 
-namespace eyrie {
+namespace eyrie::track_rest_test {
 namespace {
 
 const SceneScale kScale{0.3, 25, true};
@@ -30,7 +30,7 @@ struct Starter {
         std::vector<TimedState> states = others;
         std::vector<FrameMotionSummary> motion;
         for (int frame = 0; frame < kFrames; ++frame) {
-            motion.push_back(testing::summaryOfFrame(frame, -0.3));
+            motion.push_back(test::summaryOfFrame(frame, -0.3));
             if (frame < kFound) continue;
             TrackState state;
             state.id = 1;
@@ -96,4 +96,4 @@ TEST(FromRest, EndsWhereAnotherTrackStood) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::track_rest_test

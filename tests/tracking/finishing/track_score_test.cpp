@@ -7,7 +7,7 @@
 
 #include "tracking/finishing/track_finishing.h"
 
-namespace eyrie {
+namespace eyrie::track_score_test {
 namespace {
 
 /// A vehicle as most are seen from a camera that flies on.
@@ -213,4 +213,4 @@ TEST(TrackScore, NeedsAClassifier) {
     for (const auto& [frame, state] : result) EXPECT_EQ(state.score, 0.5) << "as the tracker left it";
 }
 
-}  // namespace eyrie
+}  // namespace eyrie::track_score_test

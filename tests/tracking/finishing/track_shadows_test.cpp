@@ -6,7 +6,7 @@
 #include "tracking/finishing/track_finishing.h"
 #include "tracking/frame_summaries.h"
 
-namespace eyrie {
+namespace eyrie::track_shadows_test {
 namespace {
 
 const SceneScale kScale{0.3, 25, true};
@@ -34,7 +34,7 @@ class Road {
     std::set<TrackId> finished(const FinishingOptions& options = {}, std::vector<TimedDrop>* dropped = nullptr,
                                const SceneScale& scale = kScale) const {
         std::vector<FrameMotionSummary> motion;
-        for (int frame = 0; frame < kFrames; ++frame) motion.push_back(testing::summaryOfFrame(frame));
+        for (int frame = 0; frame < kFrames; ++frame) motion.push_back(test::summaryOfFrame(frame));
         std::set<TrackId> ids;
         for (const auto& [frame, state] : finishTracks(states_, motion, options, scale, {}, dropped))
             ids.insert(state.id);
@@ -143,4 +143,4 @@ TEST(DropHardlyDetected, FourTenthsOfASecondOfDetectionsAreEnough) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::track_shadows_test

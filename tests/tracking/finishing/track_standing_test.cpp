@@ -4,7 +4,7 @@
 
 #include "tracking/finishing/track_finishing.h"
 
-namespace eyrie {
+namespace eyrie::track_standing_test {
 namespace {
 
 constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
@@ -100,4 +100,4 @@ TEST_F(UnderHoveringCamera, NothingStandingMoves) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::track_standing_test

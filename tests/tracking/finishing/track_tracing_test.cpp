@@ -5,15 +5,15 @@
 #include "tracking/finishing/track_finishing.h"
 #include "tracking/tracked_scene.h"
 
-namespace eyrie {
+namespace eyrie::track_tracing_test {
 namespace {
 
-using testing::MovingScene;
+using test::MovingScene;
 
 constexpr int kFrames = 90;
 
 /// A car under a turning, zooming camera that the tracker found at frame 50 only.
-class TraceBack : public ::testing::Test {
+class TraceBack : public testing::Test {
  protected:
     TraceBack() {
         scene_.objects = {{{250, 180}, {1.5, 0.8}, 20, 10, 0}};
@@ -116,4 +116,4 @@ TEST(FixedTracks, APartThatKeepsItsPlaceGivesWayAndAPassingCarDoesNot) {
 }
 
 }  // namespace
-}  // namespace eyrie
+}  // namespace eyrie::track_tracing_test

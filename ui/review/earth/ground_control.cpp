@@ -33,7 +33,7 @@ QString noPlaceText(const QString& text) {
         .arg(text);
 }
 
-std::optional<QString> askWithDialog(const QString& text, const QString& why) {
+std::optional<QString> askForPlace(const QString& text, const QString& why) {
     bool accepted = false;
     const QString question = QObject::tr(
         "Latitude and longitude of the place, as a map gives them\n(48.137154, 11.576124 or 48°08'13.8\"N "
@@ -58,7 +58,7 @@ GroundControl::GroundControl(const GroundControlParts& parts, QObject* parent)
       model_(new ControlPointsModel(this)),
       panel_(new ControlPointsPanel(model_, parts.actions)),
       tool_(new ControlPointTool(parts.canvas, this)),
-      ask_(askWithDialog) {
+      ask_(askForPlace) {
     bindCommands();
     followSession(parts_.session, this,
                   {{{SessionChange::video, SessionChange::project}, [this] { forget(); }},
