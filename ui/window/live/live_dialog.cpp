@@ -23,7 +23,7 @@
 namespace eyrie::ui {
 namespace {
 
-constexpr int kWidth = 640;
+constexpr int kLiveWidth = 640;
 
 QLabel* quietLabel(const QString& text, QWidget* parent) {
     auto* label = new QLabel(text, parent);
@@ -47,7 +47,7 @@ QString withEnding(QString path, const QString& ending) {
 LiveDialog::LiveDialog(LiveDialogCommands commands, QWidget* parent) : QDialog(parent), commands_(std::move(commands)) {
     setObjectName(QStringLiteral("live_source"));
     setWindowTitle(tr("Watch a live source"));
-    setMinimumWidth(kWidth);
+    setMinimumWidth(kLiveWidth);
     buildFields();
     buildEnd();
 }
