@@ -157,6 +157,10 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP TABLE unfinished_frame",
                   "DROP TABLE control_point",
                   "DROP TABLE dropped_state",
+                  "ALTER TABLE track DROP COLUMN score",
+                  "ALTER TABLE track DROP COLUMN x_sum",
+                  "ALTER TABLE track DROP COLUMN y_sum",
+                  "CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame)",
                   "PRAGMA user_version = 5"});
     ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);
     test::expectSame(*RunStore(project).frameResult(1, 1), test::sampleFrame(1));
@@ -344,6 +348,55 @@ TEST_F(ProjectFileTest, ViewsTellTracksByTheScaleAtTheirPlace) {
         ++told;
     }
     EXPECT_GT(told, 0);
+}
+
+TEST_F(ProjectFileTest, ViewsTellStatesInWholeWordsAndWithTheirScore) {
+    const int run = test::writeSampleProject(path_, 8);
+    ProjectFile project = ProjectFile::open(path_);
+    RunStore store(project);
+    std::vector<TrackFrame> states;
+    for (int i = 0; i < 4; ++i) {
+        TrackState state;
+        state.id = 1;
+        state.status = i == 0 ? TrackStatus::confirmed : TrackStatus::coasting;
+        state.origin = static_cast<StateOrigin>(i);
+        state.age = i;
+        state.score = 0.625;
+        states.push_back({i, state});
+    }
+    store.replaceTrackStates(run, states);
+    SQLite::Database other(path_.string(), SQLite::OPEN_READONLY);
+    SQLite::Statement row(other, "SELECT status, origin, score FROM v_track_states ORDER BY frame");
+    for (const TrackFrame& written : states) {
+        ASSERT_TRUE(row.executeStep());
+        EXPECT_EQ(row.getColumn(0).getString(), nameOf(written.state.status));
+        EXPECT_EQ(row.getColumn(1).getString(), nameOf(written.state.origin));
+        EXPECT_EQ(row.getColumn(2).getDouble(), 0.625);
+    }
+}
+
+TEST_F(ProjectFileTest, StatesOfBeforeSchemaTwentyAreReadAsTheyWere) {
+    const int run = test::writeSampleProject(path_, 6);
+    const std::string whole_words =
+        "UPDATE track_state SET status = CASE status WHEN '' THEN 'confirmed' WHEN 'c' THEN 'coasting' ELSE status "
+        "END, "
+        "origin = CASE origin WHEN '' THEN 'detected' WHEN 'r' THEN 'reconstructed' WHEN 'p' THEN 'predicted' ELSE "
+        "origin END";
+    makeDatabase({whole_words, "DROP VIEW v_track_states", "DROP VIEW v_tracks", "ALTER TABLE track DROP COLUMN score",
+                  "ALTER TABLE track DROP COLUMN x_sum", "ALTER TABLE track DROP COLUMN y_sum",
+                  "CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame)",
+                  "PRAGMA user_version = 19"});
+    ProjectFile project = ProjectFile::open(path_);
+    EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
+    const RunStore store(project);
+    for (int frame = 0; frame < 6; ++frame) test::expectSame(*store.frameResult(run, frame), test::sampleFrame(frame));
+    EXPECT_EQ(store.trackStates(run, 2).size(), 6U);
+    EXPECT_EQ(project.database()
+                  .execAndGet("SELECT count(*) FROM track WHERE abs(x_sum - (SELECT sum(x) FROM track_state WHERE "
+                              "track_state.run_id = track.run_id AND track_id = id)) > 1e-6")
+                  .getInt(),
+              0);
+    EXPECT_EQ(project.database().execAndGet("SELECT count(x_sum) FROM track").getInt(), 5);
 }
 
 TEST_F(ProjectFileTest, ViewsTellTracksInUnitsOfPeople) {

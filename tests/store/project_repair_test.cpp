@@ -210,6 +210,34 @@ TEST_F(RepairTest, OneLostPageCostsOnlyWhatLayThere) {
     }
 }
 
+TEST_F(RepairTest, TheScoreOfAFinishedTrackIsKeptEvenWhereItsRowIsLost) {
+    {
+        ProjectFile project = ProjectFile::open(path_);
+        TracksOfRun tracks;
+        tracks.states = [](const TracksOfRun::StateVisitor& visitor) {
+            for (int age = 0; age < 3; ++age) {
+                TrackState state;
+                state.id = 7;
+                state.status = TrackStatus::confirmed;
+                state.age = age;
+                state.score = 0.75;
+                visitor(2 + age, state);
+            }
+        };
+        tracks.evidence[7].score = 0.75;
+        RunStore(project).replaceTracks(1, tracks);
+    }
+    whole_ = test::bytesOf(path_);
+    for (const std::string& bytes : {whole_, withoutPage(pagesOf("track").front())}) {
+        repair(bytes);
+        ProjectFile project = ProjectFile::open(fresh_);
+        const auto states = RunStore(project).trackStates(1, 7);
+        ASSERT_EQ(states.size(), 3U);
+        EXPECT_EQ(states[2].state.score, 0.75);
+        EXPECT_EQ(states[2].state.age, 2);
+    }
+}
+
 TEST_F(RepairTest, ALeafOfFramesCostsItsFramesAlone) {
     const auto pages = pagesOf("frame");
     ASSERT_GT(pages.size(), 2U) << "the table has several leaves";

@@ -1,8 +1,10 @@
 #include "store/runs/run_store.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "core/error.h"
@@ -274,6 +276,79 @@ TEST_F(RunStoreTest, ReplacedTracksShowEverywhere) {
     const auto summaries = store.frameSummaries(writer.runId());
     EXPECT_EQ(summaries[0].tracks, 1);
     EXPECT_EQ(summaries[2].tracks, 0);
+}
+
+/// Frames 4, 5 and 7 of a track; its states have score and beginning in common.
+std::vector<TrackFrame> finishedTrack() {
+    std::vector<TrackFrame> states;
+    for (const FrameIndex frame : {4, 5, 7}) {
+        TrackState state;
+        state.id = 3;
+        state.box = {{10.0 + frame, 20}, 12, 6, 0.5};
+        state.velocity = {1, 0};
+        state.status = frame == 5 ? TrackStatus::coasting : TrackStatus::confirmed;
+        state.origin = frame == 5 ? StateOrigin::reconstructed : StateOrigin::detected;
+        state.age = frame - 4;
+        state.hits = 1;
+        state.score = 0.75;
+        states.push_back({frame, state});
+    }
+    return states;
+}
+
+TEST_F(RunStoreTest, WhatTheStatesOfAFinishedTrackHaveInCommonIsStoredOnceAndReadWithEach) {
+    const int run = test::writeSampleProject(path_, 8);
+    ProjectFile project = ProjectFile::open(path_);
+    RunStore store(project);
+    const std::vector<TrackFrame> written = finishedTrack();
+    store.replaceTrackStates(run, written);
+    SQLite::Database& database = project.database();
+    EXPECT_EQ(database.execAndGet("SELECT count(*) FROM track_state WHERE score IS NULL AND age = 0").getInt(), 3);
+    EXPECT_EQ(database.execAndGet("SELECT score FROM track").getDouble(), 0.75);
+    EXPECT_EQ(database.execAndGet("SELECT x_sum FROM track").getDouble(), 14 + 15 + 17);
+    EXPECT_EQ(database.execAndGet("SELECT group_concat(status, '|') FROM track_state").getString(), "|c|");
+    EXPECT_EQ(database.execAndGet("SELECT group_concat(origin, '|') FROM track_state").getString(), "|r|");
+
+    std::vector<TrackFrame> visited;
+    store.visitTrackStates(run, [&](FrameIndex frame, const TrackState& state) { visited.push_back({frame, state}); });
+    for (const auto& read : {store.trackStates(run, 3), store.trackStatesUpTo(run, 7, 100), visited}) {
+        ASSERT_EQ(read.size(), written.size());
+        for (std::size_t i = 0; i < read.size(); ++i) {
+            EXPECT_EQ(read[i].frame, written[i].frame);
+            EXPECT_EQ(read[i].state.score, 0.75);
+            EXPECT_EQ(read[i].state.age, written[i].state.age);
+            EXPECT_EQ(read[i].state.status, written[i].state.status);
+            EXPECT_EQ(read[i].state.origin, written[i].state.origin);
+        }
+    }
+    const TrackState alone = store.frameResult(run, 7)->tracks.at(0);
+    EXPECT_EQ(alone.score, 0.75);
+    EXPECT_EQ(alone.age, 3);
+    EXPECT_EQ(store.tracks(run).at(0).score, 0.75);
+    EXPECT_EQ(store.trackBoxes(run).at(5).at(0).score, 0.75);
+    EXPECT_TRUE(store.trackStates(run, 4).empty()) << "there is no such track";
+}
+
+TEST_F(RunStoreTest, StatesThatDifferKeepWhatIsTheirs) {
+    const int run = test::writeSampleProject(path_, 8);
+    ProjectFile project = ProjectFile::open(path_);
+    RunStore store(project);
+    for (const auto& change : std::vector<std::function<void(TrackState&)>>{
+             [](TrackState& state) { state.score = 0.5; }, [](TrackState& state) { state.age = 9; },
+             [](TrackState& state) { state.score = std::numeric_limits<double>::quiet_NaN(); }}) {
+        std::vector<TrackFrame> written = finishedTrack();
+        change(written[1].state);
+        store.replaceTrackStates(run, written);
+        const auto read = store.trackStates(run, 3);
+        ASSERT_EQ(read.size(), written.size());
+        for (std::size_t i = 0; i < read.size(); ++i) {
+            EXPECT_EQ(read[i].state.age, written[i].state.age);
+            if (std::isnan(written[i].state.score))
+                EXPECT_TRUE(std::isnan(read[i].state.score));
+            else
+                EXPECT_EQ(read[i].state.score, written[i].state.score);
+        }
+    }
 }
 
 TEST_F(RunStoreTest, WhatFinishingLeftOutIsReadWithItsFrame) {

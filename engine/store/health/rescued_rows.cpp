@@ -134,12 +134,21 @@ std::vector<std::string> mendReferences(SQLite::Database& database) {
 }
 
 std::vector<std::string> mendRuns(SQLite::Database& database, bool frames_whole) {
-    // As TrackRows adds them up.
-    database.exec("DELETE FROM track");
+    // As TrackRows adds them up. The score of a track whose row is lost is among what speaks for it.
     database.exec(R"sql(
-INSERT INTO track (run_id, id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, width_sum)
+CREATE TEMP TABLE kept_score AS
+SELECT run_id, id, score FROM track WHERE score IS NOT NULL
+UNION ALL SELECT run_id, track_id, score FROM track_evidence
+    WHERE (run_id, track_id) NOT IN (SELECT run_id, id FROM track);
+CREATE INDEX temp.kept_score_of_track ON kept_score (run_id, id);
+DELETE FROM track;
+INSERT INTO track (run_id, id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, width_sum, x_sum,
+    y_sum, score)
 SELECT run_id, track_id, min(frame), max(frame), count(*), max(status <> 'tentative'), sum(sqrt(vx * vx + vy * vy)),
-    sum(length), sum(width) FROM track_state GROUP BY run_id, track_id
+    sum(length), sum(width), sum(x), sum(y),
+    (SELECT score FROM kept_score WHERE kept_score.run_id = track_state.run_id AND kept_score.id = track_id)
+FROM track_state GROUP BY run_id, track_id;
+DROP TABLE kept_score;
 )sql");
     database.exec("UPDATE run SET state = 'stopped' WHERE state = 'running'");
 

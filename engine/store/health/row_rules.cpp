@@ -176,6 +176,7 @@ std::vector<RowRule> rowRules() {
         {"detection", "(probability IS NULL OR probability BETWEEN 0 AND 1)",
          "probability of a detection is impossible", 16},
         {"track", range + " AND last_frame >= first_frame AND frames > 0", "life of a track is impossible"},
+        {"track", "(score IS NULL OR score BETWEEN 0 AND 1)", "score of a track is impossible", 20},
         {"track_state",
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
              isOneOf("origin", stored::kStateOrigins),

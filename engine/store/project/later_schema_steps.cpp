@@ -409,4 +409,47 @@ FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE run.removed_utc = 
 )sql");
 }
 
+// States of tracks without what follows from others: words are short, and what all states of a finished
+// track have in common stands in its row of `track`. States of one track are found by its frames, without an index; the
+// sums of its places spare views and lists to look at them.
+void addCompactStates(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE track ADD COLUMN score REAL;
+ALTER TABLE track ADD COLUMN x_sum REAL;
+ALTER TABLE track ADD COLUMN y_sum REAL;
+UPDATE track SET (x_sum, y_sum) = (SELECT sum(x), sum(y) FROM track_state
+    WHERE track_state.run_id = track.run_id AND track_state.track_id = track.id);
+DROP INDEX track_state_of_track;
+DROP VIEW IF EXISTS v_track_states;
+CREATE VIEW v_track_states AS
+SELECT track_state.run_id AS run, track_state.track_id AS track, track_state.frame, frame.time_us / 1e6 AS seconds,
+    track_state.x, track_state.y, track_state.length AS length_px, track_state.width AS width_px,
+    track_state.heading_rad * 57.29577951308232
+        + CASE WHEN track_state.heading_rad < 0 THEN 360 ELSE 0 END AS heading_deg,
+    track_state.vx AS vx_px_per_frame, track_state.vy AS vy_px_per_frame,
+    CASE track_state.status WHEN '' THEN 'confirmed' WHEN 'c' THEN 'coasting' ELSE track_state.status END AS status,
+    CASE track_state.origin WHEN '' THEN 'detected' WHEN 'r' THEN 'reconstructed' WHEN 'p' THEN 'predicted'
+        WHEN 's' THEN 'standing' ELSE track_state.origin END AS origin,
+    coalesce(track_state.score, (SELECT track.score FROM track WHERE track.run_id = track_state.run_id
+        AND track.id = track_state.track_id)) AS score
+FROM track_state JOIN frame ON frame.run_id = track_state.run_id AND frame.frame = track_state.frame
+    JOIN v_runs ON v_runs.run = track_state.run_id WHERE track_state.status <> 'tentative';
+DROP VIEW IF EXISTS v_tracks;
+CREATE VIEW v_tracks AS
+SELECT run, track, first_frame, last_frame, frames, (last_frame - first_frame) / rate AS seconds,
+    length_px, width_px, speed_px_per_frame,
+    length_px * gsd / factor AS length_m, width_px * gsd / factor AS width_m,
+    speed_px_per_frame * gsd / factor * rate * 3.6 AS speed_kmh, factor AS scale_factor
+FROM (SELECT track.run_id AS run, track.id AS track, track.first_frame, track.last_frame, track.frames,
+        track.length_sum / track.frames AS length_px, track.width_sum / track.frames AS width_px,
+        track.speed_sum / track.frames AS speed_px_per_frame,
+        run.frame_rate_hz AS rate, CASE WHEN run.gsd_known THEN run.gsd_m_per_px END AS gsd,
+        CASE WHEN run.scale_growth_right = 0 AND run.scale_growth_down = 0 THEN 1.0 ELSE min(4.0, max(0.2,
+            1 + run.scale_growth_right * (track.x_sum / track.frames - (sequence.width - 1) / 2.0)
+              + run.scale_growth_down * (track.y_sum / track.frames - (sequence.height - 1) / 2.0))) END AS factor
+    FROM track JOIN run ON run.id = track.run_id JOIN sequence ON sequence.id = run.sequence_id
+    WHERE track.confirmed <> 0 AND run.removed_utc = '');
+)sql");
+}
+
 }  // namespace eyrie::schema

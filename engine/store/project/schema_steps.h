@@ -27,5 +27,6 @@ void addEvidence(SQLite::Database& database);
 void addCorrections(SQLite::Database& database);
 void addLocalScales(SQLite::Database& database);
 void addAssumedRates(SQLite::Database& database);
+void addCompactStates(SQLite::Database& database);
 
 }  // namespace eyrie::schema

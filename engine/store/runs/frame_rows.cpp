@@ -3,6 +3,7 @@
 #include <SQLiteCpp/Database.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "store/database/rows.h"
@@ -18,6 +19,9 @@ std::string insertInto(const std::string& table, const std::string& columns) {
     }
     return "INSERT INTO " + table + " (" + columns + ") VALUES (" + marks + ")";
 }
+
+/// NULL in the file.
+constexpr double kNoScore = std::numeric_limits<double>::quiet_NaN();
 
 std::string frameColumns() {
     std::string columns =
@@ -53,12 +57,13 @@ void writeState(SQLite::Statement& statement, int run_id, FrameIndex frame, cons
 TrackRows::TrackRows(SQLite::Database& database)
     : track_(database, insertInto("track",
                                   "run_id, id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
-                                  "width_sum") +
+                                  "width_sum, x_sum, y_sum, score") +
                            " ON CONFLICT (run_id, id) DO UPDATE SET first_frame = min(first_frame, "
                            "excluded.first_frame), last_frame = max(last_frame, excluded.last_frame), "
                            "frames = frames + 1, confirmed = max(confirmed, excluded.confirmed), "
                            "speed_sum = speed_sum + excluded.speed_sum, length_sum = length_sum + "
-                           "excluded.length_sum, width_sum = width_sum + excluded.width_sum"),
+                           "excluded.length_sum, width_sum = width_sum + excluded.width_sum, x_sum = x_sum + "
+                           "excluded.x_sum, y_sum = y_sum + excluded.y_sum"),
       state_(database, insertState("track_state")),
       forget_states_(database, "DELETE FROM track_state WHERE run_id = ? AND frame = ?"),
       forget_tracks_(database,
@@ -66,11 +71,23 @@ TrackRows::TrackRows(SQLite::Database& database)
                      "WHERE run_id = ?1 AND frame = ?2)"),
       subtract_(database,
                 "UPDATE track SET frames = frames - 1, speed_sum = speed_sum - sqrt(gone.vx * gone.vx + gone.vy * "
-                "gone.vy), length_sum = length_sum - gone.length, width_sum = width_sum - gone.width "
+                "gone.vy), length_sum = length_sum - gone.length, width_sum = width_sum - gone.width, x_sum = x_sum - "
+                "gone.x, y_sum = y_sum - gone.y "
                 "FROM track_state AS gone WHERE track.run_id = ?1 AND gone.run_id = ?1 AND gone.frame = ?2 AND "
                 "gone.track_id = track.id") {}
 
 void TrackRows::insert(int run_id, FrameIndex frame, const TrackState& state) {
+    add(run_id, frame, state, kNoScore);
+}
+
+void TrackRows::insertFinished(int run_id, FrameIndex frame, TrackState state, const CommonOfTrack& common) {
+    if (!common.whole) return insert(run_id, frame, state);
+    state.score = kNoScore;
+    state.age = 0;
+    add(run_id, frame, state, common.score);
+}
+
+void TrackRows::add(int run_id, FrameIndex frame, const TrackState& state, double score_of_track) {
     RowWriter(track_)
         .integer(run_id)
         .integer(state.id)
@@ -81,6 +98,9 @@ void TrackRows::insert(int run_id, FrameIndex frame, const TrackState& state) {
         .real(std::hypot(state.velocity.x, state.velocity.y))
         .real(state.box.length)
         .real(state.box.width)
+        .real(state.box.centre.x)
+        .real(state.box.centre.y)
+        .real(score_of_track)
         .run();
     writeState(state_, run_id, frame, state);
 }

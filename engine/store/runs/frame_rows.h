@@ -22,16 +22,26 @@ void writeState(SQLite::Statement& statement, int run_id, FrameIndex frame, cons
 /// Writes what TracksOfRun tells beyond states and what was left out; nothing of the run may be there.
 void insertDoubtful(SQLite::Database& database, int run_id, const TracksOfRun& tracks);
 
+/// What all states of a track have in common.
+struct CommonOfTrack {
+    FrameIndex first_frame = 0;
+    double score = 0;
+    bool whole = true;  ///< `score` is that of all of them, and their ages count from `first_frame`
+};
+
 /// Adds the states of one frame to a run's tracks, and keeps the sums in table `track` that summaries are read from.
 class TrackRows {
  public:
     explicit TrackRows(SQLite::Database& database);
     void insert(int run_id, FrameIndex frame, const TrackState& state);
+    /// The same of a finished track: what its states have in common is stored with the track alone.
+    void insertFinished(int run_id, FrameIndex frame, TrackState state, const CommonOfTrack& common);
     /// Takes the states of a frame out again, and the tracks that had no others. First and last frames of the others
     /// stay: what comes in place is alike.
     void erase(int run_id, FrameIndex frame);
 
  private:
+    void add(int run_id, FrameIndex frame, const TrackState& state, double score_of_track);
     SQLite::Statement track_;
     SQLite::Statement state_;
     SQLite::Statement forget_states_;

@@ -1,7 +1,10 @@
 // The part of RunStore that reads what a run found: whole frames, tracks and boxes.
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <cmath>
+#include <limits>
 #include <map>
+#include <unordered_map>
 
 #include "store/database/rows.h"
 #include "store/details/kept_details.h"
@@ -15,34 +18,63 @@
 namespace eyrie {
 namespace {
 
-void visitStates(SQLite::Statement& statement, const RunStore::StateVisitor& visitor) {
+/// Adds to states what those of a finished track have in common and is stored with the track.
+class CommonOfTracks {
+ public:
+    CommonOfTracks(SQLite::Database& database, int run_id)
+        : statement_(database, "SELECT first_frame, score FROM track WHERE run_id = ? AND id = ?"), run_id_(run_id) {}
+
+    void addTo(TrackState& state, FrameIndex frame) {
+        if (!std::isnan(state.score)) return;
+        const Common& common = of(state.id);
+        if (std::isnan(common.score)) return;
+        state.score = common.score;
+        state.age = frame - common.first_frame;
+    }
+
+ private:
+    struct Common {
+        FrameIndex first_frame = 0;
+        double score = 0;
+    };
+    const Common& of(TrackId track) {
+        const auto [place, is_new] = known_.try_emplace(track);
+        if (!is_new) return place->second;
+        statement_.reset();
+        statement_.bind(1, run_id_);
+        statement_.bind(2, track);
+        Common& common = place->second;
+        common.score = std::numeric_limits<double>::quiet_NaN();
+        if (!statement_.executeStep()) return common;
+        RowReader row(statement_);
+        common.first_frame = row.integer();
+        common.score = row.real();
+        return common;
+    }
+
+    SQLite::Statement statement_;
+    int run_id_;
+    std::unordered_map<TrackId, Common> known_;
+};
+
+void visitStates(SQLite::Database& database, int run_id, SQLite::Statement& statement,
+                 const RunStore::StateVisitor& visitor) {
+    CommonOfTracks common(database, run_id);
     while (statement.executeStep()) {
         RowReader row(statement);
         const FrameIndex frame = readFrameNumber(row);
-        visitor(frame, readTrackState(row));
+        TrackState state = readTrackState(row);
+        common.addTo(state, frame);
+        visitor(frame, state);
     }
 }
 
-std::vector<TrackFrame> readStates(SQLite::Statement& statement) {
+std::vector<TrackFrame> readStates(SQLite::Database& database, int run_id, SQLite::Statement& statement) {
     std::vector<TrackFrame> states;
-    visitStates(statement, [&](FrameIndex frame, const TrackState& state) { states.push_back({frame, state}); });
+    visitStates(database, run_id, statement, [&](FrameIndex frame, const TrackState& state) {
+        states.push_back({frame, state});
+    });
     return states;
-}
-
-/// Where each track was on the whole.
-std::map<TrackId, cv::Point2d> meanPlaces(SQLite::Database& database, int run_id) {
-    SQLite::Statement statement(database,
-                                "SELECT track_id, avg(x), avg(y) FROM track_state WHERE run_id = ? GROUP BY track_id");
-    statement.bind(1, run_id);
-    std::map<TrackId, cv::Point2d> places;
-    while (statement.executeStep()) {
-        RowReader row(statement);
-        const TrackId track = row.integer();
-        cv::Point2d& place = places[track];
-        place.x = row.real();
-        place.y = row.real();
-    }
-    return places;
 }
 
 /// Reads every row of `query`, whose first two parameters are the run and the frame.
@@ -166,13 +198,13 @@ std::vector<DroppedState> readDropped(SQLite::Database& database, int run_id, Fr
 std::vector<TrackSummary> RunStore::tracks(int run_id) const {
     const ClassRule rule = classRuleOf(*this, run_id);
     return guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
-        std::map<TrackId, cv::Point2d> places;
-        if (!rule.scale.slope.isFlat()) places = meanPlaces(project_.database(), run_id);
-        SQLite::Statement statement(project_.database(),
-                                    "SELECT id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
-                                    "width_sum, ifnull((SELECT score FROM track_state WHERE track_state.run_id = "
-                                    "track.run_id AND frame = last_frame AND track_id = track.id), 0) "
-                                    "FROM track WHERE run_id = ? ORDER BY id");
+        SQLite::Statement statement(
+            project_.database(),
+            "SELECT id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, "
+            "width_sum, coalesce(score, (SELECT score FROM track_state WHERE track_state.run_id = "
+            "track.run_id AND frame = last_frame AND track_id = track.id), 0), "
+            "x_sum, y_sum "
+            "FROM track WHERE run_id = ? ORDER BY id");
         statement.bind(1, run_id);
         std::vector<TrackSummary> tracks;
         while (statement.executeStep()) {
@@ -188,8 +220,8 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
             track.mean_length_px = row.real() / track.frames;
             track.mean_width_px = row.real() / track.frames;
             track.score = row.real();
-            const auto place = places.find(track.id);
-            if (place != places.end()) track.place = place->second;
+            const cv::Point2d place = row.point() / track.frames;
+            if (!rule.scale.slope.isFlat() && std::isfinite(place.x + place.y)) track.place = place;
             track.track_class = rule.of(track);
             tracks.push_back(track);
         }
@@ -211,12 +243,16 @@ TrackId RunStore::lastTrackId(int run_id) const {
 
 std::vector<TrackFrame> RunStore::trackStates(int run_id, TrackId track) const {
     return guarded(project_.path(), "reading track " + std::to_string(track) + ofRun(run_id), [&] {
-        SQLite::Statement statement(project_.database(), std::string("SELECT frame, ") + kTrackStateColumns +
-                                                             " FROM track_state WHERE run_id = ? AND track_id = ? "
-                                                             "ORDER BY frame");
+        // States are in the order of frames: one is looked for in each frame of the track's life.
+        SQLite::Statement statement(
+            project_.database(),
+            std::string("SELECT frame, ") + kTrackStateColumns +
+                " FROM track_state WHERE run_id = ?1 AND track_id = ?2 AND frame IN (SELECT frame FROM frame WHERE "
+                "run_id = ?1 AND frame BETWEEN (SELECT first_frame FROM track WHERE run_id = ?1 AND id = ?2) AND "
+                "(SELECT last_frame FROM track WHERE run_id = ?1 AND id = ?2)) ORDER BY frame");
         statement.bind(1, run_id);
         statement.bind(2, track);
-        return readStates(statement);
+        return readStates(project_.database(), run_id, statement);
     });
 }
 
@@ -228,7 +264,7 @@ std::vector<TrackFrame> RunStore::trackStatesUpTo(int run_id, FrameIndex frame, 
         statement.bind(1, run_id);
         statement.bind(2, static_cast<std::int64_t>(frame) - trail);
         statement.bind(3, frame);
-        return readStates(statement);
+        return readStates(project_.database(), run_id, statement);
     });
 }
 
@@ -238,7 +274,7 @@ void RunStore::visitTrackStates(int run_id, const StateVisitor& visitor) const {
                                                              " FROM track_state WHERE run_id = ? ORDER BY frame, "
                                                              "track_id");
         statement.bind(1, run_id);
-        visitStates(statement, visitor);
+        visitStates(project_.database(), run_id, statement, visitor);
     });
 }
 
@@ -251,7 +287,7 @@ void RunStore::visitTrackBoxes(int run_id, const BoxVisitor& visitor) const {
                                                              "(SELECT id FROM track WHERE run_id = ?1 AND confirmed) "
                                                              "ORDER BY frame, track_id");
         statement.bind(1, run_id);
-        visitStates(statement, [&](FrameIndex frame, const TrackState& state) {
+        visitStates(project_.database(), run_id, statement, [&](FrameIndex frame, const TrackState& state) {
             BoxRecord record = boxOf(frame, state);
             if (const auto known = classes.find(state.id); known != classes.end()) record.object_class = known->second;
             visitor(frame, record);
@@ -326,10 +362,15 @@ std::optional<FrameResult> RunStore::frameResult(int run_id, FrameIndex frame) c
                                               "frame = ? ORDER BY number",
                                               run_id, frame, [](RowReader& row) { return row.box(); });
         result->detections = readDetections(database, run_id, frame, motion.motion_vectors.size());
+        CommonOfTracks common(database, run_id);
         result->tracks = readItems<TrackState>(database,
                                                std::string("SELECT ") + kTrackStateColumns +
                                                    " FROM track_state WHERE run_id = ? AND frame = ? ORDER BY track_id",
-                                               run_id, frame, readTrackState);
+                                               run_id, frame, [&](RowReader& row) {
+                                                   TrackState state = readTrackState(row);
+                                                   common.addTo(state, frame);
+                                                   return state;
+                                               });
         result->dropped = readDropped(database, run_id, frame);
         return result;
     });

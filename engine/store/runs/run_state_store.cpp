@@ -33,10 +33,13 @@ void claim(ProjectFile& project, int run_id, FrameIndex last) {
 void sumUpTracks(SQLite::Database& database, int run_id) {
     for (const char* table : {"dropped_state", "doubtful_state", "track_evidence", "track"})
         runFor(database, std::string("DELETE FROM ") + table + " WHERE run_id = ?", run_id);
-    runFor(database,
-           "INSERT INTO track SELECT run_id, track_id, min(frame), max(frame), count(*), max(status <> 'tentative'), "
-           "sum(sqrt(vx * vx + vy * vy)), sum(length), sum(width) FROM track_state WHERE run_id = ? GROUP BY track_id",
-           run_id);
+    runFor(
+        database,
+        "INSERT INTO track (run_id, id, first_frame, last_frame, frames, confirmed, speed_sum, length_sum, width_sum, "
+        "x_sum, y_sum) SELECT run_id, track_id, min(frame), max(frame), count(*), max(status <> 'tentative'), "
+        "sum(sqrt(vx * vx + vy * vy)), sum(length), sum(width), sum(x), sum(y) FROM track_state WHERE run_id = ? GROUP "
+        "BY track_id",
+        run_id);
     runFor(database,
            "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE track_state.run_id = frame.run_id "
            "AND track_state.frame = frame.frame AND status <> 'tentative') WHERE run_id = ?",

@@ -116,6 +116,16 @@ Homography homographyOf(RowReader& row) {
     return homography;
 }
 
+/// Asks for the states once more than whoever stores them.
+std::map<TrackId, CommonOfTrack> commonOf(const TracksOfRun& tracks) {
+    std::map<TrackId, CommonOfTrack> known;
+    tracks.states([&](FrameIndex frame, const TrackState& state) {
+        CommonOfTrack& common = known.try_emplace(state.id, CommonOfTrack{frame, state.score, true}).first->second;
+        common.whole = common.whole && state.score == common.score && state.age == frame - common.first_frame;
+    });
+    return known;
+}
+
 }  // namespace
 
 const char* nameOf(RunState state) {
@@ -287,8 +297,11 @@ void RunStore::replaceTracks(int run_id, const TracksOfRun& tracks) {
         RowWriter(thin).integer(run_id).run();
         for (const char* table : {"doubtful_state", "track_evidence", "track_state"}) removeFrom(table);
         removeFrom("track");
+        const std::map<TrackId, CommonOfTrack> common = commonOf(tracks);
         TrackRows rows(database);
-        tracks.states([&](FrameIndex frame, const TrackState& state) { rows.insert(run_id, frame, state); });
+        tracks.states([&](FrameIndex frame, const TrackState& state) {
+            rows.insertFinished(run_id, frame, state, common.at(state.id));
+        });
         insertDoubtful(database, run_id, tracks);
         SQLite::Statement counts(database,
                                  "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE "

@@ -48,7 +48,10 @@ inline constexpr std::array<Word<Rejection>, 4> kRejections{{{Rejection::none, "
                                                              {Rejection::duplicate, "duplicate"},
                                                              {Rejection::outlier, "outlier"},
                                                              {Rejection::size, "size"}}};
-inline constexpr std::array<Word<TrackStatus>, 3> kTrackStatuses{{{TrackStatus::tentative, "tentative"},
+/// Of two words for one enumerator the first is written: there are millions of states.
+inline constexpr std::array<Word<TrackStatus>, 5> kTrackStatuses{{{TrackStatus::confirmed, ""},
+                                                                  {TrackStatus::coasting, "c"},
+                                                                  {TrackStatus::tentative, "tentative"},
                                                                   {TrackStatus::confirmed, "confirmed"},
                                                                   {TrackStatus::coasting, "coasting"}}};
 inline constexpr std::array<Word<TrackDrop>, 7> kTrackDrops{{{TrackDrop::unconfirmed, "unconfirmed"},
@@ -58,7 +61,11 @@ inline constexpr std::array<Word<TrackDrop>, 7> kTrackDrops{{{TrackDrop::unconfi
                                                              {TrackDrop::hardly_detected, "hardly detected"},
                                                              {TrackDrop::could_stand, "could stand"},
                                                              {TrackDrop::unlikely, "unlikely"}}};
-inline constexpr std::array<Word<StateOrigin>, 4> kStateOrigins{{{StateOrigin::detected, "detected"},
+inline constexpr std::array<Word<StateOrigin>, 8> kStateOrigins{{{StateOrigin::detected, ""},
+                                                                 {StateOrigin::reconstructed, "r"},
+                                                                 {StateOrigin::predicted, "p"},
+                                                                 {StateOrigin::standing, "s"},
+                                                                 {StateOrigin::detected, "detected"},
                                                                  {StateOrigin::reconstructed, "reconstructed"},
                                                                  {StateOrigin::predicted, "predicted"},
                                                                  {StateOrigin::standing, "standing"}}};
