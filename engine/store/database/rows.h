@@ -99,11 +99,17 @@ class RowReader {
     }
     template <class Enum, std::size_t count>
     Enum word(const std::array<stored::Word<Enum>, count>& words) {
-        const std::string found = text();
+        // Not by text(): states of tracks have two words each, and are read by the thousand.
+        const SQLite::Column column = statement_.getColumn(next_);
+        const char* const begin = column.getText();
+        const std::string_view found(begin, static_cast<std::size_t>(column.getBytes()));
         for (const auto& entry : words) {
-            if (entry.word == found) return entry.value;
+            if (entry.word == found) {
+                ++next_;
+                return entry.value;
+            }
         }
-        throw MalformedRow{"unknown word \"" + found + "\""};
+        throw MalformedRow{"unknown word \"" + text() + "\""};
     }
     /// The value of an unpacking, which must have succeeded.
     template <class Value>

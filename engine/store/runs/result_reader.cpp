@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
 #include "store/database/rows.h"
@@ -21,8 +22,7 @@ namespace {
 /// Adds to states what those of a finished track have in common and is stored with the track.
 class CommonOfTracks {
  public:
-    CommonOfTracks(SQLite::Database& database, int run_id)
-        : statement_(database, "SELECT first_frame, score FROM track WHERE run_id = ? AND id = ?"), run_id_(run_id) {}
+    CommonOfTracks(SQLite::Database& database, int run_id) : database_(database), run_id_(run_id) {}
 
     void addTo(TrackState& state, FrameIndex frame) {
         if (!std::isnan(state.score)) return;
@@ -40,20 +40,24 @@ class CommonOfTracks {
     const Common& of(TrackId track) {
         const auto [place, is_new] = known_.try_emplace(track);
         if (!is_new) return place->second;
-        statement_.reset();
-        statement_.bind(1, run_id_);
-        statement_.bind(2, track);
+        if (!statement_) {
+            statement_.emplace(database_, "SELECT first_frame, score FROM track WHERE run_id = ? AND id = ?");
+            statement_->bind(1, run_id_);
+        }
+        statement_->reset();
+        statement_->bind(2, track);
         Common& common = place->second;
         common.score = std::numeric_limits<double>::quiet_NaN();
-        if (!statement_.executeStep()) return common;
-        RowReader row(statement_);
+        if (!statement_->executeStep()) return common;
+        RowReader row(*statement_);
         common.first_frame = row.integer();
         common.score = row.real();
         return common;
     }
 
-    SQLite::Statement statement_;
+    SQLite::Database& database_;
     int run_id_;
+    std::optional<SQLite::Statement> statement_;  ///< once it is needed
     std::unordered_map<TrackId, Common> known_;
 };
 
