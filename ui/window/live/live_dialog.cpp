@@ -33,10 +33,6 @@ QLabel* quietLabel(const QString& text, QWidget* parent) {
     return label;
 }
 
-QString pathText(const std::filesystem::path& path) {
-    return QString::fromStdString(path.string());
-}
-
 QString withEnding(QString path, const QString& ending) {
     if (!path.isEmpty() && !path.endsWith(ending, Qt::CaseInsensitive)) path += ending;
     return path;
