@@ -170,13 +170,6 @@ std::vector<Outcome> outcomesOf(FrameSource& source, FrameIndex first, FrameInde
 
 }  // namespace
 
-std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
-                                           const ChainOptions& options, double frame_rate_hz,
-                                           const std::stop_token& stop, const ScaleProgress& told) {
-    const auto outcomes = outcomesOf(source, first, last, options, frame_rate_hz, stop, told);
-    return outcomes.empty() ? std::nullopt : estimateFrom(outcomes);
-}
-
 ScaleBasis basisOf(const SceneScale& scale, const std::optional<ScaleEstimate>& estimated) {
     if (scale.gsd_known) return {ScaleOrigin::given};
     if (!estimated) return {ScaleOrigin::assumed};

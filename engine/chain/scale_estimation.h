@@ -21,19 +21,14 @@ struct ScaleEstimate {
 /// Receives the progress of the look, on the thread that looks.
 using ScaleProgress = std::function<void(const RunProgress&)>;
 
-/// Guesses the ground sampling distance of a video whose GSD nobody knows: the chain runs over a few dozen frames under
-/// finer to coarser assumptions, and the one under which most of what moves looks to the classifier like vehicles, and
-/// has a car's size, is taken. Relief and glare look like vehicles under none. Right to a fifth where cars drive;
-/// nothing when too little looks like vehicles or `stop` is requested. Takes some seconds.
-/// Throws Error(input) when frames cannot be read, or when the classifier is missing or damaged.
-/// `told`, if any, learns after every frame how far the look is.
-std::optional<ScaleEstimate> estimateScale(FrameSource& source, FrameIndex first, FrameIndex last,
-                                           const ChainOptions& options, double frame_rate_hz,
-                                           const std::stop_token& stop, const ScaleProgress& told = {});
-
-/// The scale of a run: the given GSD, or for `gsd_m_per_px` ≤ 0 an estimate, or 0.25 m/px where that fails. Where the
-/// first frames show few vehicles, those in the middle and at the end are looked at, too, and what shows traffic is
-/// taken together: a queue that stands and one rider that drives past it would settle the scale otherwise. With
+/// The scale of a run: the given GSD, or for `gsd_m_per_px` ≤ 0 an estimate, or 0.25 m/px where that fails.
+///
+/// The estimate: the chain runs over a few dozen frames under finer to coarser assumptions, and the one under which
+/// most of what moves looks to the classifier like vehicles, and has a car's size, is taken. Relief and glare look like
+/// vehicles under none. Right to a fifth where cars drive; it fails when too little looks like vehicles or `stop` is
+/// requested. Takes some seconds; `told`, if any, learns after every frame how far the look is. Where the first frames
+/// show few vehicles, those in the middle and at the end are looked at, too, and what shows traffic is taken together:
+/// a queue that stands and one rider that drives past it would settle the scale otherwise. With
 /// `view.oblique` it is looked how the scale changes over the picture, too. An estimate gives the chain's lengths a
 /// footing; `gsd_known` stays false, so that nobody is shown metres that were guessed. `estimated`, if any, receives
 /// what the estimate rests on; nothing where the scale is none. Where no classifier can be loaded and the run itself

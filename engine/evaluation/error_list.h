@@ -17,7 +17,6 @@ enum class ResultErrorKind {
     split,        ///< several results lie side by side in one object
     merge         ///< one result covers several objects, at least one of which is missed
 };
-inline constexpr int kResultErrorKinds = 6;
 /// The word used in files and on screen: "miss", "false alarm", "switch", "fragment", "split", "merge".
 const char* nameOf(ResultErrorKind kind);
 

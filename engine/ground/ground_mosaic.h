@@ -26,9 +26,6 @@ struct MosaicSheet {
     cv::Point2d pictureFromSheet(cv::Point2d on_sheet) const {
         return (on_sheet - area.tl()) * px_per_unit - cv::Point2d(0.5, 0.5);
     }
-    cv::Point2d sheetFromPicture(cv::Point2d in_picture) const {
-        return (in_picture + cv::Point2d(0.5, 0.5)) * (1 / px_per_unit) + area.tl();
-    }
 };
 
 /// Lays the pictures of a run side by side on its sheets, frame by frame, in memory that does not grow: sheets share

@@ -7,6 +7,7 @@ RegistrationOptions RegistrationOptions::thesis() {
     options.corners.favour_movers = false;
     options.corners.max_corners = 50'000;  // the text knows no limit: about 22,000 vectors an image (table 7.11)
     options.feature_search = false;
+    options.recovery_frames = 0;  // homographies between subsequent images only
     return options;
 }
 

@@ -91,20 +91,6 @@ void thinKind(std::map<int, Presence>& all, bool vehicles, int tracks, int boxes
 
 }  // namespace
 
-SceneLoad loadOf(const SceneDescription& scene) {
-    const std::map<int, Presence> all = presences(scene);
-    SceneLoad load;
-    for (const auto& [id, presence] : all) {
-        if (presence.counted.empty()) continue;
-        ++(presence.vehicle ? load.vehicle_tracks : load.other_tracks);
-        (presence.vehicle ? load.vehicle_boxes : load.other_boxes) += static_cast<int>(presence.counted.size());
-    }
-    const std::vector<int> counts = crowd(all, scene.frame_count);
-    load.fewest_objects = *std::min_element(counts.begin(), counts.end());
-    load.most_objects = *std::max_element(counts.begin(), counts.end());
-    return load;
-}
-
 void thinOut(SceneDescription& scene, const LoadTarget& target) {
     std::map<int, Presence> all = presences(scene);
     for (auto& [id, presence] : all) presence.kept = presence.seen;

@@ -4,20 +4,8 @@
 
 namespace eyrie {
 
-/// How much of the truth counts (is not marked ignore), as in Teutsch table 7.1. What trees and buildings hide is not
-/// looked at.
-struct SceneLoad {
-    int vehicle_tracks = 0;
-    int other_tracks = 0;
-    int vehicle_boxes = 0;
-    int other_boxes = 0;
-    int fewest_objects = 0;  ///< in a frame
-    int most_objects = 0;    ///< in a frame
-};
-
-SceneLoad loadOf(const SceneDescription& scene);
-
-/// What a preset wants to hold; 0: whatever comes.
+/// What a preset wants to hold of the truth that counts (is not marked ignore), as in Teutsch table 7.1; 0: whatever
+/// comes. What trees and buildings hide is not looked at.
 struct LoadTarget {
     int vehicle_tracks = 0;
     int vehicle_boxes = 0;

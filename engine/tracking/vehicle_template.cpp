@@ -91,7 +91,7 @@ std::optional<LookMatch> VehicleTemplate::find(const cv::Mat& gray, const Orient
     if (gray.empty() || !(zoom < kLargestZoom && zoom * kLargestZoom > 1)) return std::nullopt;
     if (!liesInside(expected, gray.size())) return std::nullopt;
     const double step = step_ * zoom;
-    const int radius = std::max(1, static_cast<int>(std::ceil(std::clamp(reach, 1.0, kLargestReach) / step)));
+    const auto radius = static_cast<int>(std::ceil(std::clamp(reach, 1.0, kLargestReach) / step));
     const cv::Point half(std::max(1, cvRound(expected.width / 2 / step)),
                          std::max(1, cvRound(expected.length / 2 / step)));
     const cv::Point margin(radius + half.x, radius + half.y);

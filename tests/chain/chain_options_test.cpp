@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "core/error.h"
 
@@ -51,13 +53,92 @@ TEST(ChainOptions, theThesisPresetSwitchesEveryAdditionOff) {
     }
 }
 
+/// Numbers and choices of our own that the preset leaves as they are, and why that changes nothing of the text: they
+/// only count beside something that the preset switches off …
+const std::vector<std::tuple<std::string, std::string, std::string>> kOfWhatIsOff{
+    {"motion.slow_", "motion.find_slow", "false"},
+    {"motion.shadow_", "motion.shadow_test", "false"},
+    {"motion.silhouette_", "motion.silhouettes", "false"},
+    {"motion.area_", "motion.areas", "false"},
+    {"motion.local_background_", "motion.local_background", "false"},
+    {"motion.parallax_", "motion.parallax_test", "false"},
+    {"difference.", "motion.method", "vectors"},
+    {"clustering.velocity_noise_limit", "clustering.velocity_noise_factor", "0"},
+    {"clustering.max_min_members", "clustering.min_density_share", "0"},
+    {"clustering.split_length", "clustering.split_length", "0"},
+    {"gradient.quantile_margin", "gradient.quantile_area", "roi"},
+    {"gradient.support_share", "gradient.need_support", "false"},
+    {"gradient.core_margin", "gradient.handle_cut", "false"},
+    {"gradient.vehicle_", "gradient.join_components", "false"},
+    {"gradient.fall_back_share", "gradient.fall_back", "false"},
+    {"sliding_window.descriptor", "sliding_window.descriptor", ""},
+    {"sliding_window.support_share", "sliding_window.need_support", "false"},
+    {"window_and_gradient.", "detection.method", "gradient"},
+    {"duplicates.velocity_", "duplicates.compare_speed", "false"},
+    {"duplicates.part_", "duplicates.join_parts", "false"},
+    {"outliers.max_min_vectors", "outliers.min_density_share", "0"},
+    {"tracking.part_containment", "tracking.split_merge", "overlap_matrix"},
+    {"tracking.split_patience", "tracking.split_merge", "overlap_matrix"},
+    {"tracking.size_patience", "tracking.size_gate", "0"},
+    {"tracking.supported_hits", "tracking.max_supported", "0"},
+    {"tracking.max_stopped", "tracking.stop_speed", "0"},
+    {"tracking.appearance_", "tracking.appearance", "none"},
+    {"tracking.max_hidden", "tracking.appearance", "none"},
+    {"tracking.max_standing", "tracking.appearance", "none"},
+    {"tracking.duplicate_", "tracking.suppress_duplicates", "false"},
+    {"finishing.stop_speed", "finishing.trim_predicted", "false"},
+    {"finishing.join_distance_", "finishing.join_gap", "0"},
+    {"finishing.size_window", "finishing.constant_size", "false"},
+    {"finishing.smooth_window", "finishing.smooth_path", "false"},
+};
+
+/// … or they belong to a method that the text names without its numbers.
+const std::set<std::string> kLeftOpenByTheText{
+    // Förstner-Harris corners, tracked by gradient descent in a small area (§4.2).
+    "registration.min_corner_distance", "registration.tensor_window", "registration.max_residual",
+    "registration.max_speed", "registration.max_jerk", "registration.patch_life", "registration.patch_deformation",
+    // RANSAC with refinement (§4.2).
+    "registration.inlier_distance", "registration.min_inliers", "registration.min_inlier_share",
+    // Single linkage by position and velocity (§4.2).
+    "clustering.velocity_floor",
+    // Video whose frames all can be registered.
+    "tracking.max_failed",
+    // The Kalman filter's noise (§6.5).
+    "tracking.position_noise_px", "tracking.size_noise_px", "tracking.velocity_noise", "tracking.velocity_noise_px",
+    // Words for tracks, which change none (§3).
+    "classes.person_speed", "classes.two_wheeler_width", "classes.min_life"};
+
+TEST(ChainOptions, theThesisPresetLeavesNoNumberOfOursInForce) {
+    ChainOptions defaults;
+    std::map<std::string, std::string> plain, thesis;
+    for (const auto& [name, value] : parameterValues(defaults)) plain[name] = value;
+    ChainOptions preset = builtInPreset("thesis");
+    const auto parameters = listParameters(describeOf(preset));
+    for (const Parameter& parameter : parameters) thesis[parameter.name] = parameter.value;
+    std::set<std::string> open = kLeftOpenByTheText;
+    for (const Parameter& parameter : parameters) {
+        if (parameter.kind == ParameterKind::flag || !parameter.text.source.empty()) continue;
+        if (parameter.value != plain.at(parameter.name)) continue;
+        if (open.erase(parameter.name) > 0) continue;
+        const auto owner = std::find_if(kOfWhatIsOff.begin(), kOfWhatIsOff.end(), [&](const auto& entry) {
+            return parameter.name.rfind(std::get<0>(entry), 0) == 0;
+        });
+        ASSERT_NE(owner, kOfWhatIsOff.end())
+            << parameter.name << " is our own: the preset switches it off, or it is told here why it need not";
+        EXPECT_EQ(thesis.at(std::get<1>(*owner)), std::get<2>(*owner)) << parameter.name;
+    }
+    EXPECT_TRUE(open.empty()) << *open.begin() << " is no such parameter";
+}
+
 TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
     const std::vector<std::pair<std::string, std::string>> expected{
         {"view.oblique", "false"},
         {"registration.max_corners", "50000"},
         {"registration.favour_movers", "false"},
+        {"registration.recovery_frames", "0"},
         {"registration.feature_search", "false"},
         {"motion.baseline", "5"},
+        {"motion.min_speed_px", "0"},
         {"motion.sigma_factor", "0"},
         {"motion.follow_rate", "false"},
         {"motion.follow_turns", "false"},
@@ -70,6 +151,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"clustering.along", "3"},
         {"clustering.across", "3"},
         {"clustering.roof_length", "0"},
+        {"clustering.min_distance", "0"},
         {"clustering.velocity_share", "0.1"},
         {"clustering.velocity_noise_factor", "0"},
         {"clustering.min_members", "4"},
@@ -101,6 +183,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"sliding_window.middle_scale", "1"},
         {"sliding_window.largest_scale", "3.8"},
         {"sliding_window.rejection_margin", "1000"},
+        {"sliding_window.context", "0"},
         {"tophat_otsu.min_contrast", "0"},
         {"tophat_otsu.joining", "0"},
         {"mser.keep_spanning", "true"},

@@ -13,8 +13,33 @@ namespace {
 
 constexpr double kAllowed = 0.2;  ///< share of the truth by which an estimate may be off
 
-std::optional<ScaleEstimate> lookAt(FrameSource& source) {
-    return estimateScale(source, 0, 39, ChainOptions{}, source.info().frame_rate_hz, {});
+/// A source that does not tell what it knows of its scale.
+class WithoutScale : public FrameSource {
+ public:
+    explicit WithoutScale(FrameSource& source) : source_(source), info_(source.info()) { info_.gsd_m_per_px = 0; }
+    const VideoInfo& info() const override { return info_; }
+    Frame read(FrameIndex index, bool with_colour) override { return source_.read(index, with_colour); }
+    std::int64_t timeOf(FrameIndex index) const override { return source_.timeOf(index); }
+
+ private:
+    FrameSource& source_;
+    VideoInfo info_;
+};
+
+/// What the first frames alone say.
+std::optional<ScaleEstimate> lookAt(FrameSource& source, const std::stop_token& stop = {}) {
+    WithoutScale unknown(source);
+    ChainOptions options;
+    options.view.oblique = false;
+    std::optional<ScaleEstimate> estimate;
+    chooseScale(unknown, {0, 39}, options, 0, stop, {}, &estimate);
+    return estimate;
+}
+
+std::unique_ptr<FrameSource> sharedSource(const char* folder, double frame_rate_hz) {
+    SourceOptions options;
+    options.frame_rate_hz = frame_rate_hz;
+    return openSource(test::sharedData(folder), options);
 }
 
 }  // namespace
@@ -46,16 +71,15 @@ TEST(ScaleEstimation, findsTheScaleOfARenderedSceneAndIsWideWhereFewVehiclesDriv
 
 TEST(ScaleEstimation, lampsAndBeamsOfANightAreNoTraffic) {
     EYRIE_NEED_SHARED_DATA("uavdt_m1003");
-    const auto source = openSource(test::sharedData("uavdt_m1003/img1"));
-    const auto estimate = estimateScale(*source, 0, 39, ChainOptions{}, 30, {});
+    const auto source = sharedSource("uavdt_m1003/img1", 30);
+    const auto estimate = lookAt(*source);
     ASSERT_TRUE(estimate);
     EXPECT_NEAR(estimate->gsd_m_per_px, 0.2, kAllowed * 0.2);
 }
 
 TEST(ScaleEstimation, aHouseThatIsFlownRoundIsNoTraffic) {
     EYRIE_NEED_SHARED_DATA("uav123_building4");
-    const auto source = openSource(test::sharedData("uav123_building4"));
-    EXPECT_FALSE(estimateScale(*source, 0, 39, ChainOptions{}, 10, {}));
+    EXPECT_FALSE(lookAt(*sharedSource("uav123_building4", 10)));
 }
 
 TEST(ScaleEstimation, aGivenScaleIsTakenAsItIs) {
@@ -80,9 +104,7 @@ TEST(ScaleEstimation, withoutTrafficItFallsBackAndDoesNotFail) {
 
 TEST(ScaleEstimation, aStandingQueueAndOneRiderDoNotSettleTheScaleOfAllThatDrivesLater) {
     EYRIE_NEED_SHARED_DATA("uavdt_s1606");
-    SourceOptions at_30_hz;
-    at_30_hz.frame_rate_hz = 30;
-    const auto source = openSource(test::sharedData("uavdt_s1606/frames"), at_30_hz);
+    const auto source = sharedSource("uavdt_s1606/frames", 30);
     const SceneScale scale = chooseScale(*source, {}, ChainOptions{}, 0, {});
     EXPECT_NEAR(scale.gsd_m_per_px, 0.09, kAllowed * 0.09) << "the first 40 frames alone say 0.15";
 }
@@ -125,7 +147,7 @@ TEST(ScaleEstimation, stopsWhenAsked) {
     std::stop_source stop;
     stop.request_stop();
     test::MemorySource source((test::MovingScene()));
-    EXPECT_FALSE(estimateScale(source, 0, 39, ChainOptions{}, 25, stop.get_token()));
+    EXPECT_FALSE(lookAt(source, stop.get_token()));
 }
 
 }  // namespace eyrie::scale_estimation_test

@@ -97,6 +97,21 @@ TEST_P(DetectorContract, TracesItsStepsWithoutChangingTheResult) {
     }
 }
 
+TEST_P(DetectorContract, DecidesWhatItDetectsPreparedOrNot) {
+    const MotionRoi roi = roiOf(drivenScene(0.3));
+    const auto expected = detector_->detect(roi);
+    const auto prepared = detector_->prepare(roi);
+    for (const auto& decided : {detector_->decide(roi, prepared.get()), detector_->decide(roi, nullptr)}) {
+        ASSERT_EQ(decided.size(), expected.size());
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            EXPECT_EQ(decided[i].box.centre, expected[i].box.centre);
+            EXPECT_EQ(decided[i].box.length, expected[i].box.length);
+            EXPECT_EQ(decided[i].box.width, expected[i].box.width);
+            EXPECT_EQ(decided[i].score, expected[i].score);
+        }
+    }
+}
+
 TEST_P(DetectorContract, MayBeCalledForSeveralRoisAtOnce) {
     std::vector<MotionRoi> rois;
     for (int i = 0; i < 8; ++i) rois.push_back(roiOf(drivenScene(0.4 * i, {150.0 + i, 118}, 3)));

@@ -52,6 +52,25 @@ TEST(GradientSegmenter, TracesAllItsSteps) {
     EXPECT_EQ(trace.layers.back().boxes.size(), 1U);
 }
 
+TEST(GradientSegmenter, TheQuantileIsTakenAroundVectorsOnePixelAtLeast) {
+    MotionRoi roi = roiOf(drivenScene(0.4));
+    roi.vectors = {{20, 30}};
+    GradientOptions options;
+    const auto counted = [&](QuantileArea area, double margin_m) {
+        options.quantile_area = area;
+        options.quantile_margin_m = margin_m;
+        DetectionTrace trace;
+        segmenter(options).detect(roi, &trace);
+        for (const auto& layer : trace.layers) {
+            if (layer.name == "quantile area") return cv::countNonZero(layer.image);
+        }
+        return -1;
+    };
+    EXPECT_EQ(counted(QuantileArea::vectors, 0), 5) << "the pixel and those beside it";
+    EXPECT_EQ(counted(QuantileArea::box, 0), 9);
+    EXPECT_EQ(counted(QuantileArea::box, 2 * kContractScale.gsd_m_per_px), 25);
+}
+
 TEST(GradientSegmenter, FallsBackToTheClusterWhereNothingIsSeen) {
     auto scene = drivenScene(0.4);
     scene.frame.gray.setTo(100);

@@ -163,6 +163,16 @@ TEST(Mser, OnlyWhatReachesFromEdgeToEdgeIsGround) {
     EXPECT_EQ(kept({18, 0, 24, 32}), 0);
     EXPECT_GT(kept({18, 2, 24, 30}), 600);
     EXPECT_GT(kept({18, 0, 24, 29}), 600);
+    // The same across: from the left edge to the right one, and up to 2 px beside either.
+    const auto kept_across = [&](const cv::Rect& block) {
+        MotionRoi roi = plainRoi({32, 60});
+        roi.image(block).setTo(180);
+        return cv::countNonZero(layerOf(options, roi, "binary"));
+    };
+    EXPECT_EQ(kept_across({0, 18, 32, 24}), 0);
+    EXPECT_EQ(kept_across({1, 18, 30, 24}), 0) << "a pixel of the border is not counted";
+    EXPECT_GT(kept_across({2, 18, 30, 24}), 600);
+    EXPECT_GT(kept_across({0, 18, 29, 24}), 600);
 }
 
 TEST(Mser, AreasAreInSquareMetres) {

@@ -49,6 +49,18 @@ TEST(RoiCutter, ExtendsAsMuchAsItsParametersSay) {
     EXPECT_DOUBLE_EQ(area("detection.extend_across", "1.5").width, 60);
 }
 
+TEST(RoiCutter, TheThesisSearchesTheExtendedClusterWithEveryMethod) {
+    MotionCluster cluster;
+    cluster.box = {{100, 80}, 70, 40, 0.4};
+    for (const DetectionMethod method : allDetectionMethods()) {
+        DetectionOptions options = DetectionOptions::thesis();
+        options.method = method;
+        const OrientedBox area = extendedCluster(cluster, {320, 240}, options, kContractScale);
+        EXPECT_DOUBLE_EQ(area.length, 2 * 70) << nameOf(method);
+        EXPECT_DOUBLE_EQ(area.width, 1.25 * 40) << nameOf(method);
+    }
+}
+
 TEST(RoiCutter, WindowsGetTheirContextAndSegmentsAreLeftTheMiddle) {
     const auto scene = drivenScene(0.8);
     DetectionOptions options = segmentation();

@@ -222,6 +222,37 @@ TEST(SlidingWindow, WithoutVectorsInsideAWindowIsDropped) {
     EXPECT_TRUE(makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi).empty()) << "beyond the video";
 }
 
+TEST(SlidingWindow, AWindowHoldsItsShareOfTheVectors) {
+    // Of a hundred vectors the window on the vehicle holds four.
+    SlidingWindowOptions options = drivenSceneWindow();
+    const auto scene = drivenScene(0.5);
+    MotionRoi roi = roiOf(scene);
+    const cv::Point2f middle = toPatch(roi.image_from_roi, scene.vehicle.centre);
+    roi.vectors.assign(96, {-500, -500});
+    for (const float off : {-1.F, 0.F, 1.F, 2.F}) roi.vectors.push_back(middle + cv::Point2f(off, 0));
+    for (const auto& [share, found] : {std::pair(0.04, true), {0.05, false}}) {
+        options.support_share = share;
+        DetectionTrace trace;
+        const auto detections = makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi, &trace);
+        EXPECT_EQ(!detections.empty(), found) << share;
+        for (const auto& check : trace.checks) {
+            if (check.parameter != "sliding_window.support_share") continue;
+            EXPECT_NEAR(check.limit, share * 100, 1e-9);
+            EXPECT_EQ(check.passed, check.value >= share * 100);
+        }
+    }
+}
+
+TEST(SlidingWindow, TellsNoBestWindowWhereNoneFits) {
+    MotionRoi roi;
+    roi.image = cv::Mat(12, 6, CV_8UC1, cv::Scalar(90));
+    roi.inside = cv::Mat(12, 6, CV_8UC1, cv::Scalar(255));
+    roi.image_from_roi = {1, 0, 0, 0, 1, 0};
+    DetectionTrace trace;
+    EXPECT_TRUE(makeSlidingWindowDetector(drivenSceneWindow(), kContractScale, 0.5)->detect(roi, &trace).empty());
+    EXPECT_TRUE(trace.checks.empty()) << trace.checks.front().what;
+}
+
 TEST(SlidingWindow, TheMiddleOfAWindowMustLieInTheVideo) {
     MotionRoi roi = roiOf(drivenScene(0.5));
     const auto detector = makeSlidingWindowDetector(drivenSceneWindow(), kContractScale, 0.5);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 namespace eyrie::window_and_gradient_test {
 namespace {
 
@@ -90,6 +92,43 @@ TEST(WindowAndGradient, TellsSharesOnlyBesideASureWindow) {
     EXPECT_EQ(shares[1], 0);
     EXPECT_EQ(boxes[0], cv::Rect2d(11, 17.5, 6, 5)) << "upright in the area: its length points upwards";
     EXPECT_EQ(boxes[1], cv::Rect2d(16.5, 33, 7, 14));
+}
+
+/// Shows the search area that it was given, with a box and a check in it.
+class Shown : public Detector {
+ public:
+    std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace) const override {
+        trace->add("raw", roi.image);
+        trace->add("seen", roi.image, {{2, 4, 6, 8}});
+        trace->checks.push_back({"of a box", "a", 1, 1, false, true, {2, 4, 6, 8}});
+        trace->checks.push_back({"of the area", "b", 1, 1, false, true});
+        return {};
+    }
+};
+
+TEST(WindowAndGradient, LayersOfTheMiddleAreShownWhereTheyLieInTheSearchArea) {
+    constexpr int kContext = 3;
+    const WindowAndGradientDetector detector(std::make_unique<Told>(std::vector<OrientedBox>{}, true, 0),
+                                             std::make_unique<Shown>(), {}, kContext);
+    MotionRoi roi;
+    roi.image = cv::Mat(60, 40, CV_8UC1);
+    cv::RNG(5).fill(roi.image, cv::RNG::UNIFORM, 1, 255);
+    roi.inside = cv::Mat(60, 40, CV_8UC1, cv::Scalar(255));
+    roi.image_from_roi = {1, 0, 0, 0, 1, 0};
+    DetectionTrace trace;
+    detector.detect(roi, &trace);
+    ASSERT_EQ(trace.layers.size(), 1U) << "the search area itself is not shown again";
+    const auto& layer = trace.layers[0];
+    EXPECT_EQ(layer.name, "seen");
+    cv::Mat expected = cv::Mat::zeros(roi.image.size(), CV_8UC1);
+    const cv::Rect middle(kContext, kContext, 40 - 2 * kContext, 60 - 2 * kContext);
+    roi.image(middle).copyTo(expected(middle));
+    ASSERT_EQ(layer.image.size(), expected.size());
+    EXPECT_EQ(cv::norm(layer.image, expected, cv::NORM_INF), 0);
+    EXPECT_EQ(layer.boxes.at(0), cv::Rect2d(2 + kContext, 4 + kContext, 6, 8));
+    ASSERT_EQ(trace.checks.size(), 2U);
+    EXPECT_EQ(trace.checks[0].box, cv::Rect2d(2 + kContext, 4 + kContext, 6, 8));
+    EXPECT_EQ(trace.checks[1].box.area(), 0) << "about the whole area";
 }
 
 TEST(WindowAndGradient, SegmentsBesideEachOtherDoNotCoverOneAnother) {

@@ -227,6 +227,16 @@ TEST(ErrorList, aMergeIsToldBesideABoxThatMergesNothing) {
     EXPECT_THAT(merges[0].tracks, ElementsAre(10));
 }
 
+TEST(ErrorList, oneBoxOverThreeObjectsIsAMergeAndOverOneIsNone) {
+    const auto merges =
+        ofKind(listOf(boxes({car(0, 1, 50), car(0, 2, 72), car(0, 3, 94)}), boxes({part(0, 7, 72, 64)})),
+               ResultErrorKind::merge);
+    ASSERT_EQ(merges.size(), 1U);
+    EXPECT_THAT(merges[0].objects, ElementsAre(1, 2, 3));
+    EXPECT_THAT(ofKind(listOf(boxes({car(0, 1, 50)}), boxes({part(0, 7, 72, 300)})), ResultErrorKind::merge), IsEmpty())
+        << "too large for the object in it";
+}
+
 TEST(ErrorList, whatIsLostInFramesWithoutAnyResultIsLostFromTheFirstOfThem) {
     EvaluationOptions options;
     options.convention = Convention::trackeval;
@@ -251,7 +261,9 @@ TEST(ErrorList, isOrderedByTime) {
 
 TEST(ErrorList, namesAreWords) {
     EXPECT_STREQ(nameOf(ResultErrorKind::false_alarm), "false alarm");
-    for (int kind = 0; kind < kResultErrorKinds; ++kind) EXPECT_STRNE(nameOf(static_cast<ResultErrorKind>(kind)), "");
+    for (const auto kind : {ResultErrorKind::miss, ResultErrorKind::false_alarm, ResultErrorKind::id_switch,
+                            ResultErrorKind::fragment, ResultErrorKind::split, ResultErrorKind::merge})
+        EXPECT_STRNE(nameOf(kind), "");
 }
 
 /// The list is another view of the same counts, whatever the data and the convention.

@@ -13,6 +13,7 @@
 #include "io/video/video_writer.h"
 #include "metadata/vmti/vmti_set.h"
 #include "support/temporary_folder.h"
+#include "support/vmti_reading.h"
 
 namespace eyrie::vmti_export_test {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "core/geometry/outline_map.h"
@@ -199,6 +201,39 @@ TEST(GeoReference, statementsThatCannotBeArePassedOver) {
             if (number.tag == tag::kCorners + 1 || number.tag == tag::kCorners + 7) number.value += 0.01;
     const VideoMetadata metadata(std::move(stream), picturesOf());
     EXPECT_LT(error_m(GeoReference(metadata.timeline(), footage()), 0, kFilmed - 1), 0.05);
+}
+
+TEST(GeoReference, aFootprintThatIsNoConvexQuadrilateralSaysNothing) {
+    using Corners = std::array<GeoPoint, 4>;
+    const auto knownWith = [](const std::function<void(Corners&)>& change) {
+        MetadataStream stream = flight({.from = 10, .to = 10});
+        Corners corners;
+        const auto each = [&](const std::function<void(double& stated, double& corner)>& meet) {
+            for (auto& number : stream.packets.at(0).numbers) {
+                if (number.tag < tag::kCorners || number.tag >= tag::kCorners + 8) continue;
+                GeoPoint& corner = corners[static_cast<std::size_t>(number.tag - tag::kCorners) / 2];
+                const bool latitude = (number.tag - tag::kCorners) % 2 == 0;
+                meet(number.value, latitude ? corner.latitude_deg : corner.longitude_deg);
+            }
+        };
+        each([](double& stated, double& corner) { corner = stated; });
+        change(corners);
+        each([](double& stated, double& corner) { stated = corner; });
+        const VideoMetadata metadata(std::move(stream), picturesOf());
+        return GeoReference(metadata.timeline(), footage()).known();
+    };
+    EXPECT_TRUE(knownWith([](Corners&) {}));
+    EXPECT_FALSE(knownWith([](Corners& corners) { std::swap(corners[0], corners[1]); })) << "its sides cross";
+    EXPECT_FALSE(knownWith([](Corners& corners) { std::swap(corners[1], corners[2]); })) << "the other two";
+    for (std::size_t dented = 0; dented < 4; ++dented) {
+        EXPECT_FALSE(knownWith([&](Corners& corners) {
+            const GeoPoint beside = corners[(dented + 1) % 4], other = corners[(dented + 3) % 4],
+                           opposite = corners[(dented + 2) % 4];
+            corners[dented] = {0.6 * opposite.latitude_deg + 0.2 * (beside.latitude_deg + other.latitude_deg),
+                               0.6 * opposite.longitude_deg + 0.2 * (beside.longitude_deg + other.longitude_deg)};
+        })) << "corner "
+            << dented << " lies inside of the other three";
+    }
 }
 
 }  // namespace eyrie::geo_reference_test

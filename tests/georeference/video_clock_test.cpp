@@ -52,6 +52,18 @@ TEST(VideoClock, aFewStampsThatJumpDoNotCount) {
     EXPECT_NE(clock.origin().find("disagree"), std::string::npos);
 }
 
+TEST(VideoClock, oneStampInTenMayDisagreeByMoreThanHalfASecond) {
+    const auto clockWith = [](int odd, std::int64_t by_us) {
+        return VideoClock::byMetadata(stamped(
+            [=](int i) { return static_cast<std::uint64_t>(kBegin_us + i * 100'000 + (i < odd ? by_us : 0)); }));
+    };
+    EXPECT_EQ(clockWith(9, 499'000).origin(), "the video's metadata");
+    EXPECT_EQ(clockWith(1, 501'000).origin(), "the video's metadata, without 1 stamp that disagrees");
+    EXPECT_EQ(clockWith(4, -501'000).origin(), "the video's metadata, without 4 stamps that disagree");
+    EXPECT_EQ(clockWith(4, 2'000'000).at(60'000'000), kBegin_us + 60'000'000);
+    EXPECT_NE(clockWith(5, 2'000'000).origin().find("not steady"), std::string::npos);
+}
+
 TEST(VideoClock, aVideoOfSeveralFlightsHasTheTimeOfEach) {
     const auto clock = VideoClock::byMetadata(stamped([](int i) {
         return static_cast<std::uint64_t>(kBegin_us + i * 100'000 + (i < kSets / 2 ? 0 : 3'600'000'000LL));

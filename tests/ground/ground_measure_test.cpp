@@ -107,6 +107,25 @@ TEST(FollowedPose, HeadingsAreSteadyThoughBoxesSwayAndTheCameraTurns) {
     }
 }
 
+TEST(FollowedPose, BoxesCountLessTheFartherTheyAreInTime) {
+    const auto still = [](double) { return cv::Matx33d::eye(); };
+    const CameraMotion camera(test::stepsOf(still, 60));
+    // All of them head along x but one; weights fall from 13 by one a frame.
+    const auto headingWith = [&](int other) {
+        EventTrack track;
+        for (int frame = 0; frame <= 60; ++frame)
+            track.boxes.push_back({frame, {{100, 60}, 20, 9, frame == other ? CV_PI / 2 : 0}});
+        return followedPose(track, 30, camera).value().heading;
+    };
+    constexpr double kAll = 13 * 13;
+    EXPECT_NEAR(headingWith(30), std::atan2(13, kAll - 13), 1e-9);
+    for (const int side : {-1, 1}) {
+        EXPECT_NEAR(headingWith(30 + side), std::atan2(12, kAll - 12), 1e-9);
+        EXPECT_NEAR(headingWith(30 + 12 * side), std::atan2(1, kAll - 1), 1e-9);
+        EXPECT_NEAR(headingWith(30 + 13 * side), 0, 1e-9);
+    }
+}
+
 TEST(FollowedPose, OnlyFramesOfTheTrackHaveOne) {
     const CameraMotion camera(test::stepsOf(test::flyingView, 100));
     EventTrack track = drive(20);

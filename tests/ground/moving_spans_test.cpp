@@ -50,12 +50,37 @@ TEST(MovingSpans, FramesThatCouldNotBeRegisteredMayHoldSomething) {
     EXPECT_EQ(spans, (std::vector<FrameSpan>{{475, 525}}));
 }
 
+TEST(MovingSpans, ASecondIsAddedAsFarAsTheVideoGoes) {
+    test::DrivenTracks scene;
+    scene.frames = 150;
+    scene.drive({20, 60}, 0, {{6, 30, 30}});
+    EXPECT_EQ(spansIn(runOf(scene)), (std::vector<FrameSpan>{{0, 149}}));
+    scene.frames = 300;
+    const auto spans = spansIn(runOf(scene));
+    ASSERT_EQ(spans.size(), 1U);
+    EXPECT_EQ(spans[0].first, 0);
+    EXPECT_NEAR(spans[0].last, 149 + 25, 2);
+}
+
+TEST(MovingSpans, WhatWasFollowedTooShortlyToTellMayHaveMoved) {
+    test::DrivenTracks scene;
+    scene.drive({90, 80}, 0, {{20, 0, 0}});
+    StoredTracks run = runOf(scene);
+    EXPECT_TRUE(spansIn(run).empty());
+    EventTrack glimpse = run.tracks[0];
+    glimpse.id = 7;
+    glimpse.boxes.assign(run.tracks[0].boxes.begin() + 200, run.tracks[0].boxes.begin() + 204);
+    run.tracks.push_back(glimpse);
+    EXPECT_EQ(spansIn(run), (std::vector<FrameSpan>{{175, 228}}));
+}
+
 TEST(MovingSpans, UnlikelyTracksDoNotCount) {
     test::DrivenTracks scene;
     scene.drive({20, 60}, 0, {{6, 30, 30}});
     StoredTracks run = runOf(scene);
     run.scores[1] = 0.4;
     EXPECT_EQ(spansIn(run).size(), 1U);
+    EXPECT_EQ(spansIn(run, 0.4).size(), 1U) << "as likely as is asked for";
     EXPECT_EQ(spansIn(run, 0.5).size(), 0U);
     EXPECT_TRUE(spansIn(runOf(test::DrivenTracks())).empty());
 }

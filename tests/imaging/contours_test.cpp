@@ -133,5 +133,19 @@ TEST(Contours, PlainAndTinyPicturesAreOneSegment) {
     }
 }
 
+TEST(Contours, WhereNothingVibratesTheLocalCuesAreLeft) {
+    // Two pixels have no slow vibrations.
+    cv::Mat gray(1, 2, CV_8UC1, cv::Scalar(0));
+    gray.at<uchar>(0, 1) = 255;
+    const DirectedPictures local = boundaryCues(gray);
+    const DirectedPictures both = probabilityOfBoundary(gray);
+    double strongest = 0;
+    for (std::size_t k = 0; k < both.size(); ++k) {
+        EXPECT_LT(cv::norm(both[k], local[k] * 0.5, cv::NORM_INF), 0.01) << k << ": faint ones are no contours";
+        strongest = std::max(strongest, cv::norm(both[k], cv::NORM_INF));
+    }
+    EXPECT_GT(strongest, 0.05);
+}
+
 }  // namespace
 }  // namespace eyrie::contours_test

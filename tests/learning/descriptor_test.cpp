@@ -283,6 +283,13 @@ TEST(Descriptor, momentsEqualSlowSumsAndIgnoreThePolarity) {
     for (std::size_t i = 0; i < 22; ++i) EXPECT_NEAR(values[i], dark_values[i], 1e-4) << i;
 }
 
+TEST(Descriptor, aPlainWindowHasItsMassNowhere) {
+    const auto values =
+        valuesOf(DescriptorKind::moments, cv::Mat(kWindowHeight, kWindowWidth, CV_8UC1, cv::Scalar(77)));
+    // Hu's invariants, the mass, its middle from that of the window, and moments of order 2 to 4.
+    for (std::size_t i = 0; i < 7 + 3 + 12; ++i) EXPECT_EQ(values[i], 0) << i;
+}
+
 TEST(Descriptor, huInvariantsAreThoseOfComplexMoments) {
     // c_pq = Σ (x + iy)^p (x − iy)^q f: the seven of Hu (1962) are c11, |c20|², |c30|², |c21|², Re(c30 c12³),
     // Re(c20 c12²) and Im(c30 c12³).

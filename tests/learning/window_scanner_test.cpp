@@ -7,6 +7,7 @@
 
 #include "learning/drawn_windows.h"
 #include "learning/training/trainer.h"
+#include "support/every_target.h"
 
 namespace eyrie::window_scanner_test {
 namespace {
@@ -65,6 +66,18 @@ TEST(WindowScanner, equalsTheModelOnEveryWindowWhenNothingIsRejected) {
                     << size << " " << x << " " << y;
             }
         }
+    }
+}
+
+TEST(WindowScanner, isTheSameOnEveryKindOfProcessor) {
+    const WindowScanner scanner(boosted());
+    const cv::Mat roi = drawnRoi({75, 50}, 8);
+    for (const double margin : {WindowScanner::kNothingRejected, 0.5}) {
+        const cv::Mat1f expected = scanned(scanner, roi, margin);
+        test::forEveryTarget([&](const std::string& name) {
+            const cv::Mat1f decision = scanned(scanner, roi, margin);
+            EXPECT_EQ(cv::countNonZero(decision != expected), 0) << name;
+        });
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "core/geometry/oriented_box.h"
 #include "core/values/corner_density.h"
@@ -223,6 +224,43 @@ INSTANTIATE_TEST_SUITE_P(
                     AreaLimit{"motion.area_min_correlation", "0.5", "0.9999"},
                     AreaLimit{"motion.area_sure_correlation", "0.5", "0.9999"}),
     [](const auto& limit) { return std::string(limit.param.parameter).substr(12); });
+
+TEST(MovingAreas, OfVeryManyOnlyTheLargestAreLookedAt) {
+    // Things of 6×6 px in a grid, ten of them smaller, all of which move by their own length between two pictures.
+    constexpr int kColumns = 40, kSpacing = 28, kBorder = 24;
+    const auto isSmall = [](int thing) { return thing % 151 == 75; };
+    const auto seenOf = [&](int number) {
+        CarScene still;
+        still.camera_per_frame = {0, 0};
+        still.size = cv::Size(kColumns * kSpacing + 2 * kBorder, kColumns * kSpacing + 2 * kBorder);
+        MovingAreaOptions options;
+        options.area_min_size_m2 = 0;
+        options.area_min_size_px = 4;
+        MovingAreas areas(options, {0.7, 25, true});
+        const auto placeOf = [&](int thing, int index) {
+            return cv::Point(kBorder + thing % kColumns * kSpacing + 2 * index, kBorder + thing / kColumns * kSpacing);
+        };
+        for (int index = 0; index < 7; ++index) {
+            cv::Mat gray(still.size, CV_8UC1, cv::Scalar(80));
+            for (int thing = 0; thing < number; ++thing) {
+                const int side = isSmall(thing) ? 4 : 6;
+                gray(cv::Rect(placeOf(thing, index), cv::Size(side, side))).setTo(200);
+            }
+            areas.add({index, index * 40000, gray, {}}, panned(still, index));
+        }
+        FrameMotion motion;
+        motion.image_size = still.size;
+        std::set<int> large, small;
+        for (const MotionVector& vector : areas.infer(motion, [](cv::Point2d) { return 0.1; })) {
+            const cv::Point2f from = vector.position - cv::Point2f(placeOf(0, 6)) + cv::Point2f(4, 4);
+            const int thing = static_cast<int>(from.y / kSpacing) * kColumns + static_cast<int>(from.x / kSpacing);
+            (isSmall(thing) ? small : large).insert(thing);
+        }
+        return std::pair(large.size(), small.size());
+    };
+    EXPECT_EQ(seenOf(1490), std::pair(std::size_t{1480}, std::size_t{10}));
+    EXPECT_EQ(seenOf(1510), std::pair(std::size_t{1500}, std::size_t{0}));
+}
 
 TEST(MovingAreas, TheGapIsATimeInFrames) {
     MovingAreaOptions options;

@@ -170,6 +170,17 @@ TEST(Silhouettes, LimitsLieAboutTheLorry) {
     EXPECT_LT(pale.inferred(options).size(), all);
 }
 
+TEST(Silhouettes, WidthsAreThoseOfCellsOfAnySize) {
+    // At 0.15 m/px a cell is two pixels wide: the lorry's 9 px take five cells, 10 px; 2 px are tolerated.
+    SilhouetteOptions options;
+    const auto reachWith = [&](double most_px) {
+        options.silhouette_max_width_m = most_px * 0.15;
+        return reachBehindFront({}, LorryScene{}.inferred(options, {0.15, 25, true}));
+    };
+    EXPECT_NEAR(reachWith(9), 40, 3);
+    EXPECT_EQ(reachWith(7.5), 0);
+}
+
 TEST(Silhouettes, CanBeSwitchedOffAndForget) {
     SilhouetteOptions off;
     off.enabled = false;

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "registration/estimation/normal_equations.h"
-#include "registration/every_target.h"
 #include "registration/textured_ground.h"
+#include "support/every_target.h"
 
 namespace eyrie::homography_estimator_test {
 namespace {

@@ -54,6 +54,32 @@ TEST(TrackerSplitMerge, splitDetectionStaysOneTrackOfFullSize) {
     }
 }
 
+TEST(TrackerSplitMerge, aVehicleSeenWholeThriceAsOftenKeepsItsPartsAFrameLonger) {
+    // After how many frames in two parts, one behind the other, the second one starts a track of its own.
+    const auto patience = [](int whole_frames) {
+        MovingScene scene;
+        scene.objects = {{{100, 100}, {2, 0.2}, 40, 12, 0}};
+        TrackerOptions options;
+        options.split_patience = 4;
+        Tracker tracker(options, scene.scale);
+        for (int frame = 0; frame < whole_frames + 20; ++frame) {
+            std::vector<Detection> detections = scene.detections(frame);
+            if (frame >= whole_frames) {
+                const OrientedBox whole = detections[0].box;
+                detections[0].box = {whole.toImage({-13, 0}), 14, 12, whole.heading};
+                detections.push_back(detections[0]);
+                detections[1].box = {whole.toImage({12, 0}), 16, 12, whole.heading};
+            }
+            TrackingTrace trace;
+            tracker.next(scene.motion(frame), detections, &trace);
+            if (frame > 0 && !trace.started.empty()) return frame - whole_frames;
+        }
+        return -1;
+    };
+    EXPECT_EQ(patience(11), 4) << "11 < 3 · 4: the detection that starts the track is one of them";
+    EXPECT_EQ(patience(12), 5);
+}
+
 TEST(TrackerSplitMerge, theLargestPartSaysHowAVehicleInPartsMoves) {
     for (const std::size_t wrong : {0, 1}) {
         MovingScene scene;

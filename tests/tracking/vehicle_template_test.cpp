@@ -53,6 +53,18 @@ TEST(VehicleTemplate, isFoundUpToTheEndsOfItsReachOnAllSides) {
     }
 }
 
+TEST(VehicleTemplate, isNotLookedForBeyondItsReach) {
+    const VehicleTemplate look = lookAt(kCar);
+    for (const double reach : {0.0, 1.0, 3.0}) {
+        const double farthest = std::max(1.0, reach);
+        OrientedBox expected = kCar;
+        expected.centre.x += farthest + 2;
+        const auto match = look.find(drawnCars({kCar}, 8), expected, reach);
+        ASSERT_TRUE(match) << reach;
+        EXPECT_NEAR(expected.centre.x - match->centre.x, farthest, 0.01) << "as near as it may look, a pixel at least";
+    }
+}
+
 TEST(VehicleTemplate, followsAZoomOfTheCamera) {
     const OrientedBox now{{200, 150}, 28.6, 13, 0};
     const auto match = lookAt(kCar).find(drawnCars({now}, 8), now, 2);

@@ -78,6 +78,11 @@ std::vector<cv::Point2f> pointsWithin(const cv::Rect2d& box, const std::vector<c
     return found;
 }
 
+BoxSupport supportOf(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors, double share) {
+    return {static_cast<double>(pointsWithin(box, vectors, kOutlineMargin).size()),
+            std::max(1.0, share * static_cast<double>(vectors.size()))};
+}
+
 ComponentBoxes::ComponentBoxes(const GradientOptions& options, const SceneScale& scale)
     : options_(options),
       core_margin_(std::max(1.0, scale.px(options.core_margin_m))),
@@ -91,11 +96,6 @@ ComponentBoxes::ComponentBoxes(const GradientOptions& options, const SceneScale&
 cv::Rect2d ComponentBoxes::boxOf(const Region& region, const cv::Mat& labels, const cv::Rect2d& core) const {
     if (!options_.handle_cut || !region.cut) return edgesOf(region.box);
     return edgesOf(boxWithin(labels, region, pixelsTouching(core)));
-}
-
-bool ComponentBoxes::supported(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors) const {
-    const auto inside = static_cast<double>(pointsWithin(box, vectors, kOutlineMargin).size());
-    return inside >= std::max(1.0, options_.support_share * static_cast<double>(vectors.size()));
 }
 
 void ComponentBoxes::join(std::vector<cv::Rect2d>& boxes) const {
@@ -140,14 +140,14 @@ std::vector<cv::Rect2d> ComponentBoxes::select(const std::vector<Region>& region
     for (const Region& region : regions) {
         const cv::Rect2d box = boxOf(region, labels, core);
         if (box.width < 1 || box.height < 1) continue;
-        const bool enough = !options_.need_support || supported(box, vectors);
-        if (trace != nullptr && options_.need_support) {
-            const auto inside = static_cast<double>(pointsWithin(box, vectors, kOutlineMargin).size());
-            const double needed = std::max(1.0, options_.support_share * static_cast<double>(vectors.size()));
-            trace->checks.push_back(
-                {"motion vectors in a component", "gradient.support_share", inside, needed, false, enough, box});
+        if (options_.need_support) {
+            const BoxSupport support = supportOf(box, vectors, options_.support_share);
+            if (trace != nullptr) {
+                trace->checks.push_back({"motion vectors in a component", "gradient.support_share", support.inside,
+                                         support.needed, false, support.enough(), box});
+            }
+            if (!support.enough()) continue;
         }
-        if (!enough) continue;
         boxes.push_back(box);
     }
     if (options_.join_components) join(boxes);

@@ -19,6 +19,16 @@ cv::Rect2d grown(const cv::Rect2d& box, double along, double across);
 /// Which of the points lie in the box grown by `margin` px.
 std::vector<cv::Point2f> pointsWithin(const cv::Rect2d& box, const std::vector<cv::Point2f>& points, double margin);
 
+/// The motion vectors that a box holds and those that it has to hold to be believed.
+struct BoxSupport {
+    double inside = 0;
+    double needed = 0;
+    bool enough() const { return inside >= needed; }
+};
+/// `vectors`: those of the cluster, of which the box has to hold this share (0 … 1), and one at least. What lies 1 px
+/// beside the box counts, since corners lie on outlines.
+BoxSupport supportOf(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors, double share);
+
 /// Applies what GradientOptions says about components, in this order: cut ones, support, joining, limits of growth,
 /// correction of size. Lengths are turned into pixels once.
 class ComponentBoxes {
@@ -35,7 +45,6 @@ class ComponentBoxes {
 
  private:
     cv::Rect2d boxOf(const Region& region, const cv::Mat& labels, const cv::Rect2d& core) const;
-    bool supported(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors) const;
     void join(std::vector<cv::Rect2d>& boxes) const;
     cv::Rect2d limited(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors) const;
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -16,7 +17,6 @@
 namespace eyrie {
 namespace {
 
-constexpr double kSupportMargin = 1.0;     ///< px; corners lie on the outline
 constexpr double kLowestDecision = -1000;  ///< the lowest threshold there can be
 
 /// Peaks of the decision functions of all scales, in their order.
@@ -28,9 +28,14 @@ class DecisionPeaks : public PreparedArea {
 
 constexpr double kNoDecision = -1e30;  ///< below: windows that were given up early
 
-double largestOf(const cv::Mat& decision) {
-    double largest = 2 * kNoDecision;
-    if (!decision.empty()) cv::minMaxLoc(decision, nullptr, &largest);
+/// The highest decision value that a window got in full; nothing where no window fits and where all were given up.
+std::optional<double> largestOf(const std::vector<cv::Mat>& decisions) {
+    std::optional<double> largest;
+    for (const cv::Mat& decision : decisions) {
+        double here = kNoDecision;
+        if (!decision.empty()) cv::minMaxLoc(decision, nullptr, &here);
+        if (here > largest.value_or(kNoDecision)) largest = here;
+    }
     return largest;
 }
 
@@ -39,9 +44,9 @@ cv::Mat overArea(const cv::Mat& decision, cv::Size rescaled, cv::Size area) {
     double lowest = 0;
     cv::Mat shown = decision.clone();
     if (!decision.empty()) {
-        shown.setTo(0, decision < -1e30F);  // given up early
+        shown.setTo(0, decision < kNoDecision);  // given up early
         cv::minMaxLoc(shown, &lowest);
-        shown.setTo(lowest, decision < -1e30F);
+        shown.setTo(lowest, decision < kNoDecision);
     }
     cv::Mat whole(rescaled, CV_32FC1, cv::Scalar(lowest));
     if (!decision.empty()) {
@@ -76,14 +81,9 @@ SlidingWindowDetector::SlidingWindowDetector(VehicleModel model, const SlidingWi
                                              const SceneScale& scale, double cluster_margin_px)
     : scanner_(std::move(model)), options_(options), scale_(scale), cluster_margin_px_(cluster_margin_px) {}
 
-bool SlidingWindowDetector::supported(const MotionRoi& roi, const cv::Rect2d& box) const {
-    if (!options_.need_support) return true;
-    const auto inside = static_cast<double>(pointsWithin(box, roi.vectors, kSupportMargin).size());
-    return inside >= std::max(1.0, options_.support_share * static_cast<double>(roi.vectors.size()));
-}
-
 bool SlidingWindowDetector::accepted(const MotionRoi& roi, const WindowHypothesis& found) const {
-    return inVideo(roi, found) && supported(roi, found.box);
+    if (!inVideo(roi, found)) return false;
+    return !options_.need_support || supportOf(found.box, roi.vectors, options_.support_share).enough();
 }
 
 std::unique_ptr<const PreparedArea> SlidingWindowDetector::prepare(const MotionRoi& roi) const {
@@ -114,28 +114,26 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
     if (trace != nullptr) trace->add("raw", roi.image);
     if (roi.image.empty()) return {};
     std::vector<WindowHypothesis> hypotheses;
-    double best = kNoDecision;
+    std::vector<cv::Mat> decisions;
     for (const double scale : options_.scales()) {
-        cv::Mat decision;
+        cv::Mat& decision = decisions.emplace_back();
         for (const WindowHypothesis& found : scanAtScale(scanner_, roi.image, scale, options_, scale_, decision)) {
             if (accepted(roi, found)) hypotheses.push_back(found);
             if (trace != nullptr && options_.need_support && inVideo(roi, found)) {
-                const auto inside = static_cast<double>(pointsWithin(found.box, roi.vectors, kSupportMargin).size());
-                const double needed = std::max(1.0, options_.support_share * static_cast<double>(roi.vectors.size()));
-                trace->checks.push_back({"motion vectors in a window", "sliding_window.support_share", inside, needed,
-                                         false, supported(roi, found.box), found.box});
+                const BoxSupport support = supportOf(found.box, roi.vectors, options_.support_share);
+                trace->checks.push_back({"motion vectors in a window", "sliding_window.support_share", support.inside,
+                                         support.needed, false, support.enough(), found.box});
             }
         }
         if (trace != nullptr) {
-            best = std::max(best, largestOf(decision));
             const cv::Size rescaled = rescaledSize(roi.image.size(), scale, options_, scale_);
             trace->add(layerName(scale), overArea(decision, rescaled, roi.image.size()));
         }
     }
-    if (trace != nullptr && best > kNoDecision) {
+    if (const auto best = trace != nullptr ? largestOf(decisions) : std::nullopt) {
         trace->checks.insert(trace->checks.begin(),
-                             {"decision value of the best window", "sliding_window.decision_threshold", best,
-                              options_.decision_threshold, false, best >= options_.decision_threshold});
+                             {"decision value of the best window", "sliding_window.decision_threshold", *best,
+                              options_.decision_threshold, false, *best >= options_.decision_threshold});
     }
     if (trace != nullptr) trace->add("first suppression", roi.image, boxesOf(hypotheses));
     hypotheses = suppressOverlapping(std::move(hypotheses), options_.overlap_threshold);

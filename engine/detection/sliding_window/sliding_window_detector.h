@@ -27,7 +27,6 @@ class SlidingWindowDetector : public Detector {
  private:
     bool accepted(const MotionRoi& roi, const WindowHypothesis& found) const;
     std::vector<Detection> detectionsOf(const MotionRoi& roi, const std::vector<WindowHypothesis>& hypotheses) const;
-    bool supported(const MotionRoi& roi, const cv::Rect2d& box) const;
 
     WindowScanner scanner_;
     SlidingWindowOptions options_;

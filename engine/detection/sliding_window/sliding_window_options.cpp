@@ -36,6 +36,7 @@ SlidingWindowOptions SlidingWindowOptions::thesis() {
     options.middle_scale = 1;
     options.largest_scale = 3.8;
     options.rejection_margin = kNoRejection;
+    options.context_m = 0;  // what is scanned is the extended cluster itself
     options.need_support = false;
     options.fall_back = false;
     return options;

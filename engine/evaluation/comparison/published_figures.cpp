@@ -151,9 +151,11 @@ const std::vector<PublishedFigures>& publishedFigures(const std::string& sequenc
 }
 
 std::string publishedText(const std::string& sequence) {
-    constexpr std::size_t kName = 38;
-    const auto left = [](const std::string& name) { return name + std::string(kName - name.size(), ' '); };
-    std::string text = left("Published, T_ov 0.1") +
+    const std::string title = "Published, T_ov 0.1";
+    std::size_t widest = title.size();
+    for (const PublishedFigures& row : publishedFigures(sequence)) widest = std::max(widest, row.method.size());
+    const auto left = [&](const std::string& name) { return name + std::string(widest - name.size(), ' '); };
+    std::string text = left(title) +
                        "     TP     FP     FN precision  recall f-score  N-MODA  N-MODP    MOTA    MOTP   MT   PT  MLT"
                        "   FM  source\n";
     for (const PublishedFigures& row : publishedFigures(sequence)) {

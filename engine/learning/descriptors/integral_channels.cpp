@@ -30,7 +30,8 @@ void gradientRow(const std::uint8_t* above, const std::uint8_t* row, const std::
         const auto gx = hn::Sub(load(row + x + 2), load(row + x));
         const auto gy = hn::Sub(load(below + x + 1), load(above + x + 1));
         const auto length = hn::Sqrt(hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy)));
-        const auto half = hn::Min(hn::Mul(length, hn::Set(real, 0.5F)), hn::Set(real, 127.F));
+        const auto half = hn::Min(hn::Mul(length, hn::Set(real, 0.5F)),
+                                  hn::Set(real, static_cast<float>(IntegralChannels::kLargestMagnitude)));
         hn::StoreU(hn::DemoteTo(bytes, hn::NearestInt(half)), bytes, magnitude + x);
         const auto down = hn::Abs(gy);
         const auto side = hn::Abs(gx);

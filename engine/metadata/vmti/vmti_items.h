@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// Numbers of ST 0903 that writing and reading share; inside of this folder only.
+/// Numbers of ST 0903 for what is written; inside of this folder and for tests only.
 namespace eyrie::vmti {
 
 inline constexpr int kVersion = 5;  ///< ST 0903.5

@@ -74,10 +74,6 @@ std::vector<std::uint8_t> packOf(const Target& target, cv::Size size) {
 
 }  // namespace
 
-bool isKey(klv::Bytes key) {
-    return std::equal(key.begin(), key.end(), kKey.begin(), kKey.end());
-}
-
 std::vector<std::uint8_t> packed(const Frame& frame) {
     ByteSink items;
     items.putItem(item::kTime, klv::unsignedBytes(static_cast<std::uint64_t>(frame.utc_us), 8));

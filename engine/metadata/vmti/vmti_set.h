@@ -47,11 +47,7 @@ struct Frame {
 /// Every set begins with it.
 inline constexpr std::array<std::uint8_t, 16> kKey{0x06, 0x0E, 0x2B, 0x34, 0x02, 0x0B, 0x01, 0x01,
                                                    0x0E, 0x01, 0x03, 0x03, 0x06, 0x00, 0x00, 0x00};
-bool isKey(klv::Bytes key);
 /// Key, length, value, with the checksum as its last item.
 std::vector<std::uint8_t> packed(const Frame& frame);
-/// The other way round. Answers what is wrong with the whole of it, if anything; then nothing of it is to be used.
-/// Targets that cannot be read are left out and counted.
-std::optional<klv::Fault> read(const klv::Set& set, Frame& frame, int& unreadable);
 
 }  // namespace eyrie::vmti

@@ -7,6 +7,7 @@ MotionClusteringOptions MotionClusteringOptions::thesis() {
     options.along_m = 3.0;
     options.across_m = 3.0;
     options.roof_length_m = 0;
+    options.min_distance_px = 0;  // distances follow the GSD alone
     options.velocity_share = 0.1;
     options.velocity_noise_factor = 0;
     options.min_members = 4;

@@ -45,13 +45,10 @@ double noiseOf(const cv::Mat& difference) {
     }
     // Within its bin the median lies where the count says.
     int below = 0;
-    for (std::size_t value = 0; value < histogram.size(); ++value) {
-        if (below + histogram[value] >= count / 2)
-            return (static_cast<double>(value) - 0.5 + (count / 2.0 - below) / std::max(1, histogram[value])) /
-                   kMedianOfAbsoluteNormal;
-        below += histogram[value];
-    }
-    return 0;
+    std::size_t median = 0;
+    while (below + histogram[median] < count / 2) below += histogram[median++];
+    return (static_cast<double>(median) - 0.5 + (count / 2.0 - below) / std::max(1, histogram[median])) /
+           kMedianOfAbsoluteNormal;
 }
 
 /// Half the size; pixel (x, y) lies at (2x + ½, 2y + ½).
@@ -72,8 +69,9 @@ cv::Point2d middleOf(const cv::Rect& bounds) {
 }
 
 std::array<cv::Point2d, 4> cornersOf(cv::Size size) {
-    return {cv::Point2d(0, 0), cv::Point2d(size.width, 0), cv::Point2d(0, size.height),
-            cv::Point2d(size.width, size.height)};
+    const cv::Rect2d picture({}, cv::Size2d(size));
+    const cv::Point2d end = picture.br();
+    return {cv::Point2d(0, 0), cv::Point2d(end.x, 0), cv::Point2d(0, end.y), end};
 }
 
 /// Whether a map over several frames keeps the whole picture on one side of the horizon and somewhere near.

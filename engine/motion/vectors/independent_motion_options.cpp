@@ -29,6 +29,7 @@ IndependentMotionOptions IndependentMotionOptions::thesis() {
     options.follow_rate = false;
     options.follow_turns = false;
     options.find_slow = false;
+    options.min_speed_px = 0;  // one threshold
     options.sigma_factor = 0;
     options.max_speed_m_s = 0;
     options.shadow.enabled = false;

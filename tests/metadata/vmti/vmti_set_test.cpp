@@ -8,6 +8,7 @@
 #include "metadata/metadata_packet.h"
 #include "metadata/vmti/klv_packing.h"
 #include "support/klv_writer.h"
+#include "support/vmti_reading.h"
 
 namespace eyrie::vmti::vmti_set_test {
 namespace {
@@ -70,6 +71,12 @@ Packed withSum(Packed set) {
 }
 
 }  // namespace
+
+TEST(VmtiSet, BeginsWithTheKeyOfTheStandard) {
+    const Packed expected{0x06, 0x0E, 0x2B, 0x34, 0x02, 0x0B, 0x01, 0x01, 0x0E, 0x01, 0x03, 0x03, 0x06, 0, 0, 0};
+    const Packed written = packed(street());
+    EXPECT_EQ(Packed(written.begin(), written.begin() + 16), expected);
+}
 
 TEST(VmtiSet, ComesBackAsItWasWritten) {
     const Frame written = street();

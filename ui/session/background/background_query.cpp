@@ -34,10 +34,10 @@ class BackgroundTask::Answers {
     class Receiver : public QObject {
      public:
         explicit Receiver(Answers& answers) : answers_(answers) {}
-        bool event(QEvent* event) override {
-            if (event->type() != QEvent::User) return QObject::event(event);
+
+     protected:
+        void customEvent(QEvent*) override {
             answers_.take()();  // which may be the end of this
-            return true;
         }
 
      private:

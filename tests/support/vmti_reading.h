@@ -1,11 +1,16 @@
-#include <algorithm>
+#pragma once
 
+#include <algorithm>
+#include <optional>
+
+#include "metadata/klv_splitter.h"
 #include "metadata/metadata_tag.h"
 #include "metadata/vmti/vmti_items.h"
 #include "metadata/vmti/vmti_set.h"
 
+/// Reads the sets that the engine writes, item by item.
 namespace eyrie::vmti {
-namespace {
+namespace reading {
 
 using klv::ByteCursor;
 using klv::Bytes;
@@ -24,22 +29,22 @@ bool eachItem(ByteCursor cursor, Take&& take) {
 }
 
 /// A number without sign of at most `most` bytes.
-std::optional<std::uint64_t> numberIn(Bytes value, std::size_t most) {
+inline std::optional<std::uint64_t> numberIn(Bytes value, std::size_t most) {
     if (value.empty() || value.size() > most) return std::nullopt;
     return klv::unsignedOf(value);
 }
 
-std::optional<std::int64_t> timeIn(Bytes value) {
+inline std::optional<std::int64_t> timeIn(Bytes value) {
     if (value.size() != 8 || value[0] >= 0x80) return std::nullopt;
     return static_cast<std::int64_t>(klv::unsignedOf(value));
 }
 
-std::optional<double> rangeIn(ByteCursor& cursor, const Range& range) {
+inline std::optional<double> rangeIn(ByteCursor& cursor, const Range& range) {
     const auto bytes = cursor.take(static_cast<std::uint64_t>(range.bytes));
     return bytes ? klv::imapbOf(*bytes, range.low, range.high) : std::nullopt;
 }
 
-void readPlace(Bytes value, Target& target) {
+inline void readPlace(Bytes value, Target& target) {
     ByteCursor cursor(value);
     const auto latitude = rangeIn(cursor, kLatitude);
     const auto longitude = rangeIn(cursor, kLongitude);
@@ -48,7 +53,7 @@ void readPlace(Bytes value, Target& target) {
     if (cursor.left() > 0) target.ellipsoid_height_m = rangeIn(cursor, kHeightRange);
 }
 
-bool readTracker(Bytes value, Target& target) {
+inline bool readTracker(Bytes value, Target& target) {
     return eachItem(ByteCursor(value), [&](std::uint32_t tag, Bytes bytes) {
         if (tag == tracker_item::kTrack && bytes.size() == 16) {
             target.track.emplace();
@@ -69,7 +74,7 @@ bool readTracker(Bytes value, Target& target) {
 }
 
 /// The pixel of a pixel number; nothing outside the frame.
-std::optional<cv::Point> pixelIn(Bytes value, cv::Size size) {
+inline std::optional<cv::Point> pixelIn(Bytes value, cv::Size size) {
     const auto number = numberIn(value, 6);
     const auto count = static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
     if (!number || *number < 1 || *number > count) return std::nullopt;
@@ -77,7 +82,7 @@ std::optional<cv::Point> pixelIn(Bytes value, cv::Size size) {
     return cv::Point(static_cast<int>((*number - 1) % width), static_cast<int>((*number - 1) / width));
 }
 
-std::optional<Target> readTarget(Bytes pack, cv::Size size) {
+inline std::optional<Target> readTarget(Bytes pack, cv::Size size) {
     ByteCursor cursor(pack);
     const auto id = cursor.takeTag();
     if (!id) return std::nullopt;
@@ -104,7 +109,7 @@ std::optional<Target> readTarget(Bytes pack, cv::Size size) {
 }
 
 /// Whether the checksum is the last item and agrees.
-bool sumAgrees(const klv::Set& set) {
+inline bool sumAgrees(const klv::Set& set) {
     constexpr std::size_t kSum = 2;
     if (set.value.size() < kSum + 2) return false;
     const Bytes end = set.value.last(kSum + 2);
@@ -112,9 +117,16 @@ bool sumAgrees(const klv::Set& set) {
     return klv::checksumOf(set.whole.first(set.whole.size() - kSum)) == klv::unsignedOf(end.last(kSum));
 }
 
-}  // namespace
+}  // namespace reading
 
-std::optional<klv::Fault> read(const klv::Set& set, Frame& frame, int& unreadable) {
+inline bool isKey(klv::Bytes key) {
+    return std::equal(key.begin(), key.end(), kKey.begin(), kKey.end());
+}
+
+/// Answers what is wrong with the whole of a set, if anything; then nothing of it is to be used. Targets that cannot be
+/// read are left out and counted.
+inline std::optional<klv::Fault> read(const klv::Set& set, Frame& frame, int& unreadable) {
+    using namespace reading;
     frame = {};
     if (!sumAgrees(set)) return klv::Fault::wrong_checksum;
     std::optional<Bytes> series;
